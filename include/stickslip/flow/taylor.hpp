@@ -1,0 +1,217 @@
+// Friction that varies with position, by a Taylor series of high order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "stickslip/error.hpp"
+#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/series.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/slider.hpp"
+
+namespace stickslip {
+
+/// A polynomial on [0, 1] whose value at 0 is positive, asked for its first root.
+///
+/// Its Bernstein coefficients on an interval change sign as often as it has roots there, or more often by an even
+/// number (Descartes' rule). No change, no root; one change, one root, which Newton's method finds inside its bracket;
+/// else the interval is halved. A double root, which no halving parts, is a graze: the speed touches zero and rises
+/// again.
+class FirstRoot {
+ public:
+  /// @param w  coefficients of t^0 .. t^degree, w[0] > 0
+  FirstRoot(const double* w, int degree) noexcept : w_(w), degree_(degree) {}
+
+  /// In (0, 1]; `never` where there is none.
+  double find() const noexcept {
+    double falling = 0;
+    for (int k = 1; k <= degree_; ++k) falling += std::min(w_[k], 0.0);
+    if (w_[0] + falling > 0) return never;
+
+    Bernstein b;
+    double binomial = 1;
+    for (int k = 0; k <= degree_; ++k) {
+      b[k] = w_[k] / binomial;
+      binomial *= static_cast<double>(degree_ - k) / (k + 1);
+    }
+    for (int i = 1; i <= degree_; ++i)
+      for (int k = degree_; k >= i; --k) b[k] += b[k - 1];
+    return search(b, 0, 1);
+  }
+
+ private:
+  using Bernstein = std::array<double, series::highest_order + 1>;
+
+  double search(Bernstein& b, double left, double width) const noexcept {
+    int changes = 0;
+    for (int k = 1; k <= degree_; ++k) changes += (b[k - 1] > 0) != (b[k] > 0);
+    if (changes == 0) return never;
+    if (changes == 1) return polish(left, left + width);
+    if (width < 0x1p-40) return never;
+    Bernstein first;  // de Casteljau: `b` becomes the second half
+    for (int i = 0; i <= degree_; ++i) {
+      first[i] = b[0];
+      for (int k = 0; k < degree_ - i; ++k) b[k] = (b[k] + b[k + 1]) / 2;
+    }
+    const double root = search(first, left, width / 2);
+    return root < never ? root : search(b, left + width / 2, width / 2);
+  }
+
+  double polish(double low, double high) const noexcept {
+    for (double t = low + (high - low) / 2;;) {
+      double value = w_[degree_], slope = 0;
+      for (int k = degree_ - 1; k >= 0; --k) {
+        slope = slope * t + value;
+        value = value * t + w_[k];
+      }
+      (value > 0 ? low : high) = t;
+      double next = t - value / slope;
+      if (std::abs(next - t) <= 0x1p-52 * t) return t;
+      if (!(next > low && next < high)) next = low + (high - low) / 2;
+      if (next <= low || next >= high) return high;
+      t = next;
+    }
+  }
+
+  const double* w_;
+  int degree_;
+};
+
+/// Friction that varies with position: the distance slid is a Taylor series in time, with the coefficients of
+///     d'' = a + j t - wn^2 d - [level(x0 +- d) - level(x0)],                             thesis (2.27), (2.50)
+/// found order by order (series.hpp).
+///
+/// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
+/// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
+template <FrictionLaw Law>
+class TaylorFlow {
+ public:
+  TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const Start& start, double duration)
+      : direction_(sign(direction)), horizon_(duration) {
+    const double level_here = slider.law().level(displacement, direction);
+    // Where the level has underflowed to nothing its series says nothing of what lies ahead: towards the centre, go
+    // half the way at most.
+    if (level_here == 0 && direction_ * displacement < 0 && slider.law().level(0.0, direction) > 0)
+      horizon_ = std::min(horizon_, time_to_half_way(start, std::abs(displacement) / 2));
+
+    for (;;) {
+      const double within_reach = expand(slider, direction, displacement, level_here, start);
+      if (within_reach == 1) return;
+      horizon_ *= within_reach;
+      if (!(horizon_ > 0x1p-200 * duration))
+        throw ConvergenceError(
+            "TaylorFlow: the slip level has no finite power series at x = " + detail::shortest(displacement) +
+            " m, where it is " + detail::shortest(level_here) + " m/s^2");
+    }
+  }
+
+  double horizon() const noexcept { return horizon_; }
+
+  /// As `ClosedForm::first_stop`, within the horizon.
+  double first_stop() const noexcept {
+    // Roots at the start are taken out by leaving out leading zeros.
+    double w[series::highest_order];
+    int leading = 0;
+    while (leading < order_ && d_[leading + 1] == 0) ++leading;
+    if (leading == order_ || d_[leading + 1] < 0) return 0;
+    for (int k = leading; k < order_; ++k) w[k - leading] = (k + 1) * d_[k + 1];
+    const double root = FirstRoot(w, order_ - 1 - leading).find();
+    return root < never ? root * horizon_ : never;
+  }
+
+  Progress at(double t) const noexcept {
+    const double s = t == horizon_ ? 1 : t / horizon_;
+    double distance = 0, speed = 0, acceleration = 0, area = 0;
+    for (int k = order_; k >= 0; --k) {
+      acceleration = acceleration * s + speed;
+      speed = speed * s + distance;
+      distance = distance * s + d_[k];
+      area = area * s + d_[k] / (k + 1);
+    }
+    return {distance, std::max(speed / horizon_, 0.0), 2 * acceleration / (horizon_ * horizon_), area * s * horizon_};
+  }
+
+ private:
+  // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
+  double expand(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
+                const Start& start) {
+    const double h = horizon_, stiffness = slider.stiffness();
+    series::Coefficients x;
+    auto level = as_series(slider.law().level(series::Variable{&x}, direction));
+    x[0] = displacement;
+    d_[0] = 0;
+    d_[1] = start.speed * h;
+    x[1] = direction_ * d_[1];
+    level.update(0);
+
+    double fastest = d_[1];  // the largest term of the speed
+    double largest_level = std::abs(level[0]);
+    for (int k = 0; k + 2 <= series::highest_order; ++k) {
+      double net = start.acceleration;
+      if (k > 0) {
+        level.update(k);
+        net = (k == 1 ? start.load_rate * h : 0.0) - stiffness * d_[k] - level[k];
+      }
+      d_[k + 2] = h * h * net / ((k + 1) * (k + 2));
+      x[k + 2] = direction_ * d_[k + 2];
+      const double term = (k + 2) * std::abs(d_[k + 2]);
+      fastest = std::max(fastest, term);
+      order_ = k + 2;
+      if (k < 2) continue;
+      const double previous = (k + 1) * std::abs(d_[k + 1]);
+      const bool settled = std::max(term, previous) <= round_off * fastest &&
+                           std::max(std::abs(level[k]), std::abs(level[k - 1])) <= largest_level;
+      if (settled && balanced(slider, direction, displacement, level_here, start)) return 1;
+    }
+    const double last = std::max(order_ * std::abs(d_[order_]), (order_ - 1) * std::abs(d_[order_ - 1])) / fastest;
+    const double outgrown = std::max(last / round_off, std::abs(level[order_ - 2]) / largest_level);
+    return std::clamp(std::pow(outgrown, -1.0 / (order_ - 2)), 0x1p-20, 0.75);
+  }
+
+  // Whether the equation of motion holds at the horizon, to the round-off of its terms.
+  bool balanced(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
+                const Start& start) const {
+    const Progress end = at(horizon_);
+    const double level_there = slider.law().level(displacement + direction_ * end.distance, direction);
+    const double gain = start.load_rate * horizon_, pull = slider.stiffness() * end.distance;
+    const double net = start.acceleration + gain - pull - (level_there - level_here);
+    const double terms = std::abs(start.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here) +
+                         std::abs(level_there) + slider.stiffness() * std::abs(displacement);
+    return std::abs(net - end.acceleration) <= 32 * round_off * terms;
+  }
+
+  static double time_to_half_way(const Start& start, double distance) noexcept {
+    // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
+    return std::min({distance / 3 / start.speed, std::sqrt(distance / 3 / std::abs(start.acceleration)),
+                     std::cbrt(distance / 3 / std::abs(start.load_rate))});
+  }
+
+  static auto as_series(double level) noexcept { return series::Constant{level}; }
+  template <series::Series S>
+  static S as_series(const S& level) noexcept {
+    return level;
+  }
+
+  static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
+
+  double direction_;
+  double horizon_;
+  int order_ = 0;
+  double d_[series::highest_order + 1];
+};
+
+/// Makes the Taylor flows of one slider.
+template <FrictionLaw Law>
+struct Taylor {
+  const Slider<Law>& slider;
+  TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
+    return {slider, direction, displacement, start, duration};
+  }
+};
+
+}  // namespace stickslip

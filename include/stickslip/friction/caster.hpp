@@ -1,0 +1,102 @@
+// The caster: a pivoting wheel, whose slip level falls off as it aligns with the motion.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "stickslip/error.hpp"
+#include "stickslip/flow/series.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+/// Four casters under a rigid mass, thesis (2.27): the slip level is a sech(x / reach). The thesis writes 3l for the
+/// reach.
+///
+/// The law holds while the wheels are neither in line with the motion nor flipped round: |x| up to about the reach is
+/// sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
+class Caster {
+ public:
+  /// @param slip_level  a, force per unit mass at x = 0, the wheel across the motion [m/s^2], finite and at least 0
+  /// @param reach       the distance over which the level falls off [m], positive; infinite is Coulomb friction
+  /// @throws std::invalid_argument naming the value
+  Caster(double slip_level, double reach) : slip_level_(slip_level), reach_(reach) {
+    detail::require(std::isfinite(slip_level) && slip_level >= 0, "Caster: slip_level must be finite and at least 0",
+                    slip_level, "m/s^2");
+    detail::require(reach > 0, "Caster: reach must be positive", reach, "m");
+  }
+
+  /// From the mechanics of a rigid wheel that is pivoted behind its contact line (thesis appendix A, corrected).
+  ///
+  /// The wheel of width w trails its pivot by l and scrubs along its line of contact. Balance of the moments about the
+  /// pivot gives B = |2 v_n / (w theta')| of the contact's midpoint,
+  ///     (B^2 + 4 (l/w) B) asinh(1/B) = sqrt(1 + B^2),
+  /// and with it the slip level a = mu g s, s = B asinh(1/B), and the reach l + w B / 2. The thesis drops a term in
+  /// (A.12), which gives B = 4 l/w, s = B asinh(1/B) and the reach 3 l: too much friction, at the wrong reach.
+  ///
+  /// @param mu           coefficient of friction of wheel and floor, finite and at least 0
+  /// @param trail        l, horizontal distance from pivot to wheel axis [m], positive and finite
+  /// @param wheel_width  w, length of the line of contact [m], positive and finite
+  /// @throws std::invalid_argument naming the value
+  static Caster from_geometry(double mu, double trail, double wheel_width) {
+    check_geometry(mu, trail, wheel_width);
+    const double y = contact_angle(trail / wheel_width);
+    return {mu * standard_gravity * (y / std::sinh(y)), trail + wheel_width / (2 * std::sinh(y))};
+  }
+
+  /// The same by the thesis's own (A.15), (A.16) with the signs put right, (A.20) and (A.27), to compare: a = mu g
+  /// (4 l/w) asinh(w / 4 l), reach 3 l.
+  static Caster from_geometry_thesis(double mu, double trail, double wheel_width) {
+    check_geometry(mu, trail, wheel_width);
+    const double b = 4 * (trail / wheel_width);
+    return {mu * standard_gravity * (b * std::asinh(1 / b)), 3 * trail};
+  }
+
+  double slip_level() const noexcept { return slip_level_; }
+  double reach() const noexcept { return reach_; }
+
+  template <class T>
+  auto level(const T& x, Direction) const {
+    return slip_level_ * sech(x / reach_);
+  }
+
+  /// Integral of the level from `from` to `to` > `from` [m^2/s^2]: a reach (gd(to/reach) - gd(from/reach)), gd the
+  /// Gudermannian, in a form that does not cancel.
+  double work(double from, double to, Direction) const noexcept {
+    if (std::isinf(reach_)) return slip_level_ * (to - from);
+    const double half = (to - from) / (2 * reach_), middle = std::abs(from + to) / (2 * reach_);
+    const double ratio = std::exp(half - middle) * -std::expm1(-2 * half) / (1 + std::exp(-2 * middle));
+    return slip_level_ * reach_ * (2 * std::atan(ratio));  // ratio = sinh(half) / cosh(middle)
+  }
+
+ private:
+  static void check_geometry(double mu, double trail, double wheel_width) {
+    detail::require(std::isfinite(mu) && mu >= 0, "Caster: mu must be finite and at least 0", mu);
+    detail::require(std::isfinite(trail) && trail > 0, "Caster: trail must be positive and finite", trail, "m");
+    detail::require(std::isfinite(wheel_width) && wheel_width > 0, "Caster: wheel_width must be positive and finite",
+                    wheel_width, "m");
+  }
+
+  // With B = 1 / sinh y the balance of moments is 4 (l/w) y sinh y = sinh y cosh y - y, free of cancellation but for
+  // its right side at small y; it rises with y from 0 (a broad wheel) to infinity (a thin one), as 2 y / 3 at first.
+  static double contact_angle(double trail_over_width) {
+    const auto excess = [&](double y) {
+      const double z = 2 * y, z2 = z * z;
+      const double series =
+          z * z2 / 12 * (1 + z2 / 20 * (1 + z2 / 42 * (1 + z2 / 72 * (1 + z2 / 110 * (1 + z2 / 156)))));
+      return (z < 0.5 ? series : (std::sinh(z) - z) / 2) / (y * std::sinh(y)) - 4 * trail_over_width;
+    };
+    double low = 0, high = 6 * trail_over_width;
+    for (;;) {
+      const double middle = low + (high - low) / 2;
+      if (middle <= low || middle >= high) return high;
+      (excess(middle) < 0 ? low : high) = middle;
+    }
+  }
+
+  double slip_level_;
+  double reach_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,77 @@
+// Coulomb friction: the same slip level everywhere.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+/// Coulomb friction, thesis (2.20): the slip level is a = mu g, whatever the position.
+///
+/// The two directions may differ: `forward` is the level against forward sliding (x' > 0), `backward` against backward
+/// sliding. On an inclined plane they do; with an infinite level one way the block is Newmark's, which only slides the
+/// other way.
+class Coulomb {
+ public:
+  static constexpr bool constant_while_sliding = true;
+
+  /// @param slip_level  a, force per unit mass [m/s^2], finite and at least 0 (0 is frictionless)
+  /// @throws std::invalid_argument naming the value
+  explicit Coulomb(double slip_level) : Coulomb(slip_level, slip_level) {}
+
+  /// @param slip_level  against forward sliding [m/s^2], finite and at least 0
+  /// @param backward    against backward sliding [m/s^2], at least 0; infinite: never slides backward
+  /// @throws std::invalid_argument naming the value
+  Coulomb(double slip_level, double backward) : forward_(slip_level), backward_(backward) {
+    detail::require(std::isfinite(slip_level) && slip_level >= 0, "Coulomb: slip_level must be finite and at least 0",
+                    slip_level, "m/s^2");
+    detail::require(backward >= 0, "Coulomb: backward must be at least 0", backward, "m/s^2");
+  }
+
+  /// A block on level ground: a = mu g.
+  /// @param mu  coefficient of friction, finite and at least 0
+  static Coulomb from_friction(double mu) {
+    detail::require(std::isfinite(mu) && mu >= 0, "Coulomb: mu must be finite and at least 0", mu);
+    return Coulomb(mu * standard_gravity);
+  }
+
+  /// A block on an inclined plane; downhill is forward. x and the ground acceleration n are measured along the slope,
+  /// and the normal load is taken as constant, m g cos(slope): no acceleration across the slope.
+  /// Levels: g (mu cos(slope) -+ sin(slope)), forward and backward; thesis (5.62).
+  /// @param mu       coefficient of friction, finite, at least tan(slope)
+  /// @param degrees  the slope [degrees], from 0 to less than 90
+  /// @throws std::invalid_argument also where the block would slide under its own weight
+  static Coulomb on_slope(double mu, double degrees) {
+    detail::require(std::isfinite(mu) && mu >= 0, "Coulomb: mu must be finite and at least 0", mu);
+    detail::require(degrees >= 0 && degrees < 90, "Coulomb: a slope must be from 0 to less than 90 degrees", degrees,
+                    "degrees");
+    const double slope = degrees * (std::numbers::pi / 180);
+    const double resisting = mu * standard_gravity * std::cos(slope);
+    const double driving = standard_gravity * std::sin(slope);
+    detail::require(resisting >= driving,
+                    "Coulomb: on a slope of " + detail::shortest(degrees) +
+                        " degrees the block slides under its own weight unless mu is at least " +
+                        detail::shortest(std::tan(slope)),
+                    mu);
+    return {resisting - driving, resisting + driving};
+  }
+
+  double forward() const noexcept { return forward_; }
+  double backward() const noexcept { return backward_; }
+
+  template <class T>
+  double level(const T&, Direction direction) const noexcept {
+    return direction == Direction::forward ? forward_ : backward_;
+  }
+
+ private:
+  double forward_;
+  double backward_;
+};
+
+}  // namespace stickslip

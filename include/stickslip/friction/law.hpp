@@ -1,0 +1,63 @@
+// What a friction law is.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// A friction law gives the slip level: the friction force per unit mass [m/s^2], not negative, by position and
+/// direction. A slider at rest is held while the force on it stays within the two levels at its place; a slider in
+/// motion is braked by the level of its direction.
+///
+/// `level` is a template over its scalar, so that one line serves doubles and power series alike; return `auto`:
+///
+///     struct Bump {                            // a slip level that decays as exp(-(x/reach)^2)
+///       double slip_level, reach;
+///       template <class T>
+///       auto level(const T& x, Direction) const {
+///         using std::exp;
+///         return slip_level * exp(-(x / reach) * (x / reach));
+///       }
+///     };
+///
+/// It must be analytic in x (no branches on x). flow/series.hpp lists the functions at hand.
+template <class Law>
+concept FrictionLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
+  { law.level(x, direction) } -> std::convertible_to<double>;
+};
+
+/// A law whose level does not change while it slides one way, said by `static constexpr bool constant_while_sliding =
+/// true;` its motion between events is known in closed form.
+template <class Law>
+concept ConstantLevelLaw = FrictionLaw<Law> && requires {
+  requires Law::constant_while_sliding;
+};
+
+/// Work per unit mass done against friction [m^2/s^2] in sliding `distance` >= 0 from `from`: the integral of the level
+/// over the way. A law may know it as `work(from, to, direction)`, from < to, the direction of sliding apart; else it
+/// is found by Gauss-Legendre quadrature of ten points.
+template <FrictionLaw Law>
+double friction_work(const Law& law, double from, double distance, Direction direction) {
+  if constexpr (ConstantLevelLaw<Law>) {
+    return distance == 0 ? 0.0 : law.level(from, direction) * distance;
+  } else if constexpr (requires { law.work(from, from, direction); }) {
+    const double to = from + sign(direction) * distance;
+    return law.work(std::min(from, to), std::max(from, to), direction);
+  } else {
+    constexpr double nodes[] = {0.14887433898163121, 0.43339539412924719, 0.67940956829902441, 0.86506336668898451,
+                                0.97390652851717172};
+    constexpr double weights[] = {0.29552422471475287, 0.26926671930999636, 0.21908636251598204, 0.14945134915058059,
+                                  0.06667134430868814};
+    const double half = distance / 2, middle = from + sign(direction) * half;
+    double sum = 0;
+    for (int i = 0; i < 5; ++i)
+      sum += weights[i] *
+             (law.level(middle - half * nodes[i], direction) + law.level(middle + half * nodes[i], direction));
+    return half * sum;
+  }
+}
+
+}  // namespace stickslip

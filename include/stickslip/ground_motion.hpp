@@ -1,0 +1,137 @@
+// One history of ground acceleration.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stickslip/error.hpp"
+#include "stickslip/segment.hpp"
+
+namespace stickslip {
+
+/// What the ground does between two samples: a straight line, or the earlier value held.
+enum class Interpolation { linear, constant };
+
+/// The acceleration history n(t) of the ground [m/s^2], at even or uneven times.
+///
+/// N samples make N - 1 segments; the motion lasts from the first time to the last. With
+/// `Interpolation::linear` the acceleration is a straight line between samples (thesis 4.56); with
+/// `Interpolation::constant` a value holds until the next time, and the last value closes the motion
+/// without acting.
+///
+/// Immutable, and checked once when made: every sample finite and at most 1e100 m/s^2 in magnitude (so that
+/// no energy can overflow silently), at least two of them, `dt` positive, `times` increasing. Steps that are held may
+/// share a time (a piece of no length); lines may not.
+class GroundMotion {
+ public:
+  static constexpr double largest_acceleration = 1e100;  ///< [m/s^2]
+
+  /// Samples at times 0, dt, 2 dt, ...
+  /// @param acceleration  n at the samples [m/s^2], at least two, finite
+  /// @param dt            time between samples [s], positive and finite
+  /// @param name          where the motion comes from; shown in plots and messages
+  /// @throws std::invalid_argument naming the value refused (and its index)
+  GroundMotion(std::vector<double> acceleration, double dt, Interpolation interpolation = Interpolation::linear,
+               std::string name = {})
+      : acceleration_(std::move(acceleration)), dt_(dt), interpolation_(interpolation), name_(std::move(name)) {
+    detail::require(std::isfinite(dt) && dt > 0, "GroundMotion: dt must be positive and finite", dt, "s");
+    check_samples();
+    detail::require(std::isfinite(time(samples() - 1)), "GroundMotion: its duration must be finite", duration(), "s");
+  }
+
+  /// Samples at given times.
+  /// @param times  [s], as many as samples, finite and increasing (not decreasing, for values that are held)
+  /// @throws std::invalid_argument naming the value refused (and its index)
+  GroundMotion(std::vector<double> acceleration, std::vector<double> times,
+               Interpolation interpolation = Interpolation::linear, std::string name = {})
+      : acceleration_(std::move(acceleration)),
+        times_(std::move(times)),
+        interpolation_(interpolation),
+        name_(std::move(name)) {
+    if (times_.size() != acceleration_.size())
+      throw std::invalid_argument("GroundMotion: needs as many times as samples, got " + std::to_string(times_.size()) +
+                                  " times for " + std::to_string(acceleration_.size()) + " samples");
+    check_samples();
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      if (!std::isfinite(times_[i]))
+        detail::refuse("GroundMotion: " + element("times", i) + " must be finite", times_[i], "s");
+    const bool held = interpolation_ == Interpolation::constant;
+    for (std::size_t i = 1; i < times_.size(); ++i)
+      if (held ? times_[i] < times_[i - 1] : times_[i] <= times_[i - 1])
+        detail::refuse("GroundMotion: times must " + std::string(held ? "not decrease" : "increase") + ", " +
+                           element("times", i) + " must come after " + detail::shortest(times_[i - 1]) + " s",
+                       times_[i], "s");
+    detail::require(std::isfinite(duration()) && duration() > 0,
+                    "GroundMotion: its duration must be positive and finite", duration(), "s");
+  }
+
+  std::size_t samples() const noexcept { return acceleration_.size(); }
+  std::size_t segments() const noexcept { return acceleration_.size() - 1; }
+
+  /// Ground acceleration at the samples [m/s^2].
+  std::span<const double> acceleration() const noexcept { return acceleration_; }
+
+  /// Time of sample i [s].
+  double time(std::size_t i) const noexcept { return times_.empty() ? static_cast<double>(i) * dt_ : times_[i]; }
+
+  /// Time between samples [s], or NaN where the times are uneven.
+  double dt() const noexcept { return dt_; }
+
+  /// From the first sample to the last [s].
+  double duration() const noexcept { return time(samples() - 1) - time(0); }
+
+  Interpolation interpolation() const noexcept { return interpolation_; }
+  const std::string& name() const noexcept { return name_; }
+
+  /// Largest magnitude of the ground acceleration [m/s^2], the PGA.
+  double peak_acceleration() const noexcept {
+    double peak = 0;
+    const std::size_t acting = samples() - (interpolation_ == Interpolation::constant ? 1 : 0);
+    for (std::size_t i = 0; i < acting; ++i) peak = std::max(peak, std::abs(acceleration_[i]));
+    return peak;
+  }
+
+  /// The i-th piece, between samples i and i + 1.
+  Segment segment(std::size_t i) const noexcept {
+    return {times_.empty() ? dt_ : times_[i + 1] - times_[i], acceleration_[i],
+            acceleration_[interpolation_ == Interpolation::linear ? i + 1 : i]};
+  }
+
+  /// The same motion with every acceleration multiplied by `factor` (finite; -1 mirrors it).
+  GroundMotion scaled(double factor) const {
+    detail::require(std::isfinite(factor), "GroundMotion: a scale factor must be finite", factor);
+    GroundMotion result = *this;
+    for (double& n : result.acceleration_) n *= factor;
+    result.check_samples();
+    return result;
+  }
+
+ private:
+  void check_samples() const {
+    if (samples() < 2)
+      throw std::invalid_argument("GroundMotion: needs at least two samples, got " + std::to_string(samples()));
+    for (std::size_t i = 0; i < samples(); ++i)
+      if (!(std::abs(acceleration_[i]) <= largest_acceleration))
+        detail::refuse(
+            "GroundMotion: " + element("acceleration", i) + " must be finite and at most 1e100 m/s^2 in magnitude",
+            acceleration_[i], "m/s^2");
+  }
+
+  static std::string element(const char* array, std::size_t i) {
+    return std::string(array) + "[" + std::to_string(i) + "]";
+  }
+
+  std::vector<double> acceleration_;
+  std::vector<double> times_;  // empty where samples are evenly spaced
+  double dt_ = std::numeric_limits<double>::quiet_NaN();
+  Interpolation interpolation_;
+  std::string name_;
+};
+
+}  // namespace stickslip

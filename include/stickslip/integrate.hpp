@@ -1,0 +1,149 @@
+// One slider through one ground motion.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "stickslip/advance.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground_motion.hpp"
+#include "stickslip/response.hpp"
+#include "stickslip/slider.hpp"
+
+namespace stickslip {
+
+struct IntegrateOptions {
+  double displacement = 0;  ///< x at the start [m], finite
+  double velocity = 0;      ///< x' at the start [m/s], finite
+  bool settle = false;      ///< go on under zero ground acceleration after the last sample until the slider rests
+  std::function<void()> heartbeat;  ///< called every 65,536 segments; may throw to end the work
+};
+
+namespace detail {
+
+/// Writes slips and events into a response.
+template <FrictionLaw Law>
+struct Recorder {
+  const Law& law;
+  Response& response;
+  double segment_begins = 0;  // [s]
+  std::size_t most_events = std::numeric_limits<std::size_t>::max();
+
+  void slide(Direction direction, double from, double distance, double duration, double input) {
+    response.sliding_distance += distance;
+    response.time_sliding += duration;
+    response.energy.input += input;
+    response.energy.dissipated += friction_work(law, from, distance, direction);
+  }
+
+  void event(EventKind kind, double time, const State& state) {
+    if (response.events.size() >= most_events) throw ConvergenceError("integrate: too many events");
+    response.events.push_back({segment_begins + time, state.displacement, state.velocity, kind});
+    response.peak = std::max(response.peak, std::abs(state.displacement));  // between events x runs one way
+  }
+};
+
+/// Goes on without ground acceleration until the slider rests.
+template <FrictionLaw Law, class Flows>
+void settle(const Slider<Law>& slider, const Flows& flows, State& state, Recorder<Law>& recorder) {
+  constexpr double longest = 0x1p40;  // [s], some 35,000 years
+  const auto restless = [&] {
+    const Direction direction = state.velocity < 0 ? Direction::backward : Direction::forward;
+    throw ConvergenceError(
+        "integrate: without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
+        " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
+        shortest(slider.law().level(state.displacement, direction)) + " m/s^2 there; use settle = false");
+  };
+  recorder.most_events = recorder.response.events.size() + 1'000'000;
+  for (double duration = 1;; duration *= 2) {
+    try {
+      detail::advance(slider, flows, Segment{duration, 0, 0}, state, recorder);
+    } catch (const ConvergenceError&) {
+      restless();
+    }
+    recorder.segment_begins += duration;
+    if (state.mode == Mode::stuck) return;
+    if (duration >= longest) restless();
+  }
+}
+
+}  // namespace detail
+
+/// Slides through a whole ground motion:
+///     x'' + level(x) sgn(x') + wn^2 x = -n(t),                    thesis (4.51) to (4.53), (2.44), (2.50)
+/// with all breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
+///
+/// @param slider   a law and an optional spring; a law alone is a slider without one
+/// @param motion   the ground acceleration
+/// @param options  state at the start, and whether to go on until the slider rests
+/// @return the motion at the samples, its events, peak and energy. Where it settles, the last event (`end`) and the
+///         residual are those of the final rest
+/// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level
+/// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
+/// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
+///                                escaped)
+/// Constant friction: exact to round-off, 1e-13 of the scale of x; about 20 ns a sample. Other laws: Taylor series, to
+/// near round-off, about 100 to 300 ns a sample.
+template <FrictionLaw Law>
+Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options = {}) {
+  detail::require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement,
+                  "m");
+  detail::require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
+  State state = State::at(options.displacement, options.velocity);
+  if (state.mode != Mode::stuck)
+    detail::require(std::isfinite(slider.law().level(state.displacement, direction_of(state.mode))),
+                    "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
+
+  Response response;
+  response.displacement.resize(motion.samples());
+  response.velocity.resize(motion.samples());
+  response.peak = std::abs(state.displacement);
+  const auto mechanical_energy = [&] {
+    return std::pair{state.velocity * state.velocity / 2,
+                     slider.stiffness() * state.displacement * state.displacement / 2};
+  };
+  const auto [initial_kinetic, initial_elastic] = mechanical_energy();
+  response.energy.initial = initial_kinetic + initial_elastic;
+
+  detail::Recorder<Law> recorder{slider.law(), response, motion.time(0)};
+  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
+  response.displacement[0] = state.displacement;
+  response.velocity[0] = state.velocity;
+  detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
+    for (std::size_t i = 0; i < motion.segments(); ++i) {
+      if (i % 65536 == 0 && options.heartbeat) options.heartbeat();
+      recorder.segment_begins = motion.time(i);
+      detail::advance(slider, flows, motion.segment(i), state, recorder);
+      response.displacement[i + 1] = state.displacement;
+      response.velocity[i + 1] = state.velocity;
+    }
+    recorder.segment_begins = motion.time(motion.segments());
+    if (options.settle) detail::settle(slider, flows, state, recorder);
+  });
+
+  if (options.settle)  // the end is the last arrest, or the end of the motion if that came later
+    recorder.segment_begins =
+        std::max(motion.time(motion.segments()), response.events.empty() ? 0 : response.events.back().time);
+  recorder.event(EventKind::end, 0, state);
+  response.residual = state.displacement;
+  response.state = state;
+  std::tie(response.energy.kinetic, response.energy.elastic) = mechanical_energy();
+  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
+    throw std::overflow_error("integrate: the motion leaves the range of doubles (peak displacement " +
+                              detail::shortest(response.peak) + " m, energy input " +
+                              detail::shortest(response.energy.input) + " m^2/s^2)");
+  return response;
+}
+
+template <FrictionLaw Law>
+Response integrate(const Law& law, const GroundMotion& motion, const IntegrateOptions& options = {}) {
+  return integrate(Slider<Law>(law), motion, options);
+}
+
+}  // namespace stickslip

@@ -1,0 +1,52 @@
+// What comes of a slider and a ground motion.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// What happens at an event.
+enum class EventKind : std::uint8_t {
+  breakaway,  ///< a slip begins (also one that is already under way at the start)
+  reversal,   ///< a slip turns into one the other way without a stop
+  arrest,     ///< a slip ends and the slider sticks
+  end         ///< the motion is over
+};
+
+/// An instant at which the slider changes its mode, and the last one.
+struct Event {
+  double time;          ///< [s]
+  double displacement;  ///< x [m]
+  double velocity;      ///< x' [m/s]
+  EventKind kind;
+};
+
+/// Where the energy went, per unit mass [J/kg = m^2/s^2]: initial + input = dissipated + kinetic + elastic.
+struct Energy {
+  double initial = 0;     ///< kinetic and elastic at the start
+  double input = 0;       ///< work of the ground on the slider, the integral of -n x' dt
+  double dissipated = 0;  ///< work against friction, the integral of level |x'| dt
+  double kinetic = 0;     ///< x'^2 / 2 at the end
+  double elastic = 0;     ///< wn^2 x^2 / 2 at the end
+
+  /// What does not add up [m^2/s^2]: round-off.
+  double imbalance() const noexcept { return initial + input - dissipated - kinetic - elastic; }
+};
+
+/// The motion of a slider under one ground motion.
+struct Response {
+  std::vector<double> displacement;  ///< x at the samples of the motion [m]
+  std::vector<double> velocity;      ///< x' at the samples [m/s]
+  std::vector<Event> events;         ///< in order of time; the last is the end
+  double peak = 0;                   ///< largest |x| over all time, not only at samples [m]
+  double residual = 0;               ///< x at the end [m]; final if the slider rests
+  double sliding_distance = 0;       ///< length of the way slid [m]
+  double time_sliding = 0;           ///< [s]
+  Energy energy;
+  State state;  ///< at the end: a motion can be continued from it
+};
+
+}  // namespace stickslip

@@ -1,0 +1,35 @@
+// Where a slider is, how fast it moves, and in which mode.
+#pragma once
+
+#include <cstdint>
+
+namespace stickslip {
+
+/// The two ways a slider can slide along its line.
+enum class Direction : std::int8_t { backward = -1, forward = +1 };
+
+/// +1 forward, -1 backward.
+constexpr double sign(Direction direction) noexcept { return static_cast<double>(direction); }
+
+/// Stuck, or sliding in a direction.
+enum class Mode : std::int8_t { backward = -1, stuck = 0, forward = +1 };
+
+constexpr Mode mode_of(Direction direction) noexcept { return static_cast<Mode>(direction); }
+
+/// The direction of a mode that is not stuck.
+constexpr Direction direction_of(Mode mode) noexcept { return static_cast<Direction>(mode); }
+
+/// All that the motion to come depends on. The mode is carried, never derived again from (x, v): the same (x, v = 0)
+/// can be a rest or the instant in which a slip begins.
+struct State {
+  double displacement = 0;  ///< x, relative to the ground [m]
+  double velocity = 0;      ///< x', relative to the ground [m/s]; 0 where stuck, else never against the mode
+  Mode mode = Mode::stuck;
+
+  /// At rest where `velocity` is 0, else sliding the way it points.
+  static constexpr State at(double displacement, double velocity) noexcept {
+    return {displacement, velocity, velocity > 0 ? Mode::forward : velocity < 0 ? Mode::backward : Mode::stuck};
+  }
+};
+
+}  // namespace stickslip

@@ -1,0 +1,9 @@
+// SI everywhere inside; what is not SI is converted here, once.
+#pragma once
+
+namespace stickslip {
+
+/// Standard acceleration of gravity [m/s^2], exact by definition (CGPM 1901).
+inline constexpr double standard_gravity = 9.80665;
+
+}  // namespace stickslip
