@@ -1,0 +1,60 @@
+// What the binding files share: one `bind_` function for each noun, and the sliders of all laws as one type.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "stickslip/stickslip.hpp"
+
+namespace py = pybind11;
+
+namespace stickslip::python {
+
+/// A slider of any law that Python knows. A new law is added here and gets all that takes a slider.
+using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>>;
+
+void bind_errors(py::module_& m);
+void bind_coulomb(py::module_& m);
+void bind_caster(py::module_& m);
+void bind_slider(py::module_& m);
+void bind_ground_motion(py::module_& m);
+void bind_records(py::module_& m);
+void bind_response(py::module_& m);
+void bind_integrate(py::module_& m);
+void bind_build_info(py::module_& m);
+
+/// A read-only array over `values`, which live as long as `owner`.
+inline py::array_t<double> view(std::span<const double> values, py::handle owner) {
+  py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// A one-dimensional array as a vector; `name` is for the message where it is not one.
+inline std::vector<double> to_vector(const py::array_t<double, py::array::c_style | py::array::forcecast>& array,
+                                     const char* name) {
+  if (array.ndim() != 1)
+    throw std::invalid_argument(std::string(name) + " must be one-dimensional, got " + std::to_string(array.ndim()) +
+                                " dimensions");
+  return {array.data(), array.data() + array.size()};
+}
+
+/// The slip level that was given, either itself or as a coefficient of friction.
+inline double slip_level_of(std::optional<double> mu, std::optional<double> slip_level, const char* law) {
+  if (mu.has_value() == slip_level.has_value())
+    throw std::invalid_argument(
+        std::string(law) + ": give either mu or slip_level, got " +
+        (mu ? "both (mu = " + detail::shortest(*mu) + ", slip_level = " + detail::shortest(*slip_level) + " m/s^2)"
+            : "neither"));
+  if (!mu) return *slip_level;
+  detail::require(std::isfinite(*mu) && *mu >= 0, std::string(law) + ": mu must be finite and at least 0", *mu);
+  return *mu * standard_gravity;
+}
+
+}  // namespace stickslip::python

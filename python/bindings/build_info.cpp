@@ -1,0 +1,29 @@
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+void bind_build_info(py::module_& m) {
+  m.attr("__version__") = build_info().version;
+  m.def(
+      "build_info",
+      [] {
+        const BuildInfo& info = build_info();
+        py::dict result;
+        result["version"] = info.version;
+        result["commit"] = info.commit;
+        result["compiler"] = info.compiler;
+        result["fftw"] = info.fftw;
+        result["gsl"] = info.gsl;
+        result["sundials"] = info.sundials;
+        return result;
+      },
+      R"(What this build is made of: version, commit, compiler, and the libraries it contains.
+
+FFTW and GSL are under the GPL: a binary that contains them is distributed under GPL-3.0-or-later.
+
+Returns
+-------
+dict of str)");
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,82 @@
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+void bind_caster(py::module_& m) {
+  py::class_<Caster>(m, "Caster", R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach).
+
+The thesis writes 3l for the reach. The law holds while the wheels are neither in line with the motion nor flipped
+round: |x| up to about the reach is sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
+
+Parameters
+----------
+mu : float, optional
+    Coefficient of friction, finite and at least 0: slip_level = mu * STANDARD_GRAVITY. Give mu or slip_level.
+slip_level : float, optional
+    a, friction force per unit mass at x = 0, the wheels across the motion [m/s^2]; finite and at least 0.
+reach : float
+    Distance over which the level falls off [m]; positive, inf is Coulomb friction.
+
+Raises
+------
+ValueError
+    A value out of its range, both or neither of mu and slip_level.)")
+      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach) {
+             return Caster(slip_level_of(mu, slip_level, "Caster"), reach);
+           }),
+           py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(), py::arg("reach"))
+      .def_static(
+          "from_geometry",
+          [](double mu, double trail, double wheel_width, bool thesis) {
+            return thesis ? Caster::from_geometry_thesis(mu, trail, wheel_width)
+                          : Caster::from_geometry(mu, trail, wheel_width);
+          },
+          py::kw_only(), py::arg("mu"), py::arg("trail"), py::arg("wheel_width"), py::arg("thesis") = false,
+          R"(A caster from the mechanics of a rigid wheel pivoted ahead of its contact line (thesis appendix A, corrected).
+
+Balance of the moments about the pivot gives B = |2 v_n / (w theta')| of the contact's midpoint,
+(B^2 + 4 (l/w) B) asinh(1/B) = sqrt(1 + B^2), and with it the slip level mu g s, s = B asinh(1/B), and the reach
+l + w B / 2. The thesis drops a term in (A.12), which makes B = 4 l/w and the reach 3 l.
+
+Parameters
+----------
+mu : float
+    Coefficient of friction of wheel and floor, finite and at least 0.
+trail : float
+    l, horizontal distance from pivot to wheel axis [m], positive and finite.
+wheel_width : float
+    w, length of the line of contact [m], positive and finite.
+thesis : bool, optional
+    True for the thesis's own (A.15), (A.16), (A.20) and (A.27), signs put right, to compare.
+
+Returns
+-------
+Caster
+
+Raises
+------
+ValueError
+    A value out of its range.
+
+Notes
+-----
+Accurate to a few units of the last digit for every l/w > 0; about 5 us.)")
+      .def_property_readonly("slip_level", &Caster::slip_level, "Level at x = 0 [m/s^2].")
+      .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
+      .def("__repr__",
+           [](const Caster& law) {
+             return "Caster(slip_level=" + detail::shortest(law.slip_level()) +
+                    ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) + ")";
+           })
+      .def(
+          "__eq__",
+          [](const Caster& a, const Caster& b) { return a.slip_level() == b.slip_level() && a.reach() == b.reach(); },
+          py::is_operator())
+      .def("__hash__", [](const Caster& law) { return py::hash(py::make_tuple(law.slip_level(), law.reach())); })
+      .def(py::pickle([](const Caster& law) { return py::make_tuple(law.slip_level(), law.reach()); },
+                      [](const py::tuple& t) { return Caster(t[0].cast<double>(), t[1].cast<double>()); }));
+}
+
+}  // namespace stickslip::python

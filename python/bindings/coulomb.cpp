@@ -1,0 +1,74 @@
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+void bind_coulomb(py::module_& m) {
+  py::class_<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
+
+f = a sgn(x'), a = mu g the slip level: friction force per unit mass. The two directions may differ: on an inclined
+plane they do, and with an infinite level one way the block is Newmark's, which slides the other way only.
+
+Parameters
+----------
+mu : float, optional
+    Coefficient of friction, finite and at least 0: slip_level = mu * STANDARD_GRAVITY. Give mu or slip_level.
+slip_level : float, optional
+    a against forward sliding (x' > 0), and against backward sliding too unless `backward` is given [m/s^2]; finite and
+    at least 0.
+backward : float, optional
+    Level against backward sliding (x' < 0) [m/s^2]; at least 0, may be inf.
+
+Raises
+------
+ValueError
+    A value out of its range, both or neither of mu and slip_level.
+
+References
+----------
+N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (1965), 139-160 (one-way sliding).)")
+      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, std::optional<double> backward) {
+             const double forward = slip_level_of(mu, slip_level, "Coulomb");
+             return Coulomb(forward, backward.value_or(forward));
+           }),
+           py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(),
+           py::arg("backward") = py::none())
+      .def_static("on_slope", &Coulomb::on_slope, py::kw_only(), py::arg("mu"), py::arg("degrees"),
+                  R"(A block on an inclined plane; downhill is forward.
+
+The displacement and the ground acceleration are measured along the slope, and the normal load is taken as constant,
+m g cos(slope): no acceleration across the slope. Levels g (mu cos(slope) - sin(slope)) forward and
+g (mu cos(slope) + sin(slope)) backward; thesis (5.62).
+
+Parameters
+----------
+mu : float
+    Coefficient of friction, at least tan(slope).
+degrees : float
+    The slope [degrees], from 0 to less than 90.
+
+Raises
+------
+ValueError
+    A value out of its range, or a block that would slide under its own weight.)")
+      .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
+      .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
+      .def("__repr__",
+           [](const Coulomb& law) {
+             std::string text = "Coulomb(slip_level=" + detail::shortest(law.forward());
+             if (law.backward() != law.forward())
+               text += std::isinf(law.backward()) ? ", backward=float('inf')"
+                                                  : ", backward=" + detail::shortest(law.backward());
+             return text + ")";
+           })
+      .def(
+          "__eq__",
+          [](const Coulomb& a, const Coulomb& b) { return a.forward() == b.forward() && a.backward() == b.backward(); },
+          py::is_operator())
+      .def("__hash__", [](const Coulomb& law) { return py::hash(py::make_tuple(law.forward(), law.backward())); })
+      .def(py::pickle([](const Coulomb& law) { return py::make_tuple(law.forward(), law.backward()); },
+                      [](const py::tuple& t) { return Coulomb(t[0].cast<double>(), t[1].cast<double>()); }));
+}
+
+}  // namespace stickslip::python

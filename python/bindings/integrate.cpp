@@ -1,0 +1,69 @@
+#include "bindings.hpp"
+#include "response.hpp"
+
+namespace stickslip::python {
+namespace {
+
+// Lets Ctrl-C through while the interpreter is not held.
+void check_for_interrupt() {
+  const py::gil_scoped_acquire held;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
+                        bool settle) {
+  if (!py::isinstance<GroundMotion>(motion))
+    throw py::type_error("integrate: motion must be a GroundMotion, got " +
+                         py::type::of(motion).attr("__name__").cast<std::string>());
+  const auto& ground = motion.cast<const GroundMotion&>();
+  const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
+  Response response = [&] {
+    const py::gil_scoped_release released;
+    return std::visit([&](const auto& s) { return integrate(s, ground, options); }, slider);
+  }();
+  return {std::move(response), py::cast(slider), motion};
+}
+
+}  // namespace
+
+void bind_integrate(py::module_& m) {
+  m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
+        py::arg("velocity") = 0.0, py::arg("settle") = false,
+        R"(Slides through a whole ground motion.
+
+x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), with all breakaways, reversals and
+arrests, up to two reversals within one straight piece of n(t).
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides; a law alone is a slider without a spring.
+motion : GroundMotion
+    The ground acceleration.
+displacement : float, optional
+    x at the start [m], finite.
+velocity : float, optional
+    x' at the start [m/s], finite.
+settle : bool, optional
+    Go on under zero ground acceleration after the last sample until the slider rests, so that the residual is final.
+
+Returns
+-------
+Response
+
+Raises
+------
+ValueError
+    A start that is not finite, or that moves against an infinite slip level.
+OverflowError
+    A displacement, velocity or energy beyond the range of doubles.
+ConvergenceError
+    Asked to settle, and the slider does not come to rest (no friction; a caster that has escaped).
+
+Notes
+-----
+Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x, about 20 ns a
+sample. The caster by Taylor series to near round-off, 100 to 300 ns a sample. The interpreter is not held meanwhile.)");
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,16 @@
+// The table of contents of `stickslip._core`.
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_core, m) {
+  using namespace stickslip::python;
+  m.attr("STANDARD_GRAVITY") = stickslip::standard_gravity;
+  bind_errors(m);
+  bind_coulomb(m);
+  bind_caster(m);
+  bind_slider(m);
+  bind_ground_motion(m);
+  bind_records(m);
+  bind_response(m);
+  bind_integrate(m);
+  bind_build_info(m);
+}

@@ -1,0 +1,14 @@
+// A response together with what it came from.
+#pragma once
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+struct Recording {
+  Response response;
+  py::object slider;
+  py::object motion;
+};
+
+}  // namespace stickslip::python
