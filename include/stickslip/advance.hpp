@@ -1,9 +1,9 @@
 // The event loop: one slider over one segment of ground motion.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "stickslip/flow/harmonic.hpp"
@@ -34,83 +34,87 @@ struct NoObserver {
 
 namespace detail {
 
-/// The end of a stick: after `delay`, sliding in `direction` with the net acceleration `acceleration`.
-struct Release {
-  double delay;
-  Direction direction;
-  double acceleration;
-};
-
-/// When a slider at rest under a load that runs straight from `load` to `last_load` within `left` slips, if it does.
-/// At the level itself it holds; when the load outgrows the level, the net acceleration is exactly zero.
-inline std::optional<Release> next_release(double load, double last_load, double rate, double left, double hold_forward,
-                                           double hold_backward) noexcept {
-  if (load > hold_forward) return Release{0, Direction::forward, load - hold_forward};
-  if (load < -hold_backward) return Release{0, Direction::backward, -load - hold_backward};
-  if (left > 0 && rate > 0 && last_load > hold_forward)
-    return Release{left * ((hold_forward - load) / (last_load - load)), Direction::forward, 0};
-  if (left > 0 && rate < 0 && last_load < -hold_backward)
-    return Release{left * ((hold_backward + load) / (load - last_load)), Direction::backward, 0};
-  return std::nullopt;
-}
-
 template <FrictionLaw Law, class Flows, MotionObserver Observer>
-void advance(const Slider<Law>& slider, const Flows& flows, const Segment& segment, State& state, Observer& observer) {
+void advance(const Law& law, const Flows& flows, const Segment& segment, State& state, Observer& observer) {
   if (!(segment.duration > 0)) return;
-  const Law& law = slider.law();
-  const double rate = (segment.start - segment.end) / segment.duration;  // of the load -n
-  const auto ground_load = [&](double t) { return t == segment.duration ? -segment.end : rate * t - segment.start; };
-  double t = 0;
-  double load = -segment.start - slider.stiffness() * state.displacement;  // all but friction
-  double acceleration = 0;                                                 // net, in the direction of sliding
+  double left = segment.duration;
+  double load = -segment.start - flows.pull(state.displacement);  // all but friction
+  double acceleration = 0;                                        // net, in the direction of sliding
+  Mode stopped = Mode::stuck;                                     // the mode of a slip that stopped just now
   if (state.mode != Mode::stuck) {
     const Direction direction = direction_of(state.mode);
     acceleration = sign(direction) * load - law.level(state.displacement, direction);
   }
-  Mode stopped = Mode::stuck;  // the mode of a slip that stopped just now
 
   for (;;) {
     if (state.mode == Mode::stuck) {
-      const double left = segment.duration - t;
-      const double last_load = -segment.end - slider.stiffness() * state.displacement;
-      const auto release = next_release(load, last_load, rate, left, law.level(state.displacement, Direction::forward),
-                                        law.level(state.displacement, Direction::backward));
-      const bool at_once = release && release->delay == 0;
-      if (stopped != Mode::stuck && !at_once) observer.event(EventKind::arrest, t, state);
-      if (!release) return;
-      t += release->delay;
-      state.mode = mode_of(release->direction);
-      acceleration = release->acceleration;
-      // A reversal is a stick of no length. If it goes on the way it came, it only grazed the zero of velocity.
-      if (stopped == Mode::stuck || !at_once)
-        observer.event(EventKind::breakaway, t, state);
+      // It slips when the load outgrows the level it can hold: at once, with what is left over, or later in this
+      // segment, with a net acceleration of exactly zero. At the level itself it holds.
+      const double forward = law.level(state.displacement, Direction::forward);
+      const double backward = law.level(state.displacement, Direction::backward);
+      const double last_load = -segment.end - flows.pull(state.displacement);
+      double delay = 0;
+      if (load > forward) {
+        state.mode = Mode::forward;
+        acceleration = load - forward;
+      } else if (load < -backward) {
+        state.mode = Mode::backward;
+        acceleration = -load - backward;
+      } else if (left > 0 && last_load > forward) {
+        state.mode = Mode::forward;
+        delay = left * ((forward - load) / (last_load - load));
+        acceleration = 0;
+        load = forward;
+      } else if (left > 0 && last_load < -backward) {
+        state.mode = Mode::backward;
+        delay = left * ((backward + load) / (load - last_load));
+        acceleration = 0;
+        load = -backward;
+      }
+
+      // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
+      const bool sticks = state.mode == Mode::stuck || delay > 0;
+      if (sticks && stopped != Mode::stuck)
+        observer.event(EventKind::arrest, segment.duration - left, State{state.displacement, 0, Mode::stuck});
+      if (state.mode == Mode::stuck) return;
+      left -= delay;
+      if (sticks || stopped == Mode::stuck)
+        observer.event(EventKind::breakaway, segment.duration - left, state);
       else if (stopped != state.mode)
-        observer.event(EventKind::reversal, t, state);
+        observer.event(EventKind::reversal, segment.duration - left, state);
       stopped = Mode::stuck;
+      if (left <= 0) return;
     }
 
-    const double left = segment.duration - t;
-    if (left <= 0) return;
     const Direction direction = direction_of(state.mode);
     const double s = sign(direction);
-    const auto flow =
-        flows.flow(direction, state.displacement, Start{std::abs(state.velocity), acceleration, s * rate}, left);
+    const double ground_load = load + flows.pull(state.displacement);
+    const Start start{std::abs(state.velocity), acceleration, s * (-segment.end - ground_load)};
+    const auto flow = flows.flow(direction, state.displacement, start, left);
     const double stop = flow.first_stop();
-    const bool stops = stop <= flow.horizon();
-    const double step = stops ? stop : flow.horizon();
-    const Progress end = flow.at(step);
-    t = step == left ? segment.duration : t + step;
-    observer.slide(direction, state.displacement, end.distance, step,
-                   s * ground_load(t) * end.distance - s * rate * end.area);
-    state.displacement += s * end.distance;
-    if (stops) {
+    if (stop > flow.horizon()) {
+      const double taken = flow.horizon();
+      const Progress end = flow.at_horizon();
+      const bool whole = taken == left;
+      const double gain = whole ? start.gain : start.gain * (taken / left);
+      observer.slide(direction, state.displacement, end.distance, taken,
+                     (s * ground_load + gain) * end.distance - gain * end.mean_distance);
+      state.displacement += s * end.distance;
+      state.velocity = s * std::max(end.speed, 0.0);
+      if (whole) return;
+      left -= taken;
+      load = ground_load + s * gain - flows.pull(state.displacement);
+      acceleration = s * load - law.level(state.displacement, direction);
+    } else {
+      const Progress end = flow.at(stop);
+      const double gain = start.gain * (stop / left);
+      observer.slide(direction, state.displacement, end.distance, stop,
+                     (s * ground_load + gain) * end.distance - gain * end.mean_distance);
+      state.displacement += s * end.distance;
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
+      left -= stop;
       load = s * (law.level(state.displacement, direction) + end.acceleration);
-    } else {
-      state.velocity = s * end.speed;
-      acceleration =
-          s * (ground_load(t) - slider.stiffness() * state.displacement) - law.level(state.displacement, direction);
     }
   }
 }
@@ -145,7 +149,7 @@ void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
-                     [&](const auto& flows) { detail::advance(slider, flows, segment, state, observer); });
+                     [&](const auto& flows) { detail::advance(slider.law(), flows, segment, state, observer); });
 }
 
 }  // namespace stickslip

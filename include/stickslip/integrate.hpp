@@ -7,8 +7,8 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "stickslip/advance.hpp"
 #include "stickslip/error.hpp"
@@ -27,25 +27,26 @@ struct IntegrateOptions {
 
 namespace detail {
 
-/// Writes slips and events into a response.
+/// Sums up slips and keeps events.
 template <FrictionLaw Law>
 struct Recorder {
   const Law& law;
-  Response& response;
-  double segment_begins = 0;  // [s]
+  double segment_begins;  // [s]
   std::size_t most_events = std::numeric_limits<std::size_t>::max();
+  std::vector<Event> events{};
+  double peak = 0, sliding_distance = 0, time_sliding = 0, input = 0, dissipated = 0;
 
-  void slide(Direction direction, double from, double distance, double duration, double input) {
-    response.sliding_distance += distance;
-    response.time_sliding += duration;
-    response.energy.input += input;
-    response.energy.dissipated += friction_work(law, from, distance, direction);
+  void slide(Direction direction, double from, double distance, double duration, double work) {
+    sliding_distance += distance;
+    time_sliding += duration;
+    input += work;
+    dissipated += friction_work(law, from, distance, direction);
   }
 
   void event(EventKind kind, double time, const State& state) {
-    if (response.events.size() >= most_events) throw ConvergenceError("integrate: too many events");
-    response.events.push_back({segment_begins + time, state.displacement, state.velocity, kind});
-    response.peak = std::max(response.peak, std::abs(state.displacement));  // between events x runs one way
+    if (events.size() >= most_events) throw ConvergenceError("integrate: too many events");
+    events.push_back({segment_begins + time, state.displacement, state.velocity, kind});
+    peak = std::max(peak, std::abs(state.displacement));  // between events x runs one way
   }
 };
 
@@ -60,10 +61,10 @@ void settle(const Slider<Law>& slider, const Flows& flows, State& state, Recorde
         " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
         shortest(slider.law().level(state.displacement, direction)) + " m/s^2 there; use settle = false");
   };
-  recorder.most_events = recorder.response.events.size() + 1'000'000;
+  recorder.most_events = recorder.events.size() + 1'000'000;
   for (double duration = 1;; duration *= 2) {
     try {
-      detail::advance(slider, flows, Segment{duration, 0, 0}, state, recorder);
+      detail::advance(slider.law(), flows, Segment{duration, 0, 0}, state, recorder);
     } catch (const ConvergenceError&) {
       restless();
     }
@@ -103,37 +104,45 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   Response response;
   response.displacement.resize(motion.samples());
   response.velocity.resize(motion.samples());
-  response.peak = std::abs(state.displacement);
-  const auto mechanical_energy = [&] {
-    return std::pair{state.velocity * state.velocity / 2,
-                     slider.stiffness() * state.displacement * state.displacement / 2};
+  const auto record = [&](std::size_t sample) {
+    response.displacement[sample] = state.displacement;
+    response.velocity[sample] = state.velocity;
   };
-  const auto [initial_kinetic, initial_elastic] = mechanical_energy();
-  response.energy.initial = initial_kinetic + initial_elastic;
+  const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
+  const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
 
-  detail::Recorder<Law> recorder{slider.law(), response, motion.time(0)};
+  record(0);
+  response.energy.initial = kinetic() + elastic();
+  detail::Recorder<Law> recorder{slider.law(), motion.time(0)};
+  recorder.peak = std::abs(state.displacement);
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
-  response.displacement[0] = state.displacement;
-  response.velocity[0] = state.velocity;
+  double end = motion.time(motion.segments());
   detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
     for (std::size_t i = 0; i < motion.segments(); ++i) {
       if (i % 65536 == 0 && options.heartbeat) options.heartbeat();
       recorder.segment_begins = motion.time(i);
-      detail::advance(slider, flows, motion.segment(i), state, recorder);
-      response.displacement[i + 1] = state.displacement;
-      response.velocity[i + 1] = state.velocity;
+      detail::advance(slider.law(), flows, motion.segment(i), state, recorder);
+      record(i + 1);
     }
-    recorder.segment_begins = motion.time(motion.segments());
-    if (options.settle) detail::settle(slider, flows, state, recorder);
+    if (options.settle) {
+      recorder.segment_begins = end;
+      detail::settle(slider, flows, state, recorder);
+      if (!recorder.events.empty()) end = std::max(end, recorder.events.back().time);
+    }
   });
-
-  if (options.settle)  // the end is the last arrest, or the end of the motion if that came later
-    recorder.segment_begins =
-        std::max(motion.time(motion.segments()), response.events.empty() ? 0 : response.events.back().time);
+  recorder.segment_begins = end;
   recorder.event(EventKind::end, 0, state);
+
+  response.events = std::move(recorder.events);
+  response.peak = recorder.peak;
   response.residual = state.displacement;
+  response.sliding_distance = recorder.sliding_distance;
+  response.time_sliding = recorder.time_sliding;
+  response.energy.input = recorder.input;
+  response.energy.dissipated = recorder.dissipated;
+  response.energy.kinetic = kinetic();
+  response.energy.elastic = elastic();
   response.state = state;
-  std::tie(response.energy.kinetic, response.energy.elastic) = mechanical_energy();
   if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
     throw std::overflow_error("integrate: the motion leaves the range of doubles (peak displacement " +
                               detail::shortest(response.peak) + " m, energy input " +

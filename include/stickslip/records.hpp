@@ -31,11 +31,14 @@ struct RecordOptions {
 /// the shortest decimal that fits them all, and the clock starts at 0 whatever the first time; others are kept as
 /// they stand. Rounding is seen in long lists alone: the times 0, 1, 2, 4 are taken at their word.
 ///
+/// The samples are those of the file, all of them: GeoNet counts its stated peak times from after the samples it put
+/// before the record (5 s, say), the motion counts them too.
+///
 /// UTF-8 (with or without byte-order mark) and Latin-1 are read, with LF or CRLF line ends.
 ///
 /// @param file     an existing regular file
 /// @param options  units, where the file has none (another unit than the file's is refused); component, where the
-///                 file has several
+///                 file has several (in a file with one, its number is 1)
 /// @return  the acceleration in m/s^2, linear between samples, named by the event, station and component as the file
 ///          gives them, or else by the file's stem
 /// @throws std::filesystem::filesystem_error  file missing, unreadable or not a regular file, with the system's code

@@ -13,46 +13,47 @@ namespace stickslip {
 struct Start {
   double speed;         ///< [m/s], at least 0
   double acceleration;  ///< [m/s^2]; exactly 0 on breaking away
-  double load_rate;     ///< rate of change of the load [m/s^3]
+  double gain;          ///< of the load until the end of the flow's duration, linear in time [m/s^2]
 };
 
 /// What a flow has come to after a time.
 struct Progress {
-  double distance;      ///< slid since its start [m]
-  double speed;         ///< [m/s]
-  double acceleration;  ///< net, in the direction of sliding [m/s^2]
-  double area;          ///< integral of the distance over time [m s]
+  double distance;       ///< slid since its start [m]
+  double speed;          ///< [m/s]
+  double acceleration;   ///< net, in the direction of sliding [m/s^2]
+  double mean_distance;  ///< mean of the distance over the time since the start [m]
 };
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// b0 .. b4 at one time: b0'' = -wn^2 b0, b0(0) = 1, b0'(0) = 0, and each the integral of the one before.
-struct Basis {
-  double b0, b1, b2, b3, b4;
-};
+namespace detail {
+
+/// The roots are formed again from numbers near 1, where their squares leave the range of doubles.
+[[gnu::noinline]] inline double first_root_scaled(double u, double a, double j) noexcept {
+  const double largest = std::max({u, std::abs(a), std::abs(j)});
+  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
+  u = std::ldexp(u, exponent), a = std::ldexp(a, exponent), j = std::ldexp(j, exponent);
+  const double root = std::sqrt(a * a - 2 * j * u);
+  return a < 0 ? 2 * u / (root - a) : -(a + root) / j;
+}
+
+}  // namespace detail
 
 /// First root y other than 0 of j y^2 / 2 + a y + u, u >= 0, on the line that runs from 0 to infinity and comes back
 /// from minus infinity to 0: where the roots of a speed lie that starts at u with the slope a. NaN where there is none.
 /// Neither form cancels.
 inline double first_root(double u, double a, double j) noexcept {
-  double discriminant = a * a - 2 * j * u;
-  if (!(a * a < 0x1p900 && std::abs(j) * u < 0x1p900) || std::max(a * a, std::abs(j) * u) < 0x1p-900) {
-    // Formed again with numbers near 1, which leaves y as it is.
-    const double largest = std::max({u, std::abs(a), std::abs(j)});
-    if (largest > 0 && std::abs(std::ilogb(largest)) > 1) {
-      const int exponent = -std::ilogb(largest);
-      return first_root(std::ldexp(u, exponent), std::ldexp(a, exponent), std::ldexp(j, exponent));
-    }
-  }
-  if (a < 0) return 2 * u / (std::sqrt(discriminant) - a);
-  return -(a + std::sqrt(discriminant)) / j;
+  const double square = a * a, product = 2 * j * u;
+  const double magnitude = square + std::abs(product);
+  if (!(magnitude > 0x1p-900 && magnitude < 0x1p900)) return detail::first_root_scaled(u, a, j);
+  const double root = std::sqrt(square - product);
+  return a < 0 ? 2 * u / (root - a) : -(a + root) / j;
 }
 
-/// Constant friction from a given start, with the net acceleration a there and the load's rate of change j:
-///     speed    = u b0(t) + a b1(t) + j b2(t),
-///     distance = u b1(t) + a b2(t) + j b3(t),
-/// thesis (4.51) to (4.53), (2.44). `Oscillator` gives the basis: `Polynomial` without a spring, `Harmonic` with one.
-/// Exact but for round-off.
+/// Constant friction from a given start: thesis (4.51) to (4.53), (2.44), exact but for round-off.
+///
+/// `Oscillator` knows the solution: `Polynomial` without a spring, `Harmonic` with one. In either the speed's zeros are
+/// the roots of one quadratic.
 template <class Oscillator>
 class ClosedForm {
  public:
@@ -65,38 +66,29 @@ class ClosedForm {
   /// First time within the duration at which the speed comes to zero, the start left out; 0 where the slip cannot
   /// begin; `never` where there is none.
   double first_stop() const noexcept {
-    const auto [u, a, j] = start_;
-    if (u == 0 && a <= 0) return a < 0 || j <= 0 ? 0 : never;
-    const double last_speed = speed(end_);
-    const bool one_arch = duration_ <= oscillator_.half_period();
-    if (one_arch && last_speed > 0) {
-      // It ends in motion: it can have stopped on the way only if it slowed down at first and speeds up at the end.
-      if (a >= 0 || acceleration(end_) <= 0) return never;
-    }
-    const double stop = oscillator_.time(first_root(u, a, j - oscillator_.stiffness() * u / 2));
+    const auto [u, a, gain] = start_;
+    const double last_speed = oscillator_.speed(start_, end_);
+    const bool one_arch = oscillator_.one_arch(duration_);
+    // Within one arch a speed that ends above zero can have stopped on the way only if it fell at first and rises at
+    // the end.
+    if (one_arch && last_speed > 0 && (a >= 0 || oscillator_.acceleration(start_, end_) <= 0)) return never;
+    if (u == 0 && a <= 0) return a < 0 || gain <= 0 ? 0 : never;
+    const double stop = oscillator_.first_stop(u, a, gain / duration_);
     if (stop <= duration_) return stop;
     return one_arch && last_speed <= 0 ? duration_ : never;  // past the end by rounding alone
   }
 
   Progress at(double t) const noexcept {
-    const auto [u, a, j] = start_;
-    const Basis b = t == duration_ ? end_ : oscillator_.basis(t);
-    return {u * b.b1 + a * b.b2 + j * b.b3, std::max(speed(b), 0.0), acceleration(b), u * b.b2 + a * b.b3 + j * b.b4};
+    return oscillator_.progress({start_.speed, start_.acceleration, start_.gain * (t / duration_)},
+                                oscillator_.basis(t));
   }
+  Progress at_horizon() const noexcept { return oscillator_.progress(start_, end_); }
 
  private:
-  double speed(const Basis& b) const noexcept {
-    return start_.speed * b.b0 + start_.acceleration * b.b1 + start_.load_rate * b.b2;
-  }
-
-  double acceleration(const Basis& b) const noexcept {
-    return start_.acceleration * b.b0 + (start_.load_rate - oscillator_.stiffness() * start_.speed) * b.b1;
-  }
-
   const Oscillator& oscillator_;
   Start start_;
   double duration_;
-  Basis end_;
+  typename Oscillator::Basis end_;
 };
 
 }  // namespace stickslip

@@ -10,25 +10,47 @@
 
 namespace stickslip {
 
-/// In y = (2/wn) tan(wn t / 2) the speed has the roots of the same quadratic as without a spring, but for j less
-/// wn^2 u / 2, and its whole period is the line from 0 to infinity and back from minus infinity to 0: what is not zero
-/// within a period never is.
+/// With the speed u and the net acceleration a at the start and a load that gains g within t,
+///     speed = u b0 + a b1 + g b2 / t,    distance = u b1 + a b2 + g b3 / t,
+/// where b0 = cos(wn t) and each b is the integral of the one before; without a spring they would be 1, t, t^2/2, ...
+///
+/// In y = (2/wn) tan(wn t / 2) the speed has the roots of the quadratic that it has without a spring, but for wn^2 u /
+/// 2 taken from the load's rate. Its whole period is the line from 0 to infinity and back from minus infinity to 0:
+/// what does not stop within a period never does.
 class Harmonic {
  public:
+  struct Basis {
+    double b0, b1, b2;
+    double c1, c2, c3, c4;  // b1/t, b2/t, b3/t and b4/t^2
+  };
+
   /// @param natural_frequency  wn [rad/s], positive
   /// @param usual_duration     a time whose basis is kept [s], as records have segments of one length
   explicit Harmonic(double natural_frequency, double usual_duration = std::numeric_limits<double>::quiet_NaN()) noexcept
       : w_(natural_frequency), usual_duration_(usual_duration), usual_basis_(compute(usual_duration)) {}
 
-  double stiffness() const noexcept { return w_ * w_; }
-  double half_period() const noexcept { return std::numbers::pi / w_; }
   Basis basis(double t) const noexcept { return t == usual_duration_ ? usual_basis_ : compute(t); }
+  bool one_arch(double t) const noexcept { return w_ * t <= std::numbers::pi; }
 
-  /// The time at which the speed's root y is reached.
-  double time(double y) const noexcept {
+  double speed(const Start& start, const Basis& b) const noexcept {
+    return start.speed * b.b0 + start.acceleration * b.b1 + start.gain * b.c2;
+  }
+  double acceleration(const Start& start, const Basis& b) const noexcept {
+    return start.acceleration * b.b0 - w_ * w_ * start.speed * b.b1 + start.gain * b.c1;
+  }
+  Progress progress(const Start& start, const Basis& b) const noexcept {
+    const auto [u, a, g] = start;
+    return {u * b.b1 + a * b.b2 + g * b.c3, speed(start, b), acceleration(start, b), u * b.c2 + a * b.c3 + g * b.c4};
+  }
+
+  double first_stop(double u, double a, double load_rate) const noexcept {
+    const double y = first_root(u, a, load_rate - w_ * w_ * u * (1.0 / 2));
     if (std::isnan(y)) return never;
     return (2 / w_) * (std::atan(w_ * y / 2) + (y < 0 ? std::numbers::pi : 0.0));
   }
+
+  /// Pull of the spring per unit mass [m/s^2].
+  double pull(double displacement) const noexcept { return w_ * w_ * displacement; }
 
   ClosedForm<Harmonic> flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept {
     return {*this, start, duration};
@@ -39,12 +61,12 @@ class Harmonic {
   Basis compute(double t) const noexcept {
     const double w2 = w_ * w_, z = w2 * t * t;
     if (z < 2) {
-      const double b4 = t * t * t * t * inverse_factorials(z, 4);
-      const double b3 = t * t * t * inverse_factorials(z, 3);
-      return {1 - w2 * (t * t / 2 - w2 * b4), t - w2 * b3, t * t / 2 - w2 * b4, b3, b4};
+      const double f3 = inverse_factorials(z, 3), f4 = inverse_factorials(z, 4);
+      const double c1 = 1 - z * f3, half = 0.5 - z * f4;
+      return {1 - z * half, t * c1, t * t * half, c1, t * half, t * t * f3, t * t * f4};
     }
     const double s = std::sin(w_ * t / 2), b1 = std::sin(w_ * t) / w_, b2 = 2 * s * s / w2;
-    return {1 - w2 * b2, b1, b2, (t - b1) / w2, (t * t / 2 - b2) / w2};
+    return {1 - w2 * b2, b1, b2, b1 / t, b2 / t, (1 - b1 / t) / w2, (0.5 - b2 / (t * t)) / w2};
   }
 
   // 1/n! - z/(n+2)! + z^2/(n+4)! - ..., below round-off after eleven terms for z < 2.

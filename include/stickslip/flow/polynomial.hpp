@@ -6,17 +6,31 @@
 
 namespace stickslip {
 
+/// With the speed u and the net acceleration a at the start and a load that gains g within t,
+///     speed = u + a t + g t / 2,    distance = u t + a t^2 / 2 + g t^2 / 6.
 struct Polynomial {
-  static constexpr double stiffness() noexcept { return 0; }
-  static constexpr double half_period() noexcept { return never; }
+  using Basis = double;  // the time itself
 
-  static constexpr Basis basis(double t) noexcept {
-    const double t2 = t * t / 2;
-    return {1, t, t2, t2 * t / 3, t2 * t2 / 6};
+  static constexpr Basis basis(double t) noexcept { return t; }
+  static constexpr bool one_arch(double) noexcept { return true; }
+
+  static constexpr double speed(const Start& start, double t) noexcept {
+    return start.speed + t * (start.acceleration + start.gain * (1.0 / 2));
+  }
+  static constexpr double acceleration(const Start& start, double) noexcept { return start.acceleration + start.gain; }
+  static constexpr Progress progress(const Start& start, double t) noexcept {
+    const auto [u, a, g] = start;
+    return {t * (u + t * (a * (1.0 / 2) + g * (1.0 / 6))), speed(start, t), acceleration(start, t),
+            t * (u * (1.0 / 2) + t * (a * (1.0 / 6) + g * (1.0 / 24)))};
   }
 
-  /// The time at which the speed's root y is reached: itself, if it lies ahead.
-  static constexpr double time(double y) noexcept { return y > 0 ? y : never; }
+  static double first_stop(double u, double a, double load_rate) noexcept {
+    const double root = first_root(u, a, load_rate);
+    return root > 0 ? root : never;
+  }
+
+  /// No spring pulls.
+  static constexpr double pull(double) noexcept { return 0; }
 
   ClosedForm<Polynomial> flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept {
     return {*this, start, duration};

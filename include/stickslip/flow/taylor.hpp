@@ -83,8 +83,8 @@ class FirstRoot {
 };
 
 /// Friction that varies with position: the distance slid is a Taylor series in time, with the coefficients of
-///     d'' = a + j t - wn^2 d - [level(x0 +- d) - level(x0)],                             thesis (2.27), (2.50)
-/// found order by order (series.hpp).
+///     d'' = a + g t/T - wn^2 d - [level(x0 +- d) - level(x0)],                           thesis (2.27), (2.50)
+/// where the load gains g within the duration T, found order by order (series.hpp).
 ///
 /// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
 /// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
@@ -92,7 +92,7 @@ template <FrictionLaw Law>
 class TaylorFlow {
  public:
   TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const Start& start, double duration)
-      : direction_(sign(direction)), horizon_(duration) {
+      : direction_(sign(direction)), load_rate_(start.gain / duration), horizon_(duration) {
     const double level_here = slider.law().level(displacement, direction);
     // Where the level has underflowed to nothing its series says nothing of what lies ahead: towards the centre, go
     // half the way at most.
@@ -124,19 +124,21 @@ class TaylorFlow {
     return root < never ? root * horizon_ : never;
   }
 
-  Progress at(double t) const noexcept {
-    const double s = t == horizon_ ? 1 : t / horizon_;
-    double distance = 0, speed = 0, acceleration = 0, area = 0;
+  Progress at(double t) const noexcept { return at_part(t / horizon_); }
+  Progress at_horizon() const noexcept { return at_part(1); }
+
+ private:
+  Progress at_part(double s) const noexcept {
+    double distance = 0, speed = 0, acceleration = 0, mean = 0;
     for (int k = order_; k >= 0; --k) {
       acceleration = acceleration * s + speed;
       speed = speed * s + distance;
       distance = distance * s + d_[k];
-      area = area * s + d_[k] / (k + 1);
+      mean = mean * s + d_[k] / (k + 1);
     }
-    return {distance, std::max(speed / horizon_, 0.0), 2 * acceleration / (horizon_ * horizon_), area * s * horizon_};
+    return {distance, speed / horizon_, 2 * acceleration / (horizon_ * horizon_), mean};
   }
 
- private:
   // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
   double expand(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
                 const Start& start) {
@@ -155,7 +157,7 @@ class TaylorFlow {
       double net = start.acceleration;
       if (k > 0) {
         level.update(k);
-        net = (k == 1 ? start.load_rate * h : 0.0) - stiffness * d_[k] - level[k];
+        net = (k == 1 ? load_rate_ * h : 0.0) - stiffness * d_[k] - level[k];
       }
       d_[k + 2] = h * h * net / ((k + 1) * (k + 2));
       x[k + 2] = direction_ * d_[k + 2];
@@ -176,19 +178,19 @@ class TaylorFlow {
   // Whether the equation of motion holds at the horizon, to the round-off of its terms.
   bool balanced(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
                 const Start& start) const {
-    const Progress end = at(horizon_);
+    const Progress end = at_horizon();
     const double level_there = slider.law().level(displacement + direction_ * end.distance, direction);
-    const double gain = start.load_rate * horizon_, pull = slider.stiffness() * end.distance;
+    const double gain = load_rate_ * horizon_, pull = slider.stiffness() * end.distance;
     const double net = start.acceleration + gain - pull - (level_there - level_here);
     const double terms = std::abs(start.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here) +
                          std::abs(level_there) + slider.stiffness() * std::abs(displacement);
     return std::abs(net - end.acceleration) <= 32 * round_off * terms;
   }
 
-  static double time_to_half_way(const Start& start, double distance) noexcept {
+  double time_to_half_way(const Start& start, double distance) const noexcept {
     // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
     return std::min({distance / 3 / start.speed, std::sqrt(distance / 3 / std::abs(start.acceleration)),
-                     std::cbrt(distance / 3 / std::abs(start.load_rate))});
+                     std::cbrt(distance / 3 / std::abs(load_rate_))});
   }
 
   static auto as_series(double level) noexcept { return series::Constant{level}; }
@@ -200,6 +202,7 @@ class TaylorFlow {
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
   double direction_;
+  double load_rate_;  // [m/s^3]
   double horizon_;
   int order_ = 0;
   double d_[series::highest_order + 1];
@@ -209,6 +212,7 @@ class TaylorFlow {
 template <FrictionLaw Law>
 struct Taylor {
   const Slider<Law>& slider;
+  double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
   TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
     return {slider, direction, displacement, start, duration};
   }

@@ -1,0 +1,36 @@
+// Slides a block on a floor through one earthquake record:
+//
+//     one_record [file [mu]]        the record, in any format read_record knows, and the coefficient of friction
+//
+// Without a file the ground is pushed half a second one way and half a second the other.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <stickslip/stickslip.hpp>
+
+using namespace stickslip;
+
+int main(int argc, char** argv) try {
+  const GroundMotion motion =
+      argc > 1 ? read_record(argv[1]) : GroundMotion({4, -4, 0, 0}, 0.5, Interpolation::constant, "two pulses");
+  const double mu = argc > 2 ? std::atof(argv[2]) : 0.2;
+  const Coulomb law = Coulomb::from_friction(mu);
+
+  const Response response = integrate(law, motion, {.settle = true});
+
+  std::printf("%s: %.2f s, peak ground acceleration %.3f m/s^2\n", motion.name().c_str(), motion.duration(),
+              motion.peak_acceleration());
+  std::printf("friction %.3f: slip level %.3f m/s^2\n", mu, law.forward());
+  std::printf("peak displacement     %8.4f m\n", response.peak);
+  std::printf("residual displacement %8.4f m\n", response.residual);
+
+  // What is left cannot exceed the peak, and the work of the ground has all gone into friction.
+  const Energy& energy = response.energy;
+  const bool sane = std::abs(response.residual) <= response.peak &&
+                    std::abs(energy.imbalance()) <= 1e-12 * (energy.dissipated + std::abs(energy.input));
+  return sane ? EXIT_SUCCESS : EXIT_FAILURE;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return EXIT_FAILURE;
+}

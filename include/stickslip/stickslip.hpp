@@ -1,0 +1,6 @@
+// All of stickslip: the header-only core, and what the compiled library adds.
+#pragma once
+
+#include "stickslip/build_info.hpp"
+#include "stickslip/core.hpp"
+#include "stickslip/records.hpp"

@@ -1,0 +1,178 @@
+"""Slides eighteen real earthquake records: ``python -m stickslip.demo [--out FOLDER]``.
+
+The records are the data files of the PyPI package pyslammer (``pip install stickslip[records]``).
+Prints a table and draws two pictures.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import math
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from . import STANDARD_GRAVITY, Caster, Coulomb, GroundMotion, Slider, integrate, read_record
+
+__all__ = ["THINGS", "Thing", "main", "sample_records"]
+
+
+class Thing(NamedTuple):
+    """Something that slides: a name for the table, a sentence, and its slider."""
+
+    name: str
+    story: str
+    slider: Slider
+
+
+_CART = Caster.from_geometry(mu=0.5, trail=0.04, wheel_width=0.032)
+
+THINGS = (
+    Thing(
+        "cabinet 0.1",
+        "a cabinet on a smooth floor, coefficient of friction 0.1",
+        Slider(Coulomb(mu=0.1)),
+    ),
+    Thing("cabinet 0.2", "the same, coefficient of friction 0.2", Slider(Coulomb(mu=0.2))),
+    Thing("cabinet 0.3", "the same, coefficient of friction 0.3", Slider(Coulomb(mu=0.3))),
+    Thing(
+        "cart",
+        "a hospital cart on casters, wheels across the motion at first (trail 4 cm, wheel 3.2 cm"
+        f" wide,\n{'':13}friction 0.5): slip level {_CART.slip_level / STANDARD_GRAVITY:.3f} g,"
+        f" falling off over a reach of {_CART.reach * 100:.1f} cm",
+        Slider(_CART),
+    ),
+    Thing(
+        "isolated",
+        "a floor isolated by friction pendulums, coefficient of friction 0.06, period 3 s",
+        Slider(Coulomb(mu=0.06), natural_frequency=2 * math.pi / 3),
+    ),
+    Thing(
+        "slope",
+        "a slope that slides downhill only, above 0.1 g (Newmark's block)",
+        Slider(Coulomb(mu=0.1, backward=math.inf)),
+    ),
+)
+
+CELL = 14  # width of a column of the table
+
+_NOTES = """\
+Peak: largest distance from where it stood. Residual: where it rests in the end, positive in the
+record's positive direction. A dash: it never slips; 0.0: less than half a millimetre.
+(x) beyond its reach: the casters come into line with the motion, where small disturbances, which
+    the model leaves out, decide. "rolls": further than 10 reaches away, still rolling at the end."""
+
+
+def sample_records() -> list[Path]:
+    """The files of the strong-motion records that pyslammer carries; it is not imported.
+
+    Returns
+    -------
+    list of Path
+        In order of name: seconds and g, for `read_record`.
+
+    Raises
+    ------
+    ImportError
+        pyslammer is not installed, or without its records.
+    """
+    found = importlib.util.find_spec("pyslammer")
+    folders = (found and found.submodule_search_locations) or []
+    files = [f for folder in folders for f in Path(folder).glob("sample_ground_motions/*.csv")]
+    if not files:
+        raise ImportError(
+            "stickslip.demo: the earthquake records are those of the package pyslammer, which is"
+            " missing; pip install stickslip[records]"
+        )
+    return sorted(files)
+
+
+def table(motions: Sequence[GroundMotion]) -> list[str]:
+    """Peak and residual displacements [cm] of every thing under every motion, as lines of text."""
+    wide = max(len(motion.name) for motion in motions)
+    names = "".join(f"{thing.name:>{CELL}}" for thing in THINGS)
+    kinds = f"{'peak  resid.':>{CELL}}" * len(THINGS)
+    lines = [f"{'':{wide}}    PGA{names}", f"{'record':{wide}}    [g]{kinds}  [cm]"]
+    for motion in motions:
+        cells = "".join(f"{_cell(thing.slider, motion):>{CELL}}" for thing in THINGS)
+        lines.append(
+            f"{motion.name:{wide}}{motion.peak_acceleration / STANDARD_GRAVITY:7.3f}{cells}"
+        )
+    return lines
+
+
+def _cell(slider: Slider, motion: GroundMotion) -> str:
+    reach = getattr(slider.law, "reach", math.inf)
+    response = integrate(slider, motion)
+    if not response.at_rest and response.peak > 10 * reach:
+        return "rolls"
+    response = integrate(slider, motion, settle=True)
+    if response.sliding_distance == 0:
+        return "-"
+    # Adding 0.0 makes a rounded -0.0 plain.
+    residual = round(response.residual * 100, 1) + 0.0
+    mark = "x" if response.peak > reach else " "
+    return f"{response.peak * 100:.1f}{mark}{residual:7.1f}"
+
+
+def draw(motions: Sequence[GroundMotion], folder: Path) -> list[Path]:
+    """Draws the two pictures into a folder, which is made; returns their files."""
+    import numpy as np
+
+    from . import plotting
+
+    folder.mkdir(parents=True, exist_ok=True)
+    kobe = next(motion for motion in motions if motion.name.startswith("Kobe"))
+    history = plotting.plot_response(integrate(Coulomb(mu=0.1), kobe, settle=True))
+    history.axes[0].set_title(
+        "a cabinet, coefficient of friction 0.1", loc="right", fontsize=8, fontweight="normal"
+    )
+    history.axes[-1].set_xlim(0, 25)  # [s]; it rests from 20 s on
+
+    mu = np.geomspace(0.02, 1, 200)
+    peaks = [[integrate(Coulomb(mu=m), motion, settle=True).peak for m in mu] for motion in motions]
+    names = [motion.name for motion in motions]
+    telling = ("Chi-Chi", "Coyote", "Kobe", "Kocaeli", "Morgan")
+    sweep = plotting.plot_friction_sweep(
+        mu, peaks, names, highlight=[name for name in names if name.startswith(telling)]
+    )
+    return [
+        plotting.save(history, folder / "one_record.png"),
+        plotting.save(sweep, folder / "friction_sweep.png"),
+    ]
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Runs the demo; returns the exit code: 2 if the records are missing or a folder is refused."""
+    parser = argparse.ArgumentParser(prog="python -m stickslip.demo", description=__doc__)
+    parser.add_argument(
+        "--out", type=Path, default=Path("stickslip-demo"), help="folder for the two pictures"
+    )
+    args = parser.parse_args(argv)
+    began = time.perf_counter()
+    try:
+        motions = [read_record(file) for file in sample_records()]
+    except ImportError as error:
+        print(error, file=sys.stderr)
+        return 2
+    print(f"{len(motions)} earthquake records; displacements relative to the ground.\n")
+    for thing in THINGS:
+        print(f"{thing.name:13}{thing.story}")
+    print("", *table(motions), "", _NOTES, "", sep="\n")
+    try:
+        for picture in draw(motions, args.out):
+            print(f"wrote {picture}")
+    except ImportError as error:
+        print(f"no pictures: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"stickslip.demo: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    print(f"{time.perf_counter() - began:.1f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,518 @@
+"""Pictures of responses, in one house style; needs matplotlib (``pip install stickslip[plot]``).
+
+Every function returns a matplotlib Figure and leaves pyplot alone: a notebook shows it, `save`
+writes it. Colours are Okabe and Ito's, told apart by colour-blind eyes and in grey print.
+"""
+
+from __future__ import annotations
+
+import errno
+import io
+import os
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+try:
+    import matplotlib
+    from matplotlib.axes import Axes
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure, FigureBase
+except ImportError as error:
+    raise ImportError(
+        "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
+    ) from error
+
+from ._core import STANDARD_GRAVITY, Response
+
+__all__ = [
+    "plot_friction_sweep",
+    "plot_response",
+    "plot_responses",
+    "save",
+    "sticks",
+    "style",
+]
+
+INK, GREY, PALE = "#222222", "#8a8a8a", "#e6e6e6"
+BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
+COLOURS = (BLUE, VERMILION, GREEN, "#cc79a7", "#e69f00", "#56b4e9")
+SUFFIXES = (".png", ".pdf", ".svg")
+
+
+def style() -> Any:
+    """The look of the library's pictures, as a context: ``with style(): ...``."""
+    return matplotlib.rc_context(
+        {
+            "font.size": 9,
+            "axes.titlesize": 10,
+            "axes.titleweight": "bold",
+            "axes.titlelocation": "left",
+            "axes.labelcolor": INK,
+            "axes.edgecolor": GREY,
+            "axes.linewidth": 0.8,
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "axes.unicode_minus": True,
+            "axes.prop_cycle": matplotlib.cycler(color=COLOURS),
+            "text.color": INK,
+            "xtick.color": GREY,
+            "ytick.color": GREY,
+            "xtick.labelcolor": INK,
+            "ytick.labelcolor": INK,
+            "lines.linewidth": 1.1,
+            "lines.solid_capstyle": "round",
+            "legend.frameon": False,
+            "savefig.dpi": 140,
+            "pdf.fonttype": 42,
+            "svg.hashsalt": "stickslip",
+        }
+    )
+
+
+class _Picture(Figure):
+    """A figure that a notebook shows even where pyplot was never imported."""
+
+    def _repr_png_(self) -> bytes:
+        return _render(self, "png")
+
+
+def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
+    """Writes a figure, whole or not at all.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    file : path-like
+        Where to; the suffix, .png, .pdf or .svg, tells the format.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    ValueError
+        Another suffix.
+    OSError
+        The folder is missing or cannot be written.
+    """
+    path = Path(file)
+    kind = check_suffix(path)
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
+    content = _render(figure, kind)
+    # mkstemp would leave a file that only its owner may read.
+    part = Path(tempfile.mkdtemp(prefix=".stickslip-", dir=path.parent)) / path.name
+    try:
+        part.write_bytes(content)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+        part.parent.rmdir()
+    return path
+
+
+def check_suffix(file: Path) -> str:
+    """The format told by a file's suffix, 'png', 'pdf' or 'svg'; ValueError for another."""
+    if file.suffix.lower() not in SUFFIXES:
+        raise ValueError(f"plot: the file must end in {', '.join(SUFFIXES)}, got '{file}'")
+    return file.suffix.lower()[1:]
+
+
+def sticks(response: Response) -> np.ndarray:
+    """When the slider stuck.
+
+    Parameters
+    ----------
+    response : Response
+
+    Returns
+    -------
+    ndarray, shape (S, 2)
+        Begin and end of each stick [s], in order of time; the last may end with the response.
+    """
+    events = response.events
+    kinds, times = events["kind"], events["time"]
+    begins = np.append(response.time[0], times[kinds == "arrest"])
+    ends = np.append(times[kinds == "breakaway"], times[-1])[: len(begins)]
+    spans = np.column_stack([begins, ends])
+    return spans[ends > begins]
+
+
+def plot_response(response: Response, figure: FigureBase | None = None) -> FigureBase:
+    """Ground acceleration, velocity and displacement of one response, one above the other.
+
+    The first panel shows what friction can hold as a band: a slider at rest stays while the ground
+    acceleration is within -level_forward - wn^2 x and level_backward - wn^2 x, at the displacement
+    x of the moment. The second shades the sticks; the third marks peak and residual. Where the
+    slider settled after the last sample, that tail is drawn too.
+
+    Parameters
+    ----------
+    response : Response
+        What `integrate` returned.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; a new figure of 7 x 6 inches if not given.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+        Its axes: ground acceleration [g], relative velocity, relative displacement.
+    """
+    with style():
+        figure = figure or _figure(7, 6)
+        ground, speed, way = figure.subplots(3, sharex=True, height_ratios=(1, 1, 1.25))
+        t, x, v = _path(response)
+        length, unit = _unit(response.peak)
+        fast, fast_unit = _unit(np.abs(v).max())
+
+        _title(ground, response)
+        _draw_ground(ground, response)
+        lower, upper = _held(response, x)
+        if np.isfinite(lower).all() and np.isfinite(upper).all():
+            ground.fill_between(t, lower, upper, color=BLUE, alpha=0.12, linewidth=0, zorder=0)
+        for bound, edge in ((lower, "forward"), (upper, "backward")):
+            if np.isfinite(bound).all():
+                ground.plot(t, bound, color=BLUE, linewidth=0.9, label=f"slip level {edge}")
+        _note_levels(ground, response)
+
+        spans = sticks(response)
+        speed.broken_barh(
+            np.column_stack([spans[:, 0], np.diff(spans)[:, 0]]),
+            (0, 1),
+            transform=speed.get_xaxis_transform(),
+            color=PALE,
+            linewidth=0,
+            zorder=0,
+            label="stuck",
+        )
+        speed.plot(t, v * fast, color=INK, linewidth=0.9)
+        if not v.any():
+            speed.set_ylim(-1, 1)
+        speed.set_ylabel(f"relative velocity\n[{fast_unit}/s]")
+        speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
+
+        way.plot(t, x * length, color=BLUE, linewidth=1.4)
+        way.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+        way.set_ylabel(f"relative displacement\n[{unit}]")
+        way.set_xlabel("time [s]")
+        way.set_xlim(t[0], t[-1])
+        _mark_peak(way, t, x * length, unit)
+        _mark_residual(way, response, length, unit)
+        figure.align_ylabels()
+    return figure
+
+
+def plot_responses(
+    responses: Sequence[Response],
+    labels: Sequence[str] | None = None,
+    figure: FigureBase | None = None,
+) -> FigureBase:
+    """Displacements of several sliders under the same ground motion, laid over each other.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+        At least one, all of the same ground motion.
+    labels : sequence of str, optional
+        A name for each; the slider's slip level if not given.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; a new figure of 7 x 5 inches if not given.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+        Its axes: ground acceleration [g], relative displacement.
+
+    Raises
+    ------
+    ValueError
+        No response, another ground motion, or another number of labels.
+    """
+    if not responses:
+        raise ValueError("plot_responses: at least one response is needed, got none")
+    if any(
+        not np.array_equal(r.motion.acceleration, responses[0].motion.acceleration)
+        or not np.array_equal(r.time, responses[0].time)
+        for r in responses[1:]
+    ):
+        raise ValueError("plot_responses: all responses must be of the same ground motion")
+    if labels is None:
+        labels = [_describe(r.slider) for r in responses]
+    if len(labels) != len(responses):
+        raise ValueError(
+            f"plot_responses: a label for each of {len(responses)} responses, got {len(labels)}"
+        )
+    with style():
+        figure = figure or _figure(7, 5)
+        ground, way = figure.subplots(2, sharex=True, height_ratios=(1, 1.7))
+        length, unit = _unit(max(r.peak for r in responses))
+        ground.set_title(responses[0].motion.name or "ground motion")
+        _draw_ground(ground, responses[0])
+        for i, (response, label) in enumerate(zip(responses, labels)):
+            colour = COLOURS[i % len(COLOURS)]
+            dashes = ("-", "--", ":")[i // len(COLOURS) % 3]
+            t, x, _ = _path(response)
+            for bound in _held(response, x):
+                if np.isfinite(bound).all():
+                    ground.plot(t, bound, color=colour, linestyle=dashes, linewidth=0.8)
+            way.plot(
+                t,
+                x * length,
+                color=colour,
+                linestyle=dashes,
+                label=f"{label}: peak {_digits(response.peak * length)} {unit}, "
+                f"{'residual' if response.at_rest else 'still sliding at'} "
+                f"{_digits(response.residual * length)} {unit}",
+            )
+            _dot_at_right(way, response.residual * length, colour)
+        way.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+        way.set_ylabel(f"relative displacement\n[{unit}]")
+        way.set_xlabel("time [s]")
+        way.set_xlim(responses[0].time[0], max(r.events["time"][-1] for r in responses))
+        way.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), alignment="left")
+        figure.align_ylabels()
+    return figure
+
+
+def plot_friction_sweep(
+    mu: Sequence[float],
+    displacement: Sequence[Sequence[float]],
+    names: Sequence[str],
+    highlight: Sequence[str] = (),
+    figure: FigureBase | None = None,
+) -> FigureBase:
+    """Displacement against the coefficient of friction for many records, on log axes.
+
+    Parameters
+    ----------
+    mu : array_like, shape (M,)
+        Coefficients of friction, positive and increasing.
+    displacement : array_like, shape (R, M)
+        Peak displacements [m]; 0, which a log axis cannot show, ends a line.
+    names : sequence of str, length R
+        The records.
+    highlight : sequence of str, optional
+        Names to draw in colour and to label, six at most.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; a new figure of 7 x 5 inches if not given.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+
+    Raises
+    ------
+    ValueError
+        Shapes that do not fit.
+    """
+    mu, displacement = np.asarray(mu, float), np.asarray(displacement, float)
+    if displacement.shape != (len(names), len(mu)):
+        raise ValueError(
+            f"plot_friction_sweep: displacement must have shape ({len(names)}, {len(mu)}), "
+            f"got {displacement.shape}"
+        )
+    floor = 0.01  # [cm]; a tenth of a millimetre is no displacement to an engineer
+    lines = np.maximum(100 * displacement, 1e-9)  # what does not slip drops out of sight
+    lifted = sorted(
+        (i for i, name in enumerate(names) if name in set(highlight)), key=lambda i: -lines[i, 0]
+    )
+    with style():
+        figure = figure or _figure(7, 5)
+        axes = figure.subplots()
+        for line in np.delete(lines, lifted, axis=0):
+            axes.plot(mu, line, color="#c4c4c4", linewidth=0.8)
+        for i, colour in zip(lifted, COLOURS):
+            axes.plot(mu, lines[i], color=colour, linewidth=1.5, label=names[i])
+        median = np.median(lines, axis=0)
+        axes.plot(mu, median, color=INK, linewidth=3, label=f"median of {len(names)} records")
+        axes.set(xscale="log", yscale="log", xlim=(mu[0], mu[-1]))
+        axes.set_ylim(floor, max(2 * lines.max(), 10 * floor))
+        ticks = [m for m in (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1) if mu[0] <= m <= mu[-1]]
+        axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
+        axes.minorticks_off()
+        axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.grid(color=PALE, linewidth=0.6)
+        axes.set_axisbelow(True)
+        axes.set_xlabel("coefficient of friction [\N{MINUS SIGN}]")
+        axes.set_ylabel("peak relative displacement [cm]")
+        axes.set_title(f"How far a block slides in {len(names)} earthquake records")
+        axes.legend(loc="lower left", fontsize=8)
+    return figure
+
+
+_AT_RIGHT = {
+    "xycoords": "axes fraction",
+    "xytext": (6, 0),
+    "textcoords": "offset points",
+    "ha": "left",
+    "fontsize": 8,
+    "annotation_clip": False,
+}
+
+
+def _figure(width: float, height: float) -> Figure:
+    """An empty figure of a size in inches that belongs to no window."""
+    figure = _Picture(figsize=(width, height), layout="constrained", dpi=100)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _render(figure: Figure, kind: str) -> bytes:
+    buffer = io.BytesIO()
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
+    with style():
+        figure.savefig(buffer, format=kind, metadata=undated)
+    return buffer.getvalue()
+
+
+def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times [s], displacements [m] and velocities [m/s] to draw: samples, events and the tail.
+
+    Between the events of the tail a cubic through x and x' is drawn; without a spring it is exact.
+    """
+    events, last = response.events, response.time[-1]
+    t = np.concatenate([response.time, events["time"]])
+    x = np.concatenate([response.displacement, events["displacement"]])
+    v = np.concatenate([response.velocity, events["velocity"]])
+    order = np.argsort(t, kind="stable")
+    t, x, v = t[order], x[order], v[order]
+    knots = np.flatnonzero((t[:-1] >= last) & (np.diff(t) > 0))
+    s = np.linspace(0, 1, 33)[1:-1]
+    pieces = [
+        (
+            t[k] + h * s,
+            x[k] + (x[k + 1] - x[k]) * (3 - 2 * s) * s**2
+            + h * s * (1 - s) * (v[k] * (1 - s) - v[k + 1] * s),
+            v[k] * (1 - s) * (1 - 3 * s) + v[k + 1] * s * (3 * s - 2)
+            + 6 * s * (1 - s) * (x[k + 1] - x[k]) / h,
+        )
+        for k, h in ((k, t[k + 1] - t[k]) for k in knots)
+    ]  # fmt: skip
+    where = np.repeat(knots + 1, len(s))
+    if not pieces:
+        return t, x, v
+    dense = (np.concatenate(column) for column in zip(*pieces))
+    return tuple(np.insert(a, where, b) for a, b in zip((t, x, v), dense))
+
+
+def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds [g] of the ground acceleration that friction holds at rest, at displacements x [m]."""
+    slider = response.slider
+    spring = slider.natural_frequency**2 * x
+    forward, backward = (
+        np.array([slider.level(at, backward=back) for at in x.tolist()]) for back in (False, True)
+    )
+    return (-forward - spring) / STANDARD_GRAVITY, (backward - spring) / STANDARD_GRAVITY
+
+
+def _draw_ground(axes: Axes, response: Response) -> None:
+    motion, end = response.motion, response.events["time"][-1]
+    t = np.append(response.time, [response.time[-1], end])
+    n = np.append(motion.acceleration, [0, 0]) / STANDARD_GRAVITY
+    axes.plot(
+        t,
+        n,
+        color=INK,
+        linewidth=0.6,
+        drawstyle="default" if motion.interpolation == "linear" else "steps-post",
+    )
+    axes.set_ylabel("ground acceleration\n[g]")
+
+
+def _note_levels(axes: Axes, response: Response) -> None:
+    """Names the slip levels at the right edge, at the height where they end."""
+    slider, x = response.slider, response.residual
+    (lower,), (upper,) = _held(response, np.array([x]))
+    ahead, back = (slider.level(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
+    if ahead == back:
+        notes = [("slip level", ahead, (lower + upper) / 2, "center")]
+    elif np.isinf(back):
+        notes = [("slip level", ahead, lower, "center")]
+    else:
+        notes = [("backward", back, upper, "bottom"), ("forward", ahead, lower, "top")]
+    for name, level, height, side in notes:
+        axes.annotate(
+            f"{name}\n{_digits(level)} g",
+            (1, height),
+            **{**_AT_RIGHT, "xycoords": ("axes fraction", "data")},
+            va=side,
+            color=BLUE,
+        )
+
+
+def _mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str) -> None:
+    at = np.argmax(np.abs(x))
+    up = x[at] >= 0
+    low, high = x.min(), x.max()
+    height = high - low or 1
+    axes.set_ylim(low - height * (0.07 if up else 0.18), high + height * (0.18 if up else 0.07))
+    if x[at] == 0:
+        axes.set_ylim(-1, 1)
+        axes.annotate("never slips", (0.5, 0.6), xycoords="axes fraction", ha="center", color=GREY)
+        return
+    place = (t[at] - t[0]) / (t[-1] - t[0])
+    axes.plot(t[at], x[at], "o", color=VERMILION, markersize=5, zorder=4)
+    axes.annotate(
+        f"peak {_digits(abs(x[at]))} {unit} at {_digits(t[at])} s",
+        (t[at], x[at]),
+        xytext=(0, 7 if up else -7),
+        textcoords="offset points",
+        ha="left" if place < 0.2 else "right" if place > 0.8 else "center",
+        va="bottom" if up else "top",
+        color=VERMILION,
+        fontsize=8,
+    )
+
+
+def _mark_residual(axes: Axes, response: Response, length: float, unit: str) -> None:
+    x = response.residual * length
+    _dot_at_right(axes, x, BLUE)
+    axes.annotate(
+        f"{'residual' if response.at_rest else 'still sliding,'}\n"
+        f"{'' if response.at_rest else 'at '}{_digits(x)} {unit}",
+        (1, x),
+        **{**_AT_RIGHT, "xycoords": ("axes fraction", "data")},
+        va="center",
+        color=BLUE,
+    )
+
+
+def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
+    """A dot on the right edge, wherever the time axis is made to end."""
+    edge = axes.get_yaxis_transform()
+    axes.plot(1, x, "o", color=colour, markersize=5, clip_on=False, zorder=4, transform=edge)
+
+
+def _title(axes: Axes, response: Response) -> None:
+    axes.set_title(response.motion.name or "ground motion")
+    axes.set_title(_describe(response.slider), loc="right", fontsize=8, fontweight="normal")
+
+
+def _describe(slider: Any) -> str:
+    """A slider in a few words, as 'slip level 0.06 g, period 3 s'."""
+    law, wn = slider.law, slider.natural_frequency
+    ahead, back = (slider.level(backward=b) / STANDARD_GRAVITY for b in (False, True))
+    words = [f"slip level {_digits(ahead)} g"]
+    if back != ahead:
+        words[0] += " forward"
+        words.append("never backward" if np.isinf(back) else f"{_digits(back)} g backward")
+    if hasattr(law, "reach"):
+        words.append(f"caster, reach {_digits(law.reach * 100)} cm")
+    if wn > 0:
+        words.append(f"period {_digits(2 * np.pi / wn)} s")
+    return ", ".join(words)
+
+
+def _unit(largest: float) -> tuple[float, str]:
+    """How many of a unit make a metre, and the unit, for lengths up to `largest` [m]."""
+    return (1e3, "mm") if 0 < largest < 0.01 else (1e2, "cm") if largest < 10 else (1, "m")
+
+
+def _digits(value: float) -> str:
+    """Three significant digits, with a true minus sign."""
+    return f"{value:#.3g}".rstrip(".").replace("-", "\N{MINUS SIGN}")

@@ -1,0 +1,233 @@
+// One segment at a time, for codes that have a time loop of their own; and the roughest input there is.
+#include <numbers>
+#include <string>
+
+#include "catch.hpp"
+#include "motions.hpp"
+
+using namespace stickslip;
+using namespace test;
+
+namespace {
+
+/// Keeps what it sees, and counts what can not be.
+template <class Law>
+struct Witness {
+  const Law& law;
+  std::vector<EventKind> events;
+  double way = 0, time = 0, input = 0, dissipated = 0, terms = 0;
+  bool sound = true;
+
+  void slide(Direction direction, double from, double distance, double duration, double work) {
+    sound = sound && distance >= -1e-15 * (1 + std::abs(from)) && duration >= 0;
+    way += distance, time += duration, input += work;
+    dissipated += friction_work(law, from, std::max(distance, 0.0), direction);
+    terms += std::abs(work);
+  }
+  void event(EventKind kind, double t, const State& state) {
+    sound = sound && t >= 0 && state.velocity == 0 && (kind == EventKind::arrest) == (state.mode == Mode::stuck);
+    events.push_back(kind);
+  }
+};
+
+static_assert(MotionObserver<Witness<Coulomb>> && MotionObserver<NoObserver>);
+
+double energy(const Slider<Coulomb>& slider, const State& s) {
+  return s.velocity * s.velocity / 2 + slider.stiffness() * s.displacement * s.displacement / 2;
+}
+
+bool fits(const State& s) {
+  return std::isfinite(s.displacement) && std::isfinite(s.velocity) &&
+         (s.mode == Mode::stuck ? s.velocity == 0 : s.velocity * static_cast<int>(s.mode) >= 0);
+}
+
+}  // namespace
+
+TEST_CASE("a state at a place and speed knows its mode", "[advance]") {
+  CHECK(State::at(1, 0).mode == Mode::stuck);
+  CHECK(State::at(1, 2).mode == Mode::forward);
+  CHECK(State::at(1, -2).mode == Mode::backward);
+  CHECK(sign(Direction::backward) == -1);
+  CHECK(direction_of(mode_of(Direction::backward)) == Direction::backward);
+}
+
+TEST_CASE("a segment of no length does nothing", "[advance]") {
+  State state = State::at(1, -2);
+  advance(Slider(Coulomb(1), 1), Segment{0, 50, 50}, state);
+  CHECK((state.displacement == 1 && state.velocity == -2 && state.mode == Mode::backward));
+  State rest;
+  advance(Slider(Coulomb(1)), Segment{0, 50, 50}, rest);
+  CHECK(rest.mode == Mode::stuck);
+}
+
+TEST_CASE("segment by segment, a slider moves as through a whole motion, to the last bit", "[advance]") {
+  const GroundMotion motion = broadband(30, 3'000);
+  const auto same = [&](const auto& slider) {
+    const Response whole = integrate(slider, motion);
+    State state;
+    bool equal = true;
+    for (std::size_t i = 0; i < motion.segments(); ++i) {
+      advance(slider, motion.segment(i), state);
+      equal = equal && state.displacement == whole.displacement[i + 1] && state.velocity == whole.velocity[i + 1];
+    }
+    CHECK(equal);
+    CHECK(state.mode == whole.state.mode);
+  };
+  same(Slider(Coulomb(1, 1.6)));
+  same(Slider(Coulomb(1), 1.3));
+  same(Slider(Caster(1, 0.5), 1.3));
+  same(Slider(Bump{1, 0.5}));
+}
+
+TEST_CASE("two reversals fit into one straight piece of the ground motion", "[advance]") {
+  // Pushed backward from 0.02 m/s, then forward; the reference says where to. Coulomb and a law that hides it.
+  const auto turns_twice = [](const auto& law) {
+    const Slider slider(law);
+    Witness<std::remove_cvref_t<decltype(law)>> witness{law, {}};
+    State state = State::at(0, 0.02);
+    advance(slider, Segment{1, 4, -6}, state, witness);
+    CHECK(witness.events == std::vector{EventKind::reversal, EventKind::reversal});
+    CHECK(std::abs(state.displacement - 0.01542150464203804175432394215294192359768) <= 1e-15);
+    CHECK(std::abs(state.velocity - 1.203935482821959107268081822123250367044) <= 1e-15 * 4);
+  };
+  turns_twice(Coulomb(1));
+  turns_twice(Disguised{1});
+}
+
+TEST_CASE("a dip of the speed that misses zero changes nothing, one that passes it stops the slider", "[advance]") {
+  // v = (1 - t)^2 +- gap: the net acceleration runs from -2 to 2 in 2 s, so the load from -1 to 3.
+  const auto events = [](const auto& law, double gap) {
+    Witness<std::remove_cvref_t<decltype(law)>> witness{law, {}};
+    State state = State::at(0, 1 + gap);
+    advance(Slider(law), Segment{2, 1, -3}, state, witness);
+    CHECK(std::abs(state.velocity - (1 + gap)) <= 2 * std::sqrt(std::abs(std::min(gap, 0.0))) * 2 + 1e-14);
+    CHECK(witness.sound);
+    return witness.events;
+  };
+  const std::vector<EventKind> nothing, stop{EventKind::arrest, EventKind::breakaway};
+  for (const double gap : {1e-1, 1e-3, 1e-6, 1e-9, 1e-12}) {
+    INFO("gap " << gap);
+    CHECK(events(Coulomb(1), gap) == nothing);
+    CHECK(events(Disguised{1}, gap) == nothing);
+    CHECK(events(Coulomb(1), -gap) == stop);
+    CHECK(events(Disguised{1}, -gap) == stop);
+  }
+  CHECK(events(Coulomb(1), 0) == nothing);
+}
+
+TEST_CASE("a touch of zero speed is no event for the Taylor flow either", "[advance]") {
+  State state = State::at(0, 1);
+  const Disguised law{1};
+  Witness<Disguised> witness{law, {}};
+  advance(Slider(law), Segment{2, 1, -3}, state, witness);
+  CHECK(witness.events.empty());
+  CHECK(std::abs(state.displacement - 2.0 / 3) <= 1e-15);
+  CHECK(std::abs(state.velocity - 1) <= 1e-15);
+}
+
+TEST_CASE("cutting a segment anywhere changes nothing", "[advance]") {
+  std::mt19937_64 bits(31);
+  std::uniform_real_distribution<double> unit;
+  std::normal_distribution<double> normal;
+  const auto cut = [&](const auto& slider, int cases) {
+    using Law = std::remove_cvref_t<decltype(slider.law())>;
+    for (int i = 0; i < cases; ++i) {
+      State whole = State::at(normal(bits) / 4, i % 3 == 0 ? 0 : normal(bits)), parts = whole;
+      const Segment segment{0.05 + 2 * unit(bits), 3 * normal(bits), 3 * normal(bits)};
+      std::vector<double> cuts{0, segment.duration};
+      for (int k = 0; k < 1 + i % 5; ++k) cuts.push_back(segment.duration * unit(bits));
+      std::ranges::sort(cuts);
+      Witness<Law> one{slider.law(), {}}, many{slider.law(), {}};
+      advance(slider, segment, whole, one);
+      const auto n = [&](double t) {
+        return t == segment.duration ? segment.end
+                                     : segment.start + (segment.end - segment.start) * (t / segment.duration);
+      };
+      for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+        advance(slider, Segment{cuts[k + 1] - cuts[k], n(cuts[k]), n(cuts[k + 1])}, parts, many);
+      // Some ten roundings of numbers up to 20, on each side, each event able to double them.
+      CHECK(std::abs(whole.displacement - parts.displacement) <= 1e-13);
+      CHECK(std::abs(whole.velocity - parts.velocity) <= 1e-13);
+      CHECK(whole.mode == parts.mode);
+      CHECK(one.events == many.events);
+      CHECK(std::abs(one.way - many.way) <= 1e-13);
+      CHECK(std::abs(one.input - many.input) <= 1e-12);
+    }
+  };
+  for (const double natural_frequency : {0.0, 1.3, 8.0}) {
+    cut(Slider(Coulomb(1, 1.6), natural_frequency), 400);
+    cut(Slider(Caster(1, 0.3), natural_frequency), 200);
+  }
+}
+
+TEST_CASE("each account of a segment adds up", "[advance]") {
+  const Slider slider(Coulomb(1, 1.4), 2);
+  Witness<Coulomb> witness{slider.law(), {}};
+  State state = State::at(0.2, -1);
+  const double before = energy(slider, state);
+  advance(slider, Segment{5, -3, 6}, state, witness);
+  CHECK(std::abs(before + witness.input - witness.dissipated - energy(slider, state)) <= 1e-14 * witness.terms);
+  CHECK(witness.time <= 5);
+  CHECK(witness.sound);
+}
+
+TEST_CASE("nothing rough makes a slider hang, vanish, gain energy or lose its order", "[advance][fuzz]") {
+  // Short motions made of ties and jumps: whole numbers for n, the levels and the times, pieces of no length, repeats.
+  std::mt19937_64 bits(32);
+  const auto pick = [&](std::initializer_list<double> values) { return values.begin()[bits() % values.size()]; };
+  const auto rough = [&](const std::string& name, const auto& slider) {
+    using Law = std::remove_cvref_t<decltype(slider.law())>;
+    const Law& law = slider.law();
+    double x = pick({0, 0, 0, 1, -1, 0.5, 3});
+    double v = pick({0, 0, 0, 1, -1, 2, 0.5});
+    if (v < 0 && std::isinf(static_cast<double>(law.level(0.0, Direction::backward)))) v = 0;
+    State state = State::at(x, v);
+    Witness<Law> witness{law, {}};
+    if (state.mode != Mode::stuck) witness.events.push_back(EventKind::breakaway);
+    const double k = slider.stiffness();
+    const double before = v * v / 2 + k * x * x / 2;
+    double n = 0, most = std::abs(x), most_speed = std::abs(v);
+    const bool joined = bits() % 2 == 0;
+    std::string input = name + ", wn " + detail::shortest(slider.natural_frequency()) + ", x " + detail::shortest(x) +
+                        ", v " + detail::shortest(v) + ":";
+    bool fine = true;
+    double work = 0;  // of the ground, without regard to sign
+    for (int i = 0; i < 8; ++i) {
+      const double start = joined && i > 0 ? n : pick({0, 1, -1, 2, -2, 1.6, -1.6, 0.5, 50, -1e3});
+      n = bits() % 3 == 0 ? start : pick({0, 1, -1, 2, -2, 1.6, -1.6, 3, -3, 1e3});
+      const Segment segment{pick({0, 1, 1, 0.5, 2, 1e-9, 0.1, 7}), start, n};
+      input +=
+          " {" + detail::shortest(segment.duration) + ", " + detail::shortest(start) + ", " + detail::shortest(n) + "}";
+      const double way = witness.way;
+      advance(slider, segment, state, witness);
+      fine = fine && fits(state);
+      work += std::max(std::abs(start), std::abs(n)) * (witness.way - way);
+      most = std::max(most, std::abs(state.displacement)), most_speed = std::max(most_speed, std::abs(state.velocity));
+    }
+    const double after = state.velocity * state.velocity / 2 + k * state.displacement * state.displacement / 2;
+    // Each of at most some hundred slips rounds its accounts by a few 1e-16 of their terms.
+    const double terms =
+        witness.terms + witness.dissipated + before + after + most_speed * most_speed + k * most * most;
+    INFO(input);
+    CHECK(fine);
+    CHECK(witness.sound);
+    CHECK(std::abs(before + witness.input - witness.dissipated - after) <= 1e-13 * terms);
+    bool sliding = false, ordered = true;
+    for (const EventKind kind : witness.events) {
+      ordered = ordered && (kind == EventKind::breakaway) != sliding;
+      sliding = kind != EventKind::arrest;
+    }
+    CHECK(ordered);
+    CHECK(sliding == (state.mode != Mode::stuck));
+  };
+  for (int i = 0; i < 1500; ++i) {
+    const double frequency = pick({0, 0, 1, 2, std::numbers::pi, 0.1, 20});
+    const double level = pick({0, 1, 2, 1.6}), backward = pick({0, 1, 2, 1.6, infinity}),
+                 reach = pick({0.5, 1, 0.01, 1e6});
+    const std::string levels = detail::shortest(level) + ", ";
+    rough("Coulomb " + levels + detail::shortest(backward), Slider(Coulomb(level, backward), frequency));
+    rough("Caster " + levels + detail::shortest(reach), Slider(Caster(level, reach), frequency));
+    rough("Disguised " + levels, Slider(Disguised{level}, frequency));
+    if (i % 5 == 0) rough("Bump " + levels + detail::shortest(reach), Slider(Bump{level, reach}, frequency));
+  }
+}

@@ -1,0 +1,19 @@
+#include "stickslip/build_info.hpp"
+
+#include <cctype>
+
+#include "catch.hpp"
+
+using namespace stickslip;
+
+TEST_CASE("a number can tell what it was computed with") {
+  const BuildInfo& info = build_info();
+  for (const std::string& version : {info.version, info.fftw, info.gsl, info.sundials}) {
+    CAPTURE(version);
+    REQUIRE(!version.empty());
+    CHECK(std::isdigit(static_cast<unsigned char>(version[0])));
+    CHECK(version.find('.') != std::string::npos);
+  }
+  CHECK(!info.compiler.empty());
+  CHECK(!info.commit.empty());
+}

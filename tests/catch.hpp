@@ -1,0 +1,17 @@
+// Catch2, version 2 or 3, in the spelling of version 3.
+#pragma once
+
+#if __has_include(<catch2/catch_all.hpp>)
+
+#include <catch2/catch_all.hpp>
+using Catch::Approx;
+
+#else
+
+#include <catch2/catch.hpp>  // puts Approx into the global namespace itself
+
+namespace Catch::Matchers {
+inline auto ContainsSubstring(const std::string& text) { return Contains(text); }
+}  // namespace Catch::Matchers
+
+#endif

@@ -1,0 +1,211 @@
+"""The command `stickslip`: the same numbers as the library, and errors that name what was wrong."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import stickslip as ss
+from stickslip.cli import main
+
+G = ss.STANDARD_GRAVITY
+
+
+@pytest.fixture
+def record(tmp_path):
+    """A record of two columns, seconds and g."""
+    file = tmp_path / "quake.csv"
+    noise = np.random.default_rng(7).standard_normal(500)
+    noise = np.convolve(noise, np.repeat([0.08, -0.08], 6), "same")
+    rows = "".join(f"{0.02 * i:.2f},{a!r}\n" for i, a in enumerate(noise.tolist()))
+    file.write_text(
+        "# Time Series: Somewhere 2001 - ABC-090\n# Time (s),Acceleration (g's)\n" + rows
+    )
+    return file
+
+
+def run(capsys, *arguments):
+    """Exit code, stdout and stderr."""
+    code = main(["slide", *map(str, arguments)])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def results(capsys, *arguments):
+    code, out, err = run(capsys, *arguments, "--json")
+    assert (code, err) == (0, "")
+    return json.loads(out)["results"]
+
+
+CASES = {
+    "block": (["--mu", 0.1], ss.Coulomb(mu=0.1)),
+    "caster": (["--mu", 0.1, "--law", "caster", "--reach", 0.9], ss.Caster(mu=0.1, reach=0.9)),
+    "one-way": (["--mu", 0.1, "--law", "one-way"], ss.Coulomb(mu=0.1, backward=math.inf)),
+    "slope": (["--mu", 0.3, "--slope", 10], ss.Coulomb.on_slope(mu=0.3, degrees=10)),
+    "slope one-way": (
+        ["--mu", 0.3, "--slope", 10, "--law", "one-way"],
+        ss.Coulomb(
+            slip_level=ss.Coulomb.on_slope(mu=0.3, degrees=10).slip_level, backward=math.inf
+        ),
+    ),
+    "spring": (
+        ["--mu", 0.06, "--period", 2.5],
+        ss.Slider(ss.Coulomb(mu=0.06), natural_frequency=2 * math.pi / 2.5),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_command_answers_exactly_as_the_library(capsys, record, case):
+    options, slider = CASES[case]
+    (row,) = results(capsys, record, *options)
+    r = ss.integrate(slider, ss.read_record(record), settle=True)
+    assert row["peak_m"] == r.peak
+    assert row["residual_m"] == r.residual
+    assert row["sliding_distance_m"] == r.sliding_distance
+    assert row["time_sliding_s"] == r.time_sliding
+    assert row["at_rest"] is True
+    assert row["slips"] == np.isin(r.events["kind"], ["breakaway", "reversal"]).sum() > 0
+    assert row["pga_g"] == r.motion.peak_acceleration / G
+    assert row["record"] == r.motion.name
+
+
+def test_a_scaled_record_is_the_record_scaled(capsys, record):
+    (row,) = results(capsys, record, "--mu", 0.1, "--scale", 1.5)
+    scaled = ss.read_record(record).scaled(1.5)
+    assert row["peak_m"] == ss.integrate(ss.Coulomb(mu=0.1), scaled, settle=True).peak
+
+
+def test_the_table_has_a_row_for_each_coefficient_and_says_its_units(capsys, record):
+    code, out, err = run(capsys, record, "--mu", 0.1, 0.2, 5)
+    assert (code, err) == (0, "")
+    head, *rows = out.splitlines()
+    for word in ("PGA [g]", "peak [cm]", "residual [cm]", "distance [cm]", "sliding [s]", "slips"):
+        assert word in head
+    assert len(rows) == 3
+    motion = ss.read_record(record)
+    for mu, row in zip((0.1, 0.2, 5), rows):
+        r = ss.integrate(ss.Coulomb(mu=mu), motion, settle=True)
+        numbers = row.split()[-6:]
+        assert numbers[:3] == [f"{mu:g}", f"{100 * r.peak:.2f}", f"{100 * r.residual:.2f}"]
+    assert rows[0].startswith("Somewhere 2001 - ABC-090")
+    assert rows[2].split()[-1] == "0"
+
+
+def test_a_slider_that_never_rests_is_an_answer_and_says_so(capsys, record):
+    code, out, _ = run(capsys, record, "--mu", 0)
+    assert code == 0
+    assert "never rests" in out
+    (row,) = results(capsys, record, "--mu", 0)
+    assert row["at_rest"] is False
+    assert row["peak_m"] == ss.integrate(ss.Coulomb(mu=0), ss.read_record(record)).peak
+
+
+REFUSED = {
+    "missing file": (["nowhere.csv", "--mu", 0.1], "nowhere.csv: No such file"),
+    "bad units": (["RECORD", "--mu", 0.1, "--units", "furlong"], "'furlong'"),
+    "negative friction": (["RECORD", "--mu", -0.25], "got -0.25"),
+    "one bad among good": (["RECORD", "--mu", 0.1, "nan"], "got nan"),
+    "caster without reach": (["RECORD", "--mu", 0.1, "--law", "caster"], "--reach"),
+    "reach without caster": (
+        ["RECORD", "--mu", 0.1, "--reach", 1],
+        "--law caster, got --law coulomb",
+    ),
+    "caster on a slope": (
+        ["RECORD", "--mu", 0.1, "--law", "caster", "--reach", 1, "--slope", 5],
+        "--slope goes with",
+    ),
+    "too steep": (["RECORD", "--mu", 0.1, "--slope", 45], "45 degrees"),
+    "no period": (["RECORD", "--mu", 0.1, "--period", 0], "got 0 s"),
+    "infinite scale": (["RECORD", "--mu", 0.1, "--scale", "inf"], "got inf"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_refused_is_named_on_stderr_with_code_2(capsys, record, case):
+    arguments, message = REFUSED[case]
+    code, out, err = run(capsys, *(record if a == "RECORD" else a for a in arguments))
+    assert (code, out) == (2, "")
+    assert err.startswith("stickslip: ")
+    assert message in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "arguments", [[], ["slide"], ["slide", "a.csv"], ["slide", "a", "--mu", "x"]]
+)
+def test_arguments_that_do_not_parse_end_with_code_2(capsys, arguments):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+
+
+def test_the_version_says_what_the_build_contains_and_its_licence(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    assert end.value.code == 0
+    out = capsys.readouterr().out
+    info = ss.build_info()
+    assert out.startswith(f"stickslip {info['version']}")
+    assert "BSD-3-Clause" in out
+    assert ("GPL-3.0-or-later" in out) == bool(info["fftw"] or info["gsl"])
+    for library in ("fftw", "gsl", "sundials"):
+        assert info[library] in out
+
+
+def test_a_reader_that_stops_early_is_no_error(record):
+    command = [sys.executable, "-m", "stickslip", "slide", str(record), "--mu", "0.1"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
+        child.stdout.close()
+        assert child.stderr.read() == b""
+        assert child.wait() == 0
+
+
+def test_who_does_not_plot_does_not_wait_for_matplotlib(record):
+    code = (
+        "import sys; from stickslip.cli import main;"
+        f"main(['slide', {str(record)!r}, '--mu', '0.1']); print('matplotlib' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "False"
+
+
+def test_a_picture_is_written_where_the_command_says(capsys, record, tmp_path):
+    pytest.importorskip(
+        "matplotlib", reason="pictures need matplotlib: pip install stickslip[plot]"
+    )
+    picture = tmp_path / "out.png"
+    code, out, _ = run(capsys, record, "--mu", 0.1, "--plot", picture)
+    assert code == 0
+    assert out.splitlines()[-1] == f"wrote {picture}"
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_several_records_have_a_picture_each(capsys, record, tmp_path):
+    pytest.importorskip(
+        "matplotlib", reason="pictures need matplotlib: pip install stickslip[plot]"
+    )
+    run(capsys, record, record, "--mu", 0.1, 0.2, "--plot", tmp_path / "out.svg")
+    assert sorted(f.name for f in tmp_path.glob("*.svg")) == ["out-1-quake.svg", "out-2-quake.svg"]
+
+
+def test_a_picture_that_cannot_be_written_leaves_nothing(capsys, record, tmp_path):
+    pytest.importorskip(
+        "matplotlib", reason="pictures need matplotlib: pip install stickslip[plot]"
+    )
+    for name in ("out.jpg", "nowhere/out.png"):
+        code, out, err = run(capsys, record, "--mu", 0.1, "--plot", tmp_path / name)
+        assert (code, out) == (2, "")
+        assert name.split("/")[0] in err
+    assert list(tmp_path.iterdir()) == [record]
+
+
+def test_without_matplotlib_plot_says_what_to_install(capsys, record, monkeypatch):
+    monkeypatch.delitem(sys.modules, "stickslip.plotting", raising=False)
+    monkeypatch.delattr(ss, "plotting", raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    code, out, err = run(capsys, record, "--mu", 0.1, "--plot", "a.png")
+    assert (code, out) == (2, "")
+    assert "pip install stickslip[plot]" in err

@@ -1,0 +1,209 @@
+"""Pictures: what is drawn is what happened."""
+
+import math
+import sys
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+pytest.importorskip("matplotlib", reason="pictures need matplotlib: pip install stickslip[plot]")
+from stickslip import plotting
+
+G = ss.STANDARD_GRAVITY
+
+
+def motion(seed=1, samples=400):
+    """Ground that shakes and ends abruptly, so that the slider has something to settle."""
+    noise = np.random.default_rng(seed).standard_normal(samples)
+    shaking = np.convolve(noise, np.repeat([0.8, -0.8], 6), "same")
+    return ss.GroundMotion(shaking, dt=0.02, name="shaking ground")
+
+
+SLIDERS = {
+    "block": ss.Slider(ss.Coulomb(mu=0.1)),
+    "spring": ss.Slider(ss.Coulomb(mu=0.05), natural_frequency=2.0),
+    "one-way": ss.Slider(ss.Coulomb(mu=0.1, backward=math.inf)),
+    "slope": ss.Slider(ss.Coulomb.on_slope(mu=0.3, degrees=10)),
+    "caster": ss.Slider(ss.Caster(mu=0.1, reach=0.5)),
+    "heavy": ss.Slider(ss.Coulomb(mu=9.0)),
+}
+
+
+@pytest.fixture(params=SLIDERS)
+def response(request):
+    return ss.integrate(SLIDERS[request.param], motion(), settle=True)
+
+
+def test_every_axis_of_a_response_has_a_unit(response):
+    ground, speed, way = response.plot().axes
+    assert ground.get_ylabel().endswith("[g]")
+    assert speed.get_ylabel().endswith("m/s]")
+    assert way.get_ylabel().endswith("m]")
+    assert way.get_xlabel() == "time [s]"
+
+
+def test_sticks_and_slides_make_up_the_whole_time(response):
+    spans = plotting.sticks(response)
+    assert (np.diff(spans) > 0).all()
+    assert (spans[1:, 0] >= spans[:-1, 1]).all()
+    stuck = np.diff(spans).sum()
+    whole = response.events["time"][-1] - response.time[0]
+    assert stuck + response.time_sliding == pytest.approx(whole, rel=1e-12)
+
+
+def test_a_slider_that_moves_from_start_to_end_never_sticks():
+    r = ss.integrate(ss.Coulomb(mu=0), ss.GroundMotion([1.0, 1.0], dt=1), velocity=0.1)
+    assert plotting.sticks(r).shape == (0, 2)
+    plotting.plot_response(r)
+
+
+def test_the_shaded_bands_are_the_sticks(response):
+    speed = response.plot().axes[1]
+    (bands,) = (c for c in speed.collections if c.get_label() == "stuck")
+    drawn = [(path.vertices[:, 0].min(), path.vertices[:, 0].max()) for path in bands.get_paths()]
+    assert np.array(drawn) == pytest.approx(plotting.sticks(response), rel=1e-12)
+
+
+def test_velocity_is_drawn_as_zero_within_the_bands(response):
+    line = response.plot().axes[1].lines[0]
+    t, v = line.get_data()
+    for begin, end in plotting.sticks(response):
+        assert not v[(t > begin) & (t < end)].any()
+
+
+def test_the_drawn_displacement_reaches_the_peak_and_ends_at_the_residual(response):
+    way = response.plot().axes[2]
+    unit = {"[mm]": 1e3, "[cm]": 1e2, "[m]": 1}[way.get_ylabel().split("\n")[1]]
+    t, x = way.lines[0].get_data()
+    assert np.abs(x).max() == pytest.approx(response.peak * unit, rel=1e-12)
+    assert x[-1] == pytest.approx(response.residual * unit, rel=1e-12)
+    assert t[-1] == response.events["time"][-1]
+
+
+def test_the_tail_after_the_last_sample_is_exact_without_a_spring():
+    still = ss.GroundMotion(np.zeros(2), dt=0.5)
+    r = ss.integrate(ss.Coulomb(slip_level=0.5), still, velocity=1.0, settle=True)
+    t, x = r.plot().axes[2].lines[0].get_data()
+    assert t[-1] == pytest.approx(2)
+    assert x == pytest.approx(100 * (t - t**2 / 4), abs=1e-11)
+    assert r.plot().axes[1].lines[0].get_ydata() == pytest.approx(100 * (1 - t / 2), abs=1e-11)
+
+
+def test_a_resting_slider_breaks_away_where_the_ground_leaves_the_band(response):
+    ground = response.plot().axes[0]
+    bounds = {line.get_label(): line.get_data() for line in ground.lines}
+    events = response.events
+    for event in events[events["kind"] == "breakaway"]:
+        n = np.interp(event["time"], response.time, response.motion.acceleration) / G
+        if event["time"] >= response.time[-1]:
+            continue  # the ground jumps to rest there
+        gaps = [
+            abs(n - np.interp(event["time"], *bounds[name]))
+            for name in ("slip level forward", "slip level backward")
+            if name in bounds
+        ]
+        assert min(gaps) < 1e-9
+
+
+def test_an_infinite_level_is_not_drawn():
+    r = ss.integrate(SLIDERS["one-way"], motion())
+    drawn = [line.get_label() for line in r.plot().axes[0].lines]
+    assert "slip level forward" in drawn
+    assert "slip level backward" not in drawn
+
+
+def test_thousands_of_events_are_one_artist():
+    shaking = ss.GroundMotion(5 * np.resize([1.0, -1.0], 20_001), dt=0.01)
+    r = ss.integrate(ss.Coulomb(mu=0.45), shaking)
+    assert len(r.events) > 5000
+    assert len(r.plot().axes[1].collections) == 1
+
+
+def test_a_response_is_drawn_into_a_given_figure():
+    from matplotlib.figure import Figure
+
+    figure = Figure()
+    assert ss.integrate(SLIDERS["block"], motion()).plot(figure=figure) is figure
+    assert len(figure.axes) == 3
+
+
+def test_a_notebook_shows_the_picture_without_pyplot(response):
+    assert response.plot()._repr_png_().startswith(b"\x89PNG")
+
+
+def test_responses_laid_over_each_other_are_named_with_their_numbers():
+    responses = [ss.integrate(ss.Coulomb(mu=mu), motion(), settle=True) for mu in (0.05, 0.1)]
+    figure = plotting.plot_responses(responses, ["slick", "rough"])
+    assert [axes.get_ylabel().split("\n")[1] for axes in figure.axes] == ["[g]", "[cm]"]
+    names = [text.get_text() for text in figure.axes[1].get_legend().get_texts()]
+    assert names[0].startswith(f"slick: peak {responses[0].peak * 100:.3g} cm")
+
+
+def test_responses_to_different_ground_motions_are_not_laid_over_each_other():
+    responses = [ss.integrate(ss.Coulomb(mu=0.1), motion(seed)) for seed in (1, 2)]
+    with pytest.raises(ValueError, match="same ground motion"):
+        plotting.plot_responses(responses)
+    with pytest.raises(ValueError, match="got none"):
+        plotting.plot_responses([])
+    with pytest.raises(ValueError, match="each of 1 responses, got 2"):
+        plotting.plot_responses(responses[:1], ["one", "two"])
+
+
+def test_a_friction_sweep_shows_every_record_and_their_median():
+    mu, d = [0.1, 0.2, 0.4], np.array([[3.0, 2, 1], [0.3, 0.1, 0], [1, 0.5, 0]])
+    (axes,) = plotting.plot_friction_sweep(mu, d, ["a", "b", "c"], highlight=["b"]).axes
+    assert axes.get_xlabel().startswith("coefficient of friction [")
+    assert axes.get_ylabel() == "peak relative displacement [cm]"
+    assert len(axes.lines) == 4
+    assert axes.lines[-1].get_ydata()[:2] == pytest.approx([100, 50])
+    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["b", "median of 3 records"]
+
+
+def test_a_friction_sweep_refuses_shapes_that_do_not_fit():
+    with pytest.raises(ValueError, match=r"shape \(1, 2\), got \(1, 3\)"):
+        plotting.plot_friction_sweep([0.1, 0.2], [[1, 2, 3]], ["a"])
+
+
+@pytest.mark.parametrize(
+    "suffix, begins", [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".SVG", b"<?")]
+)
+def test_a_picture_is_saved_in_the_format_of_its_suffix(tmp_path, suffix, begins):
+    file = tmp_path / f"a{suffix}"
+    figure = ss.integrate(SLIDERS["block"], motion()).plot()
+    assert plotting.save(figure, file) == file
+    assert file.read_bytes().startswith(begins)
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_picture_is_saved_whole_or_not_at_all(tmp_path, monkeypatch):
+    figure = ss.integrate(SLIDERS["block"], motion()).plot()
+    file = tmp_path / "a.png"
+    file.write_bytes(b"what was there")
+
+    def fill_the_disk(self, content):
+        with self.open("wb") as stream:
+            stream.write(content[:10])
+        raise OSError(28, "No space left on device", str(self))
+
+    monkeypatch.setattr(type(file), "write_bytes", fill_the_disk)
+    with pytest.raises(OSError, match="No space left"):
+        plotting.save(figure, file)
+    assert file.read_bytes() == b"what was there"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_an_unknown_suffix_or_folder_is_named(tmp_path):
+    figure = ss.integrate(SLIDERS["block"], motion()).plot()
+    with pytest.raises(ValueError, match=r"\.png, \.pdf, \.svg, got 'a\.jpg'"):
+        plotting.save(figure, "a.jpg")
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        plotting.save(figure, tmp_path / "nowhere" / "a.png")
+
+
+def test_without_matplotlib_the_message_says_what_to_install(monkeypatch):
+    r = ss.integrate(SLIDERS["block"], motion())
+    monkeypatch.delitem(sys.modules, "stickslip.plotting")
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ImportError, match=r"pip install stickslip\[plot\]"):
+        r.plot()
