@@ -102,19 +102,19 @@ TEST_CASE("a constant law in disguise flows as the closed forms say", "[taylor]"
   for (const double natural_frequency : {0.0, 0.5, 1.3, 20.0}) {
     const Slider slider(Disguised{1}, natural_frequency);
     for (int i = 0; i < 300; ++i) {
-      const Start start{std::abs(normal(bits)), i % 3 == 0 ? 0 : normal(bits), 10 * normal(bits)};
       const double duration = 0.1 * (1 + i % 5);
+      const Start start{std::abs(normal(bits)), i % 3 == 0 ? 0 : normal(bits), 10 * normal(bits) * duration};
       const TaylorFlow<Disguised> taylor(slider, Direction::forward, normal(bits), start, duration);
       const auto agree = [&](const auto& closed) {
         const double horizon = taylor.horizon();
         REQUIRE((horizon > 0 && horizon <= duration));
         const double speed =
-            start.speed + std::abs(start.acceleration) * duration + std::abs(start.load_rate) * duration * duration / 2;
+            start.speed + std::abs(start.acceleration) * duration + std::abs(start.gain) * duration / 2;
         for (const double part : {0.1, 0.5, 0.9, 1.0}) {
           const Progress t = taylor.at(part * horizon), c = closed.at(part * horizon);
           CHECK(std::abs(t.distance - c.distance) <= 1e-14 * speed * duration);
           CHECK(std::abs(t.speed - c.speed) <= 1e-14 * speed);
-          CHECK(std::abs(t.area - c.area) <= 1e-14 * speed * duration * duration);
+          CHECK(std::abs(t.mean_distance - c.mean_distance) <= 1e-14 * speed * duration);
           // its derivative is a rounding of the largest term, some wn larger
           CHECK((c.speed == 0 ||
                  std::abs(t.acceleration - c.acceleration) <= 1e-13 * speed * (1 / duration + natural_frequency)));
@@ -150,7 +150,7 @@ TEST_CASE("a constant law in disguise slides through records as a block does", "
 }
 
 TEST_CASE("a caster's flow keeps its energy, from wherever it starts", "[taylor]") {
-  // v^2/2 + work + wn^2 x^2/2 - load d - rate (d t - area) is constant along each flow, to the roundings of its terms
+  // v^2/2 + work + wn^2 x^2/2 less the work of the load is constant along each flow, to the roundings of its terms
   // and of x.
   std::mt19937_64 bits(16);
   std::normal_distribution<double> normal;
@@ -164,13 +164,13 @@ TEST_CASE("a caster's flow keeps its energy, from wherever it starts", "[taylor]
       const Direction direction = i % 2 == 0 ? Direction::forward : Direction::backward;
       const double s = sign(direction);
       const double net = s * (load - slider.stiffness() * x) - law.level(x, direction);
-      const TaylorFlow<Caster> flow(slider, direction, x, Start{u, net, rate}, 0.5);
+      const TaylorFlow<Caster> flow(slider, direction, x, Start{u, net, rate * 0.5}, 0.5);
       const double stop = flow.first_stop(), t = std::min(stop, flow.horizon());
       const Progress end = flow.at(t);
       const double x1 = x + s * end.distance;
       const double gained = end.speed * end.speed / 2 - u * u / 2 + friction_work(law, x, end.distance, direction) +
                             slider.stiffness() * (x1 * x1 - x * x) / 2;
-      const double given = s * load * end.distance + rate * (t * end.distance - end.area);
+      const double given = s * load * end.distance + rate * t * (end.distance - end.mean_distance);
       const double terms = u * u + end.speed * end.speed + std::abs(load * end.distance) +
                            std::abs(rate * t * end.distance) + end.distance + law.level(x, direction) * std::abs(x) +
                            slider.stiffness() * (x * x + x1 * x1);

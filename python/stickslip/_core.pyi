@@ -12,7 +12,7 @@ from typing import (
 )
 
 import numpy as np
-from matplotlib.figure import Figure  # type: ignore[import-not-found, unused-ignore]
+from matplotlib.figure import FigureBase  # type: ignore[import-not-found, unused-ignore]
 from numpy.typing import NDArray
 
 _Number: TypeAlias = SupportsFloat | SupportsIndex
@@ -168,7 +168,7 @@ class Response(metaclass=_Pybind11Type):
     def time_sliding(self) -> float: ...
     @property
     def energy(self) -> Energy: ...
-    def plot(self, **options: Any) -> Figure: ...
+    def plot(self, *, figure: FigureBase | None = None, title: str | None = None) -> FigureBase: ...
 
 def integrate(
     slider: Slider | Coulomb | Caster,

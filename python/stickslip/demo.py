@@ -63,7 +63,7 @@ _NOTES = """\
 Peak: largest distance from where it stood. Residual: where it rests in the end, positive in the
 record's positive direction. A dash: it never slips; 0.0: less than half a millimetre.
 (x) beyond its reach: the casters come into line with the motion, where small disturbances, which
-    the model leaves out, decide. "rolls": further than 10 reaches away, still rolling at the end."""
+    the model leaves out, decide. "rolls": more than 10 reaches off and still rolling at the end."""
 
 
 def sample_records() -> list[Path]:
@@ -126,9 +126,9 @@ def draw(motions: Sequence[GroundMotion], folder: Path) -> list[Path]:
 
     folder.mkdir(parents=True, exist_ok=True)
     kobe = next(motion for motion in motions if motion.name.startswith("Kobe"))
-    history = plotting.plot_response(integrate(Coulomb(mu=0.1), kobe, settle=True))
-    history.axes[0].set_title(
-        "a cabinet, coefficient of friction 0.1", loc="right", fontsize=8, fontweight="normal"
+    history = plotting.plot_response(
+        integrate(Coulomb(mu=0.1), kobe, settle=True),
+        title=f"A cabinet on a smooth floor in {kobe.name}",
     )
     history.axes[-1].set_xlim(0, 25)  # [s]; it rests from 20 s on
 

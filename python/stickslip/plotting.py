@@ -10,6 +10,7 @@ import errno
 import io
 import os
 import tempfile
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
-from ._core import STANDARD_GRAVITY, Response
+from ._core import STANDARD_GRAVITY, GroundMotion, Response
 
 __all__ = [
     "plot_friction_sweep",
@@ -143,7 +144,9 @@ def sticks(response: Response) -> np.ndarray:
     return spans[ends > begins]
 
 
-def plot_response(response: Response, figure: FigureBase | None = None) -> FigureBase:
+def plot_response(
+    response: Response, figure: FigureBase | None = None, title: str | None = None
+) -> FigureBase:
     """Ground acceleration, velocity and displacement of one response, one above the other.
 
     The first panel shows what friction can hold as a band: a slider at rest stays while the ground
@@ -157,6 +160,8 @@ def plot_response(response: Response, figure: FigureBase | None = None) -> Figur
         What `integrate` returned.
     figure : matplotlib Figure or SubFigure, optional
         Where to draw; a new figure of 7 x 6 inches if not given.
+    title : str, optional
+        The name of the motion if not given.
 
     Returns
     -------
@@ -170,7 +175,7 @@ def plot_response(response: Response, figure: FigureBase | None = None) -> Figur
         length, unit = _unit(response.peak)
         fast, fast_unit = _unit(np.abs(v).max())
 
-        _title(ground, response)
+        _title(ground, response.motion, title, _describe(response.slider))
         _draw_ground(ground, response)
         lower, upper = _held(response, x)
         if np.isfinite(lower).all() and np.isfinite(upper).all():
@@ -251,7 +256,7 @@ def plot_responses(
         figure = figure or _figure(7, 5)
         ground, way = figure.subplots(2, sharex=True, height_ratios=(1, 1.7))
         length, unit = _unit(max(r.peak for r in responses))
-        ground.set_title(responses[0].motion.name or "ground motion")
+        _title(ground, responses[0].motion)
         _draw_ground(ground, responses[0])
         for i, (response, label) in enumerate(zip(responses, labels)):
             colour = COLOURS[i % len(COLOURS)]
@@ -488,9 +493,17 @@ def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
     axes.plot(1, x, "o", color=colour, markersize=5, clip_on=False, zorder=4, transform=edge)
 
 
-def _title(axes: Axes, response: Response) -> None:
-    axes.set_title(response.motion.name or "ground motion")
-    axes.set_title(_describe(response.slider), loc="right", fontsize=8, fontweight="normal")
+def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
+    name = textwrap.fill(title or motion.name or "ground motion", 75)
+    axes.set_title(name, pad=18 if below else None)
+    axes.annotate(
+        below,
+        (0, 1),
+        xytext=(0, 6),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        fontsize=8,
+    )
 
 
 def _describe(slider: Any) -> str:

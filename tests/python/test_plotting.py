@@ -17,6 +17,7 @@ def motion(seed=1, samples=400):
     """Ground that shakes and ends abruptly, so that the slider has something to settle."""
     noise = np.random.default_rng(seed).standard_normal(samples)
     shaking = np.convolve(noise, np.repeat([0.8, -0.8], 6), "same")
+    shaking[0] = 0
     return ss.GroundMotion(shaking, dt=0.02, name="shaking ground")
 
 

@@ -96,7 +96,7 @@ class TaylorFlow {
     const double level_here = slider.law().level(displacement, direction);
     // Where the level has underflowed to nothing its series says nothing of what lies ahead: towards the centre, go
     // half the way at most.
-    if (level_here == 0 && direction_ * displacement < 0 && slider.law().level(0.0, direction) > 0)
+    if (level_here <= vanishing && direction_ * displacement < 0 && slider.law().level(0.0, direction) > vanishing)
       horizon_ = std::min(horizon_, time_to_half_way(start, std::abs(displacement) / 2));
 
     for (;;) {
@@ -152,7 +152,7 @@ class TaylorFlow {
     level.update(0);
 
     double fastest = d_[1];  // the largest term of the speed
-    double largest_level = std::abs(level[0]);
+    const double largest_level = std::max(std::abs(level[0]), vanishing);
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
       double net = start.acceleration;
       if (k > 0) {
@@ -184,7 +184,7 @@ class TaylorFlow {
     const double net = start.acceleration + gain - pull - (level_there - level_here);
     const double terms = std::abs(start.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here) +
                          std::abs(level_there) + slider.stiffness() * std::abs(displacement);
-    return std::abs(net - end.acceleration) <= 32 * round_off * terms;
+    return std::abs(net - end.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
   double time_to_half_way(const Start& start, double distance) const noexcept {
@@ -199,6 +199,7 @@ class TaylorFlow {
     return level;
   }
 
+  static constexpr double vanishing = 1e-290;  // a slip level that is none, and near to losing digits [m/s^2]
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
   double direction_;

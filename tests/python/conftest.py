@@ -1,0 +1,64 @@
+"""What the tests share: the reference's record A, and real records where there are any."""
+
+import importlib.util
+import os
+from decimal import Decimal, localcontext
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+
+def sine_and_cosine(x):
+    """By Taylor series, to the digits of the context."""
+    sine, cosine, term, k = Decimal(0), Decimal(0), Decimal(1), 0
+    while abs(term) > Decimal(10) ** -60:
+        if k % 2:
+            sine += term if k % 4 == 1 else -term
+        else:
+            cosine += term if k % 4 == 0 else -term
+        k += 1
+        term *= x / k
+    return sine, cosine
+
+
+@pytest.fixture(scope="session")
+def record_a():
+    """n_m = 2 sin(0.7 m) + 1.3 cos(1.9 m + 0.4), m = 0 .. 400, every sample rounded once.
+
+    Sines of doubles near 760 would be wrong by 3e-14. Here the angles are added up by rotation, in
+    60 digits, of which 400 rotations lose fewer than three.
+    """
+    with localcontext() as context:
+        context.prec = 60
+        (s, c), (slow_s, slow_c) = sine_and_cosine(Decimal(0)), sine_and_cosine(Decimal("0.7"))
+        (fs, fc), (fast_s, fast_c) = sine_and_cosine(Decimal("0.4")), sine_and_cosine(Decimal("1.9"))
+        samples = []
+        for _ in range(401):
+            samples.append(float(2 * s + Decimal("1.3") * fc))
+            s, c = s * slow_c + c * slow_s, c * slow_c - s * slow_s
+            fs, fc = fs * fast_c + fc * fast_s, fc * fast_c - fs * fast_s
+    array = np.array(samples)
+    array.flags.writeable = False
+    return array
+
+
+@pytest.fixture(scope="session")
+def pyslammer_files():
+    """The 18 records that the package pyslammer carries, found without the slow import of it."""
+    spec = importlib.util.find_spec("pyslammer")
+    if spec is None or not spec.submodule_search_locations:
+        pytest.skip("real records come with pyslammer: pip install stickslip[records]")
+    files = sorted(Path(spec.submodule_search_locations[0], "sample_ground_motions").glob("*.csv"))
+    assert len(files) == 18
+    return files
+
+
+@pytest.fixture(scope="session")
+def agency_files():
+    """Records in the formats of agencies: in $STICKSLIP_RECORDS, or beside the repository."""
+    beside = Path(__file__).parents[2].parent / "shared" / "records"
+    folder = Path(os.environ.get("STICKSLIP_RECORDS", beside))
+    if not folder.is_dir():
+        pytest.skip("no agency files: set STICKSLIP_RECORDS to a folder of them")
+    return folder
