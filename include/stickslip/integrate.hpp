@@ -29,30 +29,63 @@ namespace detail {
 
 /// Sums up slips and keeps events.
 template <FrictionLaw Law>
-struct Recorder {
-  const Law& law;
-  double segment_begins;  // [s]
-  std::size_t most_events = std::numeric_limits<std::size_t>::max();
-  std::vector<Event> events{};
-  double peak = 0, sliding_distance = 0, time_sliding = 0, input = 0, dissipated = 0;
+class Recorder {
+ public:
+  /// @param from  x at the start [m]
+  Recorder(const Law& law, double from) : law_(law), slip_from_(from), peak_(std::abs(from)) {}
+
+  /// The time at which the segment at hand begins [s].
+  void begin_segment(double time) noexcept { segment_begins_ = time; }
 
   void slide(Direction direction, double from, double distance, double duration, double work) {
-    sliding_distance += distance;
-    time_sliding += duration;
-    input += work;
-    dissipated += friction_work(law, from, distance, direction);
+    slip_direction_ = direction;
+    slip_distance_ += distance;
+    time_sliding_ += duration;
+    input_ += work;
+    if constexpr (!LawWithWork<Law>) dissipated_ += friction_work(law_, from, distance, direction);
   }
 
   void event(EventKind kind, double time, const State& state) {
-    if (events.size() >= most_events) throw ConvergenceError("integrate: too many events");
-    events.push_back({segment_begins + time, state.displacement, state.velocity, kind});
-    peak = std::max(peak, std::abs(state.displacement));  // between events x runs one way
+    if (events_.size() >= most_events_) throw ConvergenceError("integrate: too many events");
+    events_.push_back({segment_begins_ + time, state.displacement, state.velocity, kind});
+    // Between events x runs one way.
+    peak_ = std::max(peak_, std::abs(state.displacement));
+    sliding_distance_ += slip_distance_;
+    if constexpr (LawWithWork<Law>) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
+    slip_from_ = state.displacement;
+    slip_distance_ = 0;
   }
+
+  std::size_t events() const noexcept { return events_.size(); }
+  double last_event() const noexcept { return events_.empty() ? 0 : events_.back().time; }
+  void limit_events(std::size_t most) noexcept { most_events_ = most; }
+
+  void finish(double time, const State& state, Response& response) {
+    begin_segment(time);
+    event(EventKind::end, 0, state);
+    response.events = std::move(events_);
+    response.peak = peak_;
+    response.sliding_distance = sliding_distance_;
+    response.time_sliding = time_sliding_;
+    response.energy.input = input_;
+    response.energy.dissipated = dissipated_;
+  }
+
+ private:
+  const Law& law_;
+  double segment_begins_ = 0;
+  double slip_from_;  // x where the slip at hand began
+  Direction slip_direction_ = Direction::forward;
+  double slip_distance_ = 0;
+  double peak_;
+  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0;
+  std::vector<Event> events_;
+  std::size_t most_events_ = std::numeric_limits<std::size_t>::max();
 };
 
 /// Goes on without ground acceleration until the slider rests.
 template <FrictionLaw Law, class Flows>
-void settle(const Slider<Law>& slider, const Flows& flows, State& state, Recorder<Law>& recorder) {
+void settle(const Slider<Law>& slider, const Flows& flows, double time, State& state, Recorder<Law>& recorder) {
   constexpr double longest = 0x1p40;  // [s], some 35,000 years
   const auto restless = [&] {
     const Direction direction = state.velocity < 0 ? Direction::backward : Direction::forward;
@@ -61,14 +94,15 @@ void settle(const Slider<Law>& slider, const Flows& flows, State& state, Recorde
         " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
         shortest(slider.law().level(state.displacement, direction)) + " m/s^2 there; use settle = false");
   };
-  recorder.most_events = recorder.events.size() + 1'000'000;
+  recorder.limit_events(recorder.events() + 1'000'000);
   for (double duration = 1;; duration *= 2) {
+    recorder.begin_segment(time);
     try {
       detail::advance(slider.law(), flows, Segment{duration, 0, 0}, state, recorder);
     } catch (const ConvergenceError&) {
       restless();
     }
-    recorder.segment_begins += duration;
+    time += duration;
     if (state.mode == Mode::stuck) return;
     if (duration >= longest) restless();
   }
@@ -113,33 +147,25 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
 
   record(0);
   response.energy.initial = kinetic() + elastic();
-  detail::Recorder<Law> recorder{slider.law(), motion.time(0)};
-  recorder.peak = std::abs(state.displacement);
+  detail::Recorder<Law> recorder(slider.law(), state.displacement);
+  recorder.begin_segment(motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
   detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
     for (std::size_t i = 0; i < motion.segments(); ++i) {
       if (i % 65536 == 0 && options.heartbeat) options.heartbeat();
-      recorder.segment_begins = motion.time(i);
+      recorder.begin_segment(motion.time(i));
       detail::advance(slider.law(), flows, motion.segment(i), state, recorder);
       record(i + 1);
     }
     if (options.settle) {
-      recorder.segment_begins = end;
-      detail::settle(slider, flows, state, recorder);
-      if (!recorder.events.empty()) end = std::max(end, recorder.events.back().time);
+      detail::settle(slider, flows, end, state, recorder);
+      end = std::max(end, recorder.last_event());
     }
   });
-  recorder.segment_begins = end;
-  recorder.event(EventKind::end, 0, state);
+  recorder.finish(end, state, response);
 
-  response.events = std::move(recorder.events);
-  response.peak = recorder.peak;
   response.residual = state.displacement;
-  response.sliding_distance = recorder.sliding_distance;
-  response.time_sliding = recorder.time_sliding;
-  response.energy.input = recorder.input;
-  response.energy.dissipated = recorder.dissipated;
   response.energy.kinetic = kinetic();
   response.energy.elastic = elastic();
   response.state = state;

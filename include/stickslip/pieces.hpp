@@ -1,9 +1,9 @@
 // A long record on constant friction, without a spring: cut in pieces that run side by side.
 //
-// Two motions of such a slider that are stuck at the same instant are the same from there on, but for a constant in x. So
-// the pieces of a record may all be run from rest at once, a lane each; then, piece after piece, the head of each is run
-// again from its true start until it is stuck where the lane was stuck too, and the rest of the lane is taken over with its
-// displacement shifted. Exact, and pays where a record is much longer than the time between sticks.
+// Two motions of such a slider that are stuck at the same instant are the same from there on, but for a constant in x.
+// So the pieces of a record may all be run from rest at once, a lane each; then, piece after piece, the head of each is
+// run again from its true start until it is stuck where the lane was stuck too, and the rest of the lane is taken over
+// with its displacement shifted. Exact, and pays where a record is much longer than the time between sticks.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@
 
 namespace stickslip::detail {
 
-/// Sliders of one law that move in step, each under a ground motion of its own. A segment without an event is advanced in
-/// all lanes together; a lane with an event in it goes through the event loop.
+/// Sliders of one law that move in step, each under a ground motion of its own. A segment without an event is advanced
+/// in all lanes together; a lane with an event in it goes through the event loop.
 template <ConstantLevelLaw Law>
 class Lanes {
  public:

@@ -8,6 +8,7 @@
 // At hand: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent), sin, cos, sinh, cosh, tanh, sech.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <utility>
@@ -23,6 +24,13 @@ inline double sech(double x) noexcept {
 namespace series {
 
 inline constexpr int highest_order = 30;
+
+/// 1/k, for k = 1 to highest_order + 1: the recurrences divide by orders all the time.
+inline constexpr auto reciprocal = [] {
+  std::array<double, highest_order + 2> table{};
+  for (int k = 1; k <= highest_order + 1; ++k) table[k] = 1.0 / k;
+  return table;
+}();
 
 /// Coefficients 0 to highest_order. Unset when made, and not copied with an expression: they belong to the place where
 /// they are computed.
@@ -45,12 +53,16 @@ concept Series = requires(S s, const S& c, int k) {
   { c[k] } -> std::convertible_to<double>;
 };
 
-/// Sum of a_i b_(k-i) over i = first..k.
+/// Sum of a_i b_(k-i) over i = first..k; in two parts, as an addition must wait for the one before it.
 template <class A, class B>
 double convolve(const A& a, const B& b, int first, int k) noexcept {
-  double sum = 0;
-  for (int i = first; i <= k; ++i) sum += a[i] * b[k - i];
-  return sum;
+  double even = 0, odd = 0;
+  int i = first;
+  for (; i < k; i += 2) {
+    even += a[i] * b[k - i];
+    odd += a[i + 1] * b[k - i - 1];
+  }
+  return i == k ? even + a[k] * b[0] + odd : even + odd;
 }
 
 /// The independent function of time: its coefficients are set from outside.
@@ -128,7 +140,7 @@ struct Exp {
   Coefficients e{};
   void update(int k) noexcept {
     a.update(k);
-    e[k] = k == 0 ? std::exp(a[0]) : convolve(e, Derivative<A>{a}, 0, k - 1) / k;
+    e[k] = k == 0 ? std::exp(a[0]) : convolve(e, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
   }
   double operator[](int k) const noexcept { return e[k]; }
 };
@@ -182,8 +194,8 @@ struct Pair {
       g[0] = sign < 0 ? std::cos(a[0]) : std::cosh(a[0]);
       return;
     }
-    f[k] = convolve(g, Derivative<A>{a}, 0, k - 1) / k;
-    g[k] = sign * convolve(f, Derivative<A>{a}, 0, k - 1) / k;
+    f[k] = convolve(g, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
+    g[k] = sign * convolve(f, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
   }
 };
 
@@ -201,7 +213,7 @@ struct Second : Pair<A, sign> {
 template <Series A>
 struct Hyperbolic {
   A a;
-  Coefficients secant{}, tangent{}, w{};
+  Coefficients secant{}, tangent{}, w{}, slope{};  // slope: (k + 1) a_(k+1)
   void update(int k) noexcept {
     a.update(k);
     if (k == 0) {
@@ -212,14 +224,10 @@ struct Hyperbolic {
       tangent[0] = std::copysign(-e1 * (1 + e) / (1 + e * e), a[0]);
       return;
     }
-    w[k - 1] = convolve(secant, Derivative<A>{a}, 0, k - 1);
-    double s = 0, t = 0;
-    for (int i = 0; i < k; ++i) {
-      s -= tangent[i] * w[k - 1 - i];
-      t += secant[i] * w[k - 1 - i];
-    }
-    secant[k] = s / k;
-    tangent[k] = t / k;
+    slope[k - 1] = k * a[k];
+    w[k - 1] = convolve(secant, slope, 0, k - 1);
+    secant[k] = -convolve(tangent, w, 0, k - 1) * reciprocal[k];
+    tangent[k] = convolve(secant, w, 0, k - 1) * reciprocal[k];
   }
 };
 

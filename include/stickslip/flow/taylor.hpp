@@ -29,9 +29,14 @@ class FirstRoot {
 
   /// In (0, 1]; `never` where there is none.
   double find() const noexcept {
-    double falling = 0;
-    for (int k = 1; k <= degree_; ++k) falling += std::min(w_[k], 0.0);
-    if (w_[0] + falling > 0) return never;
+    double lowest = w_[0], last = w_[0], steepest = degree_ > 0 ? std::min(w_[1], 0.0) : 0;
+    for (int k = 1; k <= degree_; ++k) {
+      lowest += std::min(w_[k], 0.0);
+      steepest += k * std::max(w_[k], 0.0);
+      last += w_[k];
+    }
+    if (lowest > 0) return never;
+    if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it falls all the way
 
     Bernstein b;
     double binomial = 1;
@@ -125,7 +130,7 @@ class TaylorFlow {
   }
 
   Progress at(double t) const noexcept { return at_part(t / horizon_); }
-  Progress at_horizon() const noexcept { return at_part(1); }
+  Progress at_horizon() const noexcept { return end_; }
 
  private:
   Progress at_part(double s) const noexcept {
@@ -134,7 +139,7 @@ class TaylorFlow {
       acceleration = acceleration * s + speed;
       speed = speed * s + distance;
       distance = distance * s + d_[k];
-      mean = mean * s + d_[k] / (k + 1);
+      mean = mean * s + d_[k] * series::reciprocal[k + 1];
     }
     return {distance, speed / horizon_, 2 * acceleration / (horizon_ * horizon_), mean};
   }
@@ -159,7 +164,7 @@ class TaylorFlow {
         level.update(k);
         net = (k == 1 ? load_rate_ * h : 0.0) - stiffness * d_[k] - level[k];
       }
-      d_[k + 2] = h * h * net / ((k + 1) * (k + 2));
+      d_[k + 2] = h * h * net * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
       x[k + 2] = direction_ * d_[k + 2];
       const double term = (k + 2) * std::abs(d_[k + 2]);
       fastest = std::max(fastest, term);
@@ -177,14 +182,14 @@ class TaylorFlow {
 
   // Whether the equation of motion holds at the horizon, to the round-off of its terms.
   bool balanced(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
-                const Start& start) const {
-    const Progress end = at_horizon();
-    const double level_there = slider.law().level(displacement + direction_ * end.distance, direction);
-    const double gain = load_rate_ * horizon_, pull = slider.stiffness() * end.distance;
+                const Start& start) {
+    end_ = at_part(1);
+    const double level_there = slider.law().level(displacement + direction_ * end_.distance, direction);
+    const double gain = load_rate_ * horizon_, pull = slider.stiffness() * end_.distance;
     const double net = start.acceleration + gain - pull - (level_there - level_here);
     const double terms = std::abs(start.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here) +
                          std::abs(level_there) + slider.stiffness() * std::abs(displacement);
-    return std::abs(net - end.acceleration) <= 32 * round_off * terms + 1e-300;
+    return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
   double time_to_half_way(const Start& start, double distance) const noexcept {
@@ -206,6 +211,7 @@ class TaylorFlow {
   double load_rate_;  // [m/s^3]
   double horizon_;
   int order_ = 0;
+  Progress end_{};  // at the horizon
   double d_[series::highest_order + 1];
 };
 

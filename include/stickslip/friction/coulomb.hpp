@@ -69,6 +69,11 @@ class Coulomb {
     return direction == Direction::forward ? forward_ : backward_;
   }
 
+  /// Work per unit mass against friction in sliding `distance` >= 0 [m^2/s^2].
+  double work(double, double distance, Direction direction) const noexcept {
+    return distance == 0 ? 0 : level(0, direction) * distance;
+  }
+
  private:
   double forward_;
   double backward_;

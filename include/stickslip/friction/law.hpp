@@ -36,16 +36,18 @@ concept ConstantLevelLaw = FrictionLaw<Law> && requires {
   requires Law::constant_while_sliding;
 };
 
-/// Work per unit mass done against friction [m^2/s^2] in sliding `distance` >= 0 from `from`: the integral of the level
-/// over the way. A law may know it as `work(from, to, direction)`, from < to, the direction of sliding apart; else it
-/// is found by Gauss-Legendre quadrature of ten points.
+/// A law that knows the work against it in closed form, `work(from, distance, direction)` [m^2/s^2], distance >= 0 slid
+/// from `from`: the integral of the level over the way.
+template <class Law>
+concept LawWithWork = FrictionLaw<Law> && requires(const Law& law, double x, Direction direction) {
+  { law.work(x, x, direction) } -> std::convertible_to<double>;
+};
+
+/// The work against any law; by Gauss-Legendre quadrature of ten points where it is not known, so over short ways.
 template <FrictionLaw Law>
 double friction_work(const Law& law, double from, double distance, Direction direction) {
-  if constexpr (ConstantLevelLaw<Law>) {
-    return distance == 0 ? 0.0 : law.level(from, direction) * distance;
-  } else if constexpr (requires { law.work(from, from, direction); }) {
-    const double to = from + sign(direction) * distance;
-    return law.work(std::min(from, to), std::max(from, to), direction);
+  if constexpr (LawWithWork<Law>) {
+    return law.work(from, distance, direction);
   } else {
     constexpr double nodes[] = {0.14887433898163121, 0.43339539412924719, 0.67940956829902441, 0.86506336668898451,
                                 0.97390652851717172};

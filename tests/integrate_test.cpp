@@ -1,0 +1,308 @@
+// One slider through one ground motion: histories, events, peak, energy, starts, settling, and hard input.
+#include <stdexcept>
+
+#include "catch.hpp"
+#include "motions.hpp"
+#include "reference_values.hpp"
+
+using namespace stickslip;
+using namespace test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Runs `check` for a slider of each kind.
+template <class Check>
+void for_each_slider(Check check) {
+  for (const double natural_frequency : {0.0, 1.3}) {
+    check(Slider(Coulomb(1), natural_frequency));
+    check(Slider(Coulomb(1, 1.6), natural_frequency));
+    check(Slider(Coulomb(1, infinity), natural_frequency));
+    check(Slider(Caster(1, 0.5), natural_frequency));
+    check(Slider(Bump{1, 0.5}, natural_frequency));
+  }
+}
+
+void same_up_to(double part, const Response& one, const Response& other, double length = 1, double time = 1) {
+  CHECK(difference(one.displacement, [&] {
+          std::vector<double> x = other.displacement;
+          for (double& value : x) value /= length;
+          return x;
+        }()) <= part * one.peak);
+  CHECK(std::abs(other.peak / length - one.peak) <= part * one.peak);
+  REQUIRE(one.events.size() == other.events.size());
+  double worst = 0;
+  bool same = true;
+  for (std::size_t i = 0; i < one.events.size(); ++i) {
+    same = same && one.events[i].kind == other.events[i].kind;
+    worst = std::max(worst, std::abs(other.events[i].time / time - one.events[i].time));
+  }
+  CHECK(same);
+  // A stop at a slope a of the speed is known to a rounding of the speed over a; slopes down to 1e-3 occur.
+  CHECK(worst <= 1e3 * part);
+}
+
+}  // namespace
+
+TEST_CASE("nothing moves while the ground acceleration stays within the slip level", "[integrate]") {
+  const GroundMotion strong = broadband(40, 1'000);
+  const GroundMotion weak = strong.scaled(1 / strong.peak_acceleration() * (1 - 1e-15));
+  for (const Response& r :
+       {integrate(Coulomb(1), weak), integrate(Slider(Coulomb(1), 2), weak), integrate(Caster(1, 0.5), weak)}) {
+    CHECK(largest(r.displacement) == 0);
+    CHECK(largest(r.velocity) == 0);
+    CHECK(r.peak == 0);
+    CHECK(r.sliding_distance == 0);
+    CHECK(r.time_sliding == 0);
+    CHECK(r.energy.dissipated == 0);
+    CHECK(r.events.size() == 1);
+    CHECK(r.events[0].kind == EventKind::end);
+    CHECK(r.events[0].time == weak.duration());
+  }
+}
+
+TEST_CASE("ground that just reaches the slip level moves nothing", "[integrate][edge]") {
+  // values.json edge.tangent_n_equals_a, edge.constant_n_equals_a_at_rest
+  CHECK(integrate(Coulomb(1), GroundMotion({0, 1, 0}, 1)).events.size() == 1);
+  CHECK(integrate(Coulomb(1), GroundMotion({1, 1, 1}, 1)).events.size() == 1);
+  CHECK(integrate(Caster(1, 0.5), GroundMotion({0, 1, 0}, 1)).events.size() == 1);
+  CHECK(integrate(Disguised{1}, GroundMotion({1, 1, 1}, 1)).events.size() == 1);
+}
+
+TEST_CASE("a push that just balances friction keeps a slider moving", "[integrate][edge]") {
+  // values.json edge.constant_n_equals_minus_a_moving
+  const auto keeps = [](const auto& law) {
+    const Response r = integrate(law, GroundMotion({-1, -1, -1}, 1), from(0, 1));
+    CHECK(r.residual == 2);
+    CHECK(r.state.velocity == 1);
+    CHECK(r.peak == 2);
+    CHECK(count(r.events) == Counts{1, 0, 0});
+  };
+  keeps(Coulomb(1));
+  keeps(Disguised{1});
+}
+
+TEST_CASE("a speed that touches zero goes on, or stays if nothing pushes it", "[integrate][edge]") {
+  // values.json edge.graze_continue: v = (1 - t)^2; edge.graze_then_stick: from there on the push only balances
+  // friction
+  const auto grazes = [](const auto& law) {
+    const Response on = integrate(law, line(1, -3, 2), from(0, 1));
+    CHECK(std::abs(on.residual - 2.0 / 3) <= 1e-15);
+    CHECK(std::abs(on.state.velocity - 1) <= 1e-15);
+    CHECK(count(on.events) == Counts{1, 0, 0});
+    const Response stays = integrate(law, GroundMotion({1, -1, -1}, 1), from(0, 1));
+    CHECK(std::abs(stays.residual - 1.0 / 3) <= 1e-15);
+    CHECK(stays.state.velocity == 0);
+    CHECK(stays.state.mode == Mode::stuck);
+    CHECK(count(stays.events) == Counts{1, 1, 0});
+  };
+  grazes(Coulomb(1));
+  grazes(Disguised{1});
+}
+
+TEST_CASE("a stop exactly at a node is a stop", "[integrate][edge]") {
+  // values.json edge.stop_exactly_at_node: v = 1, 2, 1, 0
+  const auto stops = [](const auto& law) {
+    const Response r = integrate(law, steps({-2, -2, 0, 0}));
+    CHECK(r.velocity == std::vector<double>{0, 1, 2, 1, 0});
+    CHECK(r.residual == 4);
+    CHECK(r.state.mode == Mode::stuck);
+    CHECK(count(r.events) == Counts{1, 1, 0});
+  };
+  stops(Coulomb(1));
+  stops(Disguised{1});
+}
+
+TEST_CASE("unequal levels turn a steady shaking into a drift", "[integrate][edge]") {
+  // values.json edge.asym_const
+  const Response r = integrate(Coulomb(1, 1.6), steps({2, -2, 2, -2}));
+  CHECK(std::abs(r.residual - reference::unequal_displacement) <= 1e-15);
+  CHECK(std::abs(r.state.velocity - reference::unequal_velocity) <= 1e-15);
+  CHECK(count(r.events) == Counts{1, 0, 3});
+}
+
+TEST_CASE("two reversals within one piece leave the reference's place and speed", "[integrate][edge]") {
+  const Response r = integrate(Coulomb(1), line(4, -6, 1), from(0, 0.02));
+  CHECK(std::abs(r.residual - reference::two_reversals_displacement) <= 1e-15);
+  CHECK(std::abs(r.state.velocity - reference::two_reversals_velocity) <= 4e-15);
+  CHECK(count(r.events) == Counts{1, 0, 2});
+}
+
+TEST_CASE("the energy ledger closes, whatever slides and however it starts", "[integrate]") {
+  for_each_slider([](const auto& slider) {
+    for (const auto& start : {from(0), from(0.4), from(-0.2, 1.5), from(0.1, 0.3)})
+      for (const bool smooth : {false, true}) {
+        const Response r = integrate(slider, broadband(41, 2'000, smooth), start);
+        CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
+        CHECK(grammatical(r));
+        CHECK(r.peak >= largest(r.displacement));
+        CHECK(r.sliding_distance >= r.peak - std::abs(start.displacement));
+      }
+  });
+}
+
+TEST_CASE("the peak is at a zero of the velocity: finer samples never pass it", "[integrate]") {
+  for_each_slider([](const auto& slider) {
+    const GroundMotion coarse = broadband(42, 200);
+    std::vector<double> fine;
+    for (std::size_t i = 0; i < coarse.segments(); ++i)
+      for (int k = 0; k < 32; ++k)
+        fine.push_back(coarse.segment(i).start + (coarse.segment(i).end - coarse.segment(i).start) * k / 32);
+    fine.push_back(coarse.acceleration().back());
+    const Response one = integrate(slider, coarse), many = integrate(slider, GroundMotion(fine, 0.1 / 32));
+    CHECK(largest(many.displacement) <= one.peak * (1 + 1e-12));
+    CHECK(std::abs(one.peak - many.peak) <= 1e-12 * one.peak);
+    CHECK(std::abs(one.residual - many.residual) <= 1e-12 * one.peak);
+    CHECK(count(one.events) == count(many.events));
+  });
+}
+
+TEST_CASE("a stronger ground on a stronger friction moves farther in the same time", "[integrate]") {
+  // Thesis (4.26): all accelerations and lengths times c. A power of two leaves every bit; any other rounds anew.
+  const GroundMotion motion = broadband(43, 500);
+  for (const double frequency : {0.0, 1.3})
+    for (const double c : {0x1p-40, 4.0, 3.0, 0.1}) {
+      const double part = std::exp2(std::rint(std::log2(c))) == c ? 0 : 1e-12;
+      same_up_to(part, integrate(Slider(Coulomb(1, 1.5), frequency), motion),
+                 integrate(Slider(Coulomb(c, 1.5 * c), frequency), motion.scaled(c)), c);
+      same_up_to(part, integrate(Slider(Caster(1, 0.5), frequency), motion),
+                 integrate(Slider(Caster(c, 0.5 * c), frequency), motion.scaled(c)), c);
+    }
+}
+
+TEST_CASE("a slower ground moves a slider farther by the square of the time", "[integrate]") {
+  const std::vector<double> n = gaussian(44, 500, 2);
+  for (const double frequency : {0.0, 1.3})
+    for (const double c : {8.0, 0x1p-30, 3.0}) {
+      const double part = c == 3 ? 1e-12 : 0;
+      same_up_to(part, integrate(Slider(Coulomb(1, 1.5), frequency), GroundMotion(n, 0.125)),
+                 integrate(Slider(Coulomb(1, 1.5), frequency / c), GroundMotion(n, 0.125 * c)), c * c, c);
+      same_up_to(part, integrate(Slider(Caster(1, 0.5), frequency), GroundMotion(n, 0.125)),
+                 integrate(Slider(Caster(1, 0.5 * c * c), frequency / c), GroundMotion(n, 0.125 * c)), c * c, c);
+    }
+}
+
+TEST_CASE("left alone, a block stops after v^2 / 2a", "[integrate][settle]") {
+  for (const double v : {1e-3, 1.0, 250.0}) {
+    const Response r = integrate(Coulomb(2), held(0, 0.01), from(1, v, true));
+    CHECK(std::abs(r.residual - (1 + v * v / 4)) <= 4e-16 * r.peak * 2);
+    CHECK(r.state.mode == Mode::stuck);
+    CHECK(std::abs(r.events.back().time - std::max(0.01, v / 2)) <= 1e-15 * (1 + v) * 2);
+    CHECK(r.events.back().kind == EventKind::end);
+    CHECK(r.peak == r.residual);
+    CHECK(std::abs(r.energy.imbalance()) <= 1e-14 * r.energy.initial);
+  }
+  const Response rest = integrate(Coulomb(2), held(0, 3), from(1, 0, true));
+  CHECK(rest.events.size() == 1);
+  CHECK(rest.events[0].time == 3);
+}
+
+TEST_CASE("settling leaves the histories as they were", "[integrate][settle]") {
+  const GroundMotion motion = record_a();
+  const Response plain = integrate(Coulomb(1), motion), settled = integrate(Coulomb(1), motion, from(0, 0, true));
+  CHECK(settled.displacement == plain.displacement);
+  CHECK(settled.velocity == plain.velocity);
+  const double v = plain.state.velocity;
+  CHECK(std::abs(settled.residual - (plain.residual + v * std::abs(v) / 2)) <= 1e-15);
+  CHECK(settled.state.mode == Mode::stuck);
+  CHECK(settled.events.size() == plain.events.size() + 1);
+  CHECK(grammatical(settled));
+}
+
+TEST_CASE("what can not settle says so", "[integrate][settle][errors]") {
+  CHECK_THROWS_AS(integrate(Coulomb(0), held(0, 1), from(0, 1, true)), ConvergenceError);
+  CHECK_THROWS_WITH(integrate(Coulomb(0), held(0, 1), from(0, 1, true)),
+                    Contains("does not come to rest") && Contains("settle = false"));
+  CHECK_THROWS_AS(integrate(Slider(Coulomb(0), 1), held(0, 1), from(1, 0, true)), ConvergenceError);
+}
+
+TEST_CASE("a motion may be continued from the state it left", "[integrate]") {
+  const std::vector<double> n = gaussian(45, 401, 2);
+  const Response whole = integrate(Coulomb(1), GroundMotion(n, 0.1));
+  const Response first = integrate(Coulomb(1), GroundMotion({n.begin(), n.begin() + 201}, 0.1));
+  const Response second = integrate(Coulomb(1), GroundMotion({n.begin() + 200, n.end()}, 0.1),
+                                    from(first.state.displacement, first.state.velocity));
+  CHECK(second.residual == whole.residual);
+  CHECK(second.state.velocity == whole.state.velocity);
+}
+
+TEST_CASE("times count from the motion's own beginning", "[integrate]") {
+  const GroundMotion late({-2, 0, 0}, {100, 101, 110}, Interpolation::constant);
+  const Response r = integrate(Coulomb(1), late, from(0, 1));
+  REQUIRE(r.events.size() == 3);
+  CHECK(r.events[0].time == 100);
+  CHECK(r.events[1].time == 103);  // v = 1, 2, then down by 1 a second
+  CHECK(r.events[2].time == 110);
+  CHECK(r.time_sliding == 3);
+  CHECK(r.sliding_distance == 3.5);
+}
+
+TEST_CASE("integrate names what it refuses", "[integrate][errors]") {
+  const GroundMotion motion = held(0, 1);
+  CHECK_THROWS_WITH(integrate(Coulomb(1), motion, from(not_a_number)),
+                    "integrate: displacement must be finite, got nan m");
+  CHECK_THROWS_WITH(integrate(Coulomb(1), motion, from(0, infinity)),
+                    "integrate: velocity must be finite, got inf m/s");
+  CHECK_THROWS_WITH(integrate(Coulomb(1, infinity), motion, from(0, -2)),
+                    "integrate: velocity must not point where the slip level is infinite, got -2 m/s");
+  CHECK_NOTHROW(integrate(Coulomb(1, infinity), motion, from(0, 2)));
+  CHECK_THROWS_AS(integrate(Coulomb(1), motion, from(infinity)), std::invalid_argument);
+}
+
+TEST_CASE("a heartbeat is felt, and may end the work", "[integrate]") {
+  IntegrateOptions options;
+  int beats = 0;
+  options.heartbeat = [&] { ++beats; };
+  integrate(Coulomb(1), GroundMotion(std::vector<double>(200'001, 0.0), 0.01), options);
+  CHECK(beats == 4);  // 65,536 segments each
+  options.heartbeat = [] { throw std::runtime_error("enough"); };
+  CHECK_THROWS_WITH(integrate(Coulomb(1), held(0, 1), options), "enough");
+}
+
+TEST_CASE("tiny accelerations move a slider with a tiny slip level just as far in proportion", "[integrate][range]") {
+  const GroundMotion motion = broadband(46, 300);
+  for (const double c : {1e-300, 1e-150, 1e99}) {
+    INFO("scale " << c);
+    for (const double frequency : {0.0, 1.3}) {
+      same_up_to(1e-10, integrate(Slider(Coulomb(1, 1.5), frequency), motion),
+                 integrate(Slider(Coulomb(c, 1.5 * c), frequency), motion.scaled(c)), c);
+    }
+    if (c > 1e-290) {
+      same_up_to(1e-10, integrate(Caster(1, 0.5), motion), integrate(Caster(c, 0.5 * c), motion.scaled(c)), c);
+    }
+  }
+  CHECK(integrate(Coulomb(1), motion.scaled(1e-300)).peak == 0);
+}
+
+TEST_CASE("what leaves the range of doubles is an error, not a NaN", "[integrate][range]") {
+  const auto right_or_refused = [](const auto& slider, const GroundMotion& motion) {
+    try {
+      const Response r = integrate(slider, motion);
+      CHECK(std::isfinite(r.peak));
+      CHECK(std::isfinite(r.energy.imbalance()));
+      CHECK(std::isfinite(largest(r.displacement)));
+      CHECK(grammatical(r));
+    } catch (const std::overflow_error& error) {
+      CHECK_THAT(error.what(), Contains("range of doubles"));
+    } catch (const ConvergenceError& error) {
+      CHECK_THAT(error.what(), Contains("TaylorFlow"));
+    }
+  };
+  for (const double n : {1e99, 1e100, 1e-300})
+    for (const double dt : {1e-9, 1.0, 1e60, 1e200}) {
+      const GroundMotion motion({n, -n, 2 * n / 3, -n / 5}, dt);
+      for (const double frequency : {0.0, 1e-160, 1.0, 1e150}) {
+        if (frequency * dt < 1e5) right_or_refused(Slider(Caster(1, 0.5), frequency), motion);
+        if (frequency * dt < 1e150) right_or_refused(Slider(Coulomb(1, 2), frequency), motion);
+      }
+    }
+}
+
+TEST_CASE("a million samples a nanosecond apart are a millisecond", "[integrate][range]") {
+  // n = -3 with a = 1 from rest: x = t^2, v = 2 t; each of a million steps rounds both: 1e6 * 1.1e-16 at most.
+  const Response r = integrate(Coulomb(1), GroundMotion(std::vector<double>(1'000'001, -3.0), 1e-9));
+  CHECK(std::abs(r.residual - 1e-6) <= 2.2e-10 * 1e-6);
+  CHECK(std::abs(r.state.velocity - 2e-3) <= 1.1e-10 * 2e-3);
+  CHECK(r.events.size() == 2);
+  CHECK(std::abs(r.time_sliding - 1e-3) <= 1.1e-10 * 1e-3);
+}

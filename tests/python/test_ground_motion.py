@@ -1,0 +1,291 @@
+"""Ground motions: what becomes one, what is refused, and that they keep what they were given."""
+
+import copy
+import math
+import pickle
+import warnings
+from array import array
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+INF, NAN = math.inf, math.nan
+SAMPLES = [0.0, 2.0, -3.0, 1.0]
+
+
+class Table:
+    """Like a column of pandas: no array, but it can become one."""
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(SAMPLES, dtype=dtype)
+
+
+def test_even_samples_start_at_zero():
+    motion = ss.GroundMotion(SAMPLES, dt=0.25)
+    assert np.array_equal(motion.acceleration, SAMPLES)
+    assert np.array_equal(motion.time, [0, 0.25, 0.5, 0.75])
+    assert (motion.dt, motion.duration, len(motion)) == (0.25, 0.75, 4)
+    assert motion.interpolation == "linear"
+    assert motion.peak_acceleration == 3.0
+
+
+def test_uneven_samples_keep_their_times():
+    t = [-1.0, 0.5, 0.75, 4.0]
+    motion = ss.GroundMotion(SAMPLES, times=t)
+    assert np.array_equal(motion.time, t)
+    assert motion.dt is None
+    assert motion.duration == 5.0
+
+
+def test_values_that_are_held_may_share_a_time_and_the_last_one_does_not_act():
+    motion = ss.GroundMotion([1.0, 5.0, 2.0, -9.0], times=[0, 1, 1, 3], interpolation="constant")
+    assert motion.interpolation == "constant"
+    assert motion.peak_acceleration == 5.0
+    assert ss.integrate(ss.Coulomb(slip_level=2.5), motion).peak == 0
+
+
+def test_steps_are_lines_to_the_limit():
+    # Values held, and the same as lines with jumps of a microsecond: x differs by jump * a * T.
+    steps = ss.GroundMotion(SAMPLES, times=[0, 1, 2, 3], interpolation="constant")
+    e = 1e-6
+    lines = ss.GroundMotion([0, 0, 2, 2, -3, -3], times=[0, 1, 1 + e, 2, 2 + e, 3])
+    law = ss.Coulomb(slip_level=0.5)
+    difference = ss.integrate(law, steps).residual - ss.integrate(law, lines).residual
+    assert abs(difference) <= 2 * e * 5 * 3
+
+
+def test_the_second_argument_is_the_time_step():
+    assert ss.GroundMotion(SAMPLES, 0.25).dt == 0.25
+
+
+def test_a_motion_has_a_name_and_a_summary():
+    motion = ss.GroundMotion(SAMPLES, dt=0.25, name="Kobe")
+    assert motion.name == "Kobe"
+    assert ss.GroundMotion(SAMPLES, dt=0.25).name == ""
+    for part in ("Kobe", "4 samples", "dt = 0.25 s", "0.75 s", "peak 3 m/s^2", "linear"):
+        assert part in repr(motion)
+    assert "uneven" in repr(ss.GroundMotion(SAMPLES, times=[0, 1, 2, 5]))
+
+
+def test_a_scaled_motion_is_a_new_one():
+    motion = ss.GroundMotion(SAMPLES, times=[0, 1, 2, 5], interpolation="constant", name="Kobe")
+    mirror = motion.scaled(-2)
+    assert np.array_equal(mirror.acceleration, np.multiply(SAMPLES, -2))
+    assert np.array_equal(mirror.time, motion.time)
+    assert (mirror.interpolation, mirror.name) == ("constant", "Kobe")
+    assert np.array_equal(motion.acceleration, SAMPLES)
+    with pytest.raises(ValueError, match="scale factor must be finite, got nan"):
+        motion.scaled(NAN)
+    with pytest.raises(ValueError, match=r"acceleration\[1\] .* got 2e\+100"):
+        motion.scaled(1e100)
+
+
+# ---- what is taken
+
+
+@pytest.mark.parametrize(
+    "samples",
+    [
+        SAMPLES,
+        tuple(SAMPLES),
+        [0, 2, -3, 1],
+        array("d", SAMPLES),
+        memoryview(array("f", SAMPLES)),
+        Table(),
+        np.array(SAMPLES, dtype=np.float32),
+        np.array(SAMPLES, dtype=np.float16),
+        np.array(SAMPLES, dtype=np.longdouble),
+        np.array(SAMPLES, dtype=np.int8),
+        np.array(SAMPLES, dtype=">f8"),
+        np.repeat(SAMPLES, 3)[::3],
+        np.array(SAMPLES[::-1])[::-1],
+        np.array([SAMPLES, SAMPLES]).T[:, 1],
+        np.asfortranarray([SAMPLES, SAMPLES])[0],
+    ],
+    ids=lambda s: getattr(getattr(s, "dtype", None), "str", type(s).__name__),
+)
+def test_whatever_holds_real_numbers_in_a_row_is_taken(samples):
+    motion = ss.GroundMotion(samples, dt=1)
+    assert np.array_equal(motion.acceleration, SAMPLES)
+    assert motion.acceleration.dtype == np.float64
+    sorted_times = np.cumsum(np.abs(np.asarray(samples, dtype=float)) + 1)
+    assert np.array_equal(ss.GroundMotion(SAMPLES, times=sorted_times).time, sorted_times)
+
+
+def test_the_input_is_copied():
+    samples, times = np.array(SAMPLES), np.arange(4.0)
+    motion = ss.GroundMotion(samples, times=times)
+    samples[:], times[:] = 9, 9
+    assert np.array_equal(motion.acceleration, SAMPLES)
+    assert np.array_equal(motion.time, [0, 1, 2, 3])
+
+
+def test_the_acceleration_is_a_view_that_cannot_be_written_and_outlives_its_motion():
+    motion = ss.GroundMotion(SAMPLES, dt=1)
+    view = motion.acceleration
+    assert np.shares_memory(view, motion.acceleration)
+    assert view.base is motion
+    assert view.ctypes.data == motion.acceleration.ctypes.data
+    with pytest.raises(ValueError, match="read-only"):
+        view[0] = 1
+    with pytest.raises(ValueError, match="WRITEABLE"):
+        view.setflags(write=True)
+    del motion
+    assert np.array_equal(view, SAMPLES)
+
+
+# ---- what is refused
+
+REFUSED = [
+    (dict(acceleration=[], dt=1), "at least two samples, got 0"),
+    (dict(acceleration=[1], dt=1), "at least two samples, got 1"),
+    (dict(acceleration=[], times=[]), "at least two samples, got 0"),
+    (dict(acceleration=[1, 2, NAN], dt=1), r"acceleration\[2\] must be finite .* got nan m/s\^2"),
+    (dict(acceleration=[1, -INF, NAN], dt=1), r"acceleration\[1\] must be finite .* got -inf"),
+    (dict(acceleration=[None, 2], dt=1), r"acceleration\[0\] must be finite .* got nan"),
+    (dict(acceleration=[0, 1e300], dt=1), r"acceleration\[1\] .* at most 1e100 .* got 1e\+300"),
+    (dict(acceleration=SAMPLES, dt=0), "dt must be positive and finite, got 0 s"),
+    (dict(acceleration=SAMPLES, dt=-0.01), r"dt must be positive and finite, got -0\.01 s"),
+    (dict(acceleration=SAMPLES, dt=NAN), "dt must be positive and finite, got nan s"),
+    (dict(acceleration=SAMPLES, dt=INF), "dt must be positive and finite, got inf s"),
+    (dict(acceleration=SAMPLES, dt=1e308), "duration must be finite, got inf s"),
+    (dict(acceleration=SAMPLES), "give either dt or times, got neither"),
+    (dict(acceleration=SAMPLES, dt=1, times=[0, 1, 2, 3]), "give either dt or times, got both"),
+    (dict(acceleration=SAMPLES, times=[0, 1, 2]), "as many times as samples, got 3 times for 4"),
+    (dict(acceleration=SAMPLES, times=[0, 1, 1, 2]), r"increase, times\[2\] .* after 1 s, got 1 s"),
+    (dict(acceleration=SAMPLES, times=[0, 3, 2.5, 4]), r"times\[2\] .* after 3 s, got 2\.5 s"),
+    (dict(acceleration=SAMPLES, times=[0, NAN, 1, 2]), r"times\[1\] must be finite, got nan s"),
+    (dict(acceleration=SAMPLES, times=[0, 1, 2, INF]), r"times\[3\] must be finite, got inf s"),
+    (dict(acceleration=SAMPLES, times=[-1e308, 0, 1, 1e308]), "duration .* got inf s"),
+    (
+        dict(acceleration=SAMPLES, times=[0, 2, 1, 3], interpolation="constant"),
+        r"not decrease, times\[2\] must come after 2 s, got 1 s",
+    ),
+    (
+        dict(acceleration=SAMPLES, times=[1, 1, 1, 1], interpolation="constant"),
+        "duration must be positive .* got 0 s",
+    ),
+    (dict(acceleration=SAMPLES, dt=1, interpolation="cubic"), "'linear' or 'constant', got 'cubic'"),
+    (dict(acceleration=5.0, dt=1), "one-dimensional, got 0"),
+    (dict(acceleration=[[1, 2], [3, 4]], dt=1), "acceleration must be one-dimensional, got 2"),
+    (dict(acceleration=SAMPLES, times=[[0, 1, 2, 3]]), "times must be one-dimensional, got 2"),
+]
+
+
+@pytest.mark.parametrize("arguments, message", REFUSED)
+def test_what_is_refused_is_named_with_its_value(arguments, message):
+    with pytest.raises(ValueError, match="GroundMotion: .*" + message):
+        ss.GroundMotion(**arguments)
+
+
+@pytest.mark.parametrize(
+    "samples",
+    [["a", "b"], [1j, 2], {0: 1.0, 1: 2.0}, {1.0, 2.0}, (x for x in SAMPLES), [[1, 2], [3]], "12", b"12"],
+)
+def test_what_is_no_row_of_numbers_is_refused(samples):
+    with pytest.raises((TypeError, ValueError)):
+        ss.GroundMotion(samples, dt=1)
+
+
+@pytest.mark.xfail(reason="whatever NumPy can force into doubles is taken")
+@pytest.mark.parametrize(
+    "samples",
+    [
+        np.array([1 + 1j, 2]),
+        np.array(["1", "2"]),
+        ["1", "2"],
+        np.array([1, 2], dtype=object),
+        np.array([0, 1], dtype="datetime64[s]"),
+        np.ma.array([1.0, 2.0, 3.0], mask=[False, True, False]),
+    ],
+    ids=["complex", "strings", "list of strings", "objects", "dates", "masked"],
+)
+def test_an_array_that_does_not_hold_real_numbers_is_refused(samples):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        with pytest.raises((TypeError, ValueError)):
+            ss.GroundMotion(samples, dt=1)
+
+
+@pytest.mark.parametrize("arguments", [(SAMPLES, "0.1"), (SAMPLES, [0.1]), (SAMPLES, 1, [0, 1, 2, 3]), ()])
+def test_arguments_of_another_kind_are_a_type_error(arguments):
+    with pytest.raises(TypeError):
+        ss.GroundMotion(*arguments)
+
+
+# ---- extremes
+
+
+@pytest.mark.parametrize("power", [-1000, -300, 300])
+@pytest.mark.parametrize("natural_frequency", [0.0, 1.3])
+def test_displacements_scale_with_accelerations_from_1e_minus_300_to_1e_90(
+    record_a, power, natural_frequency
+):
+    # Powers of two scale without rounding, so nothing but overflow and underflow can change.
+    scale = 2.0**power
+    one = ss.integrate(
+        ss.Slider(ss.Coulomb(slip_level=1.0), natural_frequency), ss.GroundMotion(record_a, dt=0.1)
+    )
+    other = ss.integrate(
+        ss.Slider(ss.Coulomb(slip_level=scale), natural_frequency),
+        ss.GroundMotion(record_a * scale, dt=0.1),
+    )
+    assert np.array_equal(other.displacement, one.displacement * scale)
+    assert np.array_equal(other.events["kind"], one.events["kind"])
+
+
+def test_displacements_scale_with_the_square_of_the_time_step(record_a):
+    law = ss.Coulomb(slip_level=1.0)
+    one = ss.integrate(law, ss.GroundMotion(record_a, dt=0.1))
+    tiny = ss.integrate(law, ss.GroundMotion(record_a, dt=1e-9))
+    assert tiny.displacement * 1e16 == pytest.approx(one.displacement, abs=1e-13 * one.peak)
+    scaled = ss.integrate(law, ss.GroundMotion(record_a, dt=0.1 * 2.0**-30))
+    assert np.array_equal(scaled.displacement * 2.0**60, one.displacement)
+
+
+def test_a_million_samples_are_no_more_than_a_thousand_thousands():
+    # The ground stands still for a while at the end of each thousand, so that all start at rest.
+    noise = np.random.default_rng(7).normal(0, 2, 1000)
+    noise[-100:] = 0
+    noise[0] = 0
+    law = ss.Coulomb(slip_level=1.0)
+    short = ss.integrate(law, ss.GroundMotion(noise, dt=0.01))
+    assert short.at_rest
+    long = ss.integrate(law, ss.GroundMotion(np.tile(noise, 1000), dt=0.01))
+    # A sum of a thousand equal numbers, each rounded to half a unit of the running total
+    assert long.residual == pytest.approx(1000 * short.residual, rel=1000 * 1.2e-16 + 1e-13)
+    assert len(long.events) - 1 == 1000 * (len(short.events) - 1)
+
+
+def test_a_motion_beyond_the_range_of_doubles_is_an_overflow():
+    with pytest.raises(OverflowError, match="leaves the range of doubles"):
+        ss.integrate(ss.Coulomb(slip_level=1.0), ss.GroundMotion([1e100, 1e100], dt=1e200))
+
+
+# ---- values
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        ss.GroundMotion(SAMPLES, dt=0.1, name="even"),
+        ss.GroundMotion(SAMPLES, times=[-1, 0, 0.1, 7]),
+        ss.GroundMotion(SAMPLES, times=[0, 1, 1, 2], interpolation="constant"),
+    ],
+)
+def test_a_motion_survives_pickling_and_copying(motion):
+    for twin in (
+        *(pickle.loads(pickle.dumps(motion, p)) for p in range(2, pickle.HIGHEST_PROTOCOL + 1)),
+        copy.copy(motion),
+        copy.deepcopy(motion),
+    ):
+        assert np.array_equal(twin.acceleration, motion.acceleration)
+        assert np.array_equal(twin.time, motion.time)
+        for name in ("dt", "interpolation", "name"):
+            assert getattr(twin, name) == getattr(motion, name)
+
+
+def test_motions_do_not_change():
+    with pytest.raises(AttributeError):
+        ss.GroundMotion(SAMPLES, dt=1).name = "other"

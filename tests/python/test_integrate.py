@@ -1,0 +1,461 @@
+"""Sliders under ground motions, against numbers computed apart from this library."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+INF, NAN = math.inf, math.nan
+
+
+def counts(response):
+    kinds = response.events["kind"].tolist()
+    return tuple(kinds.count(kind) for kind in ("breakaway", "arrest", "reversal"))
+
+
+def line(start, end, duration):
+    return ss.GroundMotion([start, end], dt=duration)
+
+
+def steps(*values, duration=1.0):
+    """Values held for `duration` each; the sample that closes the motion is added."""
+    return ss.GroundMotion([*values, 0.0], dt=duration, interpolation="constant")
+
+
+# ---- record A, whole
+
+
+class Run(NamedTuple):
+    id: str
+    law: object
+    natural_frequency: float
+    interpolation: str
+    displacement: float
+    velocity: float
+    peak: float
+    dissipated: float
+    counts: tuple  # breakaways, arrests, reversals
+
+
+# values.json, entries of these ids: event-exact closed forms of 50 digits for Coulomb friction (70
+# digits agree to 1e-49), Taylor series of order 40 with 32 digits for the caster (40 agree to 1e-26).
+RUNS = [
+    Run(
+        "rec.coulomb.A.linear.nospring_sym",
+        ss.Coulomb(slip_level=1.0),
+        0.0,
+        "linear",
+        displacement=-0.0541467216041000885110,
+        velocity=-0.0977229257273829489699,
+        peak=0.0595810921821711316056,
+        dissipated=4.40429006251153758516,
+        counts=(26, 25, 64),
+    ),
+    Run(
+        "rec.coulomb.A.linear.spring1.3_sym",
+        ss.Coulomb(slip_level=1.0),
+        1.3,
+        "linear",
+        displacement=-0.0302335564625927967696,
+        velocity=-0.0961138317629951027503,
+        peak=0.0435373461438776818586,
+        dissipated=4.56599406315313879593,
+        counts=(26, 25, 64),
+    ),
+    Run(
+        "rec.coulomb.A.linear.nospring_asym",
+        ss.Coulomb(slip_level=1.0, backward=1.6),
+        0.0,
+        "linear",
+        displacement=1.87560469582549071522,
+        velocity=0.0,
+        peak=1.89234498588482754813,
+        dissipated=3.35857916034695812645,
+        counts=(78, 78, 25),
+    ),
+    Run(
+        "rec.coulomb.A.linear.spring1.3_asym",
+        ss.Coulomb(slip_level=1.0, backward=1.6),
+        1.3,
+        "linear",
+        displacement=0.155811562302884225688,
+        velocity=0.0,
+        peak=0.198312343234154920731,
+        dissipated=3.35195516784884880867,
+        counts=(90, 90, 11),
+    ),
+    Run(
+        "rec.coulomb.A.const.nospring_sym",
+        ss.Coulomb(slip_level=1.0),
+        0.0,
+        "constant",
+        displacement=-0.0507790076562712858142,
+        velocity=-0.119308416722825298498,
+        peak=0.0676596838273969406889,
+        dissipated=4.78441192769720583010,
+        counts=(27, 26, 65),
+    ),
+    Run(
+        "rec.coulomb.A.const.spring1.3_sym",
+        ss.Coulomb(slip_level=1.0),
+        1.3,
+        "constant",
+        displacement=-0.0229503902582244111023,
+        velocity=-0.118457215906601426916,
+        peak=0.0498048198447721568612,
+        dissipated=4.95135180351354687806,
+        counts=(25, 24, 69),
+    ),
+    Run(
+        "rec.coulomb.A.const.nospring_asym",
+        ss.Coulomb(slip_level=1.0, backward=1.6),
+        0.0,
+        "constant",
+        displacement=2.20013620371955424198,
+        velocity=0.0,
+        peak=2.21769964405673111366,
+        dissipated=4.06666062330523627002,
+        counts=(60, 60, 44),
+    ),
+    Run(
+        "rec.coulomb.A.const.spring1.3_asym",
+        ss.Coulomb(slip_level=1.0, backward=1.6),
+        1.3,
+        "constant",
+        displacement=0.147386725525312899325,
+        velocity=-0.0345396028275564772315,
+        peak=0.212384722519216039714,
+        dissipated=4.24288009891149721427,
+        counts=(65, 64, 36),
+    ),
+    Run(
+        "rec.caster.A.linear.nospring",
+        ss.Caster(slip_level=1.0, reach=0.5),
+        0.0,
+        "linear",
+        displacement=-0.0467037113225215496432,
+        velocity=-0.0980351162492525811804,
+        peak=0.0576739377688448540535,
+        dissipated=4.40695624097005788778,
+        counts=(26, 25, 64),
+    ),
+    Run(
+        "rec.caster.A.linear.spring1.3",
+        ss.Caster(slip_level=1.0, reach=0.5),
+        1.3,
+        "linear",
+        displacement=-0.0302044675879465458520,
+        velocity=-0.0963219232833278727201,
+        peak=0.0433829755558518221835,
+        dissipated=4.56827338938638775817,
+        counts=(26, 25, 64),
+    ),
+]
+
+
+@pytest.mark.parametrize("run", RUNS, ids=lambda run: run.id)
+def test_record_a_ends_as_fifty_digits_say(run, record_a):
+    # Coulomb: each of some 500 closed-form steps rounds a few times to 1.1e-16 of the scale of x; were
+    # they all to go one way, 500 * 2 * 1.1e-16 = 1e-13. The caster: ten roundings more a step.
+    tolerance = 1e-11 if isinstance(run.law, ss.Caster) else 1e-13
+    quake = ss.GroundMotion(record_a, dt=0.1, interpolation=run.interpolation)
+    r = ss.integrate(ss.Slider(run.law, run.natural_frequency), quake)
+    speed = np.max(np.abs(r.velocity))
+    assert r.residual == pytest.approx(run.displacement, rel=0, abs=tolerance * run.peak)
+    assert r.velocity[-1] == pytest.approx(run.velocity, rel=0, abs=tolerance * speed)
+    assert r.peak == pytest.approx(run.peak, rel=tolerance)
+    assert r.energy.dissipated == pytest.approx(run.dissipated, rel=tolerance)
+    assert counts(r) == run.counts
+
+
+# values.json rec.coulomb.A.linear.nospring_sym, samples_x_v_at_node: node, x, x'
+NODES = [
+    (10, -0.0029996978312478799422, -0.032471834165317052411),
+    (50, -0.050000312495609190423, -0.11193164323745543185),
+    (100, -0.013417336886153157682, -0.019808325757520301470),
+    (200, -0.013008027040733415706, -0.099183193594209642400),
+    (300, -0.025274028663742918220, -0.14569543020362055546),
+]
+
+
+@pytest.mark.parametrize("node, displacement, velocity", NODES)
+def test_record_a_passes_through_its_nodes(node, displacement, velocity, record_a):
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), ss.GroundMotion(record_a, dt=0.1))
+    assert r.time[node] == pytest.approx(node / 10, rel=1e-15)
+    assert r.displacement[node] == pytest.approx(displacement, rel=0, abs=1e-13 * r.peak)
+    assert r.velocity[node] == pytest.approx(velocity, rel=0, abs=1e-13)
+
+
+# ---- edges
+
+
+def test_friction_holds_at_its_own_level():
+    # values.json edge.tangent_n_equals_a, edge.constant_n_equals_a_at_rest
+    for samples in ([0, 1, 0], [1, 1, 1]):
+        r = ss.integrate(ss.Coulomb(slip_level=1.0), ss.GroundMotion(samples, dt=1))
+        assert r.peak == 0
+        assert counts(r) == (0, 0, 0)
+
+
+def test_a_block_that_slides_at_its_level_keeps_its_speed():
+    # values.json edge.constant_n_equals_minus_a_moving
+    r = ss.integrate(
+        ss.Coulomb(slip_level=1.0), ss.GroundMotion([-1, -1, -1], dt=1), velocity=1.0
+    )
+    assert (r.residual, r.velocity[-1]) == (2.0, 1.0)
+
+
+def test_a_velocity_that_only_touches_zero_goes_on():
+    # values.json edge.graze_continue: v = (1 - t)^2. A double root moves by the root of a rounding,
+    # and x with its cube.
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), line(1, -3, 2), velocity=1.0)
+    assert r.residual == pytest.approx(2 / 3, rel=1e-14)
+    assert r.velocity[-1] == pytest.approx(1.0, rel=1e-14)
+    assert "reversal" not in r.events["kind"]
+
+
+def test_a_velocity_that_touches_zero_where_friction_holds_stops():
+    # values.json edge.graze_then_stick
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), ss.GroundMotion([1, -1, -1], dt=1), velocity=1.0)
+    assert r.residual == pytest.approx(1 / 3, rel=1e-14)
+    assert r.at_rest
+
+
+def test_a_block_may_stop_exactly_at_a_sample():
+    # values.json edge.stop_exactly_at_node: v = 1, 2, 1, 0
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), steps(-2, -2, 0, 0))
+    assert np.array_equal(r.velocity, [0, 1, 2, 1, 0])
+    assert r.residual == 4.0
+
+
+def test_a_block_reverses_twice_within_one_line():
+    # values.json edge.two_reversals_one_segment
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), line(4, -6, 1), velocity=1 / 50)
+    assert r.residual == pytest.approx(0.01542150464203804175432394, rel=1e-13)
+    assert r.velocity[-1] == pytest.approx(1.203935482821959107268082, rel=1e-13)
+    assert counts(r) == (1, 0, 2)
+
+
+def test_a_spring_rings_down_and_sticks_out_of_its_middle():
+    # values.json edge.spring_ringdown: 3.5 -> -1.5 -> -0.5, held there by friction
+    slider = ss.Slider(ss.Coulomb(slip_level=1.0), natural_frequency=1.0)
+    r = ss.integrate(slider, line(0, 0, 4 * math.pi), displacement=3.5)
+    assert r.events["displacement"] == pytest.approx([3.5, -1.5, -0.5, -0.5], rel=0, abs=4e-15)
+    assert r.events["time"][:3] == pytest.approx([0, math.pi, 2 * math.pi], rel=1e-14)
+    assert r.events["kind"].tolist() == ["breakaway", "reversal", "arrest", "end"]
+    assert r.energy.elastic == pytest.approx(0.125, rel=1e-14)
+
+
+def test_a_spring_that_pulls_as_hard_as_friction_holds():
+    # values.json edge.spring_ringdown_tie: 3 -> -1, a tie
+    slider = ss.Slider(ss.Coulomb(slip_level=1.0), natural_frequency=1.0)
+    r = ss.integrate(slider, line(0, 0, 4 * math.pi), displacement=3.0)
+    assert r.residual == pytest.approx(-1.0, rel=4e-15)
+
+
+def test_the_two_levels_of_a_block_act_each_in_its_direction():
+    # values.json edge.asym_const
+    law = ss.Coulomb(slip_level=1.0, backward=1.6)
+    r = ss.integrate(law, steps(2, -2, 2, -2))
+    assert r.residual == pytest.approx(0.619350031329912445596030415418, rel=1e-13)
+    assert r.velocity[-1] == pytest.approx(0.921810699588477366255144032922, rel=1e-13)
+    assert counts(r) == (1, 0, 3)
+
+
+# values.json edge.caster_escape.x*: x0, v_escape, where it stops from 0.9 v_escape; energy balance
+ESCAPES = [
+    (1.0, 0.518686794461630302411423, 1.833285361824268666406812),
+    (5.0, 0.009528896025384344071882353, 5.830365603741949783168232),
+    (10.0, 0.0000642051964008920048260565, 10.83036560341082545469598),
+]
+
+
+@pytest.mark.parametrize("start, escape, stop", ESCAPES)
+def test_a_caster_stops_below_its_escape_velocity_and_never_above(start, escape, stop):
+    law, still = ss.Caster(slip_level=1.0, reach=0.5), line(0, 0, 1)
+    r = ss.integrate(law, still, displacement=start, velocity=0.9 * escape, settle=True)
+    assert r.at_rest
+    assert r.residual == pytest.approx(stop, rel=1e-11)
+    with pytest.raises(ss.ConvergenceError, match=r"does not come to rest: at x = .* settle = false"):
+        ss.integrate(law, still, displacement=start, velocity=1.1 * escape, settle=True)
+    away = ss.integrate(law, still, displacement=start, velocity=1.1 * escape)
+    assert not away.at_rest
+
+
+def test_one_pulse_moves_a_block_back_and_half_of_it_forth():
+    # values.json pulse.coulomb.b10 (thesis 5.7, 5.8): n = b for one second, -b for one more; a = 1
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), steps(10, -10), settle=True)
+    assert np.allclose(r.velocity, [0, -9, 1.636363636363636363636364], rtol=1e-13, atol=0)
+    assert r.residual == pytest.approx(-6.694214876033057851239669, rel=1e-13)
+    assert r.peak == pytest.approx(8.181818181818181818181818, rel=1e-13)
+    assert r.events["kind"].tolist() == ["breakaway", "reversal", "arrest", "end"]
+    assert r.events["time"][1:3] == pytest.approx(
+        [1.818181818181818181818182, 3.636363636363636363636364], rel=1e-13
+    )
+
+
+# ---- signs, symmetry, time
+
+
+def test_a_block_slides_backward_when_the_ground_accelerates_forward():
+    # Half a second at 3 m/s^2 against a slip level of 1 m/s^2: v = -1 m/s, x = -1/4 m.
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), steps(3.0, duration=0.5))
+    assert (r.residual, r.velocity[-1]) == (-0.25, -1.0)
+    assert r.energy.input == pytest.approx(0.75, rel=1e-15)  # the ground drives it
+
+
+def test_a_one_way_block_slides_forward_only(record_a):
+    r = ss.integrate(ss.Coulomb(slip_level=1.0, backward=INF), ss.GroundMotion(record_a, dt=0.1))
+    assert np.all(np.diff(r.displacement) >= 0)
+    assert r.residual == r.peak == r.sliding_distance > 0
+
+
+@pytest.mark.parametrize("law", [ss.Coulomb(slip_level=1.0), ss.Caster(slip_level=1.0, reach=0.5)])
+def test_a_mirrored_ground_mirrors_the_motion(law, record_a):
+    quake = ss.GroundMotion(record_a, dt=0.1)
+    r = ss.integrate(law, quake, displacement=0.1, velocity=-0.2)
+    mirror = ss.integrate(law, quake.scaled(-1), displacement=-0.1, velocity=0.2)
+    assert np.array_equal(mirror.displacement, -r.displacement)
+    assert np.array_equal(mirror.events["time"], r.events["time"])
+
+
+def test_a_caster_of_infinite_reach_is_a_block(record_a):
+    quake = ss.GroundMotion(record_a, dt=0.1)
+    block = ss.integrate(ss.Coulomb(slip_level=1.0), quake)
+    caster = ss.integrate(ss.Caster(slip_level=1.0, reach=INF), quake)
+    assert caster.displacement == pytest.approx(block.displacement, rel=0, abs=1e-13 * block.peak)
+
+
+def test_more_samples_on_the_same_lines_change_nothing(record_a):
+    # Halves of a line round once: 1e-16 of its value, and so does the velocity at each of 800 nodes
+    finer = np.interp(np.arange(801) / 2, np.arange(401), record_a)
+    slider = ss.Slider(ss.Coulomb(slip_level=1.0), 1.3)
+    coarse = ss.integrate(slider, ss.GroundMotion(record_a, dt=0.1))
+    fine = ss.integrate(slider, ss.GroundMotion(finer, dt=0.05))
+    assert fine.displacement[::2] == pytest.approx(
+        coarse.displacement, rel=0, abs=1e-13 * coarse.peak
+    )
+
+
+def test_the_clock_of_the_motion_is_kept(record_a):
+    quake = ss.GroundMotion(record_a, times=np.arange(401) / 10 + 100)
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), quake)
+    assert (r.time[0], r.time[-1]) == (100, 140)
+    assert (r.events["time"][0], r.events["time"][-1]) == (100, 140)  # n(0) is over the level
+
+
+# ---- settling
+
+
+def test_settling_waits_for_the_final_rest():
+    # Breakaway at t = 1/3; v = 2/3 at t = 1 and 7/6 at t = 2, where the ground stops: 7/6 s more
+    quake = ss.GroundMotion([0, -3, 0], dt=1)
+    law = ss.Coulomb(slip_level=1.0)
+    short, long = ss.integrate(law, quake), ss.integrate(law, quake, settle=True)
+    assert np.array_equal(short.displacement, long.displacement)
+    assert not short.at_rest
+    assert long.at_rest
+    assert short.residual == short.displacement[-1]
+    assert short.velocity[-1] == pytest.approx(7 / 6, rel=1e-14)
+    assert long.residual == pytest.approx(short.residual + (7 / 6) ** 2 / 2, rel=1e-14)
+    assert long.events["kind"][-2:].tolist() == ["arrest", "end"]
+    assert long.events["time"][-2:] == pytest.approx([2 + 7 / 6] * 2, rel=1e-14)
+    assert long.peak == long.residual
+
+
+def test_a_slider_at_rest_has_settled(record_a):
+    samples = np.append(record_a, np.zeros(50))
+    quake = ss.GroundMotion(samples, dt=0.1)
+    law = ss.Coulomb(slip_level=1.0)
+    plain, settled = ss.integrate(law, quake), ss.integrate(law, quake, settle=True)
+    assert plain.at_rest
+    assert settled.residual == plain.residual
+    assert np.array_equal(settled.events, plain.events)
+
+
+def test_without_friction_nothing_settles():
+    with pytest.raises(ss.ConvergenceError, match=r"still moves at 2\.5 m/s.* slip level of 0 m/s"):
+        ss.integrate(ss.Coulomb(mu=0.0), line(0, 0, 1), velocity=2.5, settle=True)
+    with pytest.raises(RuntimeError):
+        ss.integrate(ss.Slider(ss.Coulomb(mu=0.0), 9.0), line(0, 0, 1), velocity=2.5, settle=True)
+
+
+# ---- what is refused
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (dict(displacement=NAN), "displacement must be finite, got nan m"),
+        (dict(displacement=INF), "displacement must be finite, got inf m"),
+        (dict(velocity=-INF), "velocity must be finite, got -inf m/s"),
+        (dict(velocity=NAN), "velocity must be finite, got nan m/s"),
+        (dict(velocity=-1.5), r"infinite, got -1\.5 m/s"),
+    ],
+)
+def test_a_start_out_of_range_is_named(arguments, message):
+    law = ss.Coulomb(slip_level=1.0, backward=INF)
+    with pytest.raises(ValueError, match="integrate: .*" + message):
+        ss.integrate(law, line(0, 1, 1), **arguments)
+
+
+@pytest.mark.parametrize(
+    "slider, motion",
+    [
+        (ss.Coulomb(mu=0.2), [1.0, 2.0]),
+        (ss.Coulomb(mu=0.2), np.ones(3)),
+        (ss.Coulomb(mu=0.2), None),
+        (ss.Coulomb(mu=0.2), ss.GroundMotion),
+        (0.2, ss.GroundMotion([0, 1], dt=1)),
+        (None, ss.GroundMotion([0, 1], dt=1)),
+    ],
+)
+def test_what_is_no_slider_or_no_motion_is_a_type_error(slider, motion):
+    with pytest.raises(TypeError):
+        ss.integrate(slider, motion)
+
+
+def test_the_start_is_given_by_name():
+    with pytest.raises(TypeError):
+        ss.integrate(ss.Coulomb(mu=0.2), ss.GroundMotion([0, 1], dt=1), 0.0)
+
+
+# ---- against another integrator
+
+CROSSED = [
+    ss.Slider(ss.Coulomb(slip_level=1.0), 1.3),
+    ss.Slider(ss.Coulomb(slip_level=1.0, backward=1.6), 1.3),
+    ss.Slider(ss.Caster(slip_level=1.0, reach=0.05), 1.3),
+    ss.Slider(ss.Caster(slip_level=1.0, reach=0.5)),
+]
+
+
+@pytest.mark.parametrize("slider", CROSSED, ids=repr)
+def test_scipy_comes_to_the_same_with_friction_made_smooth(slider, record_a):
+    # f = level tanh(v / e) instead of level sgn(v). While stuck the smooth slider creeps at
+    # e atanh(load / level), less than 10 e until the load is within 4e-9 of the level: over the time
+    # T, 10 e T at most; friction forgets what went before a stop. e = 1e-6 m/s, T = 8 s: 8e-5 m.
+    scipy_integrate = pytest.importorskip("scipy.integrate", reason="needs SciPy")
+    e, dt, samples = 1e-6, 0.1, 81
+    wn2 = slider.natural_frequency**2
+    n = record_a[:samples]
+    state, path = [0.0, 0.0], [0.0]
+    for i in range(samples - 1):
+
+        def motion(t, y, first=n[i], last=n[i + 1]):
+            level = slider.level(y[0], backward=y[1] < 0)
+            ground = first + (last - first) * t / dt
+            return [y[1], -ground - wn2 * y[0] - level * math.tanh(y[1] / e)]
+
+        solution = scipy_integrate.solve_ivp(
+            motion, (0, dt), state, method="LSODA", rtol=1e-8, atol=1e-11
+        )
+        assert solution.success
+        state = solution.y[:, -1]
+        path.append(state[0])
+    tolerance = 10 * e * dt * (samples - 1)
+    r = ss.integrate(slider, ss.GroundMotion(n, dt=dt))
+    assert r.displacement == pytest.approx(path, rel=0, abs=tolerance)
+    assert r.peak > 300 * tolerance  # or the test could not tell

@@ -1,0 +1,261 @@
+"""Records from files: formats, units, and what is wrong with a file."""
+
+import codecs
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+G = ss.STANDARD_GRAVITY
+
+SAMPLES = [1e-3, -2.5e-2, 0.125, -0.5, 3e-2, 0.0, 1e-3]
+
+AT2 = """PEER NGA STRONG MOTION DATABASE RECORD
+Imperial Valley-06, 10/15/1979, Delta, 262
+ACCELERATION TIME SERIES IN UNITS OF G
+{header}
+  .1000000E-02 -.2500000E-01  .1250000E+00 -.5000000E+00  .3000000E-01
+  .0000000E+00  .1000000E-02
+"""
+NEW_HEADER = "NPTS=   7, DT=   .0050 SEC,"
+OLD_HEADER = "   7    0.0050    NPTS, DT"
+
+CSV = """# Time Series: Kobe, Japan 1995 - TAK-090
+# Time (s),Acceleration (g's)
+0.00,0.001
+0.01,-0.025
+0.02,0.125
+0.03,-0.5
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    def to_file(content, name="record.txt"):
+        file = tmp_path / name
+        file.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return file
+
+    return to_file
+
+
+def change(text, old, new):
+    assert old in text
+    return text.replace(old, new)
+
+
+# ---- formats
+
+
+@pytest.mark.parametrize("header", [NEW_HEADER, OLD_HEADER])
+def test_a_peer_file_is_read_in_both_forms_of_its_header(write, header):
+    motion = ss.read_record(write(AT2.format(header=header), "RSN169.AT2"))
+    assert np.array_equal(motion.acceleration, np.multiply(SAMPLES, G))
+    assert motion.dt == 0.005
+    assert motion.interpolation == "linear"
+    assert motion.name == "Imperial Valley-06, 10/15/1979, Delta, 262"
+
+
+def test_two_columns_are_seconds_and_acceleration(write):
+    motion = ss.read_record(write(CSV))
+    assert np.array_equal(motion.acceleration, np.multiply([0.001, -0.025, 0.125, -0.5], G))
+    assert motion.dt == 0.01
+    assert motion.name == "Kobe, Japan 1995 - TAK-090"
+
+
+@pytest.mark.parametrize("comma", [";", "\t", "  ", " , "])
+def test_columns_are_parted_in_many_ways(write, comma):
+    rows = "\n".join(row.replace(",", comma) for row in CSV.splitlines()[2:])
+    motion = ss.read_record(write(rows), units="g")
+    assert np.array_equal(motion.acceleration, np.multiply([0.001, -0.025, 0.125, -0.5], G))
+
+
+def test_uneven_times_are_kept(write):
+    motion = ss.read_record(write("0, 1\n1, 2\n2, 3\n4, 4\n"), units="m/s^2")
+    assert motion.dt is None
+    assert np.array_equal(motion.time, [0, 1, 2, 4])
+
+
+@pytest.mark.parametrize(
+    "unit, factor",
+    [
+        ("g", G),
+        ("G", G),
+        ("m/s^2", 1),
+        ("m/s2", 1),
+        ("cm/s^2", 0.01),
+        ("gal", 0.01),
+        ("mm/s/s", 0.001),
+        ("ft/s^2", 0.3048),
+        ("in/s^2", 0.0254),
+    ],
+)
+def test_units_are_given_or_stated(write, unit, factor):
+    rows = "0.0,1\n0.1,2\n"
+    expected = np.array([1.0, 2.0]) * factor
+    given = ss.read_record(write(rows), units=unit)
+    stated = ss.read_record(write(f"Time (s), Acceleration ({unit})\n" + rows))
+    assert np.array_equal(given.acceleration, expected)
+    assert np.array_equal(stated.acceleration, expected)
+
+
+@pytest.mark.parametrize(
+    "dress",
+    [
+        lambda text: codecs.BOM_UTF8 + text.encode(),
+        lambda text: text.replace("\n", "\r\n").encode(),
+        lambda text: codecs.BOM_UTF8 + text.replace("\n", "\r\n").encode() + b"\x1a",
+        lambda text: text.rstrip("\n").encode(),
+        lambda text: (text + "\n\n").encode(),
+        lambda text: text.replace("Kobe", "K\u014dbe").replace("Delta", "Delt\u00e4").encode(),
+        lambda text: text.replace("Kobe", "K\u00f4be").encode("latin-1"),
+    ],
+    ids=["BOM", "CRLF", "BOM, CRLF, DOS end", "no last newline", "blank lines", "UTF-8", "Latin-1"],
+)
+@pytest.mark.parametrize("text", [CSV, AT2.format(header=NEW_HEADER)], ids=["CSV", "AT2"])
+def test_byte_order_marks_line_ends_and_accents_do_not_matter(write, dress, text):
+    plain, dressed = ss.read_record(write(text, "a")), ss.read_record(write(dress(text), "b"))
+    assert np.array_equal(dressed.acceleration, plain.acceleration)
+    assert dressed.dt == plain.dt
+
+
+def test_the_file_may_be_named_in_any_way_python_names_files(write):
+    file = write(CSV)
+    for name in (file, str(file), str(file).encode()):
+        assert len(ss.read_record(name)) == 4
+
+
+def test_a_file_with_one_component_calls_it_1(write):
+    assert len(ss.read_record(write(CSV), component=1)) == 4
+    with pytest.raises(ValueError, match="component .* got '2'"):
+        ss.read_record(write(CSV), component=2)
+    with pytest.raises(ValueError, match="component .* got 'north'"):
+        ss.read_record(write(CSV), component="north")
+
+
+# ---- what is wrong with a file
+
+PEER = AT2.format(header=NEW_HEADER)
+WRONG = {
+    "empty": ("", "empty"),
+    "blank": ("\n \n\r\n", "empty"),
+    "truncated": (PEER[: PEER.index("  .0000000E+00")], "after 5 of the 7 samples"),
+    "truncated header": ("\n".join(PEER.splitlines()[:3]), "no known format"),
+    "header alone": ("\n".join(PEER.splitlines()[:4]), "after 0 of the 7 samples"),
+    "more samples": (PEER + "  .1E+00\n", "line 7: more than the 7 samples"),
+    "count too small": (change(PEER, "NPTS=   7", "NPTS=   6"), "line 6: more than the 6 samples"),
+    "count too large": (change(PEER, "NPTS=   7", "NPTS=   8"), "after 7 of the 8 samples"),
+    "count not whole": (change(PEER, "NPTS=   7", "NPTS= 7.5"), "whole number, got 7.5"),
+    "count negative": (change(PEER, "NPTS=   7", "NPTS=  -7"), "whole number, got -7"),
+    "count of one": (
+        change(PEER[: PEER.index(" -.25")], "NPTS=   7", "NPTS=   1"),
+        "at least two samples, got 1",
+    ),
+    "zero step": (change(PEER, ".0050", ".0000"), "dt must be positive and finite, got 0 s"),
+    "negative step": (change(PEER, " .0050", "-.0050"), "dt must be positive .* got -0.005 s"),
+    "velocity": (change(PEER, "ACCELERATION", "VELOCITY"), "line 3: .*acceleration.* 'VELOCITY"),
+    "unknown units": (change(PEER, "OF G", "OF FURLONGS"), "unknown unit .* 'FURLONGS'; known are g"),
+    "text among numbers": (change(PEER, " .1250000E+00", "    missing   "), "line 5: .*'missing"),
+    "NaN among numbers": (change(PEER, " .1250000E+00", "          NaN"), "line 5: .*'NaN"),
+    "infinity in a row": (change(CSV, "0.125", "inf"), "line 5: .* finite numbers, got 'inf'"),
+    "NaN in a row": (change(CSV, "0.125", "nan"), "line 5: .* finite numbers, got 'nan'"),
+    "row without a number": (change(CSV, "0.02,0.125", "0.02,"), "line 5: "),
+    "row of text": (change(CSV, "0.02,0.125", "end of data"), "line 5: "),
+    "three columns": (change(CSV, "0.02,0.125", "0.02,0.125,7"), "line 5: two columns .* got 3"),
+    "one row": ("0.0,0.1\n", "at least two rows"),
+    "times that stand still": (change(CSV, "0.02", "0.01"), r"times\[2\] must come after 0.01 s"),
+    "times that turn back": (change(CSV, "0.03", "0.005"), r"times\[3\] must come after 0.02 s"),
+    "unknown units of a column": (change(CSV, "(g's)", "(stone)"), "unknown unit .* 'stone'"),
+    "minutes": (change(CSV, "(s)", "(min)"), "time in seconds, its label says 'min'"),
+    "no units": ("0.0,0.1\n0.1,0.2\n", 'states no units .* pass units, such as "g"'),
+    "prose": ("A record of an earthquake, they say.\nNo number in it.\n", "no known format .* PEER AT2"),
+    "another format": ('{"dt": 0.01, "acceleration": [0.1, 0.2]}\n', "no known format"),
+    "binary": (bytes(range(256)) * 8, "plain text is needed, got a NUL byte at offset 0"),
+    "UTF-16": (CSV.encode("utf-16"), r"NUL byte .* \(a binary file, or UTF-16\)"),
+}
+
+
+@pytest.mark.parametrize("content, message", WRONG.values(), ids=WRONG)
+def test_what_is_wrong_with_a_file_is_said_with_its_name_and_line(write, content, message):
+    with pytest.raises(ValueError, match=r"(?s)read_record: .*odd\.txt: .*" + message):
+        ss.read_record(write(content, "odd.txt"))
+
+
+def test_binary_without_a_zero_byte_is_refused_too(write):
+    with pytest.raises(ValueError, match="no known format"):
+        ss.read_record(write(bytes(range(128, 256)) * 20))
+
+
+def test_units_may_be_given_but_not_against_the_file(write):
+    assert ss.read_record(write(CSV), units="G").dt == 0.01
+    with pytest.raises(ValueError, match=r"the file states .*, units given are 'm/s\^2'"):
+        ss.read_record(write(CSV), units="m/s^2")
+    with pytest.raises(ValueError, match="unknown unit of acceleration 'parsec'; known are g"):
+        ss.read_record(write("0,1\n1,2\n"), units="parsec")
+
+
+def test_a_file_that_is_not_there_is_an_error_of_the_system(tmp_path):
+    with pytest.raises(FileNotFoundError) as caught:
+        ss.read_record(tmp_path / "missing.AT2")
+    assert caught.value.filename == str(tmp_path / "missing.AT2")
+    with pytest.raises(IsADirectoryError):
+        ss.read_record(tmp_path)
+
+
+@pytest.mark.parametrize("file", [3, None, 2.5, ["record.txt"]])
+def test_what_is_no_file_name_is_a_type_error(file):
+    with pytest.raises(TypeError):
+        ss.read_record(file)
+
+
+# ---- real records
+
+
+def test_real_records_read_as_numpy_reads_them(pyslammer_files):
+    for file in pyslammer_files:
+        t, a = np.loadtxt(file, delimiter=",", usecols=(0, 1), unpack=True, encoding="utf-8-sig")
+        motion = ss.read_record(file)
+        assert len(motion) == len(a), file.name
+        assert np.array_equal(motion.acceleration, a * G), file.name
+        assert motion.peak_acceleration == np.max(np.abs(a * G)), file.name
+        # the times are printed with a few digits: dt is the mean step to half a unit of the last
+        assert motion.dt == pytest.approx((t[-1] - t[0]) / (len(t) - 1), rel=1e-6), file.name
+        assert motion.dt in (0.005, 0.01, 0.02), file.name
+
+
+def test_geonet_three_components(agency_files):
+    # Peaks as the file's own heading says, in mm/s^2 and to its digits.
+    for file in agency_files.glob("geonet/20161113_110259_WTMC_20.V2A"):
+        for number, (name, peak) in enumerate(
+            [("N28W", 9733.1), ("S62W", 7966.4), ("Up", 18021.9)], start=1
+        ):
+            motion = ss.read_record(file, component=name)
+            assert motion.dt == 0.02
+            assert len(motion) == 8192
+            assert motion.peak_acceleration == pytest.approx(peak / 1000, abs=0.06e-3)
+            twin = ss.read_record(file, component=number)
+            assert np.array_equal(motion.acceleration, twin.acceleration)
+        with pytest.raises(ValueError, match="1 N28W, 2 S62W, 3 Up"):
+            ss.read_record(file)
+        return
+    pytest.skip("no geonet/20161113_110259_WTMC_20.V2A among the agency files")
+
+
+def test_smc(agency_files):
+    # Number of points, sampling rate and peak as the file's header says: 6001, 200 1/s, 104.4078
+    # cm/s^2; the samples are printed to 0.01 cm/s^2.
+    for file in agency_files.glob("smc/0111a.smc"):
+        motion = ss.read_record(file)
+        assert (len(motion), motion.dt) == (6001, 0.005)
+        assert motion.peak_acceleration == pytest.approx(1.044078, abs=0.5e-4)
+        return
+    pytest.skip("no smc/0111a.smc among the agency files")
+
+
+def test_cosmos(agency_files):
+    for file in agency_files.glob("cosmos/akbmr_bnz.v2c"):
+        motion = ss.read_record(file)
+        assert (len(motion), motion.dt) == (42000, 0.005)
+        assert "Point MacKenzie" in motion.name
+        return
+    pytest.skip("no cosmos/akbmr_bnz.v2c among the agency files")
