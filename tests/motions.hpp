@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <ostream>
 #include <random>
 #include <span>
 #include <vector>
@@ -72,6 +73,10 @@ struct Counts {
   int breakaways = 0, arrests = 0, reversals = 0;
   bool operator==(const Counts&) const = default;
 };
+
+inline std::ostream& operator<<(std::ostream& out, const Counts& c) {
+  return out << c.breakaways << " breakaways, " << c.arrests << " arrests, " << c.reversals << " reversals";
+}
 
 inline Counts count(const std::vector<Event>& events) {
   const auto of = [&](EventKind kind) {

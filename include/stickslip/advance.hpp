@@ -92,7 +92,7 @@ void advance(const Law& law, const Flows& flows, const Segment& segment, State& 
     const Start start{std::abs(state.velocity), acceleration, s * (-segment.end - ground_load)};
     const auto flow = flows.flow(direction, state.displacement, start, left);
     const double stop = flow.first_stop();
-    if (stop > flow.horizon()) {
+    if (stop == never) {
       const double taken = flow.horizon();
       const Progress end = flow.at_horizon();
       const bool whole = taken == left;

@@ -13,7 +13,9 @@
 #include "stickslip/advance.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground_motion.hpp"
+#include "stickslip/recorder.hpp"
 #include "stickslip/response.hpp"
+#include "stickslip/run.hpp"
 #include "stickslip/slider.hpp"
 
 namespace stickslip {
@@ -26,62 +28,6 @@ struct IntegrateOptions {
 };
 
 namespace detail {
-
-/// Sums up slips and keeps events.
-template <FrictionLaw Law>
-class Recorder {
- public:
-  /// @param from  x at the start [m]
-  Recorder(const Law& law, double from) : law_(law), slip_from_(from), peak_(std::abs(from)) {}
-
-  /// The time at which the segment at hand begins [s].
-  void begin_segment(double time) noexcept { segment_begins_ = time; }
-
-  void slide(Direction direction, double from, double distance, double duration, double work) {
-    slip_direction_ = direction;
-    slip_distance_ += distance;
-    time_sliding_ += duration;
-    input_ += work;
-    if constexpr (!LawWithWork<Law>) dissipated_ += friction_work(law_, from, distance, direction);
-  }
-
-  void event(EventKind kind, double time, const State& state) {
-    if (events_.size() >= most_events_) throw ConvergenceError("integrate: too many events");
-    events_.push_back({segment_begins_ + time, state.displacement, state.velocity, kind});
-    // Between events x runs one way.
-    peak_ = std::max(peak_, std::abs(state.displacement));
-    sliding_distance_ += slip_distance_;
-    if constexpr (LawWithWork<Law>) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
-    slip_from_ = state.displacement;
-    slip_distance_ = 0;
-  }
-
-  std::size_t events() const noexcept { return events_.size(); }
-  double last_event() const noexcept { return events_.empty() ? 0 : events_.back().time; }
-  void limit_events(std::size_t most) noexcept { most_events_ = most; }
-
-  void finish(double time, const State& state, Response& response) {
-    begin_segment(time);
-    event(EventKind::end, 0, state);
-    response.events = std::move(events_);
-    response.peak = peak_;
-    response.sliding_distance = sliding_distance_;
-    response.time_sliding = time_sliding_;
-    response.energy.input = input_;
-    response.energy.dissipated = dissipated_;
-  }
-
- private:
-  const Law& law_;
-  double segment_begins_ = 0;
-  double slip_from_;  // x where the slip at hand began
-  Direction slip_direction_ = Direction::forward;
-  double slip_distance_ = 0;
-  double peak_;
-  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0;
-  std::vector<Event> events_;
-  std::size_t most_events_ = std::numeric_limits<std::size_t>::max();
-};
 
 /// Goes on without ground acceleration until the slider rests.
 template <FrictionLaw Law, class Flows>
@@ -138,26 +84,19 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   Response response;
   response.displacement.resize(motion.samples());
   response.velocity.resize(motion.samples());
-  const auto record = [&](std::size_t sample) {
-    response.displacement[sample] = state.displacement;
-    response.velocity[sample] = state.velocity;
-  };
   const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
   const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
 
-  record(0);
+  response.displacement[0] = state.displacement;
+  response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
   detail::Recorder<Law> recorder(slider.law(), state.displacement);
   recorder.begin_segment(motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
+  const detail::Histories histories{response.displacement, response.velocity};
   detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
-    for (std::size_t i = 0; i < motion.segments(); ++i) {
-      if (i % 65536 == 0 && options.heartbeat) options.heartbeat();
-      recorder.begin_segment(motion.time(i));
-      detail::advance(slider.law(), flows, motion.segment(i), state, recorder);
-      record(i + 1);
-    }
+    detail::run(slider.law(), flows, motion, state, recorder, histories, options.heartbeat);
     if (options.settle) {
       detail::settle(slider, flows, end, state, recorder);
       end = std::max(end, recorder.last_event());

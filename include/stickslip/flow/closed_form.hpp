@@ -79,7 +79,7 @@ class ClosedForm {
   }
 
   Progress at(double t) const noexcept {
-    return oscillator_.progress({start_.speed, start_.acceleration, start_.gain * (t / duration_)},
+    return oscillator_.progress(Start{start_.speed, start_.acceleration, start_.gain * (t / duration_)},
                                 oscillator_.basis(t));
   }
   Progress at_horizon() const noexcept { return oscillator_.progress(start_, end_); }

@@ -1,0 +1,73 @@
+// Keeps the account of a motion while it is computed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/response.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip::detail {
+
+/// Sums up slips and keeps events.
+template <FrictionLaw Law>
+class Recorder {
+ public:
+  /// @param from  x at the start [m]
+  Recorder(const Law& law, double from) : law_(law), slip_from_(from), peak_(std::abs(from)) {}
+
+  /// The time at which the segment at hand begins [s].
+  void begin_segment(double time) noexcept { segment_begins_ = time; }
+
+  void slide(Direction direction, double from, double distance, double duration, double work) {
+    slip_direction_ = direction;
+    slip_distance_ += distance;
+    time_sliding_ += duration;
+    input_ += work;
+    if constexpr (!LawWithWork<Law>) dissipated_ += friction_work(law_, from, distance, direction);
+  }
+
+  void event(EventKind kind, double time, const State& state) {
+    if (events_.size() >= most_events_) throw ConvergenceError("integrate: too many events");
+    events_.push_back({segment_begins_ + time, state.displacement, state.velocity, kind});
+    peak_ = std::max(peak_, std::abs(state.displacement));  // between events x runs one way
+    sliding_distance_ += slip_distance_;
+    if constexpr (LawWithWork<Law>) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
+    slip_from_ = state.displacement;
+    slip_distance_ = 0;
+  }
+
+  std::size_t events() const noexcept { return events_.size(); }
+  double last_event() const noexcept { return events_.empty() ? 0 : events_.back().time; }
+  void limit_events(std::size_t most) noexcept { most_events_ = most; }
+
+  void finish(double time, const State& state, Response& response) {
+    begin_segment(time);
+    event(EventKind::end, 0, state);
+    response.events = std::move(events_);
+    response.peak = peak_;
+    response.sliding_distance = sliding_distance_;
+    response.time_sliding = time_sliding_;
+    response.energy.input = input_;
+    response.energy.dissipated = dissipated_;
+  }
+
+ private:
+  const Law& law_;
+  double segment_begins_ = 0;
+  double slip_from_;  // x where the slip at hand began
+  double slip_distance_ = 0;
+  Direction slip_direction_ = Direction::forward;
+  double peak_;
+  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0;
+  std::vector<Event> events_;
+  std::size_t most_events_ = std::numeric_limits<std::size_t>::max();
+};
+
+}  // namespace stickslip::detail
