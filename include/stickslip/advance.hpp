@@ -144,7 +144,8 @@ void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
 /// @param segment   finite, with a duration of at least 0; not checked
 /// @param state     at the beginning; becomes the state at the end. `State::at(x, v)` makes one
 /// @param observer  sees slips and events; optional
-/// @throws ConvergenceError if a law has no finite power series where it is needed; never for Coulomb and Caster
+/// @throws ConvergenceError if a law has no finite power series where it is needed: Caster only under accelerations or
+///         springs beyond all measure, Coulomb never
 /// Constant friction is exact to round-off, other laws to near round-off. Takes 10 to 20 ns without a spring.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {

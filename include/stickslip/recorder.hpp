@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,13 +21,20 @@ namespace stickslip::detail {
 template <FrictionLaw Law>
 class Recorder {
  public:
-  /// @param from  x at the start [m]
-  Recorder(const Law& law, double from) : law_(law), slip_from_(from), peak_(std::abs(from)) {}
+  /// @param from         x at the start [m]
+  /// @param most_events  more are refused
+  /// @param heartbeat    called now and then, at least every second or so; may throw
+  Recorder(const Law& law, double from, std::size_t most_events, const std::function<void()>& heartbeat)
+      : law_(law), slip_from_(from), peak_(std::abs(from)), most_events_(most_events), heartbeat_(heartbeat) {}
 
-  /// The time at which the segment at hand begins [s].
-  void begin_segment(double time) noexcept { segment_begins_ = time; }
+  /// @param time  at which the segment begins [s]
+  void begin_segment(double time) {
+    segment_begins_ = time;
+    beat();
+  }
 
   void slide(Direction direction, double from, double distance, double duration, double work) {
+    beat();
     slip_direction_ = direction;
     slip_distance_ += distance;
     time_sliding_ += duration;
@@ -34,7 +43,10 @@ class Recorder {
   }
 
   void event(EventKind kind, double time, const State& state) {
-    if (events_.size() >= most_events_) throw ConvergenceError("integrate: too many events");
+    if (events_.size() >= most_events_)
+      throw ConvergenceError("more than " + std::to_string(most_events_) + " events up to " +
+                             shortest(segment_begins_ + time) +
+                             " s: the spring is too stiff, or the slip level too low, for pieces of motion this long");
     events_.push_back({segment_begins_ + time, state.displacement, state.velocity, kind});
     peak_ = std::max(peak_, std::abs(state.displacement));  // between events x runs one way
     sliding_distance_ += slip_distance_;
@@ -45,7 +57,6 @@ class Recorder {
 
   std::size_t events() const noexcept { return events_.size(); }
   double last_event() const noexcept { return events_.empty() ? 0 : events_.back().time; }
-  void limit_events(std::size_t most) noexcept { most_events_ = most; }
 
   void finish(double time, const State& state, Response& response) {
     begin_segment(time);
@@ -59,6 +70,10 @@ class Recorder {
   }
 
  private:
+  void beat() {
+    if (++beats_ % 16384 == 0 && heartbeat_) heartbeat_();
+  }
+
   const Law& law_;
   double segment_begins_ = 0;
   double slip_from_;  // x where the slip at hand began
@@ -67,7 +82,9 @@ class Recorder {
   double peak_;
   double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0;
   std::vector<Event> events_;
-  std::size_t most_events_ = std::numeric_limits<std::size_t>::max();
+  std::size_t most_events_;
+  std::uint32_t beats_ = 0;
+  const std::function<void()>& heartbeat_;
 };
 
 }  // namespace stickslip::detail

@@ -11,8 +11,8 @@ namespace stickslip {
 
 /// What a record file may leave open.
 struct RecordOptions {
-  std::string units;      ///< of the acceleration, as `acceleration_unit` knows them; empty: as the file states
-  std::string component;  ///< its name in the file (in either case) or its number from 1; empty: the only one
+  std::string units{};      ///< of the acceleration, as `acceleration_unit` knows them; empty: as the file states
+  std::string component{};  ///< its name in the file (in either case) or its number from 1; empty: the only one
 };
 
 /// Reads one component of a strong-motion record; its format is told by the content, never by the file's name.

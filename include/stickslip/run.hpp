@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 
 #include "stickslip/advance.hpp"
@@ -25,10 +24,9 @@ struct Histories {
 /// Slides through all segments, one by one.
 template <FrictionLaw Law, class Flows>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          Recorder<Law>& recorder, const Histories& histories, const std::function<void()>& heartbeat) {
+                          Recorder<Law>& recorder, const Histories& histories) {
   State moving = state;
   for (std::size_t i = 0; i < motion.segments(); ++i) {
-    if (i % 65536 == 0 && heartbeat) heartbeat();
     recorder.begin_segment(motion.time(i));
     detail::advance(law, flows, motion.segment(i), moving, recorder);
     histories.keep(i + 1, moving);

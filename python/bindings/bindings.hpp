@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -36,13 +37,16 @@ inline py::array_t<double> view(std::span<const double> values, py::handle owner
   return array;
 }
 
-/// A one-dimensional array as a vector; `name` is for the message where it is not one.
-inline std::vector<double> to_vector(const py::array_t<double, py::array::c_style | py::array::forcecast>& array,
-                                     const char* name) {
+/// A one-dimensional array of real numbers as a vector; `name` is for the message where it is not one.
+inline std::vector<double> to_vector(const py::object& values, const std::string& name) {
+  if (py::hasattr(values, "mask")) throw std::invalid_argument(name + " must not be masked; fill the gaps first");
+  const py::array array = py::module_::import("numpy").attr("asarray")(values);  // whose own errors say what is wrong
+  if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
+    throw std::invalid_argument(name + " must hold real numbers, got " + py::str(array.dtype()).cast<std::string>());
   if (array.ndim() != 1)
-    throw std::invalid_argument(std::string(name) + " must be one-dimensional, got " + std::to_string(array.ndim()) +
-                                " dimensions");
-  return {array.data(), array.data() + array.size()};
+    throw std::invalid_argument(name + " must be one-dimensional, got " + std::to_string(array.ndim()) + " dimensions");
+  const auto doubles = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  return {doubles.data(), doubles.data() + doubles.size()};
 }
 
 /// The slip level that was given, either itself or as a coefficient of friction.

@@ -5,8 +5,6 @@
 namespace stickslip::python {
 namespace {
 
-using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
 Interpolation interpolation_of(const std::string& name) {
   if (name == "linear") return Interpolation::linear;
   if (name == "constant") return Interpolation::constant;
@@ -17,7 +15,7 @@ const char* name_of(Interpolation interpolation) {
   return interpolation == Interpolation::linear ? "linear" : "constant";
 }
 
-GroundMotion make(const Array& acceleration, std::optional<double> dt, const std::optional<Array>& times,
+GroundMotion make(const py::object& acceleration, std::optional<double> dt, const std::optional<py::object>& times,
                   const std::string& interpolation, std::string name) {
   if (dt.has_value() == times.has_value())
     throw std::invalid_argument(std::string("GroundMotion: give either dt or times, got ") + (dt ? "both" : "neither"));
@@ -98,7 +96,7 @@ ValueError
                                   name_of(g.interpolation()), g.name());
           },
           [](const py::tuple& t) {
-            return make(t[0].cast<Array>(), t[1].cast<std::optional<double>>(), t[2].cast<std::optional<Array>>(),
+            return make(t[0], t[1].cast<std::optional<double>>(), t[2].cast<std::optional<py::object>>(),
                         t[3].cast<std::string>(), t[4].cast<std::string>());
           }));
 }

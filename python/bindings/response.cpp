@@ -25,14 +25,14 @@ constexpr const char32_t* name_of(EventKind kind) {
   return U"";
 }
 
-py::array events_of(const Recording& recording) {
+py::array events_array(const Response& response) {
   py::dict layout;
   layout["names"] = py::make_tuple("time", "displacement", "velocity", "kind");
   layout["formats"] = py::make_tuple("f8", "f8", "f8", "U10");
   layout["offsets"] = py::make_tuple(offsetof(EventRow, time), offsetof(EventRow, displacement),
                                      offsetof(EventRow, velocity), offsetof(EventRow, kind));
   layout["itemsize"] = sizeof(EventRow);
-  const auto& events = recording.response.events;
+  const auto& events = response.events;
   py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
   auto* row = static_cast<EventRow*>(rows.mutable_data());
   for (const Event& e : events) {
@@ -42,6 +42,24 @@ py::array events_of(const Recording& recording) {
     ++row;
   }
   return rows;
+}
+
+// The array in `kept`, made by `make` when first asked for.
+template <class Make>
+py::object keep(py::object& kept, Make&& make) {
+  if (!kept) {
+    kept = make();
+    kept.attr("setflags")(py::arg("write") = false);
+  }
+  return kept;
+}
+
+py::object events_of(Recording& recording) {
+  return keep(recording.events, [&] { return events_array(recording.response); });
+}
+
+py::object time_of(Recording& recording) {
+  return keep(recording.time, [&] { return recording.motion.attr("time"); });
 }
 
 template <auto member>
@@ -74,13 +92,13 @@ initial + input = dissipated + kinetic + elastic, to round-off.)")
 
   py::class_<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
 
-Displacement and velocity are relative to the ground. The arrays are read-only views, not copies.)")
+Displacement and velocity are relative to the ground. The arrays are read-only; displacement and velocity are not
+copied.)")
       .def_property_readonly(
           "slider", [](const Recording& r) { return r.slider; }, "The slider that moved.")
       .def_property_readonly(
           "motion", [](const Recording& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly(
-          "time", [](const Recording& r) { return r.motion.attr("time"); }, "Times of the samples [s], shape (N,).")
+      .def_property_readonly("time", &time_of, "Times of the samples [s], shape (N,).")
       .def_property_readonly("displacement", history<&Response::displacement>(), "x at the samples [m], shape (N,).")
       .def_property_readonly("velocity", history<&Response::velocity>(), "x' at the samples [m/s], shape (N,).")
       .def_property_readonly("events", &events_of,

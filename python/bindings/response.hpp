@@ -9,6 +9,7 @@ struct Recording {
   Response response;
   py::object slider;
   py::object motion;
+  py::object time, events;  // arrays, made when first asked for
 };
 
 }  // namespace stickslip::python

@@ -82,7 +82,9 @@ float
            })
       .def(
           "__eq__",
-          [](const AnySlider& a, const AnySlider& b) {
+          [](const AnySlider& a, const py::object& other) {
+            if (!py::isinstance<AnySlider>(other)) return false;  // a law is no slider here
+            const auto& b = other.cast<const AnySlider&>();
             return law_of(a).equal(law_of(b)) && natural_frequency_of(a) == natural_frequency_of(b);
           },
           py::is_operator())

@@ -27,7 +27,6 @@ STANDARD_GRAVITY: float
 __version__: str
 
 class _Pybind11Type(type): ...  # the metaclass of all below; its true name cannot be imported
-
 class ConvergenceError(RuntimeError): ...
 
 class Coulomb(metaclass=_Pybind11Type):

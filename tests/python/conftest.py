@@ -31,8 +31,10 @@ def record_a():
     """
     with localcontext() as context:
         context.prec = 60
-        (s, c), (slow_s, slow_c) = sine_and_cosine(Decimal(0)), sine_and_cosine(Decimal("0.7"))
-        (fs, fc), (fast_s, fast_c) = sine_and_cosine(Decimal("0.4")), sine_and_cosine(Decimal("1.9"))
+        s, c = Decimal(0), Decimal(1)
+        slow_s, slow_c = sine_and_cosine(Decimal("0.7"))
+        fs, fc = sine_and_cosine(Decimal("0.4"))
+        fast_s, fast_c = sine_and_cosine(Decimal("1.9"))
         samples = []
         for _ in range(401):
             samples.append(float(2 * s + Decimal("1.3") * fc))

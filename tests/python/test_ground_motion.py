@@ -143,7 +143,7 @@ REFUSED = [
     (dict(acceleration=[], times=[]), "at least two samples, got 0"),
     (dict(acceleration=[1, 2, NAN], dt=1), r"acceleration\[2\] must be finite .* got nan m/s\^2"),
     (dict(acceleration=[1, -INF, NAN], dt=1), r"acceleration\[1\] must be finite .* got -inf"),
-    (dict(acceleration=[None, 2], dt=1), r"acceleration\[0\] must be finite .* got nan"),
+    (dict(acceleration=[None, 2], dt=1), "acceleration must hold real numbers, got object"),
     (dict(acceleration=[0, 1e300], dt=1), r"acceleration\[1\] .* at most 1e100 .* got 1e\+300"),
     (dict(acceleration=SAMPLES, dt=0), "dt must be positive and finite, got 0 s"),
     (dict(acceleration=SAMPLES, dt=-0.01), r"dt must be positive and finite, got -0\.01 s"),
@@ -166,7 +166,10 @@ REFUSED = [
         dict(acceleration=SAMPLES, times=[1, 1, 1, 1], interpolation="constant"),
         "duration must be positive .* got 0 s",
     ),
-    (dict(acceleration=SAMPLES, dt=1, interpolation="cubic"), "'linear' or 'constant', got 'cubic'"),
+    (
+        dict(acceleration=SAMPLES, dt=1, interpolation="cubic"),
+        "'linear' or 'constant', got 'cubic'",
+    ),
     (dict(acceleration=5.0, dt=1), "one-dimensional, got 0"),
     (dict(acceleration=[[1, 2], [3, 4]], dt=1), "acceleration must be one-dimensional, got 2"),
     (dict(acceleration=SAMPLES, times=[[0, 1, 2, 3]]), "times must be one-dimensional, got 2"),
@@ -181,14 +184,22 @@ def test_what_is_refused_is_named_with_its_value(arguments, message):
 
 @pytest.mark.parametrize(
     "samples",
-    [["a", "b"], [1j, 2], {0: 1.0, 1: 2.0}, {1.0, 2.0}, (x for x in SAMPLES), [[1, 2], [3]], "12", b"12"],
+    [
+        ["a", "b"],
+        [1j, 2],
+        {0: 1.0, 1: 2.0},
+        {1.0, 2.0},
+        (x for x in SAMPLES),
+        [[1, 2], [3]],
+        "12",
+        b"12",
+    ],
 )
 def test_what_is_no_row_of_numbers_is_refused(samples):
     with pytest.raises((TypeError, ValueError)):
         ss.GroundMotion(samples, dt=1)
 
 
-@pytest.mark.xfail(reason="whatever NumPy can force into doubles is taken")
 @pytest.mark.parametrize(
     "samples",
     [
@@ -208,7 +219,9 @@ def test_an_array_that_does_not_hold_real_numbers_is_refused(samples):
             ss.GroundMotion(samples, dt=1)
 
 
-@pytest.mark.parametrize("arguments", [(SAMPLES, "0.1"), (SAMPLES, [0.1]), (SAMPLES, 1, [0, 1, 2, 3]), ()])
+@pytest.mark.parametrize(
+    "arguments", [(SAMPLES, "0.1"), (SAMPLES, [0.1]), (SAMPLES, 1, [0, 1, 2, 3]), ()]
+)
 def test_arguments_of_another_kind_are_a_type_error(arguments):
     with pytest.raises(TypeError):
         ss.GroundMotion(*arguments)

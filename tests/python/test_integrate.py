@@ -1,6 +1,8 @@
 """Sliders under ground motions, against numbers computed apart from this library."""
 
 import math
+import subprocess
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -40,7 +42,8 @@ class Run(NamedTuple):
 
 
 # values.json, entries of these ids: event-exact closed forms of 50 digits for Coulomb friction (70
-# digits agree to 1e-49), Taylor series of order 40 with 32 digits for the caster (40 agree to 1e-26).
+# digits agree to 1e-49), Taylor series of order 40 with 32 digits for the caster (40 digits agree
+# to 1e-26).
 RUNS = [
     Run(
         "rec.coulomb.A.linear.nospring_sym",
@@ -157,8 +160,9 @@ RUNS = [
 
 @pytest.mark.parametrize("run", RUNS, ids=lambda run: run.id)
 def test_record_a_ends_as_fifty_digits_say(run, record_a):
-    # Coulomb: each of some 500 closed-form steps rounds a few times to 1.1e-16 of the scale of x; were
-    # they all to go one way, 500 * 2 * 1.1e-16 = 1e-13. The caster: ten roundings more a step.
+    # Coulomb: each of some 500 closed-form steps rounds a few times to 1.1e-16 of the scale of x;
+    # were they all to go one way, 500 * 2 * 1.1e-16 = 1e-13. The caster: ten roundings more a step,
+    # and the tolerance it promises is "near round-off" only.
     tolerance = 1e-11 if isinstance(run.law, ss.Caster) else 1e-13
     quake = ss.GroundMotion(record_a, dt=0.1, interpolation=run.interpolation)
     r = ss.integrate(ss.Slider(run.law, run.natural_frequency), quake)
@@ -201,9 +205,7 @@ def test_friction_holds_at_its_own_level():
 
 def test_a_block_that_slides_at_its_level_keeps_its_speed():
     # values.json edge.constant_n_equals_minus_a_moving
-    r = ss.integrate(
-        ss.Coulomb(slip_level=1.0), ss.GroundMotion([-1, -1, -1], dt=1), velocity=1.0
-    )
+    r = ss.integrate(ss.Coulomb(slip_level=1.0), ss.GroundMotion([-1, -1, -1], dt=1), velocity=1.0)
     assert (r.residual, r.velocity[-1]) == (2.0, 1.0)
 
 
@@ -278,19 +280,36 @@ def test_a_caster_stops_below_its_escape_velocity_and_never_above(start, escape,
     r = ss.integrate(law, still, displacement=start, velocity=0.9 * escape, settle=True)
     assert r.at_rest
     assert r.residual == pytest.approx(stop, rel=1e-11)
-    with pytest.raises(ss.ConvergenceError, match=r"does not come to rest: at x = .* settle = false"):
+    with pytest.raises(ss.ConvergenceError, match=r"does not come to rest: at x = .* settle"):
         ss.integrate(law, still, displacement=start, velocity=1.1 * escape, settle=True)
     away = ss.integrate(law, still, displacement=start, velocity=1.1 * escape)
     assert not away.at_rest
 
 
-@pytest.mark.xfail(reason="the Taylor flow's own check fails from some hundred reaches on")
-@pytest.mark.parametrize("dt", [0.1, 400.0])
+@pytest.mark.parametrize(
+    "dt",
+    [
+        0.1,
+        400.0,
+    ],
+)
 def test_a_caster_that_has_escaped_goes_on_for_ever(dt):
     # From the middle, v^2 / 2 falls by a reach pi / 2, and stays; 400 s at 2.7 m/s, 4000 reaches.
     law, still = ss.Caster(slip_level=2.0, reach=0.25), np.zeros(round(400 / dt) + 1)
     r = ss.integrate(law, ss.GroundMotion(still, dt=dt), velocity=3.0)
     assert r.velocity[-1] == pytest.approx(math.sqrt(9 - 2.0 * 0.25 * math.pi), rel=1e-11)
+
+
+def test_a_caster_that_comes_back_from_afar_arrives():
+    # 760 reaches away the level is nothing, 740 reaches away it is above underflow: ten seconds at
+    # 2 m/s are 20 m. In a process of its own, for a flow that did not end could not be interrupted.
+    script = """
+import stickslip as ss
+law, still = ss.Caster(slip_level=1.0, reach=1.0), ss.GroundMotion([0, 0], dt=10)
+print(ss.integrate(law, still, displacement=760.0, velocity=-2.0).residual)"""
+    command = [sys.executable, "-c", script]
+    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=30).stdout
+    assert float(output) == pytest.approx(740.0, rel=1e-11)
 
 
 def test_one_pulse_moves_a_block_back_and_half_of_it_forth():
@@ -318,7 +337,9 @@ def test_a_block_slides_backward_when_the_ground_accelerates_forward():
 def test_a_one_way_block_slides_forward_only(record_a):
     r = ss.integrate(ss.Coulomb(slip_level=1.0, backward=INF), ss.GroundMotion(record_a, dt=0.1))
     assert np.all(np.diff(r.displacement) >= 0)
-    assert r.residual == r.peak == r.sliding_distance > 0
+    assert r.residual == r.peak > 0
+    # a sum of about 50 slips, each rounded to half a unit of the total
+    assert r.sliding_distance == pytest.approx(r.peak, rel=50 * 1.2e-16)
 
 
 @pytest.mark.parametrize("law", [ss.Coulomb(slip_level=1.0), ss.Caster(slip_level=1.0, reach=0.5)])
@@ -444,8 +465,9 @@ CROSSED = [
 @pytest.mark.parametrize("slider", CROSSED, ids=repr)
 def test_scipy_comes_to_the_same_with_friction_made_smooth(slider, record_a):
     # f = level tanh(v / e) instead of level sgn(v). While stuck the smooth slider creeps at
-    # e atanh(load / level), less than 10 e until the load is within 4e-9 of the level: over the time
-    # T, 10 e T at most; friction forgets what went before a stop. e = 1e-6 m/s, T = 8 s: 8e-5 m.
+    # e atanh(load / level), less than 10 e until the load is within 4e-9 of the level: over the
+    # time T, 10 e T at most; friction forgets what went before a stop. With e = 1e-6 m/s, T = 8 s
+    # that is 8e-5 m.
     scipy_integrate = pytest.importorskip("scipy.integrate", reason="needs SciPy")
     e, dt, samples = 1e-6, 0.1, 81
     wn2 = slider.natural_frequency**2

@@ -69,11 +69,10 @@ def test_on_a_slope_gravity_helps_downhill_and_hinders_uphill():
 
 
 def test_a_block_that_slides_under_its_own_weight_is_refused():
-    with pytest.raises(ValueError, match=r"20 degrees .* own weight .* at least 0\.36397.*got 0\.2"):
+    with pytest.raises(ValueError, match=r"20 degrees .* weight .* at least 0\.36397.*got 0\.2"):
         ss.Coulomb.on_slope(mu=0.2, degrees=20)
 
 
-@pytest.mark.xfail(reason="mu g cos < g sin by a rounding for a quarter of all slopes")
 def test_the_least_friction_that_a_message_names_is_enough():
     for tenths in range(1, 890):
         degrees = tenths / 10
@@ -116,7 +115,7 @@ def test_the_slip_level_of_a_caster_is_the_sine_of_its_angle(position, sine):
 
 REFUSED = [
     (lambda: ss.Coulomb(), "give either mu or slip_level, got neither"),
-    (lambda: ss.Coulomb(mu=0.2, slip_level=1.5), r"got both \(mu = 0\.2, slip_level = 1\.5 m/s\^2\)"),
+    (lambda: ss.Coulomb(mu=0.2, slip_level=1.5), r"both \(mu = 0\.2, slip_level = 1\.5 m/s\^2\)"),
     (lambda: ss.Coulomb(mu=-0.2), "Coulomb: mu must be finite and at least 0, got -0.2"),
     (lambda: ss.Coulomb(mu=NAN), "Coulomb: mu .* got nan"),
     (lambda: ss.Coulomb(mu=INF), "Coulomb: mu .* got inf"),

@@ -46,7 +46,8 @@ class FirstRoot {
     }
     for (int i = 1; i <= degree_; ++i)
       for (int k = degree_; k >= i; --k) b[k] += b[k - 1];
-    return search(b, 0, 1);
+    const double last_value = b[degree_], root = search(b, 0, 1);
+    return root == never && last_value <= 0 ? 1 : root;  // at the end, but for rounding
   }
 
  private:
@@ -54,7 +55,7 @@ class FirstRoot {
 
   double search(Bernstein& b, double left, double width) const noexcept {
     int changes = 0;
-    for (int k = 1; k <= degree_; ++k) changes += (b[k - 1] > 0) != (b[k] > 0);
+    for (int k = 1; k <= degree_; ++k) changes += (b[k - 1] >= 0) != (b[k] >= 0);
     if (changes == 0) return never;
     if (changes == 1) return polish(left, left + width);
     if (width < 0x1p-40) return never;
@@ -97,21 +98,26 @@ template <FrictionLaw Law>
 class TaylorFlow {
  public:
   TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const Start& start, double duration)
-      : direction_(sign(direction)), load_rate_(start.gain / duration), horizon_(duration) {
-    const double level_here = slider.law().level(displacement, direction);
-    // Where the level has underflowed to nothing its series says nothing of what lies ahead: towards the centre, go
-    // half the way at most.
-    if (level_here <= vanishing && direction_ * displacement < 0 && slider.law().level(0.0, direction) > vanishing)
-      horizon_ = std::min(horizon_, time_to_half_way(start, std::abs(displacement) / 2));
+      : slider_(slider),
+        direction_(direction),
+        displacement_(displacement),
+        start_(start),
+        load_rate_(start.gain / duration),
+        level_here_(slider.law().level(displacement, direction)),
+        horizon_(duration) {
+    // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
+    // the way at most.
+    if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
+        slider.law().level(0.0, direction) > vanishing)
+      horizon_ = std::min(horizon_, time_to_half_way());
 
     for (;;) {
-      const double within_reach = expand(slider, direction, displacement, level_here, start);
+      const double within_reach = expand();
       if (within_reach == 1) return;
       horizon_ *= within_reach;
       if (!(horizon_ > 0x1p-200 * duration))
-        throw ConvergenceError(
-            "TaylorFlow: the slip level has no finite power series at x = " + detail::shortest(displacement) +
-            " m, where it is " + detail::shortest(level_here) + " m/s^2");
+        throw ConvergenceError("the slip level has no finite power series at x = " + detail::shortest(displacement) +
+                               " m, where it is " + detail::shortest(level_here_) + " m/s^2");
     }
   }
 
@@ -145,57 +151,56 @@ class TaylorFlow {
   }
 
   // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
-  double expand(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
-                const Start& start) {
-    const double h = horizon_, stiffness = slider.stiffness();
+  double expand() {
+    const double s = sign(direction_), h = horizon_, stiffness = slider_.stiffness();
     series::Coefficients x;
-    auto level = as_series(slider.law().level(series::Variable{&x}, direction));
-    x[0] = displacement;
+    auto level = as_series(slider_.law().level(series::Variable{&x}, direction_));
+    x[0] = displacement_;
     d_[0] = 0;
-    d_[1] = start.speed * h;
-    x[1] = direction_ * d_[1];
+    d_[1] = start_.speed * h;
+    x[1] = s * d_[1];
     level.update(0);
 
-    double fastest = d_[1];  // the largest term of the speed
     const double largest_level = std::max(std::abs(level[0]), vanishing);
+    fastest_ = d_[1];
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
-      double net = start.acceleration;
+      double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
         net = (k == 1 ? load_rate_ * h : 0.0) - stiffness * d_[k] - level[k];
       }
       d_[k + 2] = h * h * net * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
-      x[k + 2] = direction_ * d_[k + 2];
-      const double term = (k + 2) * std::abs(d_[k + 2]);
-      fastest = std::max(fastest, term);
+      x[k + 2] = s * d_[k + 2];
       order_ = k + 2;
-      if (k < 2) continue;
-      const double previous = (k + 1) * std::abs(d_[k + 1]);
-      const bool settled = std::max(term, previous) <= round_off * fastest &&
-                           std::max(std::abs(level[k]), std::abs(level[k - 1])) <= largest_level;
-      if (settled && balanced(slider, direction, displacement, level_here, start)) return 1;
+      const double term = (k + 2) * std::abs(d_[k + 2]), previous = (k + 1) * std::abs(d_[k + 1]);
+      fastest_ = std::max(fastest_, term);
+      if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
+      // On breaking away x is a cubic, and two of three coefficients of the level are zero.
+      const double recent_level = std::max({std::abs(level[k]), std::abs(level[k - 1]), std::abs(level[k - 2])});
+      if (recent_level <= largest_level && balanced(0.6) && balanced(1)) return 1;
     }
-    const double last = std::max(order_ * std::abs(d_[order_]), (order_ - 1) * std::abs(d_[order_ - 1])) / fastest;
+    const double last = std::max(order_ * std::abs(d_[order_]), (order_ - 1) * std::abs(d_[order_ - 1])) / fastest_;
     const double outgrown = std::max(last / round_off, std::abs(level[order_ - 2]) / largest_level);
     return std::clamp(std::pow(outgrown, -1.0 / (order_ - 2)), 0x1p-20, 0.75);
   }
 
-  // Whether the equation of motion holds at the horizon, to the round-off of its terms.
-  bool balanced(const Slider<Law>& slider, Direction direction, double displacement, double level_here,
-                const Start& start) {
-    end_ = at_part(1);
-    const double level_there = slider.law().level(displacement + direction_ * end_.distance, direction);
-    const double gain = load_rate_ * horizon_, pull = slider.stiffness() * end_.distance;
-    const double net = start.acceleration + gain - pull - (level_there - level_here);
-    const double terms = std::abs(start.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here) +
-                         std::abs(level_there) + slider.stiffness() * std::abs(displacement);
+  // Whether the equation of motion holds at a part of the horizon, to the round-off of its terms and of the series.
+  bool balanced(double part) {
+    end_ = at_part(part);
+    const double level_there = slider_.law().level(displacement_ + sign(direction_) * end_.distance, direction_);
+    const double gain = load_rate_ * horizon_ * part, pull = slider_.stiffness() * end_.distance;
+    const double net = start_.acceleration + gain - pull - (level_there - level_here_);
+    const double terms = std::abs(start_.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here_) +
+                         std::abs(level_there) + slider_.stiffness() * std::abs(displacement_) +
+                         fastest_ / (horizon_ * horizon_);
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
-  double time_to_half_way(const Start& start, double distance) const noexcept {
-    // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
-    return std::min({distance / 3 / start.speed, std::sqrt(distance / 3 / std::abs(start.acceleration)),
-                     std::cbrt(distance / 3 / std::abs(load_rate_))});
+  // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
+  double time_to_half_way() const noexcept {
+    const double third = std::abs(displacement_) / 6;
+    return std::min({third / start_.speed, std::sqrt(third / std::abs(start_.acceleration)),
+                     std::cbrt(third / std::abs(load_rate_))});
   }
 
   static auto as_series(double level) noexcept { return series::Constant{level}; }
@@ -207,12 +212,17 @@ class TaylorFlow {
   static constexpr double vanishing = 1e-290;  // a slip level that is none, and near to losing digits [m/s^2]
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
-  double direction_;
-  double load_rate_;  // [m/s^3]
+  const Slider<Law>& slider_;
+  Direction direction_;
+  double displacement_;
+  Start start_;
+  double load_rate_;   // [m/s^3]
+  double level_here_;  // [m/s^2]
   double horizon_;
+  double fastest_ = 0;  // the largest term of the speed, for time in units of the horizon [m]
   int order_ = 0;
-  Progress end_{};  // at the horizon
   double d_[series::highest_order + 1];
+  Progress end_{};  // at the horizon
 };
 
 /// Makes the Taylor flows of one slider.

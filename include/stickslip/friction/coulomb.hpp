@@ -1,6 +1,7 @@
 // Coulomb friction: the same slip level everywhere.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -51,14 +52,14 @@ class Coulomb {
     detail::require(degrees >= 0 && degrees < 90, "Coulomb: a slope must be from 0 to less than 90 degrees", degrees,
                     "degrees");
     const double slope = degrees * (std::numbers::pi / 180);
-    const double resisting = mu * standard_gravity * std::cos(slope);
-    const double driving = standard_gravity * std::sin(slope);
-    detail::require(resisting >= driving,
+    detail::require(mu >= std::tan(slope),
                     "Coulomb: on a slope of " + detail::shortest(degrees) +
                         " degrees the block slides under its own weight unless mu is at least " +
                         detail::shortest(std::tan(slope)),
                     mu);
-    return {resisting - driving, resisting + driving};
+    const double resisting = mu * standard_gravity * std::cos(slope);
+    const double driving = standard_gravity * std::sin(slope);
+    return {std::max(resisting - driving, 0.0), resisting + driving};
   }
 
   double forward() const noexcept { return forward_; }

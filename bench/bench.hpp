@@ -1,0 +1,120 @@
+// Times pieces of work against one another, and says how far the figures may be trusted.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <stickslip/build_info.hpp>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace bench {
+
+/// The compiler must take it that `value` is read.
+template <class T>
+void keep(const T& value) {
+  asm volatile("" : : "g"(&value) : "memory");
+}
+
+/// Stops the bench: a wrong answer is not worth timing.
+inline void require(bool holds, std::string_view what, double found, double allowed) {
+  if (holds) return;
+  std::fprintf(stderr, "wrong answer: %.*s: %.3g, allowed %.3g\n", static_cast<int>(what.size()), what.data(), found,
+               allowed);
+  std::exit(EXIT_FAILURE);
+}
+
+inline void require_below(std::string_view what, double found, double allowed) {
+  require(found <= allowed, what, found, allowed);  // NaN is refused too
+}
+
+/// The number below which the given part of the numbers lies.
+inline double quantile(std::vector<double> numbers, double part) {
+  std::sort(numbers.begin(), numbers.end());
+  const double place = part * static_cast<double>(numbers.size() - 1);
+  const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, numbers.size() - 1);
+  return numbers[below] + (place - static_cast<double>(below)) * (numbers[above] - numbers[below]);
+}
+
+/// Times of one piece of work, each round one [ns per item].
+struct Timing {
+  std::string name;
+  std::vector<double> times;
+
+  double least() const { return quantile(times, 0); }
+  double median() const { return quantile(times, 0.5); }
+  /// Distance of the quartiles, as a part of the median.
+  double spread() const { return (quantile(times, 0.75) - quantile(times, 0.25)) / median(); }
+  bool reliable() const { return spread() <= 0.1; }
+
+  /// Median of the ratios round by round: of what stood side by side.
+  double ratio(const Timing& base) const {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / base.times[i]);
+    return quantile(std::move(ratios), 0.5);
+  }
+};
+
+/// Pieces of work, on one thread, that take turns, so that a slow spell of the machine falls on all alike. The time is
+/// the processor's: what other programs get of it is not counted.
+class Bench {
+ public:
+  /// @param items  the work of one round: what a time is divided by
+  explicit Bench(std::size_t items) : items_(static_cast<double>(items)) {}
+
+  void add(std::string name, std::function<void()> work) { works_.push_back({std::move(name), std::move(work)}); }
+
+  /// One round warms up, the others are timed.
+  std::vector<Timing> run(int rounds) const {
+    std::vector<Timing> timings;
+    for (const auto& [name, work] : works_) timings.push_back({name, {}});
+    for (int round = 0; round <= rounds; ++round)
+      for (std::size_t i = 0; i < works_.size(); ++i) {
+        const std::clock_t begin = std::clock();
+        works_[i].second();
+        const double taken = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        if (round > 0) timings[i].times.push_back(taken * 1e9 / items_);
+      }
+    return timings;
+  }
+
+ private:
+  double items_;
+  std::vector<std::pair<std::string, std::function<void()>>> works_;
+};
+
+/// As the system names it.
+inline std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+inline void print_machine() {
+  const stickslip::BuildInfo& build = stickslip::build_info();
+  std::printf("%s, 1 of %u threads\n%s, %s %s, commit %s\n", processor().c_str(), std::thread::hardware_concurrency(),
+              build.compiler.c_str(), build.build_type.c_str(), build.compiler_flags.c_str(), build.commit.c_str());
+}
+
+/// @param base  the row that the others are set against
+inline void print_table(std::string_view title, const std::vector<Timing>& timings, std::size_t base) {
+  std::printf("\n%-44.*s %8s %8s %8s %8s\n", static_cast<int>(title.size()), title.data(), "median", "least", "spread",
+              "ratio");
+  bool reliable = true;
+  for (const Timing& timing : timings) {
+    std::printf("%-44s %8.1f %8.1f %7.0f%%%s %7.2f\n", timing.name.c_str(), timing.median(), timing.least(),
+                100 * timing.spread(), timing.reliable() ? " " : "!", timing.ratio(timings[base]));
+    reliable = reliable && timing.reliable();
+  }
+  if (!reliable) std::printf("! unreliable: the middle half of the rounds spreads by more than 10 %% of the median\n");
+}
+
+}  // namespace bench

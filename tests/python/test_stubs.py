@@ -1,0 +1,96 @@
+"""Type stubs: they say what the compiled module is, and a checker understands a user's script."""
+
+import os
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+import stickslip as ss
+
+needs_mypy = pytest.mark.skipif(find_spec("mypy") is None, reason="needs mypy")
+
+# In its strict mode mypy also reports a `type: ignore` that ignores nothing: the lines that have
+# one are lines that must be refused.
+SCRIPT = """
+from array import array
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import stickslip as ss
+from numpy.typing import NDArray
+
+block = ss.Coulomb(mu=0.2)
+block = ss.Coulomb(slip_level=1, backward=float("inf"))
+block = ss.Coulomb(mu=np.float32(0.2), backward=Fraction(1, 5))
+block = ss.Coulomb.on_slope(mu=0.6, degrees=20)
+wheel = ss.Caster(slip_level=1.0, reach=0.5)
+wheel = ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02, thesis=True)
+cart = ss.Slider(wheel, natural_frequency=1.3)
+
+quake = ss.GroundMotion([1, 2.0, 3], dt=0.01)
+quake = ss.GroundMotion(range(3), 0.01, name="ramp")
+quake = ss.GroundMotion(array("d", [1, 2, 3]), times=(0, 1, 2))
+quake = ss.GroundMotion(np.ones(3, np.float32), times=np.arange(3), interpolation="constant")
+quake = ss.read_record(Path("kobe.AT2"), units="g", component=1)
+step: float | None = quake.dt
+
+r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
+r = ss.integrate(block, quake, settle=True)
+x: NDArray[np.float64] = r.displacement
+kinds = r.events["kind"]
+law: ss.Coulomb | ss.Caster = r.slider.law
+work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy.elastic
+far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
+same: bool = block == wheel or hash(block) == hash(cart)
+words: dict[str, str] = ss.build_info()
+try:
+    r.plot(title="Kobe")
+except ss.ConvergenceError as error:
+    raise RuntimeError from error
+
+ss.Coulomb()  # type: ignore[call-overload]
+ss.Coulomb(0.2)  # type: ignore[call-overload]
+ss.Coulomb(mu="0.2")  # type: ignore[call-overload]
+ss.Coulomb(mu=0.2, slip_level=1.0)  # type: ignore[call-overload]
+ss.Caster(mu=0.2)  # type: ignore[call-overload]
+ss.Slider(0.2)  # type: ignore[arg-type]
+ss.GroundMotion([1, 2])  # type: ignore[call-overload]
+ss.GroundMotion([1, 2], dt=0.01, times=[0, 1])  # type: ignore[call-overload]
+ss.GroundMotion([1, 2], dt=0.01, interpolation="cubic")  # type: ignore[call-overload]
+ss.GroundMotion(["1", "2"], dt=0.01)  # type: ignore[list-item]
+ss.GroundMotion([1j, 2], dt=0.01)  # type: ignore[list-item]
+ss.GroundMotion([[1, 2], [3, 4]], dt=0.01)  # type: ignore[list-item]
+ss.integrate(block, [1, 2])  # type: ignore[arg-type]
+ss.integrate(block, quake, 0.0)  # type: ignore[call-arg]
+block.slip_level = 2.0  # type: ignore[misc]
+r.peak = 2.0  # type: ignore[misc]
+"""
+
+
+def run(*command, cwd):
+    # mypy looks where Python does, but for what PYTHONPATH names it wants MYPYPATH.
+    environment = {**os.environ, "MYPYPATH": os.environ.get("PYTHONPATH", "")}
+    result = subprocess.run(
+        [sys.executable, "-m", *command], cwd=cwd, env=environment, capture_output=True, text=True
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
+def test_the_package_carries_its_types():
+    package = Path(ss.__file__).parent
+    assert (package / "py.typed").exists()
+    assert (package / "_core.pyi").exists()
+
+
+@needs_mypy
+def test_the_stubs_say_what_the_compiled_module_is(tmp_path):
+    run("mypy.stubtest", "stickslip._core", cwd=tmp_path)
+
+
+@needs_mypy
+def test_a_strict_checker_takes_what_runs_and_refuses_what_does_not(tmp_path):
+    (tmp_path / "script.py").write_text(SCRIPT)
+    run("mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "script.py", cwd=tmp_path)
