@@ -12,9 +12,8 @@ import time
 from pathlib import Path
 
 import numpy as np
-from measure import UNRELIABLE, Timing, bar, machine, peer, take_turns
-
 import stickslip as ss
+from measure import UNRELIABLE, Timing, bar, machine, peer, take_turns
 
 SAMPLES = 20_000
 MU = (0.1, 0.2, 0.3)

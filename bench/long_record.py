@@ -17,11 +17,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import stickslip as ss
 from command_line import SAMPLES as RECORD_SAMPLES
 from command_line import seconds_of_command
 from measure import UNRELIABLE, Timing, bar, machine, peer, take_turns, versions
-
-import stickslip as ss
 
 N = 100_000
 DT = 0.1  # [s]
@@ -308,10 +307,17 @@ def next_slip(x: float, n0: float, n1: float, dt: float, t: float, level: float,
     return t + (dt - t) * (s * level - load) / (last - load), s
 
 
-def level_of(law: str) -> Callable[[float], float]:
+def level_of(law: str, number=float) -> Callable:
+    level, reach = number(SLIP_LEVEL), number(REACH)
     if law == "coulomb":
-        return lambda x: SLIP_LEVEL
-    return lambda x: SLIP_LEVEL / math.cosh(x / REACH) if abs(x) < 300 else 0.0
+        return lambda x: level
+    exp = math.exp if number is float else np.exp
+
+    def sech(x):
+        e = exp(-abs(x) / reach)
+        return level * (2 * e / (1 + e * e))
+
+    return sech
 
 
 def scipy_slider(solve_ivp, n: np.ndarray, law: str, wn: float) -> np.ndarray:
@@ -357,12 +363,15 @@ class Heyoka:
         one = number(1)
         level = one * number(SLIP_LEVEL)
         if law == "caster":
-            level = level / hy.cosh(x / number(REACH))
+            # sech(x / reach) in a form that stays finite where |x| is large: the third parameter is
+            # the sign of x (near 0 either will do). Quicker, too, than a division by cosh.
+            e = hy.exp(hy.par[2] * x * (-one / number(REACH)))
+            level = level * (number(2) * e / (one + e * e))
         net = s * (load - number(wn) * number(wn) * x) - level if wn else s * load - level
         self.integrator = hy.taylor_adaptive(
             [(x, s * w), (w, net), (load, rate)],
             [number(0)] * 3,
-            pars=[number(0), one],
+            pars=[number(0), one, one][: 3 if law == "caster" else 2],
             t_events=[hy.t_event(w, direction=hy.event_direction.negative, fp_type=number)],
             fp_type=number,
         )
@@ -376,19 +385,19 @@ class Heyoka:
             cosh = np.cosh
             level = lambda x: (
                 number(SLIP_LEVEL)
-                / (  # noqa: E731
-                    cosh(x / number(REACH)) if self.law == "caster" else number(1)
-                )
+                / (cosh(x / number(REACH)) if self.law == "caster" else number(1))
             )
-        dt = number(DT)
+        dt, tiny = number(DT), np.finfo(number).eps
         values = n.tolist() if number is float else n.astype(number)
         xs = np.zeros(len(n), number)
         state[:] = 0
-        stuck = True
+        stuck, caster = True, self.law == "caster"
         for i in range(len(n) - 1):
             n0, n1 = values[i], values[i + 1]
             pars[0] = (n0 - n1) / dt
             t = number(0)
+            if caster:
+                pars[2] = -1 if state[0] < 0 else 1
             if not stuck:
                 state[2] = -n0
             while True:
@@ -398,9 +407,11 @@ class Heyoka:
                     if slip is None:
                         break
                     t, s = slip
-                    state[1], state[2], pars[1] = 0, -n0 - (n1 - n0) * t / dt, s
-                    if abs(state[2]) <= level(x) and not wn:
-                        state[2] = s * level(x)
+                    load, pull, held = -n0 - (n1 - n0) * t / dt, number(wn) ** 2 * x, level(x)
+                    # A net force of less than nothing, by rounding, would stop it on the spot.
+                    least = 8 * tiny * (abs(load) + abs(pull) + held)
+                    net = max(s * (load - pull) - held, least)
+                    state[1], state[2], pars[1] = 0, s * (held + net) + pull, s
                     ta.reset_cooldowns()
                     stuck = False
                     if t >= dt:
@@ -422,7 +433,7 @@ def heyoka_step(heyoka: Heyoka, steps: int) -> Callable[[], object]:
 
     def run():
         ta.state[:] = [0.3, 1.0, SLIP_LEVEL]
-        ta.pars[:] = [1e-9, 1.0]
+        ta.pars[:] = [1e-9, 1.0, 1.0][: len(ta.pars)]
         for _ in range(steps // 100):  # away and back: the place decides what a caster costs
             ta.state[:] = [0.3, 1.0, SLIP_LEVEL]
             ta.propagate_for(100 * DT, max_delta_t=DT)

@@ -1,5 +1,7 @@
 #include "response.hpp"
 
+#include <algorithm>
+
 #include "bindings.hpp"
 
 namespace stickslip::python {
@@ -112,6 +114,14 @@ under way at the start is entered as a breakaway there.)")
           "at_rest", [](const Recording& r) { return r.response.state.mode == Mode::stuck; },
           "Whether the slider rests at the end.")
       .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(), "Length of the way slid [m].")
+      .def_property_readonly(
+          "slips",
+          [](const Recording& r) {
+            return std::ranges::count_if(r.response.events, [](const Event& e) {
+              return e.kind == EventKind::breakaway || e.kind == EventKind::reversal;
+            });
+          },
+          "Number of slips; a reversal ends one and begins another.")
       .def_property_readonly("time_sliding", number<&Response::time_sliding>(), "Time spent sliding [s].")
       .def_property_readonly("energy", number<&Response::energy>(), "Where the energy went, per unit mass [m^2/s^2].")
       .def(

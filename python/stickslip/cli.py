@@ -187,7 +187,6 @@ def _row(args: argparse.Namespace, file: Path, mu: float, response: Response) ->
     """One response: keys carry their units; an infinite level is None."""
     slider = response.slider
     forward, backward = (slider.level(backward=back) for back in (False, True))
-    kinds = response.events["kind"]
     return {
         "file": str(file),
         "record": response.motion.name,
@@ -204,7 +203,7 @@ def _row(args: argparse.Namespace, file: Path, mu: float, response: Response) ->
         "residual_m": response.residual,
         "sliding_distance_m": response.sliding_distance,
         "time_sliding_s": response.time_sliding,
-        "slips": int(((kinds == "breakaway") | (kinds == "reversal")).sum()),
+        "slips": response.slips,
         "at_rest": response.at_rest,
     }
 

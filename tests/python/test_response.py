@@ -196,3 +196,8 @@ def test_responses_are_made_by_integrate_alone():
 def test_a_response_does_not_change():
     with pytest.raises(AttributeError):
         block().peak = 1.0
+
+
+def test_slips_are_breakaways_and_reversals(response):
+    kinds = response.events["kind"]
+    assert response.slips == np.count_nonzero((kinds == "breakaway") | (kinds == "reversal")) > 0
