@@ -9,7 +9,7 @@
 
 using namespace stickslip;
 
-// One storey, damping 5 %, period 0.5 s, stepped by central differences.
+// One storey, damping 5 %, period 0.5 s, stepped by the semi-implicit Euler method.
 class Building {
  public:
   // Moves on by one step; returns the absolute acceleration of the floor [m/s^2].

@@ -69,14 +69,19 @@ TEST_CASE("the time between samples must be positive and finite", "[ground_motio
 TEST_CASE("times must be as many as samples, finite, and go on", "[ground_motion][errors]") {
   CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1}),
                     "GroundMotion: needs as many times as samples, got 2 times for 3 samples");
-  CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1, not_a_number}), ContainsSubstring("times[2] must be finite, got nan s"));
+  CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1, not_a_number}),
+                    ContainsSubstring("times[2] must be finite, got nan s"));
   CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1, infinity}), ContainsSubstring("times[2] must be finite, got inf s"));
   CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 2, 1}),
-                    ContainsSubstring("must increase") && ContainsSubstring("times[2]") && ContainsSubstring("after 2 s") && ContainsSubstring("got 1 s"));
-  CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1, 1}), ContainsSubstring("must increase") && ContainsSubstring("times[2]"));
-  CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1, 0.5}, Interpolation::constant),
-                    ContainsSubstring("must not decrease") && ContainsSubstring("times[2]") && ContainsSubstring("got 0.5 s"));
-  CHECK_THROWS_WITH(GroundMotion({1, 2}, {-1e308, 1e308}), ContainsSubstring("duration must be positive and finite, got inf s"));
+                    ContainsSubstring("must increase") && ContainsSubstring("times[2]") &&
+                        ContainsSubstring("after 2 s") && ContainsSubstring("got 1 s"));
+  CHECK_THROWS_WITH(GroundMotion({1, 2, 3}, {0, 1, 1}),
+                    ContainsSubstring("must increase") && ContainsSubstring("times[2]"));
+  CHECK_THROWS_WITH(
+      GroundMotion({1, 2, 3}, {0, 1, 0.5}, Interpolation::constant),
+      ContainsSubstring("must not decrease") && ContainsSubstring("times[2]") && ContainsSubstring("got 0.5 s"));
+  CHECK_THROWS_WITH(GroundMotion({1, 2}, {-1e308, 1e308}),
+                    ContainsSubstring("duration must be positive and finite, got inf s"));
   CHECK_THROWS_WITH(GroundMotion({1, 2}, {3, 3}, Interpolation::constant),
                     ContainsSubstring("duration must be positive and finite, got 0 s"));
 }

@@ -130,5 +130,6 @@ TEST_CASE("a user's law is symmetric where its formula is", "[law]") {
 
 TEST_CASE("a law with no finite power series is said to have none", "[law][errors]") {
   CHECK_THROWS_AS(integrate(Root{}, held(0, 2), from(1, -3)), ConvergenceError);
-  CHECK_THROWS_WITH(integrate(Root{}, held(-1, 2)), Catch::Matchers::ContainsSubstring("no finite power series at x = 0 m"));
+  CHECK_THROWS_WITH(integrate(Root{}, held(-1, 2)),
+                    Catch::Matchers::ContainsSubstring("no finite power series at x = 0 m"));
 }
