@@ -408,10 +408,11 @@ class Heyoka:
                         break
                     t, s = slip
                     load, pull, held = -n0 - (n1 - n0) * t / dt, number(wn) ** 2 * x, level(x)
-                    # A net force of less than nothing, by rounding, would stop it on the spot.
+                    # A net force of less than nothing, by rounding, would stop it on the spot; from a
+                    # speed of exactly 0 the stop to come is not found.
                     least = 8 * tiny * (abs(load) + abs(pull) + held)
                     net = max(s * (load - pull) - held, least)
-                    state[1], state[2], pars[1] = 0, s * (held + net) + pull, s
+                    state[1], state[2], pars[1] = 1e-20, s * (held + net) + pull, s
                     ta.reset_cooldowns()
                     stuck = False
                     if t >= dt:

@@ -54,6 +54,8 @@ void settle(const Slider<Law>& slider, const Flows& flows, double time, State& s
 /// @param slider   a law and an optional spring; a law alone is a slider without one
 /// @param motion   the ground acceleration
 /// @param options  state at the start, and whether to go on until the slider rests
+/// @param storage  a response that is no longer needed, for its memory: fresh memory costs up to as much time as the
+/// motion
 /// @return the motion at the samples, its events, peak and energy. Where it settles, the last event (`end`) and the
 ///         residual are those of the final rest
 /// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level
@@ -64,7 +66,8 @@ void settle(const Slider<Law>& slider, const Flows& flows, double time, State& s
 /// Constant friction: exact to round-off, 1e-13 of the scale of x; about 20 ns a sample. Other laws: Taylor series, to
 /// near round-off, about 100 to 300 ns a sample.
 template <FrictionLaw Law>
-Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options = {}) {
+Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options = {},
+                   Response storage = {}) {
   detail::require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement,
                   "m");
   detail::require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
@@ -73,7 +76,7 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
     detail::require(std::isfinite(slider.law().level(state.displacement, direction_of(state.mode))),
                     "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
 
-  Response response;
+  Response response = std::move(storage);
   response.displacement.resize(motion.samples());
   response.velocity.resize(motion.samples());
   const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
@@ -83,7 +86,8 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
   const std::size_t most_events = 1'000'000 + 8 * motion.segments();  // without a spring a segment has five at most
-  detail::Recorder<Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat);
+  detail::Recorder<Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat,
+                                 std::move(response.events));
   recorder.begin_segment(motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
@@ -108,8 +112,9 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
 }
 
 template <FrictionLaw Law>
-Response integrate(const Law& law, const GroundMotion& motion, const IntegrateOptions& options = {}) {
-  return integrate(Slider<Law>(law), motion, options);
+Response integrate(const Law& law, const GroundMotion& motion, const IntegrateOptions& options = {},
+                   Response storage = {}) {
+  return integrate(Slider<Law>(law), motion, options, std::move(storage));
 }
 
 }  // namespace stickslip

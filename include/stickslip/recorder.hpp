@@ -23,9 +23,18 @@ class Recorder {
  public:
   /// @param from         x at the start [m]
   /// @param most_events  more are refused
-  /// @param heartbeat    called now and then, at least every second or so; may throw
-  Recorder(const Law& law, double from, std::size_t most_events, const std::function<void()>& heartbeat)
-      : law_(law), slip_from_(from), peak_(std::abs(from)), most_events_(most_events), heartbeat_(heartbeat) {}
+  /// @param heartbeat    called every 16,384 segments and events; may throw
+  /// @param storage      memory for the events
+  Recorder(const Law& law, double from, std::size_t most_events, const std::function<void()>& heartbeat,
+           std::vector<Event> storage)
+      : law_(law),
+        slip_from_(from),
+        peak_(std::abs(from)),
+        events_(std::move(storage)),
+        most_events_(most_events),
+        heartbeat_(heartbeat) {
+    events_.clear();
+  }
 
   /// @param time  at which the segment begins [s]
   void begin_segment(double time) {
@@ -34,7 +43,6 @@ class Recorder {
   }
 
   void slide(Direction direction, double from, double distance, double duration, double work) {
-    beat();
     slip_direction_ = direction;
     slip_distance_ += distance;
     time_sliding_ += duration;
@@ -43,10 +51,8 @@ class Recorder {
   }
 
   void event(EventKind kind, double time, const State& state) {
-    if (events_.size() >= most_events_)
-      throw ConvergenceError("more than " + std::to_string(most_events_) + " events up to " +
-                             shortest(segment_begins_ + time) +
-                             " s: the spring is too stiff, or the slip level too low, for pieces of motion this long");
+    beat();
+    if (events_.size() >= most_events_) refuse_more(time);
     events_.push_back({segment_begins_ + time, state.displacement, state.velocity, kind});
     peak_ = std::max(peak_, std::abs(state.displacement));  // between events x runs one way
     sliding_distance_ += slip_distance_;
@@ -70,6 +76,12 @@ class Recorder {
   }
 
  private:
+  [[gnu::noinline]] void refuse_more(double time) const {
+    throw ConvergenceError("more than " + std::to_string(most_events_) + " events up to " +
+                           shortest(segment_begins_ + time) +
+                           " s: the spring is too stiff, or the slip level too low, for pieces of motion this long");
+  }
+
   void beat() {
     if (++beats_ % 16384 == 0 && heartbeat_) heartbeat_();
   }

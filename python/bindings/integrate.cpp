@@ -17,11 +17,12 @@ Recording integrate_any(const AnySlider& slider, const py::object& motion, doubl
                          py::type::of(motion).attr("__name__").cast<std::string>());
   const auto& ground = motion.cast<const GroundMotion&>();
   const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
+  Response storage = Storage::take();
   Response response = [&] {
     const py::gil_scoped_release released;
-    return std::visit([&](const auto& s) { return integrate(s, ground, options); }, slider);
+    return std::visit([&](const auto& s) { return integrate(s, ground, options, std::move(storage)); }, slider);
   }();
-  return {std::move(response), py::cast(slider), motion, {}, {}};
+  return {std::move(response), py::cast(slider), motion};
 }
 
 }  // namespace

@@ -1,15 +1,49 @@
 // A response together with what it came from.
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "bindings.hpp"
 
 namespace stickslip::python {
+
+/// Memory of responses that are gone, for those to come: to touch fresh memory takes as long as to slide through a
+/// record. Guarded by the interpreter lock.
+class Storage {
+ public:
+  static Response take() {
+    if (spare().empty()) return {};
+    Response response = std::move(spare().back());
+    spare().pop_back();
+    return response;
+  }
+
+  static void give_back(Response&& response) {
+    constexpr std::size_t most_responses = 2, most_bytes = 64 << 20;
+    const std::size_t bytes = (response.displacement.capacity() + response.velocity.capacity()) * sizeof(double) +
+                              response.events.capacity() * sizeof(Event);
+    if (bytes > 0 && bytes <= most_bytes && spare().size() < most_responses) spare().push_back(std::move(response));
+  }
+
+ private:
+  static std::vector<Response>& spare() {
+    static auto* const spare = new std::vector<Response>;  // outlives every response
+    return *spare;
+  }
+};
 
 struct Recording {
   Response response;
   py::object slider;
   py::object motion;
-  py::object time, events;  // arrays, made when first asked for
+  py::object time{}, events{};  // arrays, made when first asked for
+
+  Recording(Response&& response, py::object slider, py::object motion)
+      : response(std::move(response)), slider(std::move(slider)), motion(std::move(motion)) {}
+  Recording(Recording&&) = default;
+  ~Recording() { Storage::give_back(std::move(response)); }
 };
 
 }  // namespace stickslip::python
