@@ -1,5 +1,6 @@
 // One slider through one ground motion: histories, events, peak, energy, starts, settling, and hard input.
 #include <stdexcept>
+#include <utility>
 
 #include "catch.hpp"
 #include "motions.hpp"
@@ -247,6 +248,22 @@ TEST_CASE("integrate names what it refuses", "[integrate][errors]") {
                     "integrate: velocity must not point where the slip level is infinite, got -2 m/s");
   CHECK_NOTHROW(integrate(Coulomb(1, infinity), motion, from(0, 2)));
   CHECK_THROWS_AS(integrate(Coulomb(1), motion, from(infinity)), std::invalid_argument);
+}
+
+TEST_CASE("in the memory of another response the answer is the same to the bit", "[integrate]") {
+  const Slider slider(Coulomb(1, 1.6), 1.3);
+  const GroundMotion motion = broadband(47, 300);
+  const Response fresh = integrate(slider, motion);
+  for (const int pieces : {10, 300, 1000}) {
+    Response used = integrate(Coulomb(0.1), broadband(48, pieces));
+    const Response reused = integrate(slider, motion, {}, std::move(used));
+    CHECK(reused.displacement == fresh.displacement);
+    CHECK(reused.velocity == fresh.velocity);
+    CHECK(reused.events.size() == fresh.events.size());
+    CHECK(reused.peak == fresh.peak);
+    CHECK(reused.sliding_distance == fresh.sliding_distance);
+    CHECK(reused.energy.imbalance() == fresh.energy.imbalance());
+  }
 }
 
 TEST_CASE("a heartbeat is felt, and may end the work", "[integrate]") {

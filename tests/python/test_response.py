@@ -201,3 +201,15 @@ def test_a_response_does_not_change():
 def test_slips_are_breakaways_and_reversals(response):
     kinds = response.events["kind"]
     assert response.slips == np.count_nonzero((kinds == "breakaway") | (kinds == "reversal")) > 0
+
+
+def test_a_response_keeps_its_numbers_while_others_come_and_go(record_a):
+    quake = ss.GroundMotion(record_a, dt=0.1)
+    kept = ss.integrate(SLIDERS[0], quake)
+    numbers = [kept.displacement.copy(), kept.velocity.copy(), kept.events.copy()]
+    for slider in SLIDERS * 3:  # each in the memory of the one before
+        ss.integrate(slider, quake)
+    again = ss.integrate(SLIDERS[0], quake)
+    for response in (kept, again):
+        for now, then in zip((response.displacement, response.velocity, response.events), numbers):
+            assert np.array_equal(now, then)
