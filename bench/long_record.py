@@ -218,6 +218,44 @@ class Run:
         return result
 
 
+def print_table(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | None) -> None:
+    for slider, rows in timings.items():
+        peak = run.ours[slider].peak
+        title = f"{slider} (peak {peak:.3g} m)"
+        print(f"  {title:40} {'median':>9} {'spread':>7} {'ratio':>9}   error [m]")
+        for row, timing in rows.items():
+            found = run.errors[slider].get(row)
+            found = "" if found is None else f"{found:11.1e}"
+            print(f"    {row:38} {timing} {timing.ratio(rows['stickslip']):9.3g} {found}".rstrip())
+        if cpp:
+            row = cpp["rows"][f"integrate: {slider}"]
+            spread = f"{100 * row['spread']:6.0f}%{' ' if row['spread'] <= 0.1 else '!'}"
+            ratio = row["median"] / rows["stickslip"].median
+            print(f"    {'stickslip in C++':38} {row['median']:9.1f} {spread} {ratio:9.3g}")
+    if not all(t.reliable for rows in timings.values() for t in rows.values()):
+        print(UNRELIABLE)
+
+
+def print_bars(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | None) -> None:
+    ours = {slider: rows["stickslip"] for slider, rows in timings.items()}
+    plain = timings["Coulomb"].get("numba")
+    if plain:
+        print(bar("Coulomb through Python / numba", ours["Coulomb"].ratio(plain), 1))
+        if cpp:
+            in_cpp = cpp["rows"]["integrate: Coulomb"]["median"]
+            print(bar("Coulomb in C++ / numba", in_cpp / plain.median, 0.9))
+        with_spring = ours["Coulomb, spring"].median / plain.median
+        print(bar("Coulomb with spring through Python / numba without", with_spring, 3))
+    for slider in ("Caster", "Caster, spring"):
+        rows, errors = timings[slider], run.errors[slider]
+        if "heyoka" in rows:
+            ratio = rows["heyoka"].ratio(rows[SAME_SAMPLES])
+            print(bar(f"{slider}: heyoka / through Python", ratio, 8, at_least=True))
+            round_off = 1e-14 * np.max(np.abs(run.references[slider]))
+            ratio = errors["stickslip"] / max(errors["heyoka"], round_off)
+            print(bar(f"{slider}: error / larger of heyoka's and 1e-14 of x", ratio, 1))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--cpp", type=Path, help="long_record as CMake built it")
@@ -226,97 +264,48 @@ def main() -> None:
 
     print(machine())
     print(versions("numpy", "numba", "scipy", "heyoka", "pyslammer"))
+    compiled = compiled_figures(args.cpp, args.rounds)
+    if compiled:
+        print(f"C++: {compiled['compiler']} {compiled['flags']}, commit {compiled['commit']}")
+    else:
+        print("C++: left out, for no build/*/bench/long_record is there and no --cpp is given")
     print(
-        f"{N} samples, dt = {DT} s, standard deviation {DEVIATION} m/s^2,"
-        f" slip level {SLIP_LEVEL} m/s^2;\nns of processor time per sample; ratio to stickslip;"
-        " largest error in x against\nlong double (Coulomb), heyoka in long double (caster), or"
-        " stickslip on halved segments"
+        f"{N} samples, dt = {DT} s, standard deviation {DEVIATION} m/s^2, slip level {SLIP_LEVEL}"
+        f" m/s^2\nns of processor time per sample, over {args.rounds} rounds; ratio to stickslip;"
+        " largest error in x against\nlong double (Coulomb), heyoka in long double (caster) or"
+        " halved segments (one-way)"
     )
     numba, scipy = peer("numba"), peer("scipy.integrate")
     hy, slam = peer("heyoka"), peer("pyslammer")
-    compiled: dict = {}
-    compiled_run = compiled_figures(args.cpp, args.rounds)
-    if compiled_run is None:
-        print("C++: no build/*/bench/long_record found, and no --cpp given")
-    else:
-        print(f"C++: {compiled_run['compiler']} {compiled_run['flags']}")
-
-    table = {}
+    flows: dict = {}  # of heyoka
+    bars = []
     for name, n in inputs().items():
         run = Run(n)
-        if compiled_run:
-            residual = compiled_run["inputs"][name]["residual"]
-            require(
-                f"C++, {name}: residual",
-                abs(residual - run.ours["Coulomb"].residual),
-                1e-6 * run.ours["Coulomb"].peak,
-            )
+        cpp = compiled["inputs"][name] if compiled else None
+        coulomb = run.ours["Coulomb"]
+        if cpp:
+            apart = abs(cpp["residual"] - coulomb.residual)
+            require(f"{name}: residual in C++", apart, 1e-6 * coulomb.peak)
         if numba:
             run.add_numba()
         if scipy:
             run.add_scipy(scipy.solve_ivp)
         if hy:
-            run.add_heyoka(hy, compiled)
+            run.add_heyoka(hy, flows)
         if slam:
             run.add_pyslammer(slam)
         timings = run.time(args.rounds)
-        table[name] = run, timings
-        r = run.ours["Coulomb"]
-        print(f"\n{name}: {len(r.events) / N:.2f} events a sample with Coulomb friction")
-        unreliable = False
-        for slider, rows in timings.items():
-            peak = run.ours[slider].peak
-            print(f"  {slider:40} {'median':>9} {'spread':>7} {'ratio':>9}   error [m]", end="")
-            print(f"   (peak {peak:.3g} m)")
-            base = rows["stickslip"]
-            for row, timing in rows.items():
-                found = (
-                    "" if row in (BARE_STEP, SAME_SAMPLES) else f"{run.errors[slider][row]:11.1e}"
-                )
-                print(f"    {row:38} {timing} {timing.ratio(base):9.3g} {found}")
-                unreliable |= not timing.reliable
-            if compiled_run:
-                cpp = compiled_run["inputs"][name]["rows"].get(f"integrate: {slider}")
-                if cpp:
-                    timing = Timing([cpp["median"]])
-                    flag = " " if cpp["spread"] <= 0.1 else "!"
-                    spread = f"{100 * cpp['spread']:6.0f}%{flag}"
-                    print(f"    {'stickslip in C++':38} {cpp['median']:9.1f} {spread}", end="")
-                    print(f" {timing.median / base.median:9.3g}")
-        if unreliable:
-            print(UNRELIABLE)
-
-    missing = [
-        m
-        for m, p in (("numba", numba), ("scipy", scipy), ("heyoka", hy), ("pyslammer", slam))
-        if not p
-    ]
-    if missing:
-        print(f"\nnot installed: {', '.join(missing)}")
+        print(f"\n{name}: {len(coulomb.events) / N:.2f} events a sample with Coulomb friction")
+        print_table(run, timings, cpp)
+        bars.append((name, run, timings, cpp))
 
     print("\nbars")
-    for name, (run, timings) in table.items():
+    for name, *rest in bars:
         print(name)
-        coulomb, spring = timings["Coulomb"], timings["Coulomb, spring"]
-        if numba:
-            plain = coulomb["numba"]
-            print(bar("Coulomb through Python, to numba", coulomb["stickslip"].ratio(plain), 1))
-            if compiled_run:
-                cpp = compiled_run["inputs"][name]["rows"]["integrate: Coulomb"]["median"]
-                print(bar("Coulomb in C++, to numba", cpp / plain.median, 0.9))
-            value = spring["stickslip"].median / plain.median
-            print(bar("Coulomb with spring through Python, to numba without", value, 3))
-        if hy:
-            for slider in ("Caster", "Caster, spring"):
-                rows = timings[slider]
-                own = rows[SAME_SAMPLES]
-                print(bar(f"{slider}: heyoka, to ours", rows["heyoka"].ratio(own), 8, True))
-                errors = run.errors[slider]
-                value = errors["stickslip"] / errors["heyoka"]
-                print(bar(f"{slider}: our error, to heyoka's", value, 1))
-    seconds = seconds_of_command(10)
+        print_bars(*rest)
     print("the command")
-    print(bar(f"stickslip slide, {RECORD_SAMPLES} samples, whole process [s]", seconds.median, 0.3))
+    seconds = seconds_of_command(10).median
+    print(bar(f"stickslip slide, {RECORD_SAMPLES} samples, whole process [s]", seconds, 0.3))
 
 
 if __name__ == "__main__":

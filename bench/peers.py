@@ -332,13 +332,7 @@ class Heyoka:
         ta, wn, number = self.integrator, self.wn, self.number
         step, state, pars = ta.step, ta.state, ta.pars
         time_limit, success = self.hy.taylor_outcome.time_limit, self.hy.taylor_outcome.success
-        level = level_of(self.law)
-        if number is not float:
-            cosh = np.cosh
-            level = lambda x: (
-                number(SLIP_LEVEL)
-                / (cosh(x / number(REACH)) if self.law == "Caster" else number(1))
-            )
+        level = level_of(self.law, number)
         dt, tiny = number(DT), np.finfo(number).eps
         values = n.tolist() if number is float else n.astype(number)
         xs = np.zeros(len(n), number)
@@ -360,8 +354,8 @@ class Heyoka:
                         break
                     t, s = slip
                     load, pull, held = -n0 - (n1 - n0) * t / dt, number(wn) ** 2 * x, level(x)
-                    # A net force of less than nothing, by rounding, would stop it on the spot; from a
-                    # speed of exactly 0 the stop to come is not found.
+                    # A net force of less than nothing, by rounding, would stop it on the spot; and
+                    # from a speed of exactly 0 the stop to come is not found.
                     least = 8 * tiny * (abs(load) + abs(pull) + held)
                     net = max(s * (load - pull) - held, least)
                     state[1], state[2], pars[1] = 1e-20, s * (held + net) + pull, s

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,8 +62,10 @@ class Recorder {
     slip_distance_ = 0;
   }
 
-  std::size_t events() const noexcept { return events_.size(); }
-  double last_event() const noexcept { return events_.empty() ? 0 : events_.back().time; }
+  /// Time of the last event [s]; minus infinity before the first.
+  double last_event() const noexcept {
+    return events_.empty() ? -std::numeric_limits<double>::infinity() : events_.back().time;
+  }
 
   void finish(double time, const State& state, Response& response) {
     begin_segment(time);

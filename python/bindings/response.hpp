@@ -40,8 +40,8 @@ struct Recording {
   py::object motion;
   py::object time{}, events{};  // arrays, made when first asked for
 
-  Recording(Response&& response, py::object slider, py::object motion)
-      : response(std::move(response)), slider(std::move(slider)), motion(std::move(motion)) {}
+  Recording(Response&& answer, py::object what, py::object under)
+      : response(std::move(answer)), slider(std::move(what)), motion(std::move(under)) {}
   Recording(Recording&&) = default;
   ~Recording() { Storage::give_back(std::move(response)); }
 };
