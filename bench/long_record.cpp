@@ -10,6 +10,7 @@
 #include <stickslip/stickslip.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bench.hpp"
@@ -260,6 +261,10 @@ std::vector<bench::Timing> time(const Input& input, int rounds) {
   bench.add("advance: Coulomb, spring, arrays at hand", [&] {
     advance_loop(Slider(Coulomb(slip_level), frequency), n, x, v);
     bench::keep(x);
+  });
+  bench.add("integrate: Coulomb, memory used again", [&motion, response = Response()]() mutable {
+    response = integrate(Coulomb(slip_level), motion, {}, std::move(response));
+    bench::keep(response);
   });
   for_each_slider([&](const std::string& name, const auto& slider) {
     bench.add("integrate: " + name, [&motion, slider] { bench::keep(integrate(slider, motion)); });

@@ -108,6 +108,7 @@ SCIPY_SAMPLES, HEYOKA_SAMPLES, PYSLAMMER_SAMPLES, REFERENCE_SAMPLES = 501, 5001,
 ACCOUNT = "numba, with events and energies"
 BARE_STEP = "heyoka, a bare step of 0.1 s"
 SAME_SAMPLES = "stickslip, the samples heyoka had"
+AGAIN = ", memory used again"
 QUICK = ("stickslip", "numba", ACCOUNT)
 
 Works = dict[str, tuple[Callable[[], object], int]]
@@ -228,10 +229,13 @@ def print_table(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | Non
             found = "" if found is None else f"{found:11.1e}"
             print(f"    {row:38} {timing} {timing.ratio(rows['stickslip']):9.3g} {found}".rstrip())
         if cpp:
-            row = cpp["rows"][f"integrate: {slider}"]
-            spread = f"{100 * row['spread']:6.0f}%{' ' if row['spread'] <= 0.1 else '!'}"
-            ratio = row["median"] / rows["stickslip"].median
-            print(f"    {'stickslip in C++':38} {row['median']:9.1f} {spread} {ratio:9.3g}")
+            for more in ("", AGAIN):
+                row = cpp["rows"].get(f"integrate: {slider}{more}")
+                if row:
+                    spread = f"{100 * row['spread']:6.0f}%{' ' if row['spread'] <= 0.1 else '!'}"
+                    ratio = row["median"] / rows["stickslip"].median
+                    title = f"stickslip in C++{more}"
+                    print(f"    {title:38} {row['median']:9.1f} {spread} {ratio:9.3g}")
     if not all(t.reliable for rows in timings.values() for t in rows.values()):
         print(UNRELIABLE)
 
@@ -242,8 +246,9 @@ def print_bars(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | None
     if plain:
         print(bar("Coulomb through Python / numba", ours["Coulomb"].ratio(plain), 1))
         if cpp:
-            in_cpp = cpp["rows"]["integrate: Coulomb"]["median"]
-            print(bar("Coulomb in C++ / numba", in_cpp / plain.median, 0.9))
+            for more in ("", AGAIN):
+                in_cpp = cpp["rows"][f"integrate: Coulomb{more}"]["median"]
+                print(bar(f"Coulomb in C++{more} / numba", in_cpp / plain.median, 0.9))
         with_spring = ours["Coulomb, spring"].median / plain.median
         print(bar("Coulomb with spring through Python / numba without", with_spring, 3))
     for slider in ("Caster", "Caster, spring"):
