@@ -24,7 +24,7 @@ class Recorder {
  public:
   /// @param from         x at the start [m]
   /// @param most_events  more are refused
-  /// @param heartbeat    called every 16,384 segments and events; may throw
+  /// @param heartbeat    called every 16,384 segments, events or steps; may throw
   /// @param storage      memory for the events
   Recorder(const Law& law, double from, std::size_t most_events, const std::function<void()>& heartbeat,
            std::vector<Event> storage)
@@ -38,12 +38,15 @@ class Recorder {
   }
 
   /// @param time  at which the segment begins [s]
-  void begin_segment(double time) {
-    segment_begins_ = time;
-    beat();
+  void begin_segment(double time) noexcept { segment_begins_ = time; }
+
+  /// For the loop over segments, now and then; long segments beat by themselves, with events and steps of Taylor flows.
+  void heartbeat() const {
+    if (heartbeat_) heartbeat_();
   }
 
   void slide(Direction direction, double from, double distance, double duration, double work) {
+    if constexpr (!ConstantLevelLaw<Law>) beat();
     slip_direction_ = direction;
     slip_distance_ += distance;
     time_sliding_ += duration;
@@ -86,7 +89,7 @@ class Recorder {
   }
 
   void beat() {
-    if (++beats_ % 16384 == 0 && heartbeat_) heartbeat_();
+    if (++beats_ % 16384 == 0) heartbeat();
   }
 
   const Law& law_;

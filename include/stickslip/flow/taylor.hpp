@@ -177,7 +177,8 @@ class TaylorFlow {
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
       // On breaking away x is a cubic, and two of three coefficients of the level are zero.
       const double recent_level = std::max({std::abs(level[k]), std::abs(level[k - 1]), std::abs(level[k - 2])});
-      if (recent_level <= largest_level && balanced(0.6) && balanced(1)) return 1;
+      // From rest x may also come back to its start at the horizon, where nothing would then be noticed.
+      if (recent_level <= largest_level && (start_.speed != 0 || balanced(0.6)) && balanced(1)) return 1;
     }
     const double last = std::max(order_ * std::abs(d_[order_]), (order_ - 1) * std::abs(d_[order_ - 1])) / fastest_;
     const double outgrown = std::max(last / round_off, std::abs(level[order_ - 2]) / largest_level);
