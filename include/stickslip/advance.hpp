@@ -92,6 +92,7 @@ void advance(const Law& law, const Flows& flows, const Segment& segment, State& 
     const Start start{std::abs(state.velocity), acceleration, s * (-segment.end - ground_load)};
     const auto flow = flows.flow(direction, state.displacement, start, left);
     const double stop = flow.first_stop();
+    // Two accounts that differ in little: as one, the way that nearly every piece goes would be 5 to 10 % slower.
     if (stop == never) {
       const double taken = flow.horizon();
       const Progress end = flow.at_horizon();
@@ -146,7 +147,7 @@ void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
 /// @param observer  sees slips and events; optional
 /// @throws ConvergenceError if a law has no finite power series where it is needed: Caster only under accelerations or
 ///         springs beyond all measure, Coulomb never
-/// Constant friction is exact to round-off, other laws to near round-off. Takes 10 to 20 ns without a spring.
+/// Constant friction is exact to round-off, other laws to near round-off. Takes 6 to 20 ns without a spring.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),

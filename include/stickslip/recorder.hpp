@@ -22,9 +22,11 @@ namespace stickslip::detail {
 template <FrictionLaw Law>
 class Recorder {
  public:
+  static constexpr std::uint32_t work_a_beat = 16384;  // segments, events or steps, each far below a millisecond
+
   /// @param from         x at the start [m]
   /// @param most_events  more are refused
-  /// @param heartbeat    called every 16,384 segments, events or steps; may throw
+  /// @param heartbeat    called now and then, see `work_a_beat`; may throw
   /// @param storage      memory for the events
   Recorder(const Law& law, double from, std::size_t most_events, const std::function<void()>& heartbeat,
            std::vector<Event> storage)
@@ -89,7 +91,7 @@ class Recorder {
   }
 
   void beat() {
-    if (++beats_ % 16384 == 0) heartbeat();
+    if (++beats_ % work_a_beat == 0) heartbeat();
   }
 
   const Law& law_;

@@ -27,7 +27,7 @@ template <FrictionLaw Law, class Flows>
                           Recorder<Law>& recorder, const Histories& histories) {
   State moving = state;
   for (std::size_t i = 0; i < motion.segments(); ++i) {
-    if (i % 16384 == 16383) recorder.heartbeat();
+    if ((i + 1) % Recorder<Law>::work_a_beat == 0) recorder.heartbeat();
     recorder.begin_segment(motion.time(i));
     detail::advance(law, flows, motion.segment(i), moving, recorder);
     histories.keep(i + 1, moving);

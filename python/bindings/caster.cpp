@@ -62,7 +62,7 @@ ValueError
 
 Notes
 -----
-Accurate to a few units of the last digit for every l/w > 0; about 5 us.)")
+Accurate to a few units of the last digit for every l/w > 0; about 2.5 us.)")
       .def_property_readonly("slip_level", &Caster::slip_level, "Level at x = 0 [m/s^2].")
       .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
       .def("__repr__",
