@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -62,32 +63,52 @@ struct Timing {
   }
 };
 
-/// Pieces of work, on one thread, that take turns, so that a slow spell of the machine falls on all alike. The time is
-/// the processor's: what other programs get of it is not counted.
+/// The processor's time, of all threads [s]: what other programs get of it is not counted.
+inline double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// By the clock on the wall [s].
+inline double wall_time() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Pieces of work that take turns, so that a slow spell of the machine falls on all alike.
 class Bench {
  public:
   /// @param items  the work of one round: what a time is divided by
-  explicit Bench(std::size_t items) : items_(static_cast<double>(items)) {}
+  explicit Bench(std::size_t items, double (*clock)() = processor_time)
+      : items_(static_cast<double>(items)), clock_(clock) {}
 
-  void add(std::string name, std::function<void()> work) { works_.push_back({std::move(name), std::move(work)}); }
+  void add(std::string name, std::function<void()> work) { add(std::move(name), items_, std::move(work)); }
+
+  /// A work of another size.
+  void add(std::string name, double items, std::function<void()> work) {
+    works_.push_back({std::move(name), items, std::move(work)});
+  }
 
   /// One round warms up, the others are timed.
   std::vector<Timing> run(int rounds) const {
     std::vector<Timing> timings;
-    for (const auto& [name, work] : works_) timings.push_back({name, {}});
+    for (const Work& work : works_) timings.push_back({work.name, {}});
     for (int round = 0; round <= rounds; ++round)
       for (std::size_t i = 0; i < works_.size(); ++i) {
-        const std::clock_t begin = std::clock();
-        works_[i].second();
-        const double taken = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-        if (round > 0) timings[i].times.push_back(taken * 1e9 / items_);
+        const double begin = clock_();
+        works_[i].run();
+        const double taken = clock_() - begin;
+        if (round > 0) timings[i].times.push_back(taken * 1e9 / works_[i].items);
       }
     return timings;
   }
 
  private:
+  struct Work {
+    std::string name;
+    double items;
+    std::function<void()> run;
+  };
+
   double items_;
-  std::vector<std::pair<std::string, std::function<void()>>> works_;
+  double (*clock_)();
+  std::vector<Work> works_;
 };
 
 /// As the system names it.
@@ -110,7 +131,7 @@ inline void print_table(std::string_view title, const std::vector<Timing>& timin
               "ratio");
   bool reliable = true;
   for (const Timing& timing : timings) {
-    std::printf("%-44s %8.1f %8.1f %7.0f%%%s %7.2f\n", timing.name.c_str(), timing.median(), timing.least(),
+    std::printf("%-44s %8.2f %8.2f %7.0f%%%s %7.2f\n", timing.name.c_str(), timing.median(), timing.least(),
                 100 * timing.spread(), timing.reliable() ? " " : "!", timing.ratio(timings[base]));
     reliable = reliable && timing.reliable();
   }

@@ -242,6 +242,251 @@ if nb:
             v[i + 1] = velocity
         return x, v
 
+    # Ensembles. Only where something may happen in a segment is it looked into; slips and rests
+    # have a short loop each. dt is the unit of time.
+
+    @nb.njit
+    def numba_phases(random, amplitudes, first, lines):
+        for record in lines:
+            for k in range(len(amplitudes)):
+                phase = 2 * math.pi * random.random()
+                record[first + k] = amplitudes[k] * complex(math.cos(phase), math.sin(phase))
+
+    @nb.njit
+    def numba_segment(load, end, a, x, v):
+        """One segment in which an event may lie."""
+        rate = end - load
+        left = 1.0
+        while True:
+            s = 1.0 if v > 0 else -1.0
+            if v == 0.0:
+                if abs(load) > a:
+                    s = math.copysign(1.0, load)
+                else:
+                    if abs(end) <= a:
+                        return x, v
+                    s = math.copysign(1.0, end)
+                    load = s * a
+                    left = (end - load) / rate
+            u = s * v
+            net = s * load - a
+            gain = s * rate
+            last = u + left * (net + gain * left / 2)
+            stop = np.inf
+            if not (last > 0 and (net >= 0 or net + gain * left <= 0)):
+                discriminant = net * net - 2 * gain * u
+                if net < 0:
+                    if discriminant >= 0:
+                        stop = 2 * u / (math.sqrt(discriminant) - net)
+                elif gain < 0:
+                    stop = (net + math.sqrt(discriminant)) / -gain
+            t = min(stop, left)
+            x += s * t * (u + t * (net / 2 + gain * t / 6))
+            if stop > left:
+                return x, s * last
+            v = 0.0
+            load += rate * stop
+            left -= stop
+
+    @nb.njit
+    def numba_sums(xs, vs, sums):
+        for i in range(len(xs)):
+            x, v = xs[i], vs[i]
+            sums[0, i] += x
+            sums[1, i] += v
+            sums[2, i] += x * x
+            sums[3, i] += x * v
+            sums[4, i] += v * v
+
+    @nb.njit
+    def numba_records(n, dt, a, sums):
+        """Adds the sums of x, v, x^2, x v, v^2 at each sample over Coulomb records from rest."""
+        last = n.shape[1] - 1
+        p, xs, vs = np.empty(last + 1), np.zeros(last + 1), np.zeros(last + 1)
+        unit = 1 / dt
+        level = a * dt * dt
+        for record in n:
+            for i in range(last + 1):
+                p[i] = -record[i] * dt * dt
+            x = v = 0.0
+            i = 0
+            while True:
+                if v == 0.0:
+                    while i < last and abs(p[i]) <= level and abs(p[i + 1]) <= level:
+                        i += 1
+                        xs[i] = x
+                        vs[i] = 0.0
+                else:
+                    s = 1.0 if v > 0 else -1.0
+                    distance, speed, net = s * x, s * v, s * p[i] - level
+                    while i < last:
+                        next_net = s * p[i + 1] - level
+                        following = speed + (net + next_net) / 2
+                        if not (following > 0 and (net >= 0 or next_net <= 0)):
+                            break
+                        distance += speed + net * (1 / 3) + next_net * (1 / 6)
+                        speed = following
+                        net = next_net
+                        i += 1
+                        xs[i] = s * distance
+                        vs[i] = s * speed * unit
+                    x, v = s * distance, s * speed
+                if i == last:
+                    break
+                x, v = numba_segment(p[i], p[i + 1], level, x, v)
+                i += 1
+                xs[i] = x
+                vs[i] = v * unit
+            numba_sums(xs, vs, sums)
+
+    def numba_ensemble(random, first, amplitudes, samples, dt, a, members) -> np.ndarray:
+        """Random phases in a band of lines, thesis (4.49), a batch that stays in the cache at once.
+
+        The lines by numba and the transform by NumPy is the quickest of NumPy, SciPy and numba.
+        """
+        batch = 40
+        sums = np.zeros((5, samples))
+        lines = np.zeros((batch, samples // 2 + 1), complex)
+        n = np.empty((batch, samples))
+        for done in range(0, members, batch):
+            rows = min(batch, members - done)
+            numba_phases(random, amplitudes, first, lines[:rows])
+            np.fft.irfft(lines[:rows], samples, axis=1, norm="forward", out=n[:rows])
+            numba_records(n[:rows], dt, a, sums)
+        return sums
+
+    @nb.njit
+    def numba_slide(left, load, a, x, v):
+        """A load that is held."""
+        if v != 0.0:
+            net = load - math.copysign(a, v)
+            last = v + net * left
+            if last * v > 0:
+                return x + left * (v + last) / 2, last
+            stop = -v / net
+            x += stop * v / 2
+            v = 0.0
+            left -= stop
+        if abs(load) <= a:
+            return x, v
+        v = (load - math.copysign(a, load)) * left
+        return x + v * left / 2, v
+
+    @nb.njit
+    def numba_pulses(random, rate, half_width, sigma, dt, samples, a, members):
+        """Poisson pulses, thesis 5.4: b for the half width, then -b for as long.
+
+        The steps of all pulses and the sampling times are merged as they come. Returns the sums,
+        as above, and the number of steps.
+        """
+        sums = np.zeros((5, samples))
+        xs, vs = np.zeros(samples), np.zeros(samples)
+        duration = (samples - 1) * dt
+        arrivals = np.empty(int(rate * duration + 20 * math.sqrt(rate * duration) + 20))
+        amplitudes = np.empty(len(arrivals))
+        steps = 0
+        for _ in range(members):
+            count = 0
+            t = random.standard_exponential() / rate
+            while t < duration:
+                arrivals[count] = t
+                amplitudes[count] = sigma * random.standard_normal()
+                count += 1
+                t += random.standard_exponential() / rate
+            arrivals[count] = np.inf
+            begins = turns = ends = 0
+            begin, turn = arrivals[0], arrivals[0] + half_width
+            end = arrivals[0] + 2 * half_width
+            t = load = x = v = 0.0
+            sample = 1
+            while sample < samples:
+                time = sample * dt
+                following = min(min(begin, turn), min(end, time))
+                x, v = numba_slide(following - t, load, a, x, v)
+                t = following
+                steps += 1
+                if t == time:
+                    xs[sample], vs[sample] = x, v
+                    sample += 1
+                elif t == begin:
+                    load -= amplitudes[begins]
+                    begins += 1
+                    begin = arrivals[begins]
+                elif t == turn:
+                    load += 2 * amplitudes[turns]
+                    turns += 1
+                    turn = arrivals[turns] + half_width
+                else:
+                    load -= amplitudes[ends]
+                    ends += 1
+                    end = arrivals[ends] + 2 * half_width
+            numba_sums(xs, vs, sums)
+        return sums, steps
+
+    @nb.njit
+    def numba_lanes(n, dt, a, reach, xs, vs, place, clock, stopped, h, state, pars, done):
+        """Between two steps of heyoka's batch mode: lanes that have stopped or come to a sample.
+
+        Returns how many times a lane has asked for a record.
+        """
+        last = n.shape[1] - 1
+        for lane in range(len(h)):
+            record, i = place[0, lane], place[1, lane]
+            if record == len(n):
+                continue
+            t, x, rests = clock[0, lane] + h[lane], state[0, lane], stopped[lane]
+            slips = True
+            if record < 0:  # its first record
+                i, rests = last, True
+            elif not rests and h[lane] == clock[1, lane]:
+                i += 1
+                t = 0.0
+                xs[record, i] = x
+                vs[record, i] = pars[1, lane] * state[1, lane]
+                state[2, lane] = -n[record, i]
+                rests = i == last
+            stopped[lane] = False
+            while rests:
+                if i == last:
+                    record, i, t, x = min(done, len(n)), 0, 0.0, 0.0
+                    done += 1
+                    if record == len(n):
+                        slips = False
+                        break
+                load = -n[record, i] - (n[record, i + 1] - n[record, i]) * t / dt
+                end = -n[record, i + 1]
+                e = math.exp(-abs(x) / reach)
+                level = 2 * a * e / (1 + e * e)
+                if abs(load) > level or abs(end) > level:
+                    s = math.copysign(1.0, load if abs(load) > level else end)
+                    if abs(load) <= level:
+                        t += (dt - t) * (s * level - load) / (end - load)
+                        load = s * level
+                    if t < dt:
+                        # A net force of less than nothing, by rounding, would stop it on the spot;
+                        # and from a speed of exactly 0 the stop to come is not found.
+                        least = 2e-15 * (abs(load) + level)
+                        state[0, lane] = x
+                        state[1, lane] = 1e-20
+                        state[2, lane] = s * (level + max(s * load - level, least))
+                        pars[1, lane] = s
+                        break
+                i += 1
+                t = 0.0
+                xs[record, i] = x
+                vs[record, i] = 0.0
+            place[0, lane], place[1, lane] = record, i
+            clock[0, lane] = t
+            clock[1, lane] = dt - t
+            if slips:
+                pars[0, lane] = (n[record, i] - n[record, i + 1]) / dt
+                pars[2, lane] = -1.0 if state[0, lane] < 0 else 1.0
+            else:  # nothing left to do
+                state[0, lane], state[1, lane], state[2, lane] = 0.0, 1.0, a
+                pars[0, lane], pars[1, lane], pars[2, lane] = 0.0, 1.0, 1.0
+                clock[1, lane] = dt
+        return done
+
 
 # ---- what steps an equation of motion from outside: sticks in closed form, slips by the peer
 
@@ -383,6 +628,63 @@ def heyoka_steps(heyoka: Heyoka, steps: int) -> None:
     for _ in range(steps // 100):
         ta.state[:] = [0.0, 1.0, SLIP_LEVEL]
         ta.pars[:] = [wn * wn, 1.0, 1.0][: len(ta.pars)]
+        ta.propagate_for(100 * DT, max_delta_t=DT)
+
+
+class HeyokaBatch:
+    """Many records of a caster at once, in the lanes of heyoka's batch mode, compiled once.
+
+    Each lane goes at its own pace, and takes the next record when it has done with one. What there
+    is to do between two steps of heyoka is done by numba; rests are skipped in closed form.
+    """
+
+    def __init__(self, hy, lanes: int, slip_level: float, reach: float, tol: float = 0.0):
+        self.lanes, self.slip_level, self.reach = lanes, slip_level, reach
+        self.stopped = np.zeros(lanes, bool)
+        x, w, load = hy.make_vars("x", "w", "load")
+        rate, s, side = hy.par[0], hy.par[1], hy.par[2]
+        e = hy.exp(side * x * (-1 / reach))
+        net = s * load - 2 * slip_level * e / (1 + e * e)
+
+        def stop(ta, sign, lane):
+            self.stopped[lane] = True
+            return True
+
+        self.integrator = hy.taylor_adaptive_batch(
+            [(x, s * w), (w, net), (load, rate)],
+            np.zeros((3, lanes)),
+            pars=np.ones((3, lanes)),
+            tol=tol,
+            t_events=[
+                hy.t_event_batch(w, direction=hy.event_direction.negative, callback=stop),
+            ],
+        )
+
+    def __call__(self, n: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement and velocity at the samples of each record, from rest."""
+        ta, stopped = self.integrator, self.stopped
+        step, reset, state, pars = ta.step, ta.reset_cooldowns, ta.state, ta.pars
+        xs, vs = np.zeros(n.shape), np.zeros(n.shape)
+        place = np.full((2, self.lanes), -1)  # record and sample of each lane
+        clock = np.zeros((2, self.lanes))  # since that sample, and until the next
+        stopped[:] = False
+        law = self.slip_level, self.reach
+        start = np.zeros(self.lanes)
+        done = numba_lanes(n, dt, *law, xs, vs, place, clock, stopped, start, state, pars, 0)
+        while done < len(n) + self.lanes:
+            step(clock[1])
+            reset()
+            h = ta.last_h
+            done = numba_lanes(n, dt, *law, xs, vs, place, clock, stopped, h, state, pars, done)
+        return xs, vs
+
+
+def heyoka_batch_steps(heyoka: HeyokaBatch, steps: int) -> None:
+    """Steps of one sample inside heyoka, without our loop: what it costs itself."""
+    ta, lanes = heyoka.integrator, heyoka.lanes
+    for _ in range(steps // (100 * lanes)):
+        ta.state[:] = np.array([[0.0], [1.0], [heyoka.slip_level]])
+        ta.pars[:] = np.array([[0.0], [1.0], [1.0]])
         ta.propagate_for(100 * DT, max_delta_t=DT)
 
 

@@ -27,14 +27,12 @@ struct IntegrateOptions {
 
 namespace detail {
 
-/// Goes on without ground acceleration until the slider rests.
-template <FrictionLaw Law, class Flows>
-void settle(const Slider<Law>& slider, const Flows& flows, double time, State& state, Recorder<Law>& recorder) {
+/// Goes on without ground acceleration until the slider rests; `go(duration)` moves it.
+template <FrictionLaw Law, class Go>
+void settle(const Slider<Law>& slider, const State& state, Go&& go) {
   constexpr double longest = 0x1p40;  // [s], some 35,000 years
   for (double duration = 1; duration <= longest; duration *= 2) {
-    recorder.begin_segment(time);
-    detail::advance(slider.law(), flows, Segment{duration, 0, 0}, state, recorder);
-    time += duration;
+    go(duration);
     if (state.mode == Mode::stuck) return;
   }
   throw ConvergenceError(
@@ -92,7 +90,12 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
     detail::run(slider.law(), flows, motion, state, recorder, histories);
     if (options.settle) {
-      detail::settle(slider, flows, end, state, recorder);
+      double time = end;
+      detail::settle(slider, state, [&](double duration) {
+        recorder.begin_segment(time);
+        detail::advance(slider.law(), flows, Segment{duration, 0, 0}, state, recorder);
+        time += duration;
+      });
       end = std::max(end, recorder.last_event());
     }
   });

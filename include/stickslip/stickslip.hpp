@@ -3,4 +3,8 @@
 
 #include "stickslip/build_info.hpp"
 #include "stickslip/core.hpp"
+#include "stickslip/envelope.hpp"
+#include "stickslip/excitation/gaussian.hpp"
+#include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
+#include "stickslip/spectrum.hpp"

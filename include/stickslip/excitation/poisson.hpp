@@ -1,0 +1,186 @@
+// Random ground motion made of pulses that start at random times.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "stickslip/envelope.hpp"
+#include "stickslip/ground_motion.hpp"
+
+namespace stickslip {
+
+/// The shape w of a pulse: piecewise constant, zero before it starts and after it ends.
+///
+/// Times are multiples of the half width: one shape serves pulses of any length. With a half width of 1 s they are
+/// seconds.
+class PulseShape {
+ public:
+  /// The symmetric rectangular pulse, thesis (5.29): +1 from 0 to 1, -1 from 1 to 2.
+  PulseShape() = default;
+
+  /// @param times   where the pieces begin and end, finite and increasing; the first is 0
+  /// @param values  of the pieces, one fewer than times, finite, not all zero
+  /// @throws std::invalid_argument naming the value refused and its index
+  PulseShape(std::vector<double> times, std::vector<double> values);
+
+  std::span<const double> times() const noexcept { return times_; }
+  std::span<const double> values() const noexcept { return values_; }
+  double length() const noexcept { return times_.back(); }
+
+  friend bool operator==(const PulseShape&, const PulseShape&) = default;
+
+ private:
+  std::vector<double> times_ = {0, 1, 2};
+  std::vector<double> values_ = {1, -1};
+};
+
+/// What makes `PoissonPulses` other than the thesis's.
+struct PoissonOptions {
+  /// Pulses arrive from one pulse length before time zero on, so that the whole motion is a portion of a stationary
+  /// one. Otherwise, as thesis 5.4 starts up, no pulse begins before time zero: the variance rises from 0 to its
+  /// stationary value within one pulse length, 2 Dt. (The thesis lets its clock run from -10/lambda and drops what
+  /// arrives before zero. A Poisson process has no memory: to begin at zero is the same.)
+  bool stationary_start = false;
+
+  PulseShape shape{};
+
+  /// Distribution of the amplitudes: puts its quantile function in place of each uniform number in (0, 1), one by one,
+  /// whatever their number. `PoissonPulses::each` makes it from a function of one number. Empty: Gaussian, (5.30).
+  ///
+  /// An amplitude is b = sigma * quantile(u). So that sigma stays the rms amplitude, on which the closed forms rest,
+  /// the distribution must have a mean square of 1; the exact value is taken on trust, what is off by a quarter is
+  /// refused. (It should have mean 0 as well, or the ground's mean acceleration is lambda E[b] int w, thesis 5.18.)
+  /// Called from several threads at once where motions are made on several.
+  std::function<void(std::span<double>)> quantile{};
+
+  /// Multiplies the amplitude of each pulse by the envelope's value where the pulse arrives (at time zero, where it
+  /// arrives before). Not the acceleration itself: so each pulse stays a pulse of its shape, leaves no net velocity
+  /// where the shape leaves none, and the motion stays piecewise constant, hence exact.
+  std::optional<Envelope> envelope{};
+};
+
+/// Ground acceleration as a sum of pulses of random amplitude at random times, thesis (5.16), (5.29), (5.30):
+///
+///     n(t) = sum_k b_k w(t - t_k)
+///
+/// The t_k arrive as a Poisson process of rate lambda; the b_k are independent, by default Gaussian with mean zero and
+/// standard deviation sigma; w is +1 for the half width Dt, then -1 for Dt, so that a pulse moves the ground by b Dt^2
+/// and leaves it without velocity. A motion is cut at its duration, where pulses may still act.
+///
+/// The closed forms (`variance` to `ground_displacement_variance`) are of the stationary process, without envelope:
+/// with the thesis's start-up they hold from one pulse length, 2 Dt, on.
+///
+/// Immutable; motions may be made on any number of threads at once.
+///
+/// Reference: thesis 5.3, 5.4, 5.6, corrected (5.6) of the errata; Y. K. Lin, Probabilistic Theory of Structural
+/// Dynamics (1967), pp. 87-94.
+class PoissonPulses {
+ public:
+  using Options = PoissonOptions;
+
+  /// A motion with more steps than this on average, 4.8 GB, is refused.
+  static constexpr double most_steps = 3e8;
+
+  /// @param rate        lambda, pulses per second, positive and finite
+  /// @param half_width  Dt [s], positive and finite; the unit of the shape's times
+  /// @param sigma       rms amplitude of the pulses [m/s^2], positive and finite
+  /// @param duration    of the motion [s], positive and finite
+  /// @throws std::invalid_argument naming the value refused; also for more than `most_steps` steps (rate x duration x
+  ///         the times of the shape) and for an `Options::quantile` that is not finite or whose mean square is not 1
+  PoissonPulses(double rate, double half_width, double sigma, double duration, Options options = {});
+
+  /// Pulses like the strong motion of an earthquake, thesis 5.6:
+  /// Dt = pi / omega_c = 1 / (2 f_c), (5.60); sigma = sigma_n / sqrt(2 lambda Dt), (5.61).
+  /// @param rms_acceleration     sigma_n [m/s^2], positive and finite
+  /// @param centre_frequency_hz  f_c [Hz], positive and finite. It is a definition, not the peak of the spectrum, which
+  ///                             is at 0.742 f_c (errata, 5.60)
+  /// @param duration             of the strong motion [s], positive and finite
+  /// @param overlap              lambda Dt, positive and finite; 0.5 leaves few gaps, and a peak of 3 to 4 sigma_n
+  static PoissonPulses from_earthquake(double rms_acceleration, double centre_frequency_hz, double duration,
+                                       double overlap = 0.5, Options options = {});
+
+  /// One of the four events of thesis, Table 5.1, with overlap 0.5.
+  ///
+  /// | name                       | sigma_n [m/s^2] | f_c [Hz] | duration [s] |
+  /// |----------------------------|-----------------|----------|--------------|
+  /// | great very near field      | 2.5             | 3        | 60           |
+  /// | great near field           | 1               | 2.5      | 60           |
+  /// | moderate very near field   | 2               | 4        | 15           |
+  /// | moderate near field        | 0.5             | 3        | 15           |
+  ///
+  /// Very near field: within 20 km of the fault; near field: 20 to 50 km.
+  /// @throws std::invalid_argument listing the names
+  static PoissonPulses event(std::string_view name, Options options = {});
+
+  /// The names that `event` knows.
+  static std::span<const std::string_view> events() noexcept;
+
+  /// A quantile function of one number as `Options::quantile` wants it.
+  template <std::regular_invocable<double> Function>
+  static auto each(Function function) {
+    return [function = std::move(function)](std::span<double> numbers) {
+      for (double& u : numbers) u = function(u);
+    };
+  }
+
+  double rate() const noexcept { return rate_; }
+  double half_width() const noexcept { return half_width_; }
+  double sigma() const noexcept { return sigma_; }
+  double duration() const noexcept { return duration_; }
+  const Options& options() const noexcept { return options_; }
+
+  /// One motion, from 0 to `duration()`: values held between uneven times, exact. The same (seed, member) gives the
+  /// same motion for ever.
+  ///
+  /// Where no pulse acts the acceleration is exactly zero, and elsewhere it is the sum of the acting pulses to about
+  /// one rounding: the sum is carried along with the errors of its additions, and set to zero when the last pulse ends.
+  ///
+  /// Cost: linear in the number of steps, three for each pulse; a shape of K times makes K, with a factor log K.
+  GroundMotion sample(std::uint64_t seed, std::uint64_t member) const;
+
+  /// The pulses of one member: arrival times [s], ascending, below `duration()`, and amplitudes [m/s^2]. The vectors'
+  /// memory is used again. Pulse i takes number i of the member's rows of exponential and normal (or uniform) numbers.
+  void pulses(std::uint64_t seed, std::uint64_t member, std::vector<double>& arrivals,
+              std::vector<double>& amplitudes) const;
+
+  /// Variance of the acceleration [m^2/s^4]: lambda sigma^2 int w^2, thesis (5.19); 2 lambda Dt sigma^2, (5.61).
+  double variance() const noexcept;
+
+  /// Two-sided spectral density of the acceleration [m^2/s^3] at `omega` [rad/s]; its integral over the whole line is
+  /// `variance()`. 2 pi lambda sigma^2 |w_hat|^2, thesis (5.20); for the symmetric pulse
+  /// 8 lambda sigma^2 sin^4(omega Dt / 2) / (pi omega^2), four times that of the misprinted (5.6).
+  double density(double omega) const noexcept;
+
+  /// Stationary variance of the ground velocity [m^2/s^2], exact: lambda sigma^2 int (int w)^2; thesis (5.44), (5.46):
+  /// 2 lambda Dt^3 sigma^2 / 3. Infinite for a shape that leaves a net velocity: there is no stationary one.
+  double ground_velocity_variance() const noexcept;
+
+  /// Variance of the ground displacement [m^2] at large times: lambda sigma^2 (int int w)^2 t; thesis (5.47), (5.49):
+  /// lambda Dt^4 sigma^2 t. From the thesis's start-up the exact value beyond 2 Dt has t - 37/30 Dt instead of t.
+  /// Infinite for a shape that leaves a net velocity: the displacement then grows faster than any line.
+  /// @param t  [s], finite and at least 0
+  double ground_displacement_variance(double t) const;
+
+  /// All that the motions depend on, as one JSON object. A distribution of amplitudes is told by what it does: the
+  /// hash of 1024 of its quantiles, each as a float.
+  std::string configuration() const;
+
+ private:
+  double rate_;
+  double half_width_;
+  double sigma_;
+  double duration_;
+  Options options_;
+  std::vector<double> edges_;  // the shape's times [s]
+  std::uint64_t quantile_hash_ = 0;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,156 @@
+// Sums over the members of an ensemble, in one pass, stable, and mergeable.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace stickslip {
+
+/// A figure and its standard error, in the same unit.
+struct Estimate {
+  double value = 0;
+  double error = 0;
+};
+
+/// Figures and their standard errors, one for each time or frequency.
+struct Estimates {
+  std::vector<double> value;
+  std::vector<double> error;
+};
+
+/// A figure between its confidence bounds, in the same unit.
+struct Interval {
+  double value = 0;
+  double low = 0;
+  double high = 0;
+};
+
+namespace detail {
+
+/// The features of a member in the central part of the motion, of which an ensemble keeps means and covariances.
+enum Feature : std::size_t {
+  velocity,         ///< mean of x' [m/s]
+  increment_half,   ///< x in the middle less x at the beginning [m]
+  increment_whole,  ///< x at the end less x at the beginning [m]
+  velocity_square,  ///< mean of (x' - its mean over members)^2 [m^2/s^2]
+  velocity_fourth,  ///< ... of the fourth power [m^4/s^4]
+  product,          ///< mean of both deviations' product [m^2/s]
+  growth,           ///< how fast the square of the displacement grows [m^2/s], see Stationary::growth_rate
+  features
+};
+
+/// What a set of members leaves behind: for each time the joint moments of displacement and velocity about their means,
+/// for each frequency the mean and scatter of the velocity periodogram, and mean and scatter of the features.
+///
+/// Two sets merge into their union: each is shifted to the common mean and the sums are added (Pebay 2008,
+/// SAND2008-6212).
+class Tally {
+ public:
+  /// The order of the moments at one time: sums of (x - mean)^p (x' - mean)^q, after the two means.
+  enum Moment : std::size_t { x, v, xx, xv, vv, xxx, xxv, xvv, vvv, xxxx, xxvv, vvvv, moments };
+
+  Tally() = default;
+  Tally(std::size_t times, std::size_t frequencies)
+      : times_(times),
+        frequencies_(frequencies),
+        sums_(moments * times + 2 * frequencies + features * (features + 1)) {}
+
+  std::size_t times() const noexcept { return times_; }
+  std::size_t frequencies() const noexcept { return frequencies_; }
+
+  /// Members in it.
+  std::uint64_t count = 0;
+
+  /// One moment at all times.
+  std::span<double> moment(Moment m) noexcept { return {sums_.data() + m * times_, times_}; }
+  std::span<const double> moment(Moment m) const noexcept { return {sums_.data() + m * times_, times_}; }
+
+  /// Mean of the periodogram, and sum of the squared deviations from it.
+  std::span<double> density_mean() noexcept { return {sums_.data() + moments * times_, frequencies_}; }
+  std::span<double> density_scatter() noexcept { return {density_mean().data() + frequencies_, frequencies_}; }
+  std::span<const double> density_mean() const noexcept { return {sums_.data() + moments * times_, frequencies_}; }
+  std::span<const double> density_scatter() const noexcept {
+    return {density_mean().data() + frequencies_, frequencies_};
+  }
+
+  double& mean(std::size_t feature) noexcept { return tail()[feature]; }
+  double& scatter(std::size_t a, std::size_t b) noexcept { return tail()[features + a * features + b]; }
+  double mean(std::size_t feature) const noexcept { return tail()[feature]; }
+  double scatter(std::size_t a, std::size_t b) const noexcept { return tail()[features + a * features + b]; }
+
+  /// All sums in a row, to be kept and read back.
+  std::span<double> sums() noexcept { return sums_; }
+  std::span<const double> sums() const noexcept { return sums_; }
+
+  /// Becomes the tally of both. Which is the left one decides the last bits.
+  void merge(const Tally& right);
+
+ private:
+  double* tail() noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
+  const double* tail() const noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
+
+  std::size_t times_ = 0;
+  std::size_t frequencies_ = 0;
+  std::vector<double> sums_;
+};
+
+/// Tallies of blocks of members, merged pair by pair in a binary tree over the block's number. A pair is merged as soon
+/// as both halves are there and never otherwise, so the sums have the same bits in whatever order, and from however
+/// many parts, the blocks came together.
+class TallyTree {
+ public:
+  struct Place {
+    unsigned level;        ///< of 2^level blocks
+    std::uint64_t number;  ///< the first block is number * 2^level
+    friend auto operator<=>(const Place&, const Place&) = default;
+  };
+
+  /// @pre `place` does not overlap with what is here
+  void insert(Place place, Tally tally);
+
+  /// Whether it holds blocks of that place.
+  bool overlaps(Place place) const;
+
+  /// Members in it.
+  std::uint64_t count() const;
+
+  /// All that is here, merged in the order of the members.
+  Tally total() const;
+
+  const std::map<Place, Tally>& nodes() const noexcept { return nodes_; }
+
+ private:
+  std::map<Place, Tally> nodes_;
+};
+
+/// Positive values that are too many to be kept, counted in bins of constant relative width: a quantile is right to
+/// 0.05 % (DDSketch: Masson, Rim and Lee 2019, doi:10.14778/3352063.3352135). Counts merge exactly, in any order.
+class Sketch {
+ public:
+  static constexpr double accuracy = 5e-4;
+
+  /// @param value  at least 0
+  void add(double value);
+  void merge(const Sketch& other);
+
+  std::uint64_t count() const noexcept { return count_; }
+  /// The value that has `rank` others before it in ascending order.
+  double value_at(std::uint64_t rank) const;
+  /// How many exceed the level.
+  std::uint64_t above(double level) const;
+
+  /// Counts by bin: bin i holds the values about ((1 + accuracy) / (1 - accuracy))^i, the lowest one the zeros.
+  std::map<std::int32_t, std::uint64_t> bins() const { return bins_; }
+  static Sketch from_bins(std::map<std::int32_t, std::uint64_t> bins);
+
+ private:
+  std::map<std::int32_t, std::uint64_t> bins_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace detail
+}  // namespace stickslip

@@ -1,0 +1,21 @@
+// The few words of JSON that a configuration is written in.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "stickslip/error.hpp"
+
+namespace stickslip::detail {
+
+/// A number as the shortest text that reads back the same; JSON knows no infinity, null stands for it.
+inline std::string json(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
+
+inline std::string json(std::span<const double> values) {
+  std::string text = "[";
+  for (const double value : values) text.append(text.size() > 1 ? ", " : "").append(json(value));
+  return text + "]";
+}
+
+}  // namespace stickslip::detail

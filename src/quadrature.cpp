@@ -1,0 +1,75 @@
+#include "quadrature.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <limits>
+#include <memory>
+
+#include "stickslip/error.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+constexpr std::size_t most_intervals = 2000;
+
+struct Integrand {
+  const std::function<double(double)>& f;
+  std::exception_ptr thrown{};  // must not pass through GSL, which is C
+};
+
+double value(double x, void* data) noexcept {
+  auto& integrand = *static_cast<Integrand*>(data);
+  if (integrand.thrown) return 0;
+  try {
+    return integrand.f(x);
+  } catch (...) {
+    integrand.thrown = std::current_exception();
+    return 0;
+  }
+}
+
+}  // namespace
+
+double integral(const std::function<double(double)>& f, double low, double high, std::span<const double> breakpoints) {
+  // GSL's own handler would end the program. There is one for the whole process, so it is set once.
+  [[maybe_unused]] static const auto handler = gsl_set_error_handler_off();
+  const std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)> workspace(
+      gsl_integration_workspace_alloc(most_intervals), &gsl_integration_workspace_free);
+  if (!workspace) throw std::bad_alloc();
+
+  double sum = 0, error = 0;
+  const auto add = [&](const std::function<double(double)>& g, double from, double to) {
+    if (!(from < to)) return;
+    Integrand integrand{g};
+    gsl_function function{&value, &integrand};
+    double result = 0, uncertainty = 0;
+    if (std::isinf(to))
+      gsl_integration_qagiu(&function, from, 0, 1e-10, most_intervals, workspace.get(), &result, &uncertainty);
+    else
+      gsl_integration_qags(&function, from, to, 0, 1e-10, most_intervals, workspace.get(), &result, &uncertainty);
+    if (integrand.thrown) std::rethrow_exception(integrand.thrown);
+    sum += result;
+    error += uncertainty;
+  };
+
+  double from = low;
+  for (const double breakpoint : breakpoints)
+    if (breakpoint > from && breakpoint < high) {
+      add(f, from, breakpoint);
+      from = breakpoint;
+    }
+  if (std::isinf(high) && from > 0)  // in a unit of its own scale, which GSL cannot know
+    add([&](double u) { return from * f(from * u); }, 1, high);
+  else
+    add(f, from, high);
+  if (!(error <= 1e-6 * std::abs(sum)))
+    throw ConvergenceError("integral from " + shortest(low) + " to " + shortest(high) + ": reached " + shortest(sum) +
+                           " with an uncertainty of " + shortest(error));
+  return sum;
+}
+
+}  // namespace stickslip::detail

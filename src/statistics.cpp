@@ -1,0 +1,123 @@
+#include "stickslip/statistics.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "row_moments.hpp"
+
+namespace stickslip::detail {
+
+void Tally::merge(const Tally& right) {
+  if (right.count == 0) return;
+  if (count == 0) {
+    *this = right;
+    return;
+  }
+  assert(times_ == right.times_ && frequencies_ == right.frequencies_);
+  const auto n_left = static_cast<double>(count), n_right = static_cast<double>(right.count), n = n_left + n_right;
+  merge_moments(n_left, n_right, sums_.data(), right.sums_.data(), times_);
+
+  const double share = n_right / n, weight = n_left * share;
+  const std::span<double> mean_density = density_mean(), scatter_density = density_scatter();
+  for (std::size_t i = 0; i < frequencies_; ++i) {
+    const double difference = right.density_mean()[i] - mean_density[i];
+    mean_density[i] += share * difference;
+    scatter_density[i] += right.density_scatter()[i] + weight * difference * difference;
+  }
+  double difference[features];
+  for (std::size_t a = 0; a < features; ++a) difference[a] = right.mean(a) - mean(a);
+  for (std::size_t a = 0; a < features; ++a) {
+    mean(a) += share * difference[a];
+    for (std::size_t b = 0; b < features; ++b)
+      scatter(a, b) += right.scatter(a, b) + weight * difference[a] * difference[b];
+  }
+  count += right.count;
+}
+
+void TallyTree::insert(Place place, Tally tally) {
+  for (;;) {
+    const auto sibling = nodes_.find({place.level, place.number ^ 1});
+    if (sibling == nodes_.end()) break;
+    if (place.number % 2 == 0) {
+      tally.merge(sibling->second);
+    } else {
+      std::swap(tally, sibling->second);
+      tally.merge(sibling->second);
+    }
+    nodes_.erase(sibling);
+    place = {place.level + 1, place.number / 2};
+  }
+  nodes_.emplace(place, std::move(tally));
+}
+
+bool TallyTree::overlaps(Place place) const {
+  return std::any_of(nodes_.begin(), nodes_.end(), [place](const auto& node) {
+    const Place& other = node.first;
+    return place.level >= other.level ? place.number == other.number >> (place.level - other.level)
+                                      : other.number == place.number >> (other.level - place.level);
+  });
+}
+
+std::uint64_t TallyTree::count() const {
+  std::uint64_t total = 0;
+  for (const auto& [place, tally] : nodes_) total += tally.count;
+  return total;
+}
+
+Tally TallyTree::total() const {
+  std::map<std::uint64_t, const Tally*> in_order;
+  for (const auto& [place, tally] : nodes_) in_order.emplace(place.number << place.level, &tally);
+  Tally sum;
+  for (const auto& [first, tally] : in_order) sum.merge(*tally);
+  return sum;
+}
+
+namespace {
+
+constexpr std::int32_t zeros = std::numeric_limits<std::int32_t>::min();
+const double bin_width = std::log((1 + Sketch::accuracy) / (1 - Sketch::accuracy));
+
+std::int32_t bin_of(double value) {
+  return value == 0 ? zeros : static_cast<std::int32_t>(std::ceil(std::log(value) / bin_width));
+}
+
+// The middle of a bin, from which its ends are equally far in proportion.
+double value_of(std::int32_t bin) { return bin == zeros ? 0 : std::exp(bin * bin_width) * (1 - Sketch::accuracy); }
+
+}  // namespace
+
+void Sketch::add(double value) {
+  ++bins_[bin_of(value)];
+  ++count_;
+}
+
+void Sketch::merge(const Sketch& other) {
+  for (const auto& [bin, count] : other.bins_) bins_[bin] += count;
+  count_ += other.count_;
+}
+
+double Sketch::value_at(std::uint64_t rank) const {
+  assert(rank < count_);
+  std::uint64_t passed = 0;
+  for (const auto& [bin, count] : bins_)
+    if ((passed += count) > rank) return value_of(bin);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::uint64_t Sketch::above(double level) const {
+  std::uint64_t total = 0;
+  for (auto bin = bins_.upper_bound(bin_of(level)); bin != bins_.end(); ++bin) total += bin->second;
+  return total;
+}
+
+Sketch Sketch::from_bins(std::map<std::int32_t, std::uint64_t> bins) {
+  Sketch sketch;
+  for (const auto& [bin, count] : bins) sketch.count_ += count;
+  sketch.bins_ = std::move(bins);
+  return sketch;
+}
+
+}  // namespace stickslip::detail
