@@ -44,22 +44,27 @@ class Xoshiro {
   std::uint64_t state_[4];
 };
 
-/// Sums over the members, at each time.
+/// Sums over the members, at each time. Side by side: an array for each sum takes longer.
 struct Sums {
-  explicit Sums(std::size_t times) : x(times), v(times), xx(times), xv(times), vv(times) {}
+  struct Time {
+    double x = 0, v = 0, xx = 0, xv = 0, vv = 0;
+  };
+
+  explicit Sums(std::size_t times) : at(times) {}
 
   void add(const std::vector<double>& displacement, const std::vector<double>& velocity) {
-    const double *px = displacement.data(), *pv = velocity.data();
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] += px[i];
-      v[i] += pv[i];
-      xx[i] += px[i] * px[i];
-      xv[i] += px[i] * pv[i];
-      vv[i] += pv[i] * pv[i];
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double x = displacement[i], v = velocity[i];
+      Time& sums = at[i];
+      sums.x += x;
+      sums.v += v;
+      sums.xx += x * x;
+      sums.xv += x * v;
+      sums.vv += v * v;
     }
   }
 
-  std::vector<double> x, v, xx, xv, vv;
+  std::vector<Time> at;
 };
 
 /// Gaussian ground accelerations in a band of even density, of random phase, thesis (4.49), and the amplitudes
@@ -113,56 +118,65 @@ class CoulombRecord {
       : a_(slip_level * dt * dt), dt_(dt), loads_(samples), x_(samples), v_(samples) {}
 
   void operator()(const double* n, Sums& sums) {
+    // Locals, which what is written to the arrays can't change: kept in registers.
     const std::size_t last = loads_.size() - 1;
-    for (std::size_t i = 0; i <= last; ++i) loads_[i] = -n[i] * dt_ * dt_;  // dt is the unit of time
-    const double* p = loads_.data();
+    const double a = a_, square = dt_ * dt_, per_dt = 1 / dt_;
+    double *p = loads_.data(), *xs = x_.data(), *vs = v_.data();
+    for (std::size_t i = 0; i <= last; ++i) p[i] = -n[i] * square;  // dt is the unit of time
     double x = 0, v = 0;
     std::size_t i = 0;
     for (;;) {
       if (v == 0) {
-        for (; i < last && std::abs(p[i]) <= a_ && std::abs(p[i + 1]) <= a_; ++i) keep(i + 1, x, 0);
+        for (; i < last && std::abs(p[i]) <= a && std::abs(p[i + 1]) <= a; ++i) {
+          xs[i + 1] = x;
+          vs[i + 1] = 0;
+        }
       } else {
         const double s = v > 0 ? 1 : -1;
-        double distance = s * x, speed = s * v, net = s * p[i] - a_;
+        double distance = s * x, speed = s * v, net = s * p[i] - a;
         for (; i < last; ++i) {
-          const double next_net = s * p[i + 1] - a_, next = speed + (net + next_net) / 2;
+          const double next_net = s * p[i + 1] - a, next = speed + (net + next_net) / 2;
           if (!(next > 0 && (net >= 0 || next_net <= 0))) break;
           distance += speed + net * (1.0 / 3) + next_net * (1.0 / 6);
           speed = next;
           net = next_net;
-          keep(i + 1, s * distance, s * speed);
+          xs[i + 1] = s * distance;
+          vs[i + 1] = s * speed * per_dt;
         }
         x = s * distance;
         v = s * speed;
       }
       if (i == last) break;
-      segment_with_events(p[i], p[i + 1], x, v);
-      keep(++i, x, v);
+      const Motion end = segment_with_events(p[i], p[i + 1], a, {x, v});
+      x = end.x;
+      v = end.v;
+      ++i;
+      xs[i] = x;
+      vs[i] = v * per_dt;
     }
     sums.add(x_, v_);
   }
 
  private:
-  void keep(std::size_t i, double x, double v) {
-    x_[i] = x;
-    v_[i] = v / dt_;
-  }
+  struct Motion {
+    double x, v;
+  };
 
-  void segment_with_events(double load, double end, double& x, double& v) const {
+  static Motion segment_with_events(double load, double end, double a, Motion m) {
     const double rate = end - load;
     for (double left = 1;;) {
-      double s = v > 0 ? 1 : -1;
-      if (v == 0) {
-        if (std::abs(load) > a_) {
+      double s = m.v > 0 ? 1 : -1;
+      if (m.v == 0) {
+        if (std::abs(load) > a) {
           s = std::copysign(1, load);
         } else {
-          if (std::abs(end) <= a_) return;
+          if (std::abs(end) <= a) return m;
           s = std::copysign(1, end);
-          load = s * a_;
+          load = s * a;
           left = (end - load) / rate;
         }
       }
-      const double u = s * v, net = s * load - a_, gain = s * rate;
+      const double u = s * m.v, net = s * load - a, gain = s * rate;
       const double last = u + left * (net + gain * left / 2);
       double stop = std::numeric_limits<double>::infinity();
       if (!(last > 0 && (net >= 0 || net + gain * left <= 0))) {
@@ -174,12 +188,12 @@ class CoulombRecord {
         }
       }
       const double t = std::min(stop, left);
-      x += s * t * (u + t * (net / 2 + gain * t / 6));
+      m.x += s * t * (u + t * (net / 2 + gain * t / 6));
       if (stop > left) {
-        v = s * last;
-        return;
+        m.v = s * last;
+        return m;
       }
-      v = 0;
+      m.v = 0;
       load += rate * stop;
       left -= stop;
     }
@@ -210,28 +224,30 @@ class CoulombPulses {
     }
     pulses_.push_back({never, 0});
 
+    const double dt = dt_, half_width = half_width_, a = a_;
+    double *xs = x_.data(), *vs = v_.data();
+    const std::size_t samples = x_.size();
     std::size_t steps = 0, sample = 1;
     const Pulse *begins = pulses_.data(), *turns = begins, *ends = begins;
-    double begin = begins->arrival, turn = turns->arrival + half_width_, end = ends->arrival + 2 * half_width_;
+    double begin = begins->arrival, turn = turns->arrival + half_width, end = ends->arrival + 2 * half_width;
     double t = 0, load = 0, x = 0, v = 0;
-    for (; sample < x_.size(); ++steps) {
-      const double time = static_cast<double>(sample) * dt_,
-                   next = std::min(std::min(begin, turn), std::min(end, time));
-      slide(next - t, load, x, v);
+    for (; sample < samples; ++steps) {
+      const double time = static_cast<double>(sample) * dt, next = std::min(std::min(begin, turn), std::min(end, time));
+      slide(next - t, load, a, x, v);
       t = next;
       if (next == time) {
-        x_[sample] = x;
-        v_[sample] = v;
+        xs[sample] = x;
+        vs[sample] = v;
         ++sample;
       } else if (next == begin) {
         load -= begins->amplitude;
         begin = (++begins)->arrival;
       } else if (next == turn) {
         load += 2 * turns->amplitude;
-        turn = (++turns)->arrival + half_width_;
+        turn = (++turns)->arrival + half_width;
       } else {
         load -= ends->amplitude;
-        end = (++ends)->arrival + 2 * half_width_;
+        end = (++ends)->arrival + 2 * half_width;
       }
     }
     sums.add(x_, v_);
@@ -243,9 +259,9 @@ class CoulombPulses {
     double arrival, amplitude;
   };
 
-  void slide(double left, double load, double& x, double& v) const {
+  static void slide(double left, double load, double a, double& x, double& v) {
     if (v != 0) {
-      const double net = load - std::copysign(a_, v), last = v + net * left;
+      const double net = load - std::copysign(a, v), last = v + net * left;
       if (last * v > 0) {
         x += left * (v + last) / 2;
         v = last;
@@ -256,8 +272,8 @@ class CoulombPulses {
       v = 0;
       left -= stop;
     }
-    if (std::abs(load) <= a_) return;
-    v = (load - std::copysign(a_, load)) * left;
+    if (std::abs(load) <= a) return;
+    v = (load - std::copysign(a, load)) * left;
     x += v * left / 2;
   }
 

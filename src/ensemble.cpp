@@ -104,6 +104,8 @@ Tally Block::finish() {
     mean_whole += (marks[2 * width_ + i] - marks[i]) / n;
   }
   const double second_half = static_cast<double>(times_.central() - times_.central() / 2) * times_.dt;
+  // Squares about the mean of a few members are too small by this.
+  const double unbiased = n > 1 ? n / (n - 1) : 1;
   std::vector<std::array<double, features>> values(members_);
   for (std::size_t i = 0; i < members_; ++i) {
     const double half = marks[width_ + i] - marks[i], whole = marks[2 * width_ + i] - marks[i];
@@ -111,10 +113,10 @@ Tally Block::finish() {
     values[i] = {sums[i] / length,
                  half,
                  whole,
-                 sums[width_ + i] / length,
-                 sums[2 * width_ + i] / length,
-                 sums[3 * width_ + i] / length,
-                 (f * f - e * e) / second_half};
+                 unbiased * sums[width_ + i] / length,
+                 unbiased * unbiased * sums[2 * width_ + i] / length,
+                 unbiased * sums[3 * width_ + i] / length,
+                 unbiased * (f * f - e * e) / second_half};
     for (std::size_t a = 0; a < features; ++a) tally_.mean(a) += values[i][a] / n;
   }
   for (const auto& value : values)
@@ -347,13 +349,21 @@ std::size_t Ensemble::block(std::size_t times) {
 }
 
 Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
+  const std::size_t frequencies = parts_.velocity_spectrum ? parts_.times.central() / 2 + 1 : 0;
   for (const auto& [place, tally] : parts_.tallies.nodes())
-    if (tally.times() != parts_.times.count || tally.count == 0)
-      throw std::invalid_argument("Ensemble: a part has " + std::to_string(tally.times()) + " times and " +
-                                  std::to_string(tally.count) + " members, the whole " +
-                                  std::to_string(parts_.times.count) + " times");
+    if (tally.times() != parts_.times.count || tally.frequencies() != frequencies || tally.count == 0)
+      throw std::invalid_argument(
+          "Ensemble: a part has " + std::to_string(tally.times()) + " times, " + std::to_string(tally.frequencies()) +
+          " frequencies and " + std::to_string(tally.count) + " members, the whole " +
+          std::to_string(parts_.times.count) + " times and " + std::to_string(frequencies) + " frequencies");
   std::uint64_t kept = parts_.peaks.count();
-  for (const auto& [block, values] : parts_.kept) kept += values.peak.size();
+  for (const auto& [block, values] : parts_.kept) {
+    kept += values.peak.size();
+    if (values.residual.size() != values.peak.size())
+      throw std::invalid_argument("Ensemble: block " + std::to_string(block) + " has " +
+                                  std::to_string(values.peak.size()) + " peaks and " +
+                                  std::to_string(values.residual.size()) + " residuals");
+  }
   if (kept != members())
     throw std::invalid_argument("Ensemble: the parts hold " + std::to_string(members()) + " members and " +
                                 std::to_string(kept) + " peaks");
@@ -419,10 +429,16 @@ struct ValueAndVariance {
   double value, variance;
 };
 
-// Variance of the unbiased variance: (m4 - m2^2 (n - 3)/(n - 1)) / n.
-ValueAndVariance variance_of(double n, double second, double fourth) {
-  const double variance = second / (n - 1);
-  return {variance, (fourth / n - variance * variance * (n - 3) / (n - 1)) / n};
+// The unbiased covariance of two quantities (their variance, where they are the same) from the sums of their
+// deviations, and an unbiased estimate of its own variance
+//     kappa_22 / n + (kappa_20 kappa_02 + kappa_11^2) / (n - 1)
+// by k-statistics (Kendall and Stuart, vol. 1, ch. 12, 13); biased for fewer than four members, who have no k_22.
+ValueAndVariance covariance_of(double n, double s11, double s20, double s02, double s22) {
+  const double k11 = s11 / (n - 1), k20 = s20 / (n - 1), k02 = s02 / (n - 1);
+  if (n < 4) return {k11, (s22 / n - (n - 2) / (n - 1) * k11 * k11 + k20 * k02 / (n - 1)) / n};
+  const double k22 = (n * (n + 1) * s22 - (n - 1) * (s20 * s02 + 2 * s11 * s11)) / ((n - 1) * (n - 2) * (n - 3));
+  const double squares = ((n - 3) * k11 * k11 + (n - 1) * k20 * k02) / ((n - 2) * (n + 1));
+  return {k11, (n - 1) / (n * (n + 1)) * k22 + squares};
 }
 
 }  // namespace
@@ -443,22 +459,24 @@ Estimates Ensemble::velocity_mean() const {
 
 Estimates Ensemble::displacement_variance() const {
   need_two(members());
-  return by_time(parts_.tallies,
-                 [](double n, auto moment) { return variance_of(n, moment(Tally::xx), moment(Tally::xxxx)); });
+  return by_time(parts_.tallies, [](double n, auto moment) {
+    const double xx = moment(Tally::xx);
+    return covariance_of(n, xx, xx, xx, moment(Tally::xxxx));
+  });
 }
 
 Estimates Ensemble::velocity_variance() const {
   need_two(members());
-  return by_time(parts_.tallies,
-                 [](double n, auto moment) { return variance_of(n, moment(Tally::vv), moment(Tally::vvvv)); });
+  return by_time(parts_.tallies, [](double n, auto moment) {
+    const double vv = moment(Tally::vv);
+    return covariance_of(n, vv, vv, vv, moment(Tally::vvvv));
+  });
 }
 
 Estimates Ensemble::covariance() const {
   need_two(members());
-  // Variance of the unbiased covariance: (m22 - (n - 2)/(n - 1) m11^2 + m20 m02/(n - 1)) / n.
   return by_time(parts_.tallies, [](double n, auto moment) {
-    const double xv = moment(Tally::xv) / (n - 1), xx = moment(Tally::xx) / (n - 1), vv = moment(Tally::vv) / (n - 1);
-    return ValueAndVariance{xv, (moment(Tally::xxvv) / n - (n - 2) / (n - 1) * xv * xv + xx * vv / (n - 1)) / n};
+    return covariance_of(n, moment(Tally::xv), moment(Tally::xx), moment(Tally::vv), moment(Tally::xxvv));
   });
 }
 

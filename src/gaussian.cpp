@@ -19,8 +19,6 @@
 namespace stickslip {
 namespace {
 
-constexpr std::uint32_t phase_purpose = 0x70686173, amplitude_purpose = 0x7261796c;  // "phas", "rayl"
-
 constexpr std::size_t longest_period = std::numeric_limits<int>::max();  // FFTW's
 
 /// Without an exponent, as long as it fits.
@@ -160,7 +158,7 @@ void GaussianExcitation::sample(std::uint64_t seed, std::uint64_t member, std::s
   std::fill(lines, band, 0);
   std::fill(band + count, lines + half, 0);
 
-  // Number i of the row is line first_line_ + i's: the same on a finer grid, and lines outside the band cost nothing.
+  // Counted from the first line, so that those outside the band cost nothing; it is the same one on a finer grid.
   phasors({seed, member, phase_purpose}, {band, count});
   if (options_.random_amplitudes) {
     const std::span<double> squares(workspace.amplitudes_.data(), count);
@@ -226,11 +224,14 @@ double GaussianExcitation::effective_lines() const noexcept {
   return 1 / squares;
 }
 
-std::size_t GaussianExcitation::period_for(double effective_lines) const {
-  const double needed = std::ceil(static_cast<double>(options_.period) * effective_lines / this->effective_lines());
-  detail::require(needed > 0 && needed < 0x1p62, "GaussianExcitation: effective_lines must be positive and reachable",
-                  effective_lines);
-  return std::bit_ceil(static_cast<std::size_t>(needed));
+std::size_t GaussianExcitation::period_for(double wanted) const {
+  const double needed = static_cast<double>(options_.period / refinement_) * wanted / effective_lines();
+  detail::require(needed > 0 && needed <= static_cast<double>(longest_period),
+                  "GaussianExcitation: a number of effective lines must be positive and within reach", wanted);
+  GaussianOptions longer = options_;
+  longer.period = std::bit_ceil(static_cast<std::size_t>(std::ceil(needed)));
+  while (GaussianExcitation(spectrum_, coarse_dt_, 2, longer).effective_lines() < wanted) longer.period *= 2;
+  return longer.period * refinement_;
 }
 
 double GaussianExcitation::lost_variance() const {
@@ -240,22 +241,9 @@ double GaussianExcitation::lost_variance() const {
   return spectrum_.variance(nyquist, std::numeric_limits<double>::infinity()) / all;
 }
 
-/// FNV-1a of the lines' variances, as floats: their last bits are the mathematical library's.
-std::uint64_t GaussianExcitation::fingerprint() const noexcept {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const double p : target_)
-    for (std::uint32_t bits = std::bit_cast<std::uint32_t>(static_cast<float>(p)), byte = 0; byte < 4; ++byte) {
-      hash = (hash ^ (bits >> (8 * byte) & 0xFFu)) * 0x100000001b3u;
-    }
-  return hash;
-}
-
 std::string GaussianExcitation::configuration() const {
   const auto boolean = [](bool value) { return value ? "true" : "false"; };
   std::string text = R"({"excitation": "GaussianExcitation", "spectrum": )" + spectrum_.configuration();
-  // A function cannot be written down; what it gave at the lines can.
-  if (std::holds_alternative<Spectrum::Function>(spectrum_.form()))
-    text += R"(, "lines": ")" + std::to_string(fingerprint()) + '"';
   text += R"(, "dt": )" + detail::json(coarse_dt_) + R"(, "samples": )" + std::to_string(samples_) +
           R"(, "interpolation": ")" + (options_.interpolation == Interpolation::linear ? "linear" : "constant") +
           R"(", "correct_interpolation": )" + boolean(options_.correct_interpolation) + R"(, "random_amplitudes": )" +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -11,6 +12,10 @@ namespace stickslip::detail {
 
 /// A number as the shortest text that reads back the same; JSON knows no infinity, null stands for it.
 inline std::string json(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
+
+inline std::string json(std::uint64_t value) {
+  return '"' + std::to_string(value) + '"';
+}  // beyond a double's integers
 
 inline std::string json(std::span<const double> values) {
   std::string text = "[";

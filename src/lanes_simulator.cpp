@@ -1,18 +1,39 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include "caster_lanes.hpp"
 #include "coulomb_lanes.hpp"
+#include "pulse_lanes.hpp"
 #include "stickslip/ensemble.hpp"
 
 namespace stickslip::detail {
 namespace {
 
+CoulombLanes lanes_of(const Coulomb& law, double duration) { return {law.forward(), law.backward(), duration}; }
+CasterLanes lanes_of(const Caster& law, double duration) { return {law, duration}; }
+
+// Without ground acceleration until they rest.
+template <class Law>
+void settle_all(const Law& law, const LaneStates& states, std::size_t members) {
+  const Slider<Law> slider(law);
+  for (std::size_t i = 0; i < members; ++i) {
+    State state = State::at(states.displacement[i], states.velocity[i]);
+    settle(slider, state, [&](double duration) { advance(slider, Segment{duration, 0, 0}, state); });
+    states.displacement[i] = state.displacement;
+    states.peak[i] = std::max(states.peak[i], std::abs(state.displacement));
+  }
+}
+
+/// Under a Gaussian excitation, whose members share their times.
+template <class Law>
 class LanesSimulator final : public Simulator {
  public:
-  LanesSimulator(const Coulomb& law, const GaussianExcitation& excitation, std::uint64_t seed, bool settle)
+  LanesSimulator(const Law& law, const GaussianExcitation& excitation, std::uint64_t seed, bool settle)
       : law_(law), excitation_(excitation), seed_(seed), settle_(settle) {}
 
   void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
@@ -21,7 +42,7 @@ class LanesSimulator final : public Simulator {
 
     const auto every = static_cast<std::size_t>(std::round(block.times().dt / excitation_.dt()));
     const bool linear = excitation_.interpolation() == Interpolation::linear;
-    const CoulombLanes slider{law_.forward(), law_.backward(), excitation_.dt()};
+    const auto slider = lanes_of(law_, excitation_.dt());
     displacement_.assign(width, 0);
     velocity_.assign(width, 0);
     std::fill(block.peak().begin(), block.peak().end(), 0.0);
@@ -33,7 +54,7 @@ class LanesSimulator final : public Simulator {
       if (i % every == 0) block.row(i / every, displacement_.data(), velocity_.data());
       if (i % 256 == 0) block.beat();
     }
-    if (settle_) settle_all(members, block);
+    if (settle_) settle_all(law_, states, members);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
@@ -63,17 +84,7 @@ class LanesSimulator final : public Simulator {
       for (std::size_t k = 0; k < row_padding; ++k) columns[s * width + k] = rows[k * samples + s];
   }
 
-  void settle_all(std::size_t members, Block& block) {
-    const Slider<Coulomb> slider(law_);
-    for (std::size_t i = 0; i < members; ++i) {
-      State state = State::at(displacement_[i], velocity_[i]);
-      settle(slider, state, [&](double duration) { advance(slider, Segment{duration, 0, 0}, state); });
-      displacement_[i] = state.displacement;
-      block.peak()[i] = std::max(block.peak()[i], std::abs(state.displacement));
-    }
-  }
-
-  Coulomb law_;
+  Law law_;
   const GaussianExcitation& excitation_;
   std::uint64_t seed_;
   bool settle_;
@@ -81,11 +92,98 @@ class LanesSimulator final : public Simulator {
   std::vector<double> records_, ground_, displacement_, velocity_;
 };
 
+/// Under pulses, for which each member has its own times: they meet at those of the statistics.
+class PulseSimulator final : public Simulator {
+ public:
+  PulseSimulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed, bool settle)
+      : law_(law),
+        excitation_(excitation),
+        seed_(seed),
+        settle_(settle),
+        lanes_{law.forward(), law.backward(), {}, {}} {
+    const PulseShape& shape = excitation.options().shape;
+    double before = 0;
+    for (std::size_t i = 0; i < shape.times().size(); ++i) {
+      const double after = i < shape.values().size() ? shape.values()[i] : 0;
+      lanes_.edges.push_back(shape.times()[i] * excitation.half_width());
+      lanes_.jumps.push_back(after - before);
+      before = after;
+    }
+  }
+
+  void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
+    const std::size_t width = block.width(), times = block.times().count;
+    draw(first_member, members, width);
+    displacement_.assign(width, 0);
+    velocity_.assign(width, 0);
+    std::fill(block.peak().begin(), block.peak().end(), 0.0);
+    const LaneStates states{displacement_.data(), velocity_.data(), block.peak().data()};
+    block.row(0, displacement_.data(), velocity_.data());
+    double time = 0;
+    for (std::size_t k = 1; k < times; ++k) {
+      const double next = std::min(static_cast<double>(k) * block.times().dt, excitation_.duration());
+      advance_lanes(lanes_, time, next, pulses_, states);
+      block.row(k, displacement_.data(), velocity_.data());
+      block.beat();
+      time = next;
+    }
+    advance_lanes(lanes_, time, excitation_.duration(), pulses_, states);
+    if (settle_) settle_all(law_, states, members);
+    std::copy_n(displacement_.begin(), width, block.residual().begin());
+  }
+
+ private:
+  void draw(std::uint64_t first_member, std::size_t members, std::size_t width) {
+    const std::size_t edges = lanes_.edges.size();
+    pulses_.width = width;
+    pulses_.arrivals.clear();
+    pulses_.amplitudes.clear();
+    pulses_.next.resize(edges * width);
+    pulses_.time.resize(edges * width);
+    pulses_.ground.assign(width, 0);
+    for (std::size_t i = 0; i < width; ++i) {
+      const std::size_t first = pulses_.arrivals.size();
+      if (i < members) {
+        excitation_.pulses(seed_, first_member + i, arrivals_, amplitudes_);
+        pulses_.arrivals.insert(pulses_.arrivals.end(), arrivals_.begin(), arrivals_.end());
+        pulses_.amplitudes.insert(pulses_.amplitudes.end(), amplitudes_.begin(), amplitudes_.end());
+      }
+      pulses_.arrivals.push_back(std::numeric_limits<double>::infinity());
+      pulses_.amplitudes.push_back(0);
+      for (std::size_t e = 0; e < edges; ++e) {
+        pulses_.next[e * width + i] = static_cast<std::int64_t>(first);
+        pulses_.time[e * width + i] = pulses_.arrivals[first] + lanes_.edges[e];
+      }
+    }
+    pulses_.arrivals.push_back(std::numeric_limits<double>::infinity());  // after the last, who has no next either
+  }
+
+  Coulomb law_;
+  const PoissonPulses& excitation_;
+  std::uint64_t seed_;
+  bool settle_;
+  PulseLanes lanes_;
+  PulseStreams pulses_;
+  std::vector<double> arrivals_, amplitudes_, displacement_, velocity_;
+};
+
 }  // namespace
+
+std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed,
+                                           bool settle) {
+  return std::make_unique<PulseSimulator>(law, excitation, seed, settle);
+}
 
 std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const GaussianExcitation& excitation, std::uint64_t seed,
                                            bool settle) {
-  return std::make_unique<LanesSimulator>(law, excitation, seed, settle);
+  return std::make_unique<LanesSimulator<Coulomb>>(law, excitation, seed, settle);
+}
+
+std::unique_ptr<Simulator> lanes_simulator(const Caster& law, const GaussianExcitation& excitation, std::uint64_t seed,
+                                           bool settle) {
+  // The lanes measure lengths in reaches.
+  if (!(law.reach() > 1e-9 && law.reach() < 1e9)) return nullptr;
+  return std::make_unique<LanesSimulator<Caster>>(law, excitation, seed, settle);
 }
 
 }  // namespace stickslip::detail

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr std::uint32_t gap_purpose = 0x70756c73, amplitude_purpose = 0x616d706c;
+constexpr std::uint32_t gap_purpose = 0x70756c73, amplitude_purpose = 0x616d706c;  // "puls", "ampl"
 
 struct Event {
   std::string_view name;
@@ -109,7 +109,7 @@ double net_velocity(const PulseShape& shape) {
   return std::abs(net) <= 1e-12 * size ? 0 : net;
 }
 
-/// Refuses what cannot be a quantile function of mean square 1, and returns the hash (FNV-1a, 32 bits) of what it does.
+/// Refuses what cannot be a quantile function of mean square 1, and returns the hash (FNV-1a) of what it does.
 /// Rounded to float, for its last digits may differ where a mathematical library chooses among instruction sets.
 std::uint64_t examine(const std::function<void(std::span<double>)>& quantile) {
   std::vector<double> values(1024);
@@ -323,7 +323,9 @@ std::string PoissonPulses::configuration() const {
   text.append(R"(, "stationary_start": )").append(options_.stationary_start ? "true" : "false");
   text.append(R"(, "shape": {"times": )").append(detail::json(options_.shape.times()));
   text.append(R"(, "values": )").append(detail::json(options_.shape.values()));
-  text.append(R"(}, "quantile": )").append(options_.quantile ? std::to_string(quantile_hash_) : "null");
+  text.append(R"(}, "quantile": )");
+  text.append(options_.quantile ? std::string(R"({"hash": ")").append(std::to_string(quantile_hash_)).append("\"}")
+                                : "null");
   text.append(R"(, "envelope": )").append(options_.envelope ? options_.envelope->configuration() : "null");
   return text.append("}");
 }

@@ -47,13 +47,14 @@ double integral(const std::function<double(double)>& f, double low, double high,
     Integrand integrand{g};
     gsl_function function{&value, &integrand};
     double result = 0, uncertainty = 0;
-    if (std::isinf(to))
-      gsl_integration_qagiu(&function, from, 0, 1e-10, most_intervals, workspace.get(), &result, &uncertainty);
-    else
-      gsl_integration_qags(&function, from, to, 0, 1e-10, most_intervals, workspace.get(), &result, &uncertainty);
+    const int status = std::isinf(to) ? gsl_integration_qagiu(&function, from, 0, 1e-10, most_intervals,
+                                                              workspace.get(), &result, &uncertainty)
+                                      : gsl_integration_qags(&function, from, to, 0, 1e-10, most_intervals,
+                                                             workspace.get(), &result, &uncertainty);
     if (integrand.thrown) std::rethrow_exception(integrand.thrown);
     sum += result;
-    error += uncertainty;
+    // Where round-off alone is in the way, the uncertainty says how far it came; else it is not to be relied on.
+    error += status == GSL_SUCCESS || status == GSL_EROUND ? uncertainty : std::numeric_limits<double>::infinity();
   };
 
   double from = low;

@@ -1,10 +1,11 @@
 #include "stickslip/spectrum.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <string_view>
 
 #include "json.hpp"
@@ -60,6 +61,16 @@ double integral_to(const Spectrum::Table& table, double omega) {
   return sum;
 }
 
+/// FNV-1a, of floats: the last bits of doubles are the mathematical library's.
+std::uint64_t hash(std::span<const double> values) {
+  std::uint64_t result = 0xcbf29ce484222325u;
+  for (const double value : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+    for (int byte = 0; byte < 4; ++byte) result = (result ^ (bits >> (8 * byte) & 0xFFu)) * 0x100000001b3u;
+  }
+  return result;
+}
+
 }  // namespace
 
 Spectrum Spectrum::white(double s0) {
@@ -102,7 +113,7 @@ Spectrum Spectrum::from_table(std::vector<double> omega, std::vector<double> den
 Spectrum Spectrum::from_function(std::function<double(double)> density, double low, double high) {
   if (!density) throw std::invalid_argument("Spectrum: density must be a function, got an empty one");
   require_band(low, high);
-  return Spectrum(Function{std::make_shared<const std::function<double(double)>>(std::move(density)), low, high});
+  return Spectrum(Function{std::make_shared<const std::function<double(double)>>(std::move(density)), low, high, 0});
 }
 
 Spectrum::Spectrum(Form form) : form_(std::move(form)) {
@@ -120,6 +131,16 @@ Spectrum::Spectrum(Form form) : form_(std::move(form)) {
   if (std::holds_alternative<White>(form_)) return;
   detail::require(std::isfinite(variance_) && variance_ > 0, "Spectrum: its variance must be positive and finite",
                   variance_, "m^2/s^4");
+  if (auto* s = std::get_if<Function>(&form_)) {
+    constexpr int points = 1024;
+    std::vector<double> values = {variance_};
+    for (int i = 0; i < points; ++i) {
+      const double share = (i + 0.5) / points;  // of the band, or of nine decades of an endless one
+      values.push_back(
+          (*this)(s->low + (std::isinf(s->high) ? std::pow(10, 9 * share - 3) : share * (s->high - s->low))));
+    }
+    s->fingerprint = hash(values);
+  }
 }
 
 double Spectrum::operator()(double omega) const {
@@ -219,7 +240,8 @@ std::string Spectrum::configuration() const {
           },
           [&](const Table& s) { return object("table", Numbers("omega", s.omega), Numbers("density", s.density)); },
           [&](const Function& s) {
-            return object("function", Number("low", s.low), Number("high", s.high), Number("variance", variance_));
+            return object("function", Number("low", s.low), Number("high", s.high),
+                          std::pair("fingerprint", s.fingerprint));
           }},
       form_);
 }

@@ -24,6 +24,7 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground_motion.hpp"
 #include "stickslip/integrate.hpp"
+#include "stickslip/recorder.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics.hpp"
 
@@ -260,12 +261,35 @@ class MemberSimulator final : public Simulator {
   }
 
  private:
-  struct PeakObserver {
-    double peak = 0;
-    void slide(Direction direction, double from, double distance, double, double) noexcept {
-      peak = std::max(peak, std::abs(from + sign(direction) * distance));
+  class PeakObserver {
+   public:
+    PeakObserver(const Block& block, std::size_t most_events) : block_(block), most_events_(most_events) {}
+
+    double peak() const noexcept { return peak_; }
+
+    void slide(Direction direction, double from, double distance, double, double) {
+      if constexpr (!ConstantLevelLaw<Law>) beat();
+      peak_ = std::max(peak_, std::abs(from + sign(direction) * distance));
     }
-    void event(EventKind, double, const State&) const noexcept {}
+    void event(EventKind, double, const State&) {
+      beat();
+      if (++events_ > most_events_) refuse_more();
+    }
+
+   private:
+    void beat() {
+      if (++beats_ % Recorder<Law>::work_a_beat == 0) block_.beat();
+    }
+    [[gnu::noinline]] void refuse_more() const {
+      throw ConvergenceError("more than " + std::to_string(most_events_) +
+                             " events: the spring is too stiff, or the slip level too low, for pieces of motion this "
+                             "long");
+    }
+
+    const Block& block_;
+    std::size_t most_events_, events_ = 0;
+    std::uint32_t beats_ = 0;
+    double peak_ = 0;
   };
 
   template <class Flows>
@@ -273,7 +297,7 @@ class MemberSimulator final : public Simulator {
     const std::size_t width = block.width(), times = block.times().count;
     const double dt = block.times().dt, begin = motion.time(0);
     State state;
-    PeakObserver observer;
+    PeakObserver observer(block, 1'000'000 + 8 * (motion.segments() + times));  // as in `integrate`
     std::size_t next = 0;  // time of the statistics
     const auto keep = [&] {
       displacement_[next * width + member] = state.displacement;
@@ -310,7 +334,7 @@ class MemberSimulator final : public Simulator {
         block.beat();
         advance(slider_.law(), flows, Segment{duration, 0, 0}, state, observer);
       });
-    block.peak()[member] = observer.peak;
+    block.peak()[member] = observer.peak();
     block.residual()[member] = state.displacement;
   }
 
@@ -321,15 +345,20 @@ class MemberSimulator final : public Simulator {
   std::vector<double> displacement_, velocity_;  // by time and member
 };
 
-/// Many members side by side, by vector instructions: Coulomb friction without a spring.
+/// Many members side by side, by vector instructions, for sliders without a spring; null where that does not pay.
 std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const GaussianExcitation& excitation, std::uint64_t seed,
                                            bool settle);
+std::unique_ptr<Simulator> lanes_simulator(const Caster& law, const GaussianExcitation& excitation, std::uint64_t seed,
+                                           bool settle);
+std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed,
+                                           bool settle);
 
-/// The fastest there is for these; all solve the same equations with the same closed forms.
+/// The fastest there is; all solve the same equations.
 template <FrictionLaw Law, Excitation E>
 std::unique_ptr<Simulator> simulator(const Slider<Law>& slider, const E& excitation, std::uint64_t seed, bool settle) {
-  if constexpr (std::same_as<Law, Coulomb> && requires { lanes_simulator(slider.law(), excitation, seed, settle); })
-    if (slider.stiffness() == 0) return lanes_simulator(slider.law(), excitation, seed, settle);
+  if constexpr (requires { lanes_simulator(slider.law(), excitation, seed, settle); })
+    if (slider.stiffness() == 0)
+      if (auto lanes = lanes_simulator(slider.law(), excitation, seed, settle)) return lanes;
   return std::make_unique<MemberSimulator<Law, E>>(slider, excitation, seed, settle);
 }
 

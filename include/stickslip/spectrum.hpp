@@ -1,6 +1,7 @@
 // How the strength of a random acceleration is spread over frequency.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -40,9 +41,13 @@ class Spectrum {
     bool operator==(const Table&) const = default;
   };
   struct Function {
-    std::shared_ptr<const std::function<double(double)>> density;  ///< equal only to itself
+    std::shared_ptr<const std::function<double(double)>> density;
     double low, high;
-    bool operator==(const Function&) const = default;
+    std::uint64_t fingerprint = 0;  ///< hash of 1024 values and of the variance, each as a float
+    /// Functions are told apart by what they do.
+    bool operator==(const Function& other) const {
+      return low == other.low && high == other.high && fingerprint == other.fingerprint;
+    }
   };
   using Form = std::variant<White, BandPass, KanaiTajimi, CloughPenzien, Table, Function>;
 
@@ -109,7 +114,7 @@ class Spectrum {
   const Form& form() const noexcept { return form_; }
 
   /// All of it as one JSON object, numbers in the shortest form that reads back the same. A function can't be written:
-  /// its edges and variance stand for it.
+  /// its edges and fingerprint stand for it.
   std::string configuration() const;
 
   friend bool operator==(const Spectrum& a, const Spectrum& b) { return a.form_ == b.form_; }

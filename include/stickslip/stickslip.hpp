@@ -5,6 +5,7 @@
 #include "stickslip/core.hpp"
 #include "stickslip/envelope.hpp"
 #include "stickslip/excitation/gaussian.hpp"
+#include "stickslip/excitation/poisson.hpp"
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"

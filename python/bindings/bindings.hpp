@@ -20,6 +20,13 @@ namespace stickslip::python {
 /// A slider of any law that Python knows. A new law is added here and gets all that takes a slider.
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>>;
 
+}  // namespace stickslip::python
+
+// Not what pybind11/stl.h makes of a variant: Slider is a class.
+PYBIND11_MAKE_OPAQUE(stickslip::python::AnySlider)
+
+namespace stickslip::python {
+
 void bind_errors(py::module_& m);
 void bind_coulomb(py::module_& m);
 void bind_caster(py::module_& m);
@@ -28,6 +35,11 @@ void bind_ground_motion(py::module_& m);
 void bind_records(py::module_& m);
 void bind_response(py::module_& m);
 void bind_integrate(py::module_& m);
+void bind_envelope(py::module_& m);
+void bind_spectrum(py::module_& m);
+void bind_gaussian(py::module_& m);
+void bind_poisson(py::module_& m);
+void bind_ensemble(py::module_& m);
 void bind_build_info(py::module_& m);
 
 /// A read-only array over `values`, which live as long as `owner`.
@@ -47,6 +59,16 @@ inline std::vector<double> to_vector(const py::object& values, const std::string
     throw std::invalid_argument(name + " must be one-dimensional, got " + std::to_string(array.ndim()) + " dimensions");
   const auto doubles = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
   return {doubles.data(), doubles.data() + doubles.size()};
+}
+
+inline Interpolation interpolation_of(const std::string& name, const std::string& owner) {
+  if (name == "linear") return Interpolation::linear;
+  if (name == "constant") return Interpolation::constant;
+  throw std::invalid_argument(owner + ": interpolation must be 'linear' or 'constant', got '" + name + "'");
+}
+
+inline const char* name_of(Interpolation interpolation) {
+  return interpolation == Interpolation::linear ? "linear" : "constant";
 }
 
 /// The slip level that was given, either itself or as a coefficient of friction.

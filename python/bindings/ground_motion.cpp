@@ -5,23 +5,13 @@
 namespace stickslip::python {
 namespace {
 
-Interpolation interpolation_of(const std::string& name) {
-  if (name == "linear") return Interpolation::linear;
-  if (name == "constant") return Interpolation::constant;
-  throw std::invalid_argument("GroundMotion: interpolation must be 'linear' or 'constant', got '" + name + "'");
-}
-
-const char* name_of(Interpolation interpolation) {
-  return interpolation == Interpolation::linear ? "linear" : "constant";
-}
-
 GroundMotion make(const py::object& acceleration, std::optional<double> dt, const std::optional<py::object>& times,
                   const std::string& interpolation, std::string name) {
   if (dt.has_value() == times.has_value())
     throw std::invalid_argument(std::string("GroundMotion: give either dt or times, got ") + (dt ? "both" : "neither"));
   std::vector<double> samples = to_vector(acceleration, "GroundMotion: acceleration");
-  if (dt) return {std::move(samples), *dt, interpolation_of(interpolation), std::move(name)};
-  return {std::move(samples), to_vector(*times, "GroundMotion: times"), interpolation_of(interpolation),
+  if (dt) return {std::move(samples), *dt, interpolation_of(interpolation, "GroundMotion"), std::move(name)};
+  return {std::move(samples), to_vector(*times, "GroundMotion: times"), interpolation_of(interpolation, "GroundMotion"),
           std::move(name)};
 }
 

@@ -12,5 +12,10 @@ PYBIND11_MODULE(_core, m) {
   bind_records(m);
   bind_response(m);
   bind_integrate(m);
+  bind_envelope(m);
+  bind_spectrum(m);
+  bind_gaussian(m);
+  bind_poisson(m);
+  bind_ensemble(m);
   bind_build_info(m);
 }

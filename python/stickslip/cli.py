@@ -1,10 +1,12 @@
 """The command ``stickslip``: slides records from the shell.
 
 ``stickslip slide kobe.AT2 --mu 0.1 0.2 0.3`` prints how far a block slides; ``stickslip slide
---help`` tells all. A subcommand is a function that adds its arguments and one that runs them.
+--help`` tells all. ``stickslip ensemble --event "great very near field" --mu 0.2 --members 100000``
+does so for random earthquakes. A subcommand is a function that adds its arguments and one that runs
+them.
 
 Exit codes: 0, also for a slider that never comes to rest, which its row says; 2 where the input was
-refused, with one line on stderr and nothing on stdout.
+refused, with one line on stderr and nothing on stdout; 130 after Ctrl-C.
 """
 
 from __future__ import annotations
@@ -21,12 +23,19 @@ from . import (
     Caster,
     ConvergenceError,
     Coulomb,
+    Ensemble,
+    Estimate,
+    GaussianExcitation,
     GroundMotion,
+    Interval,
+    PoissonPulses,
     Response,
     Slider,
+    Spectrum,
     build_info,
     integrate,
     read_record,
+    run_ensemble,
 )
 
 __all__ = ["main"]
@@ -57,7 +66,7 @@ def main(argv: list[str] | None = None) -> int:
     )
     parser.add_argument("--version", action="version", version=_version())
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for add in (_add_slide,):
+    for add in (_add_slide, _add_ensemble):
         add(commands)
     args = parser.parse_args(argv)
     try:
@@ -66,8 +75,15 @@ def main(argv: list[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
         return _refuse(f"{error.filename}: {error.strerror}" if error.filename else str(error))
-    except (ImportError, OverflowError, ValueError) as error:
+    except (ConvergenceError, ImportError, OverflowError, ValueError) as error:
         return _refuse(str(error))
+    except KeyboardInterrupt:
+        kept = getattr(args, "checkpoint", None)
+        print(
+            f"stickslip: interrupted{f'; {kept} has what was done' if kept else ''}",
+            file=sys.stderr,
+        )
+        return 130
     return 0
 
 
@@ -110,16 +126,22 @@ def _add_slide(commands: argparse._SubParsersAction) -> None:
     add = parser.add_argument
     add("records", nargs="+", type=Path, metavar="RECORD", help="file: AT2, COSMOS, GeoNet, CSV")
     add("--mu", nargs="+", type=float, required=True, help="coefficients of friction [-]")
-    add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
-    add("--reach", type=float, metavar="M", help="caster: where the level falls off [m]")
-    add("--period", type=float, metavar="S", help="period of the mass on its spring [s]")
-    add("--slope", type=float, metavar="DEGREES", help="inclined plane; downhill is forward")
+    _add_slider(parser)
     add("--units", help="of acceleration, where the file states none: g, cm/s^2, ...")
     add("--component", help="where the file has several: its name, or its number from 1")
     add("--scale", type=float, default=1.0, help="factor on the ground acceleration")
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
     parser.set_defaults(run=_slide)
+
+
+def _add_slider(parser: argparse.ArgumentParser) -> None:
+    """What `_slider` reads, but for --mu."""
+    add = parser.add_argument
+    add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
+    add("--reach", type=float, metavar="M", help="caster: where the level falls off [m]")
+    add("--period", type=float, metavar="S", help="period of the mass on its spring [s]")
+    add("--slope", type=float, metavar="DEGREES", help="inclined plane; downhill is forward")
 
 
 def _slide(args: argparse.Namespace) -> str:
@@ -225,3 +247,202 @@ def _table(rows: list[dict]) -> Iterable[str]:
             f"  {row['slips']:5d}{'' if row['at_rest'] else '  never rests: at end of record'}"
         )
         last = row["file"]
+
+
+def _add_ensemble(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "ensemble",
+        help="slide many random earthquakes and print statistics",
+        description="Slides a block through many members of a random ground motion and prints the"
+        " distribution of its displacement relative to the ground, with standard errors (+-) and"
+        " confidence bounds (in brackets). The ground motion is one of --event, --rate, --band.",
+        epilog=f"Events: {', '.join(PoissonPulses.events())}.",
+    )
+    add = parser.add_argument
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("--event", metavar="NAME", help="pulses like those of an earthquake; below")
+    source.add_argument("--rate", type=float, metavar="R", help="pulses, so many per second")
+    source.add_argument(
+        "--band",
+        nargs=3,
+        type=float,
+        metavar=("S0", "LOW", "HIGH"),
+        help="Gaussian motion of a two-sided density S0 [m^2/s^3] from LOW to HIGH [rad/s]",
+    )
+    add("--half-width", type=float, metavar="S", help="with --rate: of a pulse [s]")
+    add("--sigma", type=float, metavar="A", help="with --rate: rms amplitude of pulses [m/s^2]")
+    add("--duration", type=float, metavar="S", help="with --rate: of a motion [s]")
+    add("--dt", type=float, metavar="S", help="with --band: between samples [s]")
+    add("--samples", type=int, metavar="N", help="with --band: of a motion")
+    add("--mu", type=float, required=True, help="coefficient of friction [-]")
+    _add_slider(parser)
+    add("--members", type=int, default=10_000, metavar="N", help="how many (default 10000)")
+    add("--seed", type=int, default=0, metavar="N", help="names the random numbers (default 0)")
+    add("--threads", type=int, metavar="N", help="as many as the machine has, if not given")
+    add("--settle", action="store_true", help="go on after each motion until the block rests")
+    add(
+        "--level",
+        nargs="+",
+        type=float,
+        default=[0.01, 0.03, 0.1, 0.3, 1.0],
+        metavar="M",
+        help="peaks whose probability of exceedance is printed [m] (default 0.01 0.03 0.1 0.3 1)",
+    )
+    add("--confidence", type=float, default=0.95, metavar="P", help="of the bounds (default 0.95)")
+    add("--checkpoint", type=Path, metavar="FILE", help="keeps what is done; gone on from if there")
+    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg)")
+    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    parser.set_defaults(run=_ensemble)
+
+
+def _ensemble(args: argparse.Namespace) -> str:
+    if args.plot:
+        from . import plotting  # matplotlib: only who plots waits for it
+
+        plotting.check_suffix(args.plot)
+    if args.members < 2:
+        raise ValueError(f"--members must be at least 2, for standard errors, got {args.members}")
+    for level in args.level:
+        if not 0 <= level < math.inf:
+            raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
+    if not 0 < args.confidence < 1:
+        raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
+    ensemble = run_ensemble(
+        _slider(args, args.mu),
+        _excitation(args),
+        members=args.members,
+        seed=args.seed,
+        threads=args.threads,
+        settle=args.settle,
+        progress=sys.stderr is not None and sys.stderr.isatty(),
+        checkpoint=args.checkpoint,
+    )
+    result = _statistics(args, ensemble)
+    written = [str(file) for file in (args.checkpoint, args.plot) if file]
+    if args.plot:
+        plotting.save(plotting.plot_ensemble(ensemble), args.plot)
+    if args.json:
+        import json
+
+        document = {"stickslip": build_info()["version"], **result, "files": written}
+        return json.dumps(document, indent=2, allow_nan=False)
+    return "\n".join([*_report(args, result), *(f"wrote {name}" for name in written)])
+
+
+def _excitation(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation:
+    """The ground motion of the command line."""
+    belong = {"rate": ("half_width", "sigma", "duration"), "band": ("dt", "samples"), "event": ()}
+    (kind,) = (kind for kind in belong if getattr(args, kind) is not None)
+    for other, names in belong.items():
+        for name in names:
+            given, option = getattr(args, name) is not None, f"--{name.replace('_', '-')}"
+            if given and other != kind:
+                raise ValueError(f"{option} goes with --{other}, got --{kind}")
+            if not given and other == kind:
+                raise ValueError(f"--{kind} needs {option}, got none")
+    if kind == "event":
+        return PoissonPulses.event(args.event)
+    if kind == "rate":
+        return PoissonPulses(
+            rate=args.rate, half_width=args.half_width, sigma=args.sigma, duration=args.duration
+        )
+    s0, low, high = args.band
+    spectrum = Spectrum.band_pass(s0=s0, low=low, high=high)
+    return GaussianExcitation(spectrum, dt=args.dt, samples=args.samples)
+
+
+def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
+    """What is printed: keys carry their units; what is unbounded or not kept is None."""
+
+    def interval(name: str, key: float, found: Interval) -> dict:
+        high = None if math.isinf(found.high) else found.high
+        return {name: key, "value": found.value, "low": found.low, "high": high}
+
+    def estimate(found: Estimate) -> dict:
+        return {"value": found.value, "error": found.error}
+
+    shares = (0.5, 0.95, 0.99)
+    stationary = ensemble.stationary
+    return {
+        "configuration": ensemble.configuration,
+        "members": ensemble.members,
+        "confidence": args.confidence,
+        "peak_m": [interval("quantile", p, ensemble.quantile(p, args.confidence)) for p in shares],
+        "exceedance": [
+            interval("peak_m", level, ensemble.exceedance(level, args.confidence))
+            for level in args.level
+        ],
+        **_residual(ensemble),
+        "stationary": {
+            "begin_s": stationary.begin,
+            "end_s": stationary.end,
+            "velocity_variance_m2_s2": estimate(stationary.velocity_variance),
+            "growth_rate_m2_s": estimate(stationary.growth_rate),
+        },
+    }
+
+
+def _residual(ensemble: Ensemble) -> dict:
+    """Mean and root mean square of the residuals; None where they are not kept."""
+    try:
+        residual = ensemble.residual
+    except ValueError:
+        return {"residual_mean_m": None, "residual_rms_m": None}
+    n = len(residual)
+    squares = residual**2
+    rms = math.sqrt(squares.mean())
+    return {
+        "residual_mean_m": {
+            "value": float(residual.mean()),
+            "error": float(residual.std(ddof=1)) / math.sqrt(n),
+        },
+        # d(rms) = d(rms^2) / (2 rms)
+        "residual_rms_m": {
+            "value": rms,
+            "error": float(squares.std(ddof=1)) / math.sqrt(n) / (2 * rms) if rms else 0.0,
+        },
+    }
+
+
+def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
+    def row(name: str, which: str, found: dict, factor: float, unit: str) -> str:
+        value = factor * found["value"]
+        if "error" in found:
+            error = factor * found["error"]
+            text, around = _with_error(value, error)
+        else:
+            low = factor * found["low"]
+            high = math.inf if found["high"] is None else factor * found["high"]
+            text, around = f"{value:.4g}", f"({low:.4g} to {high:.4g})"
+        return f"{name:24}{which:>9}  {text:>10} {unit:7}  {around}"
+
+    stationary = result["stationary"]
+    yield (
+        f"{result['members']:,} members, seed {args.seed}; {100 * args.confidence:g} % bounds in"
+        f" brackets, standard errors after +-"
+    )
+    for i, found in enumerate(result["peak_m"]):
+        share = found["quantile"]
+        which = "median" if share == 0.5 else f"{100 * share:g} %"
+        yield row("" if i else "peak displacement", which, found, 100, "cm")
+    for name in ("mean", "rms"):
+        found = result[f"residual_{name}_m"]
+        if found:
+            yield row("residual displacement" if name == "mean" else "", name, found, 100, "cm")
+    for i, found in enumerate(result["exceedance"]):
+        level = f"{100 * found['peak_m']:g} cm"
+        yield row("" if i else "peak exceeds", level, found, 100, "%")
+    yield row("velocity variance", "", stationary["velocity_variance_m2_s2"], 1, "m^2/s^2")
+    yield row("growth of variance of x", "", stationary["growth_rate_m2_s"], 1, "m^2/s")
+    yield f"(the last two from {stationary['begin_s']:.3g} to {stationary['end_s']:.3g} s)"
+
+
+def _with_error(value: float, error: float) -> tuple[str, str]:
+    """The error to two digits and the value as far."""
+    if not error > 0:
+        return f"{value:.4g}", f"+- {error:.2g}"
+    places = 1 - math.floor(math.log10(error))
+    if 0 <= places <= 8:
+        return f"{value:.{places}f}", f"+- {error:.{places}f}"
+    digits = max(0, math.floor(math.log10(max(abs(value), error))) + places)
+    return f"{value:.{digits}e}", f"+- {error:.1e}"

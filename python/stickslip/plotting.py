@@ -1,4 +1,4 @@
-"""Pictures of responses, in one house style; needs matplotlib (``pip install stickslip[plot]``).
+"""Pictures, in one house style; needs matplotlib (``pip install stickslip[plot]``).
 
 Every function returns a matplotlib Figure and leaves pyplot alone: a notebook shows it, `save`
 writes it. Colours are Okabe and Ito's, told apart by colour-blind eyes and in grey print.
@@ -6,10 +6,8 @@ writes it. Colours are Okabe and Ito's, told apart by colour-blind eyes and in g
 
 from __future__ import annotations
 
-import errno
 import io
 import os
-import tempfile
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
@@ -27,9 +25,11 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
-from ._core import STANDARD_GRAVITY, GroundMotion, Response
+from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response
+from ._files import replacing
 
 __all__ = [
+    "plot_ensemble",
     "plot_friction_sweep",
     "plot_response",
     "plot_responses",
@@ -102,18 +102,9 @@ def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
         The folder is missing or cannot be written.
     """
     path = Path(file)
-    kind = check_suffix(path)
-    if not path.parent.is_dir():
-        raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
-    content = _render(figure, kind)
-    # mkstemp would leave a file that only its owner may read.
-    part = Path(tempfile.mkdtemp(prefix=".stickslip-", dir=path.parent)) / path.name
-    try:
+    content = _render(figure, check_suffix(path))
+    with replacing(path) as part:
         part.write_bytes(content)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
-        part.parent.rmdir()
     return path
 
 
@@ -350,6 +341,74 @@ def plot_friction_sweep(
     return figure
 
 
+def plot_ensemble(
+    ensemble: Ensemble, figure: FigureBase | None = None, title: str | None = None
+) -> FigureBase:
+    """Variances by time, the distribution of the peaks, and the velocity's spectrum.
+
+    Bands are two standard errors either way; about the distribution, 95 % confidence bounds.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        At least two members; what `run_ensemble` returned.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; a new figure of 9 x 6 inches if not given.
+    title : str, optional
+        Instead of what slid and how many members there are.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+        Its axes: variance of x, probability that a peak is exceeded, variance of x', and, where it
+        was asked for, spectral density of x'.
+
+    Raises
+    ------
+    ValueError
+        Fewer than two members.
+    """
+    e, t, s = ensemble, ensemble.time, ensemble.stationary
+    has_spectrum = e.configuration["velocity_spectrum"]
+    with style():
+        figure = figure or _figure(9, 6)
+        layout = [["way", "peaks"], ["speed", "spectrum" if has_spectrum else "peaks"]]
+        axes = figure.subplot_mosaic(layout)
+        way, speed, peaks = axes["way"], axes["speed"], axes["peaks"]
+        figure.suptitle(
+            title or _describe_ensemble(e), x=0.01, ha="left", fontsize=10, fontweight="bold"
+        )
+
+        variance, error = e.displacement_variance, e.displacement_variance_error
+        length, unit = _unit(np.sqrt(variance.max()))
+        _band(way, t, variance * length**2, error * length**2, BLUE)
+        growth = s.growth_rate
+        central = (t >= s.begin) & (t <= s.end)
+        middle = t[central].mean(), variance[central].mean()
+        line = middle[1] + growth.value * (np.array([s.begin, s.end]) - middle[0])
+        way.plot([s.begin, s.end], line * length**2, color=VERMILION, linestyle="--")
+        _note(way, f"grows by {_with_error(growth, length**2)} {unit}\N{SUPERSCRIPT TWO}/s")
+        way.set_ylabel(f"variance of displacement\n[{unit}\N{SUPERSCRIPT TWO}]")
+
+        variance, error = e.velocity_variance, e.velocity_variance_error
+        fast, fast_unit = _unit(np.sqrt(variance.max()))
+        square = f"({fast_unit}/s)\N{SUPERSCRIPT TWO}"
+        _band(speed, t, variance * fast**2, error * fast**2, BLUE)
+        level = s.velocity_variance
+        speed.plot([s.begin, s.end], [level.value * fast**2] * 2, color=VERMILION, linestyle="--")
+        _note(speed, f"stationary {_with_error(level, fast**2)} {square}")
+        speed.set_ylabel(f"variance of velocity\n[{square}]")
+        for panel in (way, speed):
+            panel.set(xlim=(t[0], t[-1]), xlabel="time [s]")
+            panel.set_ylim(bottom=0)
+
+        _draw_peaks(peaks, e)
+        if has_spectrum:
+            _draw_spectrum(axes["spectrum"], e, fast, fast_unit)
+        figure.align_ylabels()
+    return figure
+
+
 _AT_RIGHT = {
     "xycoords": "axes fraction",
     "xytext": (6, 0),
@@ -518,6 +577,102 @@ def _describe(slider: Any) -> str:
         words.append(f"caster, reach {_digits(law.reach * 100)} cm")
     if wn > 0:
         words.append(f"period {_digits(2 * np.pi / wn)} s")
+    return ", ".join(words)
+
+
+def _band(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, colour: str) -> None:
+    """A line in a band of two standard errors either way."""
+    axes.fill_between(x, y - 2 * error, y + 2 * error, color=colour, alpha=0.25, linewidth=0)
+    axes.plot(x, y, color=colour)
+
+
+def _note(axes: Axes, text: str, band: str = "band: two standard errors") -> None:
+    """A line of text above the panel, in the colour of what it is about, and what its band is."""
+    above = {"xycoords": "axes fraction", "textcoords": "offset points", "fontsize": 8}
+    axes.annotate(text, (0, 1), xytext=(0, 4), color=VERMILION, **above)
+    axes.annotate(band, (1, 1), xytext=(0, 4), color=GREY, ha="right", **above)
+
+
+def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
+    """The share of members that exceed a peak, on a log axis, with quantiles marked."""
+    e, n = ensemble, ensemble.members
+    marks = [p for p in (0.5, 0.9, 0.99, 0.999, 0.9999) if n * (1 - p) >= 5]
+    quantiles = [e.quantile(p) for p in marks]
+    highest = e.quantile(1 - 0.5 / n).value
+    length, unit = _unit(highest)
+    axes.set(yscale="log", xlabel=f"peak displacement [{unit}]", ylabel="probability of exceedance")
+    axes.set_ylim(0.5 / n, 1.3)
+    if highest == 0:
+        axes.annotate("none slips", (0.5, 0.5), xycoords="axes fraction", ha="center", color=GREY)
+        return
+    levels = np.linspace(0, highest, 121)[:-1]
+    shares = [e.exceedance(level) for level in levels]
+    low, value, high = np.array([(s.low, s.value, s.high) for s in shares]).T
+    x = levels * length
+    axes.fill_between(x, np.maximum(low, 1e-12), high, color=BLUE, alpha=0.25, linewidth=0)
+    axes.plot(x, value, color=BLUE)
+    axes.set_xlim(0, highest * length)
+    for p, q in zip(marks, quantiles):
+        if q.value == 0:
+            continue
+        axes.plot(q.value * length, 1 - p, "o", color=VERMILION, markersize=5, zorder=4)
+        name, at_left = "median" if p == 0.5 else f"{100 * p:g} %", q.value > 0.7 * highest
+        axes.annotate(
+            f"{name}: {_digits(q.value * length)} {unit}",
+            (q.value * length, 1 - p),
+            xytext=(-8, -8) if at_left else (7, 3),
+            textcoords="offset points",
+            ha="right" if at_left else "left",
+            color=VERMILION,
+            fontsize=8,
+        )
+    _note(axes, "", "band: 95 % confidence")
+    axes.grid(color=PALE, linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def _draw_spectrum(axes: Axes, ensemble: Ensemble, fast: float, fast_unit: str) -> None:
+    """The velocity's spectrum up to where all but 0.5 % of it is."""
+    s = ensemble.velocity_spectrum
+    _band(axes, s.omega, s.density * fast**2, s.error * fast**2, BLUE)
+    whole = np.cumsum(s.density)
+    end = np.searchsorted(whole, 0.995 * whole[-1]) if whole[-1] > 0 else len(whole) - 1
+    axes.set_xlim(0, s.omega[max(end, 1)])
+    axes.set_ylim(bottom=0)
+    _note(axes, "")
+    axes.set_xlabel("angular frequency [rad/s]")
+    axes.set_ylabel(
+        f"two-sided density of velocity\n[({fast_unit}/s)\N{SUPERSCRIPT TWO} per rad/s]"
+    )
+
+
+def _with_error(estimate: Estimate, factor: float) -> str:
+    """As '12.34 ± 0.21': the error to two digits, the value as far."""
+    value, error = factor * estimate.value, factor * estimate.error
+    if not error > 0:
+        return _digits(value)
+    places = max(0, 1 - int(np.floor(np.log10(error))))
+    text = f"{value:.{places}f} \N{PLUS-MINUS SIGN} {error:.{places}f}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _describe_ensemble(ensemble: Ensemble) -> str:
+    """As '10,000 members of 60 s, slip level 0.2 g'."""
+    slider, times = ensemble.configuration["slider"], ensemble.time
+    words = [f"{ensemble.members:,} members of {times[-1]:.4g} s"]
+    if "slip_level" in slider:
+        ahead = slider["slip_level"] / STANDARD_GRAVITY
+        words.append(f"slip level {_digits(ahead)} g")
+        back = slider.get("backward", slider["slip_level"])
+        if back is None:
+            words.append("never backward")
+        elif back != slider["slip_level"]:
+            words[-1] += " forward"
+            words.append(f"{_digits(back / STANDARD_GRAVITY)} g backward")
+    if "reach" in slider:
+        words.append(f"caster, reach {_digits(slider['reach'] * 100)} cm")
+    if slider.get("natural_frequency"):
+        words.append(f"period {_digits(2 * np.pi / slider['natural_frequency'])} s")
     return ", ".join(words)
 
 

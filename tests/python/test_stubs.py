@@ -46,6 +46,25 @@ work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)
 words: dict[str, str] = ss.build_info()
+
+soil = ss.Spectrum.kanai_tajimi(s0=1, frequency=15, damping=np.float64(0.6))
+soil = ss.Spectrum.from_table([0, 1, 2], np.ones(3))
+soil = ss.Spectrum.from_function(lambda omega: 1 / (1 + omega**2), high=50)
+level: float = soil(3) + soil.variance + soil.band_variance(low=1)
+levels: NDArray[np.float64] = soil(np.linspace(0, 9, 10))
+envelope = ss.Envelope(build_up=4, strong=10, decay_rate=0.5)
+factors: NDArray[np.float64] = ss.Envelope.from_table([0, 1], [0, 1])([0.5, 0.7])
+shaking = ss.GaussianExcitation(soil, 0.01, 4096, period=np.int64(8192), envelope=envelope)
+shaking = ss.GaussianExcitation(soil, dt=0.01, samples=4096, interpolation="constant").refined(2)
+quake = shaking.sample(seed=1, member=7)
+
+pulses = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=60, stationary_start=True)
+pulses = ss.PoissonPulses.event(ss.PoissonPulses.events()[0], shape=([0, 1, 3], (2.0, -1)))
+pulses = ss.PoissonPulses(rate=3, half_width=1, sigma=1, duration=9, quantile=lambda u: 1 - 2 * u)
+quake = pulses.sample(seed=1, member=np.uint64(7))
+arrivals, amplitudes = pulses.pulses(seed=1, member=7)
+density: float = pulses.density(2)
+densities: NDArray[np.float64] = pulses.density([2, 3])
 try:
     r.plot(title="Kobe")
 except ss.ConvergenceError as error:
@@ -65,6 +84,14 @@ ss.GroundMotion([1j, 2], dt=0.01)  # type: ignore[list-item]
 ss.GroundMotion([[1, 2], [3, 4]], dt=0.01)  # type: ignore[list-item]
 ss.integrate(block, [1, 2])  # type: ignore[arg-type]
 ss.integrate(block, quake, 0.0)  # type: ignore[call-arg]
+ss.Spectrum.white(1.0)  # type: ignore[call-arg]
+ss.Spectrum.from_function(3.0)  # type: ignore[arg-type]
+ss.GaussianExcitation(soil, 0.01, 40.5)  # type: ignore[arg-type]
+ss.GaussianExcitation(soil, 0.01, 4096, "linear")  # type: ignore[call-arg]
+shaking.sample(1, 7)  # type: ignore[call-arg]
+ss.PoissonPulses(3.0, 1.0, 1.0, 9.0)  # type: ignore[call-arg]
+pulses.sample(1, 7)  # type: ignore[call-arg]
+pulses.sample(seed=1, member=0.5)  # type: ignore[arg-type]
 block.slip_level = 2.0  # type: ignore[misc]
 r.peak = 2.0  # type: ignore[misc]
 """

@@ -71,6 +71,10 @@ class GaussianExcitation {
  public:
   using Options = GaussianOptions;
 
+  /// Purposes of the rows of random numbers (`RandomStream`): phasors, and exponential numbers for Rayleigh amplitudes.
+  /// Number i is that of the i-th line from the first that has an amplitude.
+  static constexpr std::uint32_t phase_purpose = 0x70686173, amplitude_purpose = 0x7261796c;
+
   /// Memory that `sample` works in, to be used again and again, by one thread at a time.
   class Workspace {
    public:
@@ -127,6 +131,10 @@ class GaussianExcitation {
   /// With `period` the number of samples that is used.
   const Options& options() const noexcept { return options_; }
 
+  /// How many times finer than it was made, and the time between samples then [s].
+  std::size_t refinement() const noexcept { return refinement_; }
+  double coarse_dt() const noexcept { return coarse_dt_; }
+
   /// Distance between lines [rad/s]: 2 pi / (period dt).
   double line_spacing() const noexcept { return line_spacing_; }
 
@@ -140,8 +148,9 @@ class GaussianExcitation {
   /// be as Gaussian.
   double effective_lines() const noexcept;
 
-  /// A period, a power of two, with which there would be that many effective lines [samples]. From their density in
-  /// this one: more lines show more of a spectrum with narrow peaks.
+  /// A period, a power of two (times the refinement), with which there are at least that many effective lines
+  /// [samples]. Cost: that of making such an excitation.
+  /// @throws std::invalid_argument where it would be beyond 2147483647
   std::size_t period_for(double effective_lines) const;
 
   /// Share of the spectrum's variance beyond the Nyquist frequency, from 0 to 1; 1 for white noise, whose variance is
@@ -163,7 +172,6 @@ class GaussianExcitation {
   void prepare();
   bool alone(std::size_t k) const noexcept;
   double line_variance(std::size_t i) const noexcept;
-  std::uint64_t fingerprint() const noexcept;
 
   Spectrum spectrum_;
   Options options_;

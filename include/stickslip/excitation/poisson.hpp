@@ -173,14 +173,21 @@ class PoissonPulses {
   /// hash of 1024 of its quantiles, each as a float.
   std::string configuration() const;
 
+  /// Equal excitations make the same motions: distributions of amplitudes are compared by that hash.
+  friend bool operator==(const PoissonPulses& a, const PoissonPulses& b) noexcept {
+    return a.rate_ == b.rate_ && a.half_width_ == b.half_width_ && a.sigma_ == b.sigma_ && a.duration_ == b.duration_ &&
+           a.options_.stationary_start == b.options_.stationary_start && a.options_.shape == b.options_.shape &&
+           a.quantile_hash_ == b.quantile_hash_ && a.options_.envelope == b.options_.envelope;
+  }
+
  private:
   double rate_;
   double half_width_;
   double sigma_;
   double duration_;
   Options options_;
-  std::vector<double> edges_;  // the shape's times [s]
-  std::uint64_t quantile_hash_ = 0;
+  std::vector<double> edges_;        // the shape's times [s]
+  std::uint64_t quantile_hash_ = 0;  // 0 without
 };
 
 }  // namespace stickslip

@@ -1,0 +1,119 @@
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+namespace {
+
+py::tuple table_of(const py::object& self) {
+  const auto& envelope = self.cast<const Envelope&>();
+  return py::make_tuple(view(envelope.time(), self), view(envelope.factor(), self));
+}
+
+bool is_table(const Envelope& envelope) { return !envelope.time().empty(); }
+
+template <auto Get>
+std::optional<double> unless_table(const Envelope& envelope) {
+  return is_table(envelope) ? std::nullopt : std::optional((envelope.*Get)());
+}
+
+std::string number(double value) { return std::isinf(value) ? "float('inf')" : detail::shortest(value); }
+
+}  // namespace
+
+void bind_envelope(py::module_& m) {
+  py::class_<Envelope>(m, "Envelope", R"(What a stationary acceleration is multiplied by to become an earthquake.
+
+It builds up, stays strong, decays::
+
+    e(t) = (t / build_up)^2                            for 0 <= t < build_up
+    e(t) = 1                                           for build_up <= t <= build_up + strong
+    e(t) = exp(-decay_rate (t - build_up - strong))    after that; 0 for t < 0
+
+Parameters
+----------
+build_up : float
+    [s], finite and at least 0; 0 starts at full strength.
+strong : float
+    Duration of the strong phase [s], at least 0, may be inf.
+decay_rate : float
+    [1/s], finite and at least 0.
+
+Raises
+------
+ValueError
+    A value out of its range.
+
+References
+----------
+P. C. Jennings, G. W. Housner, N. C. Tsai, Simulated earthquake motions, Caltech (1968).)")
+      .def(py::init<double, double, double>(), py::kw_only(), py::arg("build_up"), py::arg("strong"),
+           py::arg("decay_rate"))
+      .def_static(
+          "from_table",
+          [](const py::object& time, const py::object& factor) {
+            return Envelope::from_table(to_vector(time, "Envelope: time"), to_vector(factor, "Envelope: factor"));
+          },
+          py::arg("time"), py::arg("factor"), R"(Straight lines between the points given, zero outside.
+
+Parameters
+----------
+time : array_like, shape (N,)
+    [s], at least two, finite and increasing.
+factor : array_like, shape (N,)
+    Finite and at least 0.
+
+Raises
+------
+ValueError
+    Naming the value refused and its index.)")
+      .def(
+          "__call__",
+          [](const Envelope& self, const py::array_t<double>& t) {
+            return py::vectorize([&self](double at) { return self(at); })(t);
+          },
+          py::arg("t"), R"(The factor at a time, at least 0.
+
+Parameters
+----------
+t : float or array_like
+    [s].
+
+Returns
+-------
+float or ndarray
+    Of the same shape.)")
+      .def_property_readonly("build_up", &unless_table<&Envelope::build_up>, "[s]; None for a table.")
+      .def_property_readonly("strong", &unless_table<&Envelope::strong>,
+                             "Duration of the strong phase [s]; None for a table.")
+      .def_property_readonly("decay_rate", &unless_table<&Envelope::decay_rate>, "[1/s]; None for a table.")
+      .def_property_readonly(
+          "table",
+          [](const py::object& self) {
+            return is_table(self.cast<const Envelope&>()) ? py::object(table_of(self)) : py::object(py::none());
+          },
+          "Times [s] and factors of a table, read-only; None where there is none.")
+      .def("__repr__",
+           [](const Envelope& e) {
+             if (is_table(e))
+               return "<Envelope: table of " + std::to_string(e.time().size()) + " points, " +
+                      detail::shortest(e.time().front()) + " to " + detail::shortest(e.time().back()) + " s>";
+             return "Envelope(build_up=" + number(e.build_up()) + ", strong=" + number(e.strong()) +
+                    ", decay_rate=" + number(e.decay_rate()) + ")";
+           })
+      .def(
+          "__eq__", [](const Envelope& a, const Envelope& b) { return a == b; }, py::is_operator())
+      .def("__hash__", [](const Envelope& e) { return py::hash(py::str(e.configuration())); })
+      .def(py::pickle(
+          [](const Envelope& e) -> py::tuple {
+            if (!is_table(e)) return py::make_tuple(e.build_up(), e.strong(), e.decay_rate());
+            return py::make_tuple(std::vector<double>(e.time().begin(), e.time().end()),
+                                  std::vector<double>(e.factor().begin(), e.factor().end()));
+          },
+          [](const py::tuple& t) {
+            if (t.size() == 3) return Envelope(t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>());
+            return Envelope::from_table(t[0].cast<std::vector<double>>(), t[1].cast<std::vector<double>>());
+          }));
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,637 @@
+"""Ensembles: the statistics of single members, the same bits in whatever way, and files."""
+
+import json
+import math
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import time
+import zipfile
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import stickslip as ss
+from sources import BAND, BLOCK, SHAKING, Delayed, refuse, same_bits
+
+CART = ss.Slider(ss.Caster(slip_level=2.0, reach=0.5), natural_frequency=1.3)
+QUAKE = ss.PoissonPulses.event("moderate near field")
+CASES = {
+    "block, Gaussian": (BLOCK, SHAKING),
+    "one-way block, Gaussian": (ss.Coulomb(slip_level=1.0, backward=math.inf), SHAKING),
+    "block on a spring, Gaussian": (ss.Slider(BLOCK, natural_frequency=2.0), SHAKING),
+    "cart, Gaussian": (CART, SHAKING),
+    "block, pulses": (ss.Coulomb(mu=0.02), QUAKE),
+    "cart, pulses": (ss.Caster(mu=0.03, reach=0.1), QUAKE),
+    "block, a source in Python": (BLOCK, Delayed()),
+}
+
+
+@pytest.fixture(params=CASES)
+def case(request):
+    return CASES[request.param]
+
+
+@pytest.fixture(scope="module")
+def ensemble():
+    return ss.run_ensemble(BLOCK, SHAKING, members=1000, seed=1)
+
+
+def near(value, exact, scale=None):
+    scale = np.abs(exact).max() if scale is None else scale
+    assert np.abs(np.asarray(value) - exact).max() <= 1e-12 * scale
+
+
+# ---- figures
+
+
+@pytest.mark.parametrize("slider", [BLOCK, ss.Slider(BLOCK, natural_frequency=2.0), CART])
+def test_statistics_are_those_of_the_single_members(slider):
+    n = 100  # a whole block and one that is cut
+    e = ss.run_ensemble(slider, SHAKING, members=n, seed=5)
+    responses = [ss.integrate(slider, SHAKING.sample(seed=5, member=m)) for m in range(n)]
+    x = np.array([r.displacement for r in responses])
+    v = np.array([r.velocity for r in responses])
+    assert (e.members, e.member_ranges, e.block) == (n, [(0, n)], 64)
+    near(e.time, responses[0].time)
+    near(e.peak, [r.peak for r in responses])
+    near(e.residual, [r.residual for r in responses])
+    near(e.displacement_mean, x.mean(0), x.std())
+    near(e.displacement_mean_error, x.std(0, ddof=1) / math.sqrt(n))
+    near(e.velocity_mean, v.mean(0), v.std())
+    near(e.velocity_mean_error, v.std(0, ddof=1) / math.sqrt(n))
+    dx, dv = x - x.mean(0), v - v.mean(0)
+    for name, d in (("displacement", dx), ("velocity", dv)):
+        variance, fourth = (d**2).sum(0) / (n - 1), (d**4).mean(0)
+        near(getattr(e, f"{name}_variance"), variance)
+        error = np.sqrt((fourth - variance**2 * (n - 3) / (n - 1)) / n)
+        near(getattr(e, f"{name}_variance_error"), error)
+    xx, xv, vv = ((a * b).sum(0) / (n - 1) for a, b in ((dx, dx), (dx, dv), (dv, dv)))
+    near(e.covariance, xv, np.sqrt(xx * vv).max())
+    square = (dx**2 * dv**2).mean(0) - (n - 2) / (n - 1) * xv**2 + xx * vv / (n - 1)
+    near(e.covariance_error, np.sqrt(square / n))
+
+
+def test_stationary_averages_are_over_the_central_half():
+    n = 80
+    e = ss.run_ensemble(BLOCK, SHAKING, members=n, seed=2)
+    responses = [ss.integrate(BLOCK, SHAKING.sample(seed=2, member=m)) for m in range(n)]
+    v = np.array([r.velocity for r in responses])
+    x = np.array([r.displacement for r in responses])
+    begin, count = 64, 128
+    s = e.stationary
+    near([s.begin, s.end], [0.1 * begin, 0.1 * (begin + count)])
+    central = slice(begin, begin + count)
+    near(s.velocity_variance.value, v[:, central].var(0, ddof=1).mean())
+    near(s.velocity_mean.value, v[:, central].mean(), v.std())
+    near(s.velocity_mean.error, v[:, central].mean(1).std(ddof=1) / math.sqrt(n))
+    half = (x[:, begin + count // 2] - x[:, begin]).var(ddof=1)
+    whole = (x[:, begin + count] - x[:, begin]).var(ddof=1)
+    near(s.growth_rate.value, (whole - half) / (0.1 * count / 2), whole)
+    assert s.growth_rate.error > 0
+
+    # Kaiser-Bessel, beta = 8, thesis (4.62), with a mean square of one.
+    i = np.arange(count) - count / 2
+    window = np.i0(8 * np.sqrt(1 - (i / (count / 2)) ** 2))
+    window /= np.sqrt((window**2).mean())
+    transformed = np.abs(np.fft.rfft(window * v[:, central])) ** 2 * 0.1 / (2 * np.pi * count)
+    spectrum = e.velocity_spectrum
+    near(spectrum.omega, 2 * np.pi * np.arange(count // 2 + 1) / (0.1 * count))
+    near(spectrum.density, transformed.mean(0))
+    near(spectrum.error, transformed.std(0, ddof=1) / math.sqrt(n))
+
+
+def test_peaks_and_residuals_are_those_of_integrate(case):
+    slider, source = case
+    for settle in (False, True):
+        e = ss.run_ensemble(slider, source, members=10, seed=3, settle=settle)
+        singles = [
+            ss.integrate(slider, source.sample(seed=3, member=m), settle=settle) for m in range(10)
+        ]
+        assert e.peak == pytest.approx([r.peak for r in singles], rel=1e-12, abs=1e-13)
+        scale = e.peak.max()
+        assert e.residual == pytest.approx([r.residual for r in singles], abs=1e-12 * scale)
+        assert scale > 0
+
+
+def test_quantiles_and_exceedances_are_counts_of_peaks(ensemble):
+    peaks = np.sort(ensemble.peak)
+    q = ensemble.quantile(0.95)
+    assert q.value == peaks[949]
+    assert q.low < q.value < q.high
+    level = float(peaks[899])
+    p = ensemble.exceedance(level)
+    assert p.value == 0.1
+    # Clopper and Pearson for 100 of 1000 (SciPy 1.11: binomtest(100, 1000).proportion_ci()).
+    assert (p.low, p.high) == pytest.approx((0.08210533435557, 0.12028793651869), rel=1e-9)
+    assert ensemble.quantile(0.999, confidence=0.99).high == math.inf
+    assert ensemble.exceedance(1e9).value == 0
+    narrow, wide = ensemble.exceedance(level, 0.5), ensemble.exceedance(level, 0.999)
+    assert wide.low < narrow.low < narrow.high < wide.high
+
+
+def test_every_exceedance_has_bounds(ensemble):
+    for peak in np.sort(ensemble.peak)[::7]:
+        p = ensemble.exceedance(peak)
+        assert 0 <= p.low <= p.value <= p.high <= 1
+        assert p.low < p.high
+
+
+def test_arrays_are_read_only(ensemble):
+    for name in ("time", "peak", "displacement_variance", "velocity_variance_error"):
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(ensemble, name)[0] = 1
+    with pytest.raises(ValueError, match="read-only"):
+        ensemble.velocity_spectrum.density[0] = 1
+
+
+def test_an_ensemble_says_what_it_is(ensemble):
+    assert repr(ensemble) == "<Ensemble: 1000 members, seed 1, 256 times to 25.5 s>"
+    assert repr(ensemble.quantile(0.5)).startswith("<Interval: ")
+    assert repr(ensemble.velocity_spectrum) == ("<VelocitySpectrum: 65 frequencies to 31.42 rad/s>")
+    variance = ensemble.stationary.velocity_variance
+    text = f"{variance.value:.4f} +- {variance.error:.4f}"
+    assert repr(variance) == f"<Estimate: {text}>"
+    assert repr(ensemble.stationary) == (
+        f"<Stationary: from 6.4 to 19.2 s, velocity_variance {text} m^2/s^2, growth_rate "
+        + repr(ensemble.stationary.growth_rate)[len("<Estimate: ") : -1]
+        + " m^2/s>"
+    )
+    told = ensemble.configuration
+    assert told["slider"]["slip_level"] == 2
+    assert told["excitation"] == json.loads(SHAKING.configuration)
+    assert (told["seed"], told["times"], told["settle"]) == (1, 256, False)
+
+
+def test_times_of_the_statistics_may_be_further_apart(ensemble):
+    e = ss.run_ensemble(BLOCK, SHAKING, members=1000, seed=1, dt=0.5)
+    near(e.time, 0.5 * np.arange(52))
+    assert np.array_equal(e.displacement_variance, ensemble.displacement_variance[::5])
+    assert np.array_equal(e.peak, ensemble.peak)
+
+
+def test_two_members_are_enough_and_one_is_not():
+    one = ss.run_ensemble(BLOCK, SHAKING, members=1, seed=1)
+    assert (len(one.peak), one.members) == (1, 1)
+    for name in ("displacement_variance", "stationary", "velocity_spectrum", "velocity_mean_error"):
+        with pytest.raises(ValueError, match="two members, got 1"):
+            getattr(one, name)
+    two = ss.run_ensemble(BLOCK, SHAKING, members=2, seed=1)
+    assert np.isfinite(two.displacement_variance_error).all()
+
+
+# ---- the same bits
+
+
+def test_the_bits_do_not_depend_on_threads(case):
+    slider, source = case
+    one, two, eight = (
+        ss.run_ensemble(slider, source, members=700, seed=4, threads=threads)
+        for threads in (1, 2, 8)
+    )
+    assert same_bits(one, two)
+    assert same_bits(one, eight)
+    assert len(set(one.peak)) > 600
+
+
+def test_parts_merge_to_the_whole_in_any_order(ensemble):
+    run = lambda first, members: ss.run_ensemble(
+        BLOCK, SHAKING, members=members, first_member=first, seed=1
+    )
+    for cuts in ([0, 512, 1000], [0, 64, 320, 960, 1000]):
+        parts = [run(a, b - a) for a, b in pairwise(cuts)]
+        for order in (parts, parts[::-1]):
+            whole = pickle.loads(pickle.dumps(order[0]))
+            for part in order[1:]:
+                before = part.member_ranges
+                assert whole.merge(part) is None
+                assert part.member_ranges == before
+            assert same_bits(whole, ensemble)
+    apart = run(0, 64)
+    apart.merge(run(640, 64))
+    assert apart.member_ranges == [(0, 64), (640, 704)]
+
+
+def test_another_seed_is_another_ensemble(ensemble):
+    other = ss.run_ensemble(BLOCK, SHAKING, members=1000, seed=2)
+    assert not np.isin(other.peak, ensemble.peak).any()
+
+
+OTHERS = {
+    "seed": (dict(seed=2), "seed 1 against seed 2"),
+    "slider": (dict(slider=ss.Coulomb(slip_level=3.0)), '"slip_level": 2'),
+    "spring": (dict(slider=ss.Slider(BLOCK, 1.0)), '"natural_frequency": 1}'),
+    "excitation": (
+        dict(excitation=ss.GaussianExcitation(BAND, dt=0.1, samples=256, zero_frequency=True)),
+        '"zero_frequency": true',
+    ),
+    "times": (dict(dt=0.2), "dt 0.1 against dt 0.2"),
+    "settle": (dict(settle=True), "settle false against settle true"),
+    "spectrum": (dict(velocity_spectrum=False), "velocity_spectrum true against"),
+    "members": (dict(first_member=0), "both hold members from 0 to "),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_what_does_not_belong_together_is_not_merged(what):
+    e = ss.run_ensemble(BLOCK, SHAKING, members=64, seed=1)
+    before = pickle.dumps(e)
+    change, message = OTHERS[what]
+    asked = dict(slider=BLOCK, excitation=SHAKING, members=64, first_member=64, seed=1) | change
+    other = ss.run_ensemble(asked.pop("slider"), asked.pop("excitation"), **asked)
+    with pytest.raises(ValueError, match="cannot merge") as refusal:
+        e.merge(other)
+    assert message in str(refusal.value)
+    assert pickle.dumps(e) == before
+
+
+def test_an_ensemble_cannot_be_merged_with_anything_else(ensemble):
+    with pytest.raises(TypeError):
+        ensemble.merge([ensemble])
+
+
+# ---- a source in Python
+
+
+def test_a_source_in_python_is_asked_for_every_member_once():
+    class Counting(Delayed):
+        def sample(self, *, seed, member):
+            asked.append((seed, member))
+            return super().sample(seed=seed, member=member)
+
+    asked = []
+    e = ss.run_ensemble(BLOCK, Counting(), members=130, seed=9, threads=3)
+    assert sorted(asked) == [(9, m) for m in range(130)]
+    assert e.configuration["excitation"] == {"of": "tests"}
+    theirs = ss.run_ensemble(BLOCK, SHAKING, members=130, seed=9)
+    assert e.peak == pytest.approx(theirs.peak, rel=1e-12)
+
+
+def test_what_a_source_raises_comes_through():
+    with pytest.raises(LookupError, match="no motion here"):
+        ss.run_ensemble(BLOCK, Delayed(0, 77, refuse), members=200, seed=1)
+
+
+def test_what_is_no_source_is_told_what_it_lacks():
+    with pytest.raises(TypeError, match="GroundMotion has no sample"):
+        ss.run_ensemble(BLOCK, SHAKING.sample(seed=1, member=0), members=2, seed=1)
+
+    class Short(Delayed):
+        def sample(self, *, seed, member):
+            return ss.GroundMotion([1.0, 2.0], dt=1.0)
+
+    with pytest.raises(ValueError, match=r"must last 25.5 s, its duration; member \d lasts 1 s"):
+        ss.run_ensemble(BLOCK, Short(), members=2, seed=1)
+
+    class Nothing(Delayed):
+        def sample(self, *, seed, member):
+            return None
+
+    with pytest.raises(TypeError, match="must return a GroundMotion, got NoneType"):
+        ss.run_ensemble(BLOCK, Nothing(), members=2, seed=1)
+    timeless = Delayed()
+    timeless.duration = -1.0
+    with pytest.raises(ValueError, match="duration must be positive and finite, got -1 s"):
+        ss.run_ensemble(BLOCK, timeless, members=2, seed=1)
+
+
+# ---- bad input
+
+REFUSED = {
+    "no members": (dict(members=0), ValueError, "members must be at least 1, got 0"),
+    "fewer than none": (dict(members=-5), ValueError, "members must be at least 1, got -5"),
+    "a broken number": (dict(members=1e3), TypeError, "members must be a whole number, got 1000.0"),
+    "too many": (dict(members=2**64), ValueError, "members must be at most 18446744073709551615"),
+    "past the end": (
+        dict(members=2**63, first_member=2**63 + 64),
+        ValueError,
+        "less than 2^64",
+    ),
+    "negative seed": (dict(seed=-1), ValueError, "seed must be at least 0, got -1"),
+    "a seed that is none": (dict(seed=None), TypeError, "seed must be a whole number, got None"),
+    "half a block": (dict(first_member=32), ValueError, "multiple of 64"),
+    "no threads": (dict(threads=0), ValueError, "threads must be at least 1, got 0"),
+    "no time": (dict(dt=0), ValueError, "dt must be positive and finite, got 0 s"),
+    "NaN time": (dict(dt=math.nan), ValueError, "dt must be positive and finite, got nan s"),
+    "a crooked time": (dict(dt=0.15), ValueError, "multiple of the excitation's 0.1 s"),
+    "too long a time": (dict(dt=100.0), ValueError, "at most the duration, 25.5 s"),
+    "a strange slider": (dict(slider=0.2), TypeError, "incompatible function arguments"),
+    "a strange source": (dict(excitation=1.0), TypeError, "float has no sample"),
+    "strange progress": (dict(progress="yes"), TypeError, "progress must be True, False"),
+    "a strange executor": (dict(executor=4), TypeError, "must be a concurrent.futures.Executor"),
+    "negative waiting": (dict(checkpoint_every=-1), ValueError, "at least 0, got -1 s"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_bad_input_is_named(what):
+    change, kind, message = REFUSED[what]
+    asked = dict(slider=BLOCK, excitation=SHAKING, members=10, seed=1) | change
+    with pytest.raises(kind) as refusal:
+        ss.run_ensemble(asked.pop("slider"), asked.pop("excitation"), **asked)
+    assert message in str(refusal.value)
+
+
+@pytest.mark.parametrize("bad", [-0.1, 0, 1, 1.5, math.nan])
+def test_a_share_lies_between_0_and_1(ensemble, bad):
+    with pytest.raises(ValueError, match=f"probability must lie between 0 and 1, got {bad}"):
+        ensemble.quantile(bad)
+    with pytest.raises(ValueError, match=f"confidence must lie between 0 and 1, got {bad}"):
+        ensemble.quantile(0.5, bad)
+    with pytest.raises(ValueError, match=f"confidence must lie between 0 and 1, got {bad}"):
+        ensemble.exceedance(0.5, bad)
+
+
+@pytest.mark.parametrize("bad", [-1, math.inf, math.nan])
+def test_a_level_is_a_length(ensemble, bad):
+    with pytest.raises(ValueError, match=f"level must be finite and at least 0, got {bad} m"):
+        ensemble.exceedance(bad)
+
+
+def test_a_spectrum_that_was_not_asked_for_is_missed():
+    e = ss.run_ensemble(BLOCK, SHAKING, members=2, seed=1, velocity_spectrum=False)
+    with pytest.raises(ValueError, match="not asked for"):
+        _ = e.velocity_spectrum
+
+
+def test_a_slider_that_never_rests_is_an_error_that_names_the_member():
+    with pytest.raises(ss.ConvergenceError, match=r"member \d+: .*does not come to rest"):
+        ss.run_ensemble(ss.Slider(ss.Coulomb(mu=0)), QUAKE, members=9, seed=1, settle=True)
+
+
+# ---- files
+
+
+def test_a_saved_ensemble_comes_back_to_the_bit(case, tmp_path):
+    slider, source = case
+    e = ss.run_ensemble(slider, source, members=100, first_member=128, seed=2**64 - 1)
+    file = tmp_path / "run.npz"
+    assert e.save(file) is None
+    back = ss.Ensemble.load(str(file))
+    assert same_bits(e, back)
+    assert back.configuration == e.configuration
+    assert np.array_equal(back.peak, e.peak)
+    assert repr(back.stationary) == repr(e.stationary)
+    assert list(tmp_path.iterdir()) == [file]
+    back.merge(ss.run_ensemble(slider, source, members=128, seed=2**64 - 1))
+    assert back.members == 228
+
+
+def test_an_ensemble_pickles(ensemble):
+    assert same_bits(pickle.loads(pickle.dumps(ensemble)), ensemble)
+
+
+def test_a_file_needs_nothing_but_numpy_to_be_read(ensemble, tmp_path):
+    ensemble.save(tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz", allow_pickle=False) as arrays:
+        assert str(arrays["format"]) == "stickslip ensemble 1"
+        assert str(arrays["library"]) == ss.__version__
+        assert np.array_equal(arrays["peak"], ensemble.peak)
+        assert dict(json.loads(str(arrays["configuration"])))["seed"] == "1"
+
+
+def test_a_truncated_file_is_refused(ensemble, tmp_path):
+    file = tmp_path / "run.npz"
+    ensemble.save(file)
+    whole = file.read_bytes()
+    for length in (0, 1, 3, 4, 100, len(whole) // 2, len(whole) - 100, len(whole) - 1):
+        file.write_bytes(whole[:length])
+        with pytest.raises(ValueError, match=r"run\.npz' is (truncated|damaged|no ensemble)"):
+            ss.Ensemble.load(file)
+
+
+def test_a_damaged_file_is_refused_or_has_the_same_bits(ensemble, tmp_path):
+    # Bytes that no checksum guards (dates, paddings) may change, but no number does.
+    file = tmp_path / "run.npz"
+    ensemble.save(file)
+    whole = file.read_bytes()
+    refused = 0
+    places = np.random.default_rng(1).integers(0, len(whole), 60).tolist()
+    places += range(len(whole) - 120, len(whole), 2)  # the table of contents
+    for place in places:
+        file.write_bytes(whole[:place] + bytes([whole[place] ^ 0x10]) + whole[place + 1 :])
+        try:
+            assert same_bits(ss.Ensemble.load(file), ensemble)
+        except ValueError as error:
+            assert "run.npz' " in str(error)
+            refused += 1
+    assert refused > 60
+
+
+def test_a_file_of_something_else_is_refused_by_name(ensemble, tmp_path):
+    text = tmp_path / "text.npz"
+    text.write_text("hello")
+    with pytest.raises(ValueError, match=r"text\.npz' is no ensemble: not a NumPy archive"):
+        ss.Ensemble.load(text)
+    np.savez(tmp_path / "other.npz", a=[1], b=[2])
+    with pytest.raises(ValueError, match=r"other\.npz' is no ensemble: it holds a, b"):
+        ss.Ensemble.load(tmp_path / "other.npz")
+    with zipfile.ZipFile(tmp_path / "words.npz", "w") as archive:
+        archive.writestr("letter.txt", "hello")
+    with pytest.raises(ValueError, match=r"words\.npz' is "):
+        ss.Ensemble.load(tmp_path / "words.npz")
+    np.savez(tmp_path / "newer.npz", format="stickslip ensemble 2", library="9.0")
+    with pytest.raises(ValueError, match=r"of format 'stickslip ensemble 2', of stickslip 9\.0"):
+        ss.Ensemble.load(tmp_path / "newer.npz")
+    with pytest.raises(FileNotFoundError):
+        ss.Ensemble.load(tmp_path / "nowhere.npz")
+    with pytest.raises(FileNotFoundError, match="no such folder"):
+        ensemble.save(tmp_path / "nowhere" / "run.npz")
+    with pytest.raises(TypeError):
+        ss.Ensemble.load(3)
+
+
+CROOKED = {
+    "missing": lambda s: s.pop("sums"),
+    "fewer peaks": lambda s: s.update(peak=s["peak"][:-1], residual=s["residual"][:-1]),
+    "no residuals": lambda s: s.update(residual=s["residual"][:-1]),
+    "narrow sums": lambda s: s.update(sums=s["sums"][:, :-1]),
+    "fewer sums": lambda s: s.update(sums=s["sums"][:-1]),
+    "no count": lambda s: s.update(count=0 * s["count"]),
+    "twice": lambda s: s.update(number=0 * s["number"], level=0 * s["level"]),
+    "far away": lambda s: s.update(level=s["level"] + 70),
+    "no time": lambda s: s.update(dt=0.0),
+    "too many times": lambda s: s.update(times=2**40),
+    "words": lambda s: s.update(peak=np.array(["a"] * len(s["peak"]))),
+    "a table": lambda s: s.update(peak=np.array([s["peak"]])),
+}
+
+
+@pytest.mark.parametrize("what", CROOKED)
+def test_a_file_whose_parts_do_not_fit_is_refused(what, ensemble, tmp_path):
+    ensemble.save(tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz") as arrays:
+        state = dict(arrays)
+    CROOKED[what](state)
+    np.savez(tmp_path / "run.npz", **state)
+    with pytest.raises(ValueError, match=r"run\.npz' does not hold what an ensemble does"):
+        ss.Ensemble.load(tmp_path / "run.npz")
+
+
+def test_a_file_is_written_whole_or_not_at_all(ensemble, tmp_path, monkeypatch):
+    file = tmp_path / "run.npz"
+    file.write_bytes(b"what was there")
+
+    def fill_the_disk(stream, **arrays):
+        stream.write(b"PK")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(np, "savez", fill_the_disk)
+    with pytest.raises(OSError, match="No space left"):
+        ensemble.save(file)
+    assert file.read_bytes() == b"what was there"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+# ---- checkpoints, progress, Ctrl-C
+
+
+def test_a_checkpoint_is_the_saved_ensemble_and_ends_a_second_run_at_once(tmp_path):
+    file = tmp_path / "run.npz"
+    source = Delayed()
+    e = ss.run_ensemble(BLOCK, source, members=100, seed=1, checkpoint=file)
+    assert same_bits(ss.Ensemble.load(file), e)
+    broken = Delayed(0, 5, refuse)  # which would tell if it were asked
+    assert same_bits(
+        ss.run_ensemble(BLOCK, broken, members=100, seed=1, checkpoint=file),
+        e,
+    )
+
+
+def test_a_checkpoint_of_another_run_is_refused_and_stays(tmp_path):
+    file = tmp_path / "run.npz"
+    ss.run_ensemble(BLOCK, SHAKING, members=100, seed=1, checkpoint=file)
+    before = file.read_bytes()
+    with pytest.raises(ValueError, match=r"with checkpoint '.*run\.npz': .*seed 2 against seed 1"):
+        ss.run_ensemble(BLOCK, SHAKING, members=100, seed=2, checkpoint=file)
+    with pytest.raises(ValueError, match=r"with checkpoint '.*run\.npz': .*block"):
+        ss.run_ensemble(BLOCK, SHAKING, members=200, seed=1, checkpoint=file)
+    assert file.read_bytes() == before
+    file.write_bytes(before[:1000])
+    with pytest.raises(ValueError, match=r"run\.npz' is truncated"):
+        ss.run_ensemble(BLOCK, SHAKING, members=100, seed=1, checkpoint=file)
+    with pytest.raises(FileNotFoundError, match="no such folder"):
+        ss.run_ensemble(BLOCK, SHAKING, members=9, seed=1, checkpoint=tmp_path / "no" / "run.npz")
+
+
+def test_progress_counts_up_to_the_end():
+    seen = []
+    ss.run_ensemble(
+        BLOCK, Delayed(1e-3), members=300, seed=1, progress=lambda *now: seen.append(now)
+    )
+    assert seen[-1] == (300, 300)
+    done = [d for d, _ in seen]
+    assert done == sorted(done)
+    assert len(set(done)) > 1
+
+
+def test_what_progress_raises_ends_the_run_and_keeps_what_is_done(tmp_path):
+    def stop(done, total):
+        if done:
+            raise RuntimeError("enough")
+
+    file = tmp_path / "run.npz"
+    with pytest.raises(RuntimeError, match="enough"):
+        ss.run_ensemble(BLOCK, Delayed(1e-3), members=3000, seed=1, progress=stop, checkpoint=file)
+    assert 0 < ss.Ensemble.load(file).members < 3000
+    assert same_bits(
+        ss.run_ensemble(BLOCK, Delayed(), members=3000, seed=1, checkpoint=file),
+        ss.run_ensemble(BLOCK, Delayed(), members=3000, seed=1),
+    )
+
+
+def test_the_bar_is_in_place_on_a_terminal_and_lines_elsewhere(capsys, monkeypatch):
+    ss.run_ensemble(BLOCK, Delayed(1e-3), members=300, seed=1, progress=True)
+    out, err = capsys.readouterr()
+    assert out == ""
+    lines = err.splitlines()
+    assert 1 <= len(lines) <= 10
+    assert lines[-1].startswith("100 %  300 of 300 members, ")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    ss.run_ensemble(BLOCK, Delayed(1e-3), members=300, seed=1, progress=True)
+    err = capsys.readouterr().err
+    assert err.startswith("\r[")
+    assert "\r[########################] 100 %  300 of 300 members" in err
+    assert err.count("\n") == 1
+    monkeypatch.setattr(sys, "stderr", None)
+    ss.run_ensemble(BLOCK, SHAKING, members=300, seed=1, progress=True)
+
+
+SCRIPT = """
+import sys
+import time
+import stickslip as ss
+sys.path.insert(0, {folder!r})
+from sources import BAND, BLOCK, SHAKING, Delayed
+
+long = ss.GaussianExcitation(BAND, dt=0.1, samples=2**20)
+wheel = ss.Caster(slip_level=2.0, reach=0.5)
+if __name__ == "__main__":
+    print("run", flush=True)
+    try:
+        {work}
+        print("ended")
+    except KeyboardInterrupt:
+        print("interrupted", time.time(), flush=True)
+"""
+
+LONG = {
+    "many members": "ss.run_ensemble(BLOCK, SHAKING, members=10**7, seed=1)",
+    "long members": "ss.run_ensemble(ss.Slider(wheel, 1.0), long, members=64, seed=1)",
+    "slow members": "ss.run_ensemble(BLOCK, Delayed(0.01), members=10**4, seed=1)",
+    "threads": """
+        from concurrent.futures import ThreadPoolExecutor
+        pool = ThreadPoolExecutor(2)
+        ss.run_ensemble(BLOCK, SHAKING, members=10**8, seed=1, executor=pool)""",
+}
+
+needs_signals = pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
+
+
+def start(tmp_path, work):
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT.format(folder=os.path.dirname(__file__), work=work))
+    child = subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "run\n"
+    return child
+
+
+@needs_signals
+@pytest.mark.parametrize("work", LONG)
+def test_ctrl_c_ends_a_run_within_a_second(work, tmp_path):
+    with start(tmp_path, LONG[work]) as child:
+        try:
+            time.sleep(0.5)
+            sent = time.time()
+            child.send_signal(signal.SIGINT)
+            word, caught = child.communicate(timeout=5)[0].split()
+        finally:
+            child.kill()
+    assert word == "interrupted"
+    assert float(caught) - sent < 1
+
+
+KEPT = "ss.run_ensemble(BLOCK, Delayed(0.001), members=5000, seed=1, checkpoint={file!r}{more})"
+
+
+def test_a_run_that_was_broken_off_ends_with_the_same_bits(tmp_path):
+    whole = ss.run_ensemble(BLOCK, Delayed(), members=5000, seed=1)
+    file = tmp_path / "run.npz"
+    for how in (signal.SIGINT, signal.SIGKILL):
+        # Killed, it has no time to keep what it did since it last wrote.
+        more = ", checkpoint_every=0.1" if how == signal.SIGKILL else ""
+        with start(tmp_path, KEPT.format(file=str(file), more=more)) as child:
+            time.sleep(0.7)
+            while how == signal.SIGKILL and not file.exists():
+                time.sleep(0.05)
+            child.send_signal(how)
+            child.wait(timeout=5)
+        kept = ss.Ensemble.load(file)
+        assert 0 < kept.members < 5000
+        assert kept.members % 64 == 0
+        again = ss.run_ensemble(BLOCK, Delayed(), members=5000, seed=1, checkpoint=file)
+        assert same_bits(again, whole)
+        assert same_bits(ss.Ensemble.load(file), whole)
+        file.unlink()
