@@ -34,7 +34,7 @@ struct DestroyPlan {
 
 /// Periodograms of the velocities of a block.
 struct Block::Spectrum {
-  explicit Spectrum(std::size_t samples) : window(samples), real(samples), complex(samples / 2 + 1) {
+  explicit Spectrum(std::size_t samples) : window(samples), real(row_padding * samples), complex(samples / 2 + 1) {
     // Kaiser-Bessel window, thesis (4.62), with a mean square of one.
     constexpr double beta = 8;
     const auto half = static_cast<double>(samples) / 2;
@@ -129,14 +129,20 @@ Tally Block::finish() {
     Spectrum& s = *spectrum_;
     const double scale = times_.dt / (2 * std::numbers::pi * length);
     const std::span<double> mean = tally_.density_mean(), scatter = tally_.density_scatter();
-    for (std::size_t i = 0; i < members_; ++i) {
-      for (std::size_t k = 0; k < s.real.size(); ++k) s.real[k] = s.window[k] * velocities_[k * width_ + i];
-      fftw_execute_dft_r2c(s.plan.get(), s.real.data(), s.output());
-      const double share = 1 / static_cast<double>(i + 1), weight = static_cast<double>(i) * share;
-      for (std::size_t k = 0; k < mean.size(); ++k) {
-        const double density = scale * std::norm(s.complex[k]), difference = density - mean[k];
-        mean[k] += share * difference;
-        scatter[k] += weight * difference * difference;
+    const std::size_t samples = s.window.size();
+    for (std::size_t first = 0; first < members_; first += row_padding) {
+      for (std::size_t k = 0; k < samples; ++k)  // a line of memory at a time
+        for (std::size_t i = 0; i < row_padding; ++i)
+          s.real[i * samples + k] = s.window[k] * velocities_[k * width_ + first + i];
+      for (std::size_t i = 0; i < std::min(row_padding, members_ - first); ++i) {
+        fftw_execute_dft_r2c(s.plan.get(), &s.real[i * samples], s.output());
+        const double share = 1 / static_cast<double>(first + i + 1), weight = static_cast<double>(first + i) * share;
+        for (std::size_t k = 0; k < mean.size(); ++k) {
+          const double re = s.complex[k].real(), im = s.complex[k].imag();
+          const double density = scale * (re * re + im * im), difference = density - mean[k];
+          mean[k] += share * difference;
+          scatter[k] += weight * difference * difference;
+        }
       }
     }
   }

@@ -118,44 +118,32 @@ class PulseSimulator final : public Simulator {
     velocity_.assign(width, 0);
     std::fill(block.peak().begin(), block.peak().end(), 0.0);
     const LaneStates states{displacement_.data(), velocity_.data(), block.peak().data()};
-    block.row(0, displacement_.data(), velocity_.data());
-    double time = 0;
-    for (std::size_t k = 1; k < times; ++k) {
-      const double next = std::min(static_cast<double>(k) * block.times().dt, excitation_.duration());
-      advance_lanes(lanes_, time, next, pulses_, states);
-      block.row(k, displacement_.data(), velocity_.data());
-      block.beat();
-      time = next;
-    }
-    advance_lanes(lanes_, time, excitation_.duration(), pulses_, states);
+    displacements_.resize((times + 1) * width);
+    velocities_.resize((times + 1) * width);
+    advance_lanes(lanes_, excitation_.duration(), pulses_,
+                  {block.times().dt, times, displacements_.data(), velocities_.data()}, states);
+    for (std::size_t k = 0; k < times; ++k) block.row(k, &displacements_[k * width], &velocities_[k * width]);
     if (settle_) settle_all(law_, states, members);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
  private:
   void draw(std::uint64_t first_member, std::size_t members, std::size_t width) {
-    const std::size_t edges = lanes_.edges.size();
-    pulses_.width = width;
+    constexpr double never = std::numeric_limits<double>::infinity();
     pulses_.arrivals.clear();
     pulses_.amplitudes.clear();
-    pulses_.next.resize(edges * width);
-    pulses_.time.resize(edges * width);
-    pulses_.ground.assign(width, 0);
+    pulses_.first.clear();
     for (std::size_t i = 0; i < width; ++i) {
-      const std::size_t first = pulses_.arrivals.size();
+      pulses_.first.push_back(static_cast<std::int64_t>(pulses_.arrivals.size()));
       if (i < members) {
         excitation_.pulses(seed_, first_member + i, arrivals_, amplitudes_);
         pulses_.arrivals.insert(pulses_.arrivals.end(), arrivals_.begin(), arrivals_.end());
         pulses_.amplitudes.insert(pulses_.amplitudes.end(), amplitudes_.begin(), amplitudes_.end());
       }
-      pulses_.arrivals.push_back(std::numeric_limits<double>::infinity());
+      pulses_.arrivals.push_back(never);
       pulses_.amplitudes.push_back(0);
-      for (std::size_t e = 0; e < edges; ++e) {
-        pulses_.next[e * width + i] = static_cast<std::int64_t>(first);
-        pulses_.time[e * width + i] = pulses_.arrivals[first] + lanes_.edges[e];
-      }
     }
-    pulses_.arrivals.push_back(std::numeric_limits<double>::infinity());  // after the last, who has no next either
+    pulses_.arrivals.push_back(never);
   }
 
   Coulomb law_;
@@ -164,13 +152,16 @@ class PulseSimulator final : public Simulator {
   bool settle_;
   PulseLanes lanes_;
   PulseStreams pulses_;
-  std::vector<double> arrivals_, amplitudes_, displacement_, velocity_;
+  std::vector<double> arrivals_, amplitudes_, displacement_, velocity_, displacements_, velocities_;
 };
 
 }  // namespace
 
 std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed,
                                            bool settle) {
+  const std::size_t edges = excitation.options().shape.times().size();
+  // Blocks so long that they could not be interrupted within a blink go member by member.
+  if (edges > most_edges || excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5) return nullptr;
   return std::make_unique<PulseSimulator>(law, excitation, seed, settle);
 }
 

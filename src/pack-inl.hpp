@@ -158,6 +158,52 @@ struct Pack {
   }
 };
 
+/// Places in arrays, side by side.
+template <std::size_t parts>
+struct Places {
+  using Integers = hn::RebindToSigned<Tag>;
+  using Mask = PackMask<parts>;
+
+  hn::Vec<Integers> part[parts];
+
+  static HWY_INLINE Places load(const std::int64_t* from) {
+    Places result;
+    for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::LoadU(Integers(), from + i * lanes);
+    return result;
+  }
+  static HWY_INLINE Places counting(std::int64_t from) {
+    Places result;
+    for (std::size_t i = 0; i < parts; ++i)
+      result.part[i] = hn::Iota(Integers(), from + static_cast<std::int64_t>(i * lanes));
+    return result;
+  }
+  /// Further, where the mask says so.
+  HWY_INLINE void step(const Mask& mask, std::int64_t by = 1) {
+    for (std::size_t i = 0; i < parts; ++i)
+      part[i] = hn::Add(part[i], hn::IfThenElseZero(hn::RebindMask(Integers(), mask.part[i]), hn::Set(Integers(), by)));
+  }
+  HWY_INLINE Pack<parts> gather(const double* from) const {
+    Pack<parts> result;
+    for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::GatherIndex(Tag(), from, part[i]);
+    return result;
+  }
+  HWY_INLINE void scatter(const Pack<parts>& values, double* to) const {
+    for (std::size_t i = 0; i < parts; ++i) hn::ScatterIndex(values.part[i], Tag(), to, part[i]);
+  }
+  friend HWY_INLINE Mask operator!=(const Places& a, const Places& b) {
+    Mask result;
+    for (std::size_t i = 0; i < parts; ++i)
+      result.part[i] = hn::RebindMask(Tag(), hn::Ne(a.part[i], b.part[i]));
+    return result;
+  }
+  friend HWY_INLINE Places select(const Mask& mask, const Places& yes, const Places& no) {
+    Places result;
+    for (std::size_t i = 0; i < parts; ++i)
+      result.part[i] = hn::IfThenElse(hn::RebindMask(Integers(), mask.part[i]), yes.part[i], no.part[i]);
+    return result;
+  }
+};
+
 }  // namespace stickslip::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

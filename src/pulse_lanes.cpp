@@ -4,14 +4,16 @@
 
 #include <hwy/foreach_target.h>
 
+#include <limits>
+
 #include "pack-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
 
-using Real = Pack<1>;
+using Real = Pack<lanes < 8 ? 2 : 1>;
 using Bool = Real::Mask;
-using Integers = hn::RebindToSigned<Tag>;
+using Place = Places<Real::size / lanes>;
 
 // Slides for a time under a load that stays: on, or to a stop and from there the other way if the load is beyond that
 // level, which a load that stays then keeps to.
@@ -32,58 +34,67 @@ HWY_INLINE void slide(const Real& forward, const Real& backward, const Real& loa
   peak = max(peak, abs(x));
 }
 
-void AdvancePulses(const PulseLanes& slider, double from, double until, PulseStreams& pulses,
-                   const LaneStates& states) {
-  const Integers integers;
-  const Tag reals;
+// So many edges that they stay in registers; or, with 0, any number up to `most_edges`.
+template <std::size_t fixed_edges>
+HWY_INLINE void move(const PulseLanes& slider, double end, const PulseStreams& pulses, const PulseHistory& history,
+                        const LaneStates& states) {
+  constexpr std::size_t room = fixed_edges == 0 ? most_edges : fixed_edges;
   const Real forward = slider.forward, backward = slider.backward;
-  const std::size_t edges = slider.edges.size(), width = pulses.width;
+  const std::size_t edges = fixed_edges == 0 ? slider.edges.size() : fixed_edges, width = pulses.first.size();
   for (std::size_t i = 0; i < width; i += Real::size) {
-    Real x = Real::load(states.displacement + i), v = Real::load(states.velocity + i);
-    Real peak = Real::load(states.peak + i), ground = Real::load(&pulses.ground[i]), now = from;
+    Real x = 0.0, v = 0.0, peak = 0.0, ground = 0.0, now = 0.0;
+    Place next[room];
+    Real time[room];  // at which the next pulse meets each edge
+    for (std::size_t e = 0; e < edges; ++e) {
+      next[e] = Place::load(&pulses.first[i]);
+      time[e] = next[e].gather(pulses.arrivals.data()) + slider.edges[e];
+    }
+    Place row = Place::counting(static_cast<std::int64_t>(i));  // in the history
+    Real wanted = 0.0, number = 0.0;                           // the next time that is wanted, and its number
     for (;;) {
-      Real first = Real::load(&pulses.time[i]);
-      for (std::size_t e = 1; e < edges; ++e) first = min(first, Real::load(&pulses.time[e * width + i]));
-      const Bool meets = first < until;
-      const Real then = select(meets, max(first, now), until);
+      Real first = wanted;
+      for (std::size_t e = 0; e < edges; ++e) first = min(first, time[e]);
+      const Bool meets = first < end;
+      const Real then = max(min(first, end), now);
       slide(forward, backward, -ground, then - now, x, v, peak);
       now = then;
-      if (!any(meets)) break;
+      // Always written: what stays is what was written last before the row moved on, at the time that was wanted.
+      row.scatter(x, history.displacement);
+      row.scatter(v, history.velocity);
+      if (!any(meets | (wanted <= end))) break;
       // The edge that is met: which pulse, how far it jumps, when the next pulse meets it. Two at once come in turn.
-      Bool open = meets;
-      auto place = hn::Zero(integers);
+      Bool open = meets, met[room];
+      Place place = next[0];
       Real jump = 0.0, after = 0.0;
       for (std::size_t e = 0; e < edges; ++e) {
-        const Bool met = open & (Real::load(&pulses.time[e * width + i]) == first);
-        open = but_not(open, met);
-        const auto those = hn::RebindMask(integers, met.part[0]);
-        const auto next = hn::LoadU(integers, &pulses.next[e * width + i]);
-        place = hn::IfThenElse(those, next, place);
-        jump = select(met, Real(slider.jumps[e]), jump);
-        after = select(met, Real(slider.edges[e]), after);
-        hn::StoreU(hn::Add(next, hn::IfThenElseZero(those, hn::Set(integers, 1))), integers,
-                   &pulses.next[e * width + i]);
+        met[e] = open & (time[e] == first);
+        open = but_not(open, met[e]);
+        place = select(met[e], next[e], place);
+        jump = select(met[e], Real(slider.jumps[e]), jump);
+        after = select(met[e], Real(slider.edges[e]), after);
+        next[e].step(met[e]);
       }
-      Real amplitude, arrival;
-      amplitude.part[0] = hn::GatherIndex(reals, pulses.amplitudes.data(), place);
-      arrival.part[0] = hn::GatherIndex(reals, pulses.arrivals.data() + 1, place);
-      const Real following = arrival + after;
-      for (std::size_t e = 0; e < edges; ++e) {
-        const Real time = Real::load(&pulses.time[e * width + i]);
-        const Bool met = meets & (time == first) & (after == Real(slider.edges[e]));
-        select(met, following, time).store(&pulses.time[e * width + i]);
-      }
+      const Real following = place.gather(pulses.arrivals.data() + 1) + after;
+      for (std::size_t e = 0; e < edges; ++e) time[e] = select(met[e], following, time[e]);
       // Where the pulses that began have all ended nothing is left, of rounding neither.
-      Bool acts;
-      acts.part[0] = hn::RebindMask(reals, hn::Ne(hn::LoadU(integers, &pulses.next[i]),
-                                                  hn::LoadU(integers, &pulses.next[(edges - 1) * width + i])));
-      ground = where(acts, fma(where(meets, amplitude), jump, ground));
+      ground = where(next[0] != next[edges - 1], fma(place.gather(pulses.amplitudes.data()), jump, ground));
+      // A time that is wanted, where no edge is met at the same one.
+      const Bool reached = (wanted == first) & (open | ((first >= end) & (wanted <= end)));
+      number = number + where(reached, Real(1.0));
+      wanted = select(number < static_cast<double>(history.times), number * history.dt,
+                      std::numeric_limits<double>::infinity());
+      row.step(reached, static_cast<std::int64_t>(width));
     }
     x.store(states.displacement + i);
     v.store(states.velocity + i);
     peak.store(states.peak + i);
-    ground.store(&pulses.ground[i]);
   }
+}
+
+void AdvancePulses(const PulseLanes& slider, double end, const PulseStreams& pulses, const PulseHistory& history,
+                   const LaneStates& states) {
+  slider.edges.size() == 3 ? move<3>(slider, end, pulses, history, states)
+                           : move<0>(slider, end, pulses, history, states);
 }
 
 }  // namespace stickslip::detail::HWY_NAMESPACE
@@ -94,9 +105,9 @@ namespace stickslip::detail {
 
 HWY_EXPORT(AdvancePulses);
 
-void advance_lanes(const PulseLanes& slider, double from, double until, PulseStreams& pulses,
+void advance_lanes(const PulseLanes& slider, double end, const PulseStreams& pulses, const PulseHistory& history,
                    const LaneStates& states) {
-  HWY_DYNAMIC_DISPATCH(AdvancePulses)(slider, from, until, pulses, states);
+  HWY_DYNAMIC_DISPATCH(AdvancePulses)(slider, end, pulses, history, states);
 }
 
 }  // namespace stickslip::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "stickslip/ground_motion.hpp"
 
@@ -233,5 +234,271 @@ inline constexpr double two_reversals_velocity = 1.20393548282195910726808182212
 // values.json edge.asym_const (mpmath, 48 digits): n = 2, -2, 2, -2 held 1 s each, levels 1 forward and 1.6 backward.
 inline constexpr double unequal_displacement = 0.619350031329912445596030415418;
 inline constexpr double unequal_velocity = 0.921810699588477366255144032922;
+
+/// A figure of a Monte-Carlo study and its standard error.
+struct Measured {
+  double value, error;
+};
+
+/// By time or frequency; the standard error is not given.
+struct Ordinate {
+  double at, value;
+};
+
+// values.json mc.*: random-phase Monte Carlo, event-exact integration, written apart from this library in another
+// language. Coulomb friction, slip level 1; S0 = 1 in a band from `low` on, samples 0.1 apart. Averages over the
+// central half of the records.
+struct BandPassRun {
+  const char* id;
+  double low, width;
+  std::size_t samples;
+  bool corrected;         // for the interpolation
+  double input_variance;  // of the samples, exact
+  Measured sigma;         // standard deviation of the velocity
+  double kurtosis;
+  Measured growth;  // of the displacement variance, between two lags
+};
+
+inline constexpr double band_of_figure_44 = 2.0264236728467555;  // 20 / pi^2
+
+inline constexpr BandPassRun band_pass_runs[] = {
+    {"mc.fig44.pre2",
+     band_of_figure_44,
+     band_of_figure_44,
+     1024,
+     true,
+     4.116216534553666,
+     {0.5970844078362488, 0.000208512085090893},
+     4.258629949706923,
+     {0.015074100925981769, 0.00013057895268824707}},
+    {"mc.fig44.pre0",
+     band_of_figure_44,
+     band_of_figure_44,
+     1024,
+     false,
+     4.049709280018092,
+     {0.5911449946188903, 0.00044546426937976244},
+     4.280805789666065,
+     {0.014377371946255671, 0.00021981431644266356}},
+    {"mc.fig47.O1_1.5000.dO_2.0264 N512",
+     1.5,
+     band_of_figure_44,
+     1024,
+     true,
+     4.095061521812914,
+     {0.7498401518828037, 0.0010064723305316205},
+     4.518871290492553,
+     {0.07958504746460708, 0.003423080836977642}},
+    {"mc.fig47.O1_1.5000.dO_2.0264 N4096",
+     1.5,
+     band_of_figure_44,
+     8192,
+     true,
+     4.0949317812301915,
+     {0.7516423516128833, 0.0011502377489092377},
+     4.604236407444914,
+     {0.08555652108365504, 0.002703305769546828}},
+    {"mc.fig48.O1_2.0264.dO_0.2000 N512",
+     band_of_figure_44,
+     0.2,
+     1024,
+     true,
+     0.3709989007249732,
+     {0.038359615015234806, 0.00011331849593710408},
+     18.565885156887624,
+     {1.598273609664941e-08, 4.0396138637428175e-07}},
+    {"mc.fig48.O1_2.0264.dO_0.2000 N4096",
+     band_of_figure_44,
+     0.2,
+     8192,
+     true,
+     0.40186105939506,
+     {0.07614818569331297, 0.001275328688806088},
+     36.208775328876754,
+     {2.505823991322796e-07, 1.0672785770947108e-06}},
+    {"mc.fig48.O1_2.0264.dO_0.3500 N512",
+     band_of_figure_44,
+     0.35,
+     1024,
+     true,
+     0.6186125349995684,
+     {0.13233483884385117, 0.00033380583209893333},
+     13.937774729946465,
+     {-1.8779524320667305e-05, 4.3062111648890625e-06}},
+    {"mc.fig48.O1_2.0264.dO_0.3500 N4096",
+     band_of_figure_44,
+     0.35,
+     8192,
+     true,
+     0.6959026619167208,
+     {0.16803066133724123, 0.0012963083859395435},
+     14.189276246000418,
+     {7.637259327905848e-06, 2.4328389746736694e-06}},
+    {"mc.fig48.O1_2.0264.dO_0.4000 N512",
+     band_of_figure_44,
+     0.4,
+     1024,
+     true,
+     0.7425084147825037,
+     {0.17043393119271105, 0.0003304285653518001},
+     11.327602424884928,
+     {-3.813199013967967e-05, 8.538849892370666e-06}},
+    {"mc.fig48.O1_2.0264.dO_0.5000 N512",
+     band_of_figure_44,
+     0.5,
+     1024,
+     true,
+     0.990486245103643,
+     {0.23709733819176076, 0.0005647538512000374},
+     8.545771318392807,
+     {-3.0729519473472115e-05, 8.531523455726922e-06}},
+    {"mc.fig48.O1_2.0264.dO_1.0000 N512",
+     band_of_figure_44,
+     1.0,
+     1024,
+     true,
+     1.9851128533850604,
+     {0.4141558852607621, 0.0007368222308678966},
+     5.314404078128869,
+     {0.00014645263352212456, 5.4687582196301795e-05}},
+    {"mc.fig48.O1_2.0264.dO_1.0000 N4096",
+     band_of_figure_44,
+     1.0,
+     8192,
+     true,
+     2.015812686528283,
+     {0.4234428256031212, 0.0007262874362847128},
+     5.49391035259526,
+     {0.00030710164885423076, 2.808158216174932e-05}},
+    {"mc.fig48.O1_2.0264.dO_1.5000 N512",
+     band_of_figure_44,
+     1.5,
+     1024,
+     true,
+     2.984702885217129,
+     {0.518828823810034, 0.00062709710485291},
+     4.541621123493994,
+     {0.003945426587184057, 6.219730101459014e-05}},
+    {"mc.fig48.O1_2.0264.dO_1.5000 N4096",
+     band_of_figure_44,
+     1.5,
+     8192,
+     true,
+     3.030937711055333,
+     {0.5282468428271871, 0.000837696299816124},
+     4.6568488762735125,
+     {0.005016815272094387, 0.0003470536193535018}},
+};
+
+// mc.fig44.pre2, 100,000 records.
+inline constexpr double figure_44_records = 100000;
+/// Standard deviation of the velocity by time.
+inline constexpr Ordinate figure_44_sigma[] = {
+    {0.5, 0.5708385348786013},  {1.0, 0.8029337935925023},  {2.0, 0.5644557839435387},
+    {5.0, 0.5982471759951646},  {10.0, 0.5958351836915744}, {25.6, 0.5964339999782229},
+    {51.2, 0.5956473841926935}, {76.8, 0.5957831478936539}, {100.0, 0.5950637425726345}};
+/// By time.
+inline constexpr Ordinate figure_44_displacement_variance[] = {
+    {1.0, 0.21100704222794167}, {5.0, 0.6754192568915565},  {10.0, 0.7441244467388561}, {25.6, 0.9776968429868189},
+    {51.2, 1.3637333071935311}, {76.8, 1.7641919778250676}, {100.0, 2.082223729421006}};
+/// Density of the velocity by frequency, to six decimals.
+inline constexpr Ordinate figure_44_spectrum[] = {
+    {0.122718, 0.0024991478764672796},  {0.245437, 0.002640717211915084},  {0.368155, 0.0028543493823451394},
+    {0.490874, 0.0030680698333411544},  {0.736311, 0.003448287877637507},  {0.981748, 0.0036780337708255894},
+    {1.227185, 0.003865561892419872},   {1.472622, 0.004011686759607755},  {1.718058, 0.004188746473699628},
+    {1.963495, 0.02028974632247806},    {2.086214, 0.08774797478632738},   {2.454369, 0.1100123893268784},
+    {2.945243, 0.08397615974887307},    {3.436117, 0.06541051866823708},   {3.926991, 0.05105020855897516},
+    {4.417865, 0.0009849213982907527},  {4.908739, 0.000577224880527274},  {6.135923, 0.00014379736267872628},
+    {7.363108, 0.00015703647076059204}, {9.203885, 9.083266966117875e-05}, {12.271846, 1.874340904496374e-05}};
+inline constexpr Measured figure_44_spectrum_at_zero = {0.0024613513992449644, 1.5827071746751385e-05};
+
+// values.json mc.poisson.*: 100,000 records. Slip level 1, half width 1, rate, sigma; the displacement between two lags
+// of `span` and half of it.
+struct PoissonRun {
+  const char* id;
+  double rate, sigma, span;
+  Measured velocity_variance, growth;
+};
+inline constexpr PoissonRun poisson_runs[] = {
+    {"mc.poisson.sB1.ldt1.0",
+     1.0,
+     1.0,
+     200.0,
+     {0.25194795507743145, 0.0002103388245854761},
+     {0.09815648135079194, 0.0007086068946165036}},
+    {"mc.poisson.sB5.ldt0.5",
+     0.5,
+     5.0,
+     400.0,
+     {6.536836261826456, 0.0032938288588152294},
+     {3.531026169631181, 0.025309436674973602}},
+};
+
+// values.json mc.white.*: slip level 1, independent Gaussian loads of variance 2 pi / dt, each held for dt.
+struct WhiteRun {
+  double dt;
+  Measured velocity_variance, growth;
+};
+inline constexpr WhiteRun white_runs[] = {
+    {0.4, {18.598687571624954, 0.09712899427885104}, {282.12665029544246, 7.660415298422461}},
+    {0.2, {19.194106961714287, 0.10452392396874047}, {308.07995997212055, 8.557180022263314}},
+    {0.1, {19.55975101887226, 0.1031469566126148}, {319.1054781431482, 8.885069180998563}},
+    {0.05, {19.64636257512022, 0.1230947970045583}, {307.6271089181906, 11.504369940048614}},
+};
+
+// values.json white.coulomb.exact_transient_x.*: the moments of x and x' at a time, from rest, under white noise of S0
+// = 1 with slip level 1; Chang-Cooper and Crank-Nicolson, to 2e-5.
+struct WhiteTransient {
+  double time, displacement_variance, covariance, velocity_variance;
+};
+inline constexpr WhiteTransient white_transients[] = {
+    {1, 1.3828416636690142, 1.9257501688393974, 4.074316449355364},
+    {5, 99.70207429141037, 24.79237318000336, 11.793722129490328},
+    {20, 2214.2015142977025, 106.78065727805314, 18.56835299523263},
+};
+
+// values.json mc.casterwhite.*: slip level 1, reach 1 / gamma; loads of white noise of S0 = 1 held for dt; at time t.
+struct CasterWhiteRun {
+  const char* id;
+  double gamma, dt, time;
+  Measured displacement_variance, covariance, velocity_variance;
+};
+inline constexpr CasterWhiteRun caster_white_runs[] = {
+    {"mc.casterwhite.gamma0.01.dt0.02.t10.0",
+     0.01,
+     0.02,
+     10.0,
+     {526.5586048975775, 8.137412251529083},
+     {60.92911768624976, 1.2061459579307185},
+     {16.24993159508127, 0.235695087257697}},
+    {"mc.casterwhite.gamma0.1.dt0.02.t1.0",
+     0.1,
+     0.02,
+     1.0,
+     {1.3652999772100414, 0.015523599516984832},
+     {1.9110848900089443, 0.024516302028207586},
+     {4.069158246735904, 0.046296393405276956}},
+    {"mc.casterwhite.gamma0.1.dt0.02.t10.0",
+     0.1,
+     0.02,
+     10.0,
+     {878.5608574705324, 13.066514394736567},
+     {135.57802431525937, 2.185092044540434},
+     {31.486806982551073, 0.42907908330565836}},
+    {"mc.casterwhite.gamma1.0.dt0.02.t5.0",
+     1.0,
+     0.02,
+     5.0,
+     {196.84995814135343, 2.227149034896428},
+     {61.35438605324447, 0.7335757917345282},
+     {26.198276282941094, 0.28000518808057206}},
+    {"mc.casterwhite.gamma1.0.dt0.02.t10.0",
+     1.0,
+     0.02,
+     10.0,
+     {1705.355973606164, 18.669425502771823},
+     {265.1994666659672, 3.081607188232355},
+     {55.726850229286626, 0.5881858227200961}},
+};
 
 }  // namespace reference

@@ -200,11 +200,17 @@ py::dict configuration_of(const Ensemble& ensemble) {
 
 /// First member and the one past the last of each unbroken row of members.
 std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_of(const Ensemble& ensemble) {
-  const std::uint64_t block = Ensemble::block(ensemble.parts().times.count);
+  const Ensemble::Parts& parts = ensemble.parts();
+  const std::uint64_t size = Ensemble::block(parts.times.count);
   std::vector<std::pair<std::uint64_t, std::uint64_t>> pieces, ranges;
-  for (const auto& [place, tally] : ensemble.parts().tallies.nodes()) {
-    const std::uint64_t first = (place.number << place.level) * block;
-    pieces.emplace_back(first, first + tally.count);
+  for (const auto& [place, tally] : parts.tallies.nodes()) {
+    std::uint64_t block = place.number << place.level;
+    const std::uint64_t end = (place.number + 1) << place.level;
+    for (auto cut = parts.cut.lower_bound(block); cut != parts.cut.end() && cut->first < end; ++cut) {
+      pieces.emplace_back(block * size, cut->first * size + cut->second);
+      block = cut->first + 1;
+    }
+    if (block < end) pieces.emplace_back(block * size, end * size);
   }
   std::ranges::sort(pieces);
   for (const auto& piece : pieces) {

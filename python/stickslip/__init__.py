@@ -9,6 +9,12 @@ A friction law makes a slider, a record or a list of numbers makes a ground moti
     r = ss.integrate(ss.Coulomb(mu=0.2), quake)
     print(r.peak, r.residual)  # metres
 
+`run_ensemble` does so for many members of a random ground motion, and takes their statistics::
+
+    e = ss.run_ensemble(ss.Coulomb(mu=0.2), ss.PoissonPulses.event("great near field"),
+                        members=10_000, seed=1)
+    print(e.quantile(0.95), e.stationary.growth_rate)
+
 SI units everywhere. Displacement and velocity are relative to the ground; forward is x > 0.
 """
 
@@ -35,7 +41,10 @@ from ._core import (
     integrate,
     read_record,
 )
-from .ensemble import EnsembleError, run_ensemble
+
+TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of this
+if TYPE_CHECKING:
+    from .ensemble import EnsembleError, run_ensemble
 
 __all__ = [
     "STANDARD_GRAVITY",
@@ -62,3 +71,13 @@ __all__ = [
     "read_record",
     "run_ensemble",
 ]
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name):
+        # Imported when first asked for: it needs NumPy, which takes ten times as long as the rest.
+        if name in ("EnsembleError", "run_ensemble"):
+            from . import ensemble
+
+            return globals().setdefault(name, getattr(ensemble, name))
+        raise AttributeError(f"module 'stickslip' has no attribute {name!r}")

@@ -35,7 +35,6 @@ from . import (
     build_info,
     integrate,
     read_record,
-    run_ensemble,
 )
 
 __all__ = ["main"]
@@ -307,6 +306,8 @@ def _ensemble(args: argparse.Namespace) -> str:
             raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
     if not 0 < args.confidence < 1:
         raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
+    from .ensemble import run_ensemble  # NumPy: only who needs it waits for it
+
     ensemble = run_ensemble(
         _slider(args, args.mu),
         _excitation(args),

@@ -2,8 +2,11 @@
 
 import json
 import math
+import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -163,13 +166,14 @@ def test_a_reader_that_stops_early_is_no_error(record):
         assert child.wait() == 0
 
 
-def test_who_does_not_plot_does_not_wait_for_matplotlib(record):
+def test_who_slides_a_record_waits_for_neither_matplotlib_nor_numpy(record):
     code = (
         "import sys; from stickslip.cli import main;"
-        f"main(['slide', {str(record)!r}, '--mu', '0.1']); print('matplotlib' in sys.modules)"
+        f"main(['slide', {str(record)!r}, '--mu', '0.1']);"
+        "print([name for name in ('matplotlib', 'numpy') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "False"
+    assert done.stdout.splitlines()[-1] == "[]"
 
 
 def test_a_picture_is_written_where_the_command_says(capsys, record, tmp_path):
@@ -209,3 +213,170 @@ def test_without_matplotlib_plot_says_what_to_install(capsys, record, monkeypatc
     code, out, err = run(capsys, record, "--mu", 0.1, "--plot", "a.png")
     assert (code, out) == (2, "")
     assert "pip install stickslip[plot]" in err
+
+
+# ---- ensembles
+
+QUAKE = ["--event", "moderate near field", "--mu", 0.02, "--members", 500]
+
+
+def run_ensemble(capsys, *arguments):
+    code = main(["ensemble", *map(str, arguments)])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+SOURCES = {
+    "event": (["--event", "great near field"], ss.PoissonPulses.event("great near field")),
+    "pulses": (
+        ["--rate", 3, "--half-width", 0.1, "--sigma", 1.5, "--duration", 10],
+        ss.PoissonPulses(rate=3, half_width=0.1, sigma=1.5, duration=10),
+    ),
+    "band": (
+        ["--band", 0.05, 2, 12, "--dt", 0.1, "--samples", 256],
+        ss.GaussianExcitation(ss.Spectrum.band_pass(s0=0.05, low=2, high=12), dt=0.1, samples=256),
+    ),
+}
+
+
+@pytest.mark.parametrize("source", SOURCES)
+@pytest.mark.parametrize("case", CASES)
+def test_an_ensemble_is_exactly_the_librarys(capsys, case, source):
+    (options, slider), (shaking, excitation) = CASES[case], SOURCES[source]
+    more = ["--members", 100, "--seed", 7, "--settle", "--level", 0.02, "--threads", 1, "--json"]
+    code, out, err = run_ensemble(capsys, *shaking, *options, *more)
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    e = ss.run_ensemble(slider, excitation, members=100, seed=7, settle=True)
+    assert document["members"] == 100
+    assert document["configuration"] == e.configuration
+    assert [q["value"] for q in document["peak_m"]] == [
+        e.quantile(p).value for p in (0.5, 0.95, 0.99)
+    ]
+    assert [q["quantile"] for q in document["peak_m"]] == [0.5, 0.95, 0.99]
+    p = e.exceedance(0.02)
+    assert document["exceedance"] == [
+        {"peak_m": 0.02, "value": p.value, "low": p.low, "high": p.high}
+    ]
+    mean, rms = document["residual_mean_m"], document["residual_rms_m"]
+    assert mean["value"] == pytest.approx(e.residual.mean(), rel=1e-12)
+    assert mean["error"] == pytest.approx(e.residual.std(ddof=1) / 10, rel=1e-12)
+    assert rms["value"] == pytest.approx(np.sqrt((e.residual**2).mean()), rel=1e-12)
+    growth = document["stationary"]["growth_rate_m2_s"]
+    assert growth == {
+        "value": e.stationary.growth_rate.value,
+        "error": e.stationary.growth_rate.error,
+    }
+
+
+def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
+    code, out, err = run_ensemble(capsys, *QUAKE, "--level", 0.02, 0.05, "--confidence", 0.9)
+    assert (code, err) == (0, "")
+    e = ss.run_ensemble(
+        ss.Coulomb(mu=0.02), ss.PoissonPulses.event("moderate near field"), members=500, seed=0
+    )
+    lines = out.splitlines()
+    assert lines[0].startswith("500 members, seed 0; 90 % bounds in brackets")
+    q = e.quantile(0.95, 0.9)
+    assert lines[2].split(maxsplit=4) == [
+        "95",
+        "%",
+        f"{100 * q.value:.4g}",
+        "cm",
+        f"({100 * q.low:.4g} to {100 * q.high:.4g})",
+    ]
+    assert sum(line.startswith("peak exceeds") for line in lines) == 1
+    (line,) = (line for line in lines if line.startswith("residual displacement"))
+    assert line.split()[2:3] == ["mean"]
+    assert line.split()[-2] == "+-"
+    (line,) = (line for line in lines if line.startswith("velocity variance"))
+    assert "m^2/s^2" in line
+    assert float(line.split()[2]) == pytest.approx(
+        e.stationary.velocity_variance.value, abs=e.stationary.velocity_variance.error / 10
+    )
+    assert lines[-1] == "(the last two from 3.75 to 11.2 s)"
+
+
+REFUSED_ENSEMBLES = {
+    "an unknown event": (["--event", "big", "--mu", 0.1], "got 'big'"),
+    "negative friction": (["--event", "great near field", "--mu", -1], "got -1"),
+    "one member": ([*QUAKE, "--members", 1], "--members must be at least 2"),
+    "fewer than none": ([*QUAKE, "--members", -7], "got -7"),
+    "a negative seed": ([*QUAKE, "--seed", -1], "seed must be at least 0, got -1"),
+    "no threads": ([*QUAKE, "--threads", 0], "threads must be at least 1, got 0"),
+    "no width": (["--rate", 3, "--mu", 0.1], "--rate needs --half-width, got none"),
+    "no samples": (
+        ["--band", 1, 2, 3, "--mu", 0.1, "--dt", 0.1],
+        "--band needs --samples, got none",
+    ),
+    "a step too many": ([*QUAKE, "--dt", 0.1], "--dt goes with --band, got --event"),
+    "a negative rate": (
+        ["--rate", -3, "--half-width", 1, "--sigma", 1, "--duration", 1, "--mu", 0.1],
+        "got -3",
+    ),
+    "beyond Nyquist": (
+        ["--band", 1, 2, 300, "--dt", 0.1, "--samples", 64, "--mu", 0.1],
+        "Nyquist",
+    ),
+    "a NaN level": ([*QUAKE, "--level", "nan"], "--level must be finite and at least 0, got nan m"),
+    "certainty": ([*QUAKE, "--confidence", 1], "--confidence must lie between 0 and 1, got 1"),
+    "reach without caster": ([*QUAKE, "--reach", 1], "--law caster, got --law coulomb"),
+    "no rest": (["--event", "great near field", "--mu", 0, "--settle"], "does not come to rest"),
+    "no folder": ([*QUAKE, "--checkpoint", "nowhere/run.npz"], "nowhere: no such folder"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED_ENSEMBLES)
+def test_an_ensemble_that_is_refused_is_named_on_stderr_with_code_2(capsys, case):
+    arguments, message = REFUSED_ENSEMBLES[case]
+    code, out, err = run_ensemble(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("stickslip: ")
+    assert message in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--mu", "0.1"],
+        ["--event", "great near field"],
+        ["--event", "great near field", "--rate", "3", "--mu", "0.1"],
+        ["--band", "1", "2", "--mu", "0.1"],
+    ],
+)
+def test_arguments_of_an_ensemble_that_do_not_parse_end_with_code_2(capsys, arguments):
+    with pytest.raises(SystemExit) as end:
+        main(["ensemble", *arguments])
+    assert end.value.code == 2
+
+
+def test_a_checkpoint_and_a_picture_are_written_where_the_command_says(capsys, tmp_path):
+    pytest.importorskip(
+        "matplotlib", reason="pictures need matplotlib: pip install stickslip[plot]"
+    )
+    kept, picture = tmp_path / "run.npz", tmp_path / "out.png"
+    code, first, _ = run_ensemble(capsys, *QUAKE, "--checkpoint", kept, "--plot", picture)
+    assert code == 0
+    assert first.splitlines()[-2:] == [f"wrote {kept}", f"wrote {picture}"]
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert ss.Ensemble.load(kept).members == 500
+    code, again, _ = run_ensemble(capsys, *QUAKE, "--checkpoint", kept, "--plot", picture)
+    assert (code, again) == (0, first)
+    code, out, err = run_ensemble(capsys, *QUAKE, "--seed", 3, "--checkpoint", kept)
+    assert (code, out) == (2, "")
+    assert "seed 3 against seed 0" in err
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
+def test_ctrl_c_leaves_a_checkpoint_and_no_traceback(tmp_path):
+    kept = tmp_path / "run.npz"
+    options = ["--event", "great near field", "--mu", "0.1", "--members", "100000000"]
+    command = [sys.executable, "-m", "stickslip", "ensemble", *options, "--checkpoint", str(kept)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
+        time.sleep(1)
+        child.send_signal(signal.SIGINT)
+        out, err = child.communicate(timeout=5)
+    assert (child.returncode, out) == (130, b"")
+    assert err.decode() == f"stickslip: interrupted; {kept} has what was done\n"
+    assert ss.Ensemble.load(kept).members > 0

@@ -1,6 +1,7 @@
 """Pictures: what is drawn is what happened."""
 
 import math
+import re
 import sys
 
 import numpy as np
@@ -149,6 +150,67 @@ def test_responses_to_different_ground_motions_are_not_laid_over_each_other():
         plotting.plot_responses([])
     with pytest.raises(ValueError, match="each of 1 responses, got 2"):
         plotting.plot_responses(responses[:1], ["one", "two"])
+
+
+SHAKING = ss.PoissonPulses.event("moderate near field")
+SQUARE = {"mm": 1e6, "cm": 1e4, "m": 1}
+
+
+@pytest.fixture(scope="module")
+def ensemble():
+    return ss.run_ensemble(ss.Coulomb(mu=0.02), SHAKING, members=2000, seed=1)
+
+
+def unit_of(axes):
+    return re.search(r"\[\(?(mm|cm|m)[\]/\N{SUPERSCRIPT TWO}]", axes.get_ylabel())[1]
+
+
+def test_an_ensemble_is_drawn_with_its_units_and_errors(ensemble):
+    way, peaks, speed, spectrum = ensemble.plot().axes
+    for axes, name in ((way, "displacement"), (speed, "velocity")):
+        assert axes.get_xlabel() == "time [s]"
+        factor = SQUARE[unit_of(axes)]
+        t, variance = axes.lines[0].get_data()
+        assert np.array_equal(t, ensemble.time)
+        assert variance == pytest.approx(factor * getattr(ensemble, f"{name}_variance"))
+        band = axes.collections[0].get_paths()[0].vertices[:, 1].max()
+        error = getattr(ensemble, f"{name}_variance_error")
+        assert band == pytest.approx((variance + 2 * factor * error).max())
+    omega, density = spectrum.lines[0].get_data()
+    assert np.array_equal(omega, ensemble.velocity_spectrum.omega)
+    assert density == pytest.approx(SQUARE[unit_of(spectrum)] * ensemble.velocity_spectrum.density)
+    assert peaks.get_xlabel() == "peak displacement [cm]"
+    assert peaks.get_yscale() == "log"
+
+
+def test_the_drawn_distribution_of_peaks_is_the_count(ensemble):
+    peaks = ensemble.plot().axes[1]
+    level, share = peaks.lines[0].get_data()
+    assert share == pytest.approx([(100 * ensemble.peak > x).mean() for x in level])
+    marked = [tuple(np.ravel(line.get_data())) for line in peaks.lines[1:]]
+    for (x, y), p in zip(marked, (0.5, 0.9, 0.99), strict=True):
+        assert x == pytest.approx(100 * ensemble.quantile(p).value)
+        assert y == pytest.approx(1 - p)
+
+
+def test_an_ensemble_says_what_slid(ensemble):
+    told = ensemble.plot().get_suptitle()
+    assert told == "2,000 members of 15 s, slip level 0.0200 g"
+    slider = ss.Slider(ss.Coulomb(mu=0.02, backward=math.inf), natural_frequency=math.pi)
+    e = ss.run_ensemble(slider, SHAKING, members=2, seed=1, velocity_spectrum=False)
+    figure = e.plot()
+    assert figure.get_suptitle().endswith("slip level 0.0200 g, never backward, period 2.00 s")
+    assert len(figure.axes) == 3
+    assert e.plot(title="mine").get_suptitle() == "mine"
+    assert e.plot()._repr_png_().startswith(b"\x89PNG")
+
+
+def test_an_ensemble_that_never_slips_is_drawn():
+    e = ss.run_ensemble(ss.Coulomb(mu=9), SHAKING, members=10, seed=1)
+    texts = [text.get_text() for text in e.plot().axes[1].texts]
+    assert "none slips" in texts
+    with pytest.raises(ValueError, match="two members"):
+        ss.run_ensemble(ss.Coulomb(mu=9), SHAKING, members=1, seed=1).plot()
 
 
 def test_a_friction_sweep_shows_every_record_and_their_median():

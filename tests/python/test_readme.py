@@ -1,6 +1,7 @@
 """What the README shows runs as it stands."""
 
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -32,11 +33,24 @@ def kobe(tmp_path, monkeypatch, record_a):
 
 
 def test_the_python_runs(kobe, capsys):
-    (code,) = blocks("python")
+    code, _ = blocks("python")
     exec(compile(code, str(README), "exec"), {})
     lines = capsys.readouterr().out.splitlines()
     assert re.fullmatch(r"peak \d+\.\d cm, residual -?\d+\.\d cm, \d+ slips", lines[0])
     assert len(lines) == 5
+
+
+def test_the_ensembles_run(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    _, code = blocks("python")
+    names = {}
+    exec(compile(code, str(README), "exec"), names)
+    quantile, exceedance, growth = capsys.readouterr().out.splitlines()
+    assert quantile.startswith("<Interval: 0.6")
+    assert exceedance.startswith("<Interval: 0.1")
+    assert growth.startswith("<Estimate: ")
+    assert names["e"].member_ranges == [(0, 10_000)]
+    assert [file.name for file in tmp_path.iterdir()] == ["run.npz"]
 
 
 def test_the_command_lines_run(kobe):
@@ -44,11 +58,11 @@ def test_the_command_lines_run(kobe):
         line
         for block in blocks("sh")
         for line in block.splitlines()
-        if line.startswith("stickslip slide")
+        if line.startswith("stickslip ")
     ]
-    assert len(commands) == 4
+    assert len(commands) == 5
     for command in commands:
-        words = command.split()
+        words = shlex.split(command)
         assert words[0] == "stickslip"
         if "--plot" in words:
             pytest.importorskip("matplotlib")

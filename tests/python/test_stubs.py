@@ -15,6 +15,7 @@ needs_mypy = pytest.mark.skipif(find_spec("mypy") is None, reason="needs mypy")
 # one are lines that must be refused.
 SCRIPT = """
 from array import array
+from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from pathlib import Path
 
@@ -65,6 +66,28 @@ quake = pulses.sample(seed=1, member=np.uint64(7))
 arrivals, amplitudes = pulses.pulses(seed=1, member=7)
 density: float = pulses.density(2)
 densities: NDArray[np.float64] = pulses.density([2, 3])
+
+class Mine:
+    duration, configuration = 60.0, {"of": "my own"}
+
+    def sample(self, *, seed: int, member: int) -> ss.GroundMotion:
+        return quake
+
+e = ss.run_ensemble(wheel, ss.PoissonPulses.event("great near field"), members=10, seed=1)
+e = ss.run_ensemble(cart, Mine(), members=np.int64(10), seed=1, executor=ThreadPoolExecutor())
+e = ss.run_ensemble(block, Mine(), members=10, seed=1, progress=print, checkpoint=Path("a.npz"))
+error: NDArray[np.float64] = e.displacement_variance_error
+bounds: tuple[float, float] = (e.quantile(0.95).low, e.exceedance(0.1).high)
+rate: ss.Estimate = e.stationary.growth_rate
+line: NDArray[np.float64] = e.velocity_spectrum.density / e.velocity_spectrum.error
+e.merge(ss.Ensemble.load("a.npz"))
+e.save(Path("b.npz"))
+e.plot(title="mine")
+try:
+    ss.run_ensemble(block, Mine(), members=10, seed=1)
+except ss.EnsembleError as failure:
+    failure.partial.save(f"until-{failure.members.start}.npz")
+
 try:
     r.plot(title="Kobe")
 except ss.ConvergenceError as error:
@@ -94,6 +117,11 @@ pulses.sample(1, 7)  # type: ignore[call-arg]
 pulses.sample(seed=1, member=0.5)  # type: ignore[arg-type]
 block.slip_level = 2.0  # type: ignore[misc]
 r.peak = 2.0  # type: ignore[misc]
+e.members = 3  # type: ignore[misc]
+ss.run_ensemble(block, quake, members=10, seed=1)  # type: ignore[arg-type]
+ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[arg-type]
+ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-arg]
+ss.nothing  # type: ignore[attr-defined]
 """
 
 
