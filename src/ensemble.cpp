@@ -608,8 +608,15 @@ Interval Ensemble::exceedance(double level, double confidence) const {
         std::count_if(values.peak.begin(), values.peak.end(), [&](double peak) { return peak > level; }));
   const auto k = static_cast<double>(exceeding), n = static_cast<double>(members_all);
   const double tail = (1 - confidence) / 2;
-  return {k / n, k == 0 ? 0 : gsl_cdf_beta_Pinv(tail, k, n - k + 1),
-          k == n ? 1 : gsl_cdf_beta_Qinv(tail, k + 1, n - k)};
+  // GSL's own inverse of the beta law fails to converge for one count in ten of 20,000, and would end the process.
+  const auto root = [](auto&& is_below) {
+    double low = 0, high = 1;
+    for (double middle = 0.5; low < middle && middle < high; middle = low + (high - low) / 2)
+      (is_below(middle) ? low : high) = middle;
+    return high;
+  };
+  return {k / n, k == 0 ? 0 : root([&](double p) { return gsl_cdf_beta_P(p, k, n - k + 1) < tail; }),
+          k == n ? 1 : root([&](double p) { return gsl_cdf_beta_Q(p, k + 1, n - k) > tail; })};
 }
 
 }  // namespace stickslip

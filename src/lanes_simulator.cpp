@@ -19,11 +19,13 @@ CasterLanes lanes_of(const Caster& law, double duration) { return {law, duration
 
 // Without ground acceleration until they rest.
 template <class Law>
-void settle_all(const Law& law, const LaneStates& states, std::size_t members) {
+void settle_all(const Law& law, const LaneStates& states, std::uint64_t first_member, std::size_t members) {
   const Slider<Law> slider(law);
   for (std::size_t i = 0; i < members; ++i) {
     State state = State::at(states.displacement[i], states.velocity[i]);
-    settle(slider, state, [&](double duration) { advance(slider, Segment{duration, 0, 0}, state); });
+    naming_member(first_member + i, [&] {
+      settle(slider, state, [&](double duration) { advance(slider, Segment{duration, 0, 0}, state); });
+    });
     states.displacement[i] = state.displacement;
     states.peak[i] = std::max(states.peak[i], std::abs(state.displacement));
   }
@@ -54,7 +56,7 @@ class LanesSimulator final : public Simulator {
       if (i % every == 0) block.row(i / every, displacement_.data(), velocity_.data());
       if (i % 256 == 0) block.beat();
     }
-    if (settle_) settle_all(law_, states, members);
+    if (settle_) settle_all(law_, states, first_member, members);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
@@ -123,7 +125,7 @@ class PulseSimulator final : public Simulator {
     advance_lanes(lanes_, excitation_.duration(), pulses_,
                   {block.times().dt, times, displacements_.data(), velocities_.data()}, states);
     for (std::size_t k = 0; k < times; ++k) block.row(k, &displacements_[k * width], &velocities_[k * width]);
-    if (settle_) settle_all(law_, states, members);
+    if (settle_) settle_all(law_, states, first_member, members);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
@@ -161,7 +163,8 @@ std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const PoissonPuls
                                            bool settle) {
   const std::size_t edges = excitation.options().shape.times().size();
   // Blocks so long that they could not be interrupted within a blink go member by member.
-  if (edges > most_edges || excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5) return nullptr;
+  if (edges > most_edges || excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
+    return nullptr;
   return std::make_unique<PulseSimulator>(law, excitation, seed, settle);
 }
 

@@ -192,8 +192,7 @@ struct Places {
   }
   friend HWY_INLINE Mask operator!=(const Places& a, const Places& b) {
     Mask result;
-    for (std::size_t i = 0; i < parts; ++i)
-      result.part[i] = hn::RebindMask(Tag(), hn::Ne(a.part[i], b.part[i]));
+    for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::RebindMask(Tag(), hn::Ne(a.part[i], b.part[i]));
     return result;
   }
   friend HWY_INLINE Places select(const Mask& mask, const Places& yes, const Places& no) {

@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
 
-using Real = Pack<lanes < 8 ? 2 : 1>;
+using Real = Pack < lanes<8 ? 2 : 1>;
 using Bool = Real::Mask;
 using Place = Places<Real::size / lanes>;
 
@@ -37,7 +37,7 @@ HWY_INLINE void slide(const Real& forward, const Real& backward, const Real& loa
 // So many edges that they stay in registers; or, with 0, any number up to `most_edges`.
 template <std::size_t fixed_edges>
 HWY_INLINE void move(const PulseLanes& slider, double end, const PulseStreams& pulses, const PulseHistory& history,
-                        const LaneStates& states) {
+                     const LaneStates& states) {
   constexpr std::size_t room = fixed_edges == 0 ? most_edges : fixed_edges;
   const Real forward = slider.forward, backward = slider.backward;
   const std::size_t edges = fixed_edges == 0 ? slider.edges.size() : fixed_edges, width = pulses.first.size();
@@ -50,7 +50,7 @@ HWY_INLINE void move(const PulseLanes& slider, double end, const PulseStreams& p
       time[e] = next[e].gather(pulses.arrivals.data()) + slider.edges[e];
     }
     Place row = Place::counting(static_cast<std::int64_t>(i));  // in the history
-    Real wanted = 0.0, number = 0.0;                           // the next time that is wanted, and its number
+    Real wanted = 0.0, number = 0.0;                            // the next time that is wanted, and its number
     for (;;) {
       Real first = wanted;
       for (std::size_t e = 0; e < edges; ++e) first = min(first, time[e]);

@@ -259,7 +259,8 @@ TEST_CASE("statistics are those of the members", "[ensemble]") {
     return sum / static_cast<long double>(length);
   };
   const double scatter = direct.covariance(mean_velocity, mean_velocity);
-  CHECK(std::abs(s.velocity_mean.value - static_cast<double>(direct.mean(mean_velocity))) <= 1e-12 * std::sqrt(scatter));
+  CHECK(std::abs(s.velocity_mean.value - static_cast<double>(direct.mean(mean_velocity))) <=
+        1e-12 * std::sqrt(scatter));
   CHECK(s.velocity_mean.error == Approx(std::sqrt(scatter / n)).epsilon(1e-12));
   const auto growth = [&](std::size_t steps) {
     const auto way = [&](const Response& m) -> long double {
@@ -339,7 +340,8 @@ TEST_CASE("times of the statistics fall between samples of any motion", "[ensemb
     Response r = integrate(Coulomb(1), GroundMotion(n, times));
     std::vector<double> at_times;
     for (int k = 0; k < 25; ++k)
-      at_times.push_back(r.displacement[static_cast<std::size_t>(std::ranges::lower_bound(times, 0.77 * k) - times.begin())]);
+      at_times.push_back(
+          r.displacement[static_cast<std::size_t>(std::ranges::lower_bound(times, 0.77 * k) - times.begin())]);
     r.displacement = at_times;
     direct.members.push_back(std::move(r));
   }
@@ -481,7 +483,8 @@ TEST_CASE("a member that fails ends the run and is named", "[ensemble][errors]")
                     "low, for pieces of motion this long");
   CHECK_THROWS_WITH(run_ensemble(Coulomb(0), PoissonPulses(1, 0.5, 1, 5), o),
                     ContainsSubstring("run_ensemble: member ") && ContainsSubstring("does not come to rest"));
-  CHECK_THROWS_AS(run_ensemble(Coulomb(0), shaking(50), o), ConvergenceError);
+  CHECK_THROWS_WITH(run_ensemble(Coulomb(0), shaking(50), o),
+                    ContainsSubstring("run_ensemble: member ") && ContainsSubstring("does not come to rest"));
 
   struct Violent {
     GroundMotion sample(std::uint64_t, std::uint64_t) const { return {{1e100, 1e100}, 1e150}; }
@@ -533,7 +536,8 @@ TEST_CASE("what differs is not merged, and is said", "[ensemble][errors]") {
   const Ensemble ensemble = run(Coulomb(1), shaking(20), options(64));
   const auto refuses = [&](const Ensemble& other, const char* text) {
     Ensemble copy = ensemble;
-    CHECK_THROWS_WITH(copy.merge(other), ContainsSubstring("Ensemble: cannot merge what differs: ") && ContainsSubstring(text));
+    CHECK_THROWS_WITH(copy.merge(other),
+                      ContainsSubstring("Ensemble: cannot merge what differs: ") && ContainsSubstring(text));
     CHECK(same_bits(copy, ensemble));
     CHECK_THROWS_AS(run_ensemble(Coulomb(1), shaking(20), options(64), &other), std::invalid_argument);
   };
@@ -562,8 +566,7 @@ TEST_CASE("members that are there already are not merged again", "[ensemble][err
   };
   Ensemble ensemble = run(256, 0);
   const Ensemble before = ensemble;
-  CHECK_THROWS_WITH(ensemble.merge(run(64, 128)),
-                    "Ensemble: cannot merge, both hold members from 128 to 191");
+  CHECK_THROWS_WITH(ensemble.merge(run(64, 128)), "Ensemble: cannot merge, both hold members from 128 to 191");
   CHECK_THROWS_AS(ensemble.merge(ensemble), std::invalid_argument);
   CHECK_THROWS_AS(ensemble.merge(run(512, 0)), std::invalid_argument);
   CHECK(same_bits(ensemble, before));
@@ -679,7 +682,8 @@ TEST_CASE("standard errors are as large as the scatter between ensembles", "[ens
     spectrum_0.add({spectrum.density[0], spectrum.error[0]});
     spectrum_6.add({spectrum.density[6], spectrum.error[6]});
   }
-  for (const Figures* figure : {&x, &v, &xv, &mean_x, &mean_v, &variance, &covariance, &growth, &mean, &spectrum_0, &spectrum_6}) {
+  for (const Figures* figure :
+       {&x, &v, &xv, &mean_x, &mean_v, &variance, &covariance, &growth, &mean, &spectrum_0, &spectrum_6}) {
     CAPTURE(members, figure->values[0], figure->ratio());
     CHECK((figure->ratio() > low && figure->ratio() < high));
   }

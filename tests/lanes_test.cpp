@@ -104,11 +104,13 @@ double compare(const Case& c, std::size_t segments, Hard& hard) {
       advance(slider, Segment{c.duration, start[lane], end[lane]}, state[lane], watch);
       const double level = std::isfinite(lanes.backward) ? std::max(lanes.forward, lanes.backward) : lanes.forward;
       const double dv = (std::abs(start[lane]) + std::abs(end[lane]) + level) * c.duration;
-      const double v_scale = std::abs(before.velocity) + dv, x_scale = std::abs(before.displacement) + v_scale * c.duration;
+      const double v_scale = std::abs(before.velocity) + dv,
+                   x_scale = std::abs(before.displacement) + v_scale * c.duration;
       const State& after = state[lane];
       if (v_scale > 0) {
         const double dx_error = std::abs(x[lane] - after.displacement), peak_error = std::abs(peak[lane] - watch.peak);
-        worst = std::max({worst, std::abs(v[lane] - after.velocity) / v_scale, dx_error / x_scale, peak_error / x_scale});
+        worst =
+            std::max({worst, std::abs(v[lane] - after.velocity) / v_scale, dx_error / x_scale, peak_error / x_scale});
         if (!(dx_error + peak_error + std::abs(v[lane]) < infinity)) worst = infinity;
       }
       const bool same_way = before.velocity * after.velocity > 0;

@@ -1,9 +1,9 @@
 // Ensembles against Monte-Carlo studies by an independent program, within three combined standard errors.
 //
-// The seeds are fixed. Were they drawn anew, each comparison of right programs would fail 27 times in 10,000: one of the
-// 42 of figures 4.4 to 4.6 one time in 9, of the 36 of all bands one in 11, of the 23 others one in 16. (Those of one
-// ensemble are not independent, so that it would be less often.) Where the study gives no standard error, it is ours,
-// scaled to its number of records: the estimators are the same.
+// The seeds are fixed. Were they drawn anew, each comparison of right programs would fail 27 times in 10,000: one of
+// the 42 of figures 4.4 to 4.6 one time in 9, of the 36 of all bands one in 11, of the 23 others one in 16. (Those of
+// one ensemble are not independent, so that it would be less often.) Where the study gives no standard error, it is
+// ours, scaled to its number of records: the estimators are the same.
 #include <cmath>
 
 #include "catch.hpp"
@@ -40,8 +40,8 @@ EnsembleOptions options(std::uint64_t members, bool velocity_spectrum = false) {
 }
 
 GaussianExcitation excitation(const reference::BandPassRun& run) {
-  return {Spectrum::band_pass(1, run.low, run.low + run.width), 0.1, run.samples,
-          {.correct_interpolation = run.corrected}};
+  return {
+      Spectrum::band_pass(1, run.low, run.low + run.width), 0.1, run.samples, {.correct_interpolation = run.corrected}};
 }
 
 }  // namespace
@@ -85,8 +85,7 @@ TEST_CASE("other bands, with and without correction of the interpolation, come o
     INFO(run.id);
     const GaussianExcitation shaking = excitation(run);
     CHECK(shaking.variance() == Approx(run.input_variance).epsilon(1e-12));
-    const Stationary s =
-        run_ensemble(Coulomb(1), shaking, options(run.samples > 1024 ? 4000 : 20'000)).stationary();
+    const Stationary s = run_ensemble(Coulomb(1), shaking, options(run.samples > 1024 ? 4000 : 20'000)).stationary();
     const Estimate sigma = root(s.velocity_variance);
     CAPTURE(sigma.value, sigma.error, s.velocity_kurtosis.value, s.growth_rate.value);
     CHECK(apart(sigma, run.sigma) < three);

@@ -129,9 +129,7 @@ std::vector<Member> joined(std::vector<Member> a, const std::vector<Member>& b) 
   return a;
 }
 
-bool same_bits(const Tally& a, const Tally& b) {
-  return a.count == b.count && std::ranges::equal(a.sums(), b.sums());
-}
+bool same_bits(const Tally& a, const Tally& b) { return a.count == b.count && std::ranges::equal(a.sums(), b.sums()); }
 
 }  // namespace
 
@@ -161,7 +159,8 @@ TEST_CASE("an empty tally changes nothing, from either side", "[statistics]") {
 }
 
 TEST_CASE("many merges one after another lose no more than their roundings", "[statistics]") {
-  // 200 blocks in a row: the roundings of 200 merges, of either sign: 5e-14 sqrt(200) = 7e-13 even if each were that bad.
+  // 200 blocks in a row: the roundings of 200 merges, of either sign: 5e-14 sqrt(200) = 7e-13 even if each were that
+  // bad.
   std::vector<Member> all;
   Tally sum;
   for (std::uint64_t block = 0; block < 200; ++block) {
@@ -285,7 +284,8 @@ TEST_CASE("a tree of tallies has the same bits, in whatever order and parts its 
     // Three parts, each a tree, put together.
     const std::size_t first = bits() % (blocks + 1), second = first + bits() % (blocks + 1 - first);
     const auto part = [&](std::size_t begin, std::size_t end) {
-      return tree_of({order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(end)});
+      return tree_of(
+          {order.begin() + static_cast<std::ptrdiff_t>(begin), order.begin() + static_cast<std::ptrdiff_t>(end)});
     };
     TallyTree whole = part(first, second);
     for (const TallyTree& other : {part(second, blocks), part(0, first)})
@@ -306,11 +306,11 @@ TEST_CASE("a tree knows which blocks it holds", "[statistics]") {
   CHECK(tree.count() == 10);
   for (std::uint64_t block = 0; block < 12; ++block)
     CHECK(tree.overlaps({0, block}) == ((block >= 4 && block < 8) || block == 10));
-  CHECK(tree.overlaps({1, 5}));         // 10 and 11
-  CHECK(tree.overlaps({3, 0}));         // 0 to 7
-  CHECK(tree.overlaps({60, 0}));        // all there are
-  CHECK_FALSE(tree.overlaps({2, 0}));   // 0 to 3
-  CHECK_FALSE(tree.overlaps({2, 3}));   // 12 to 15
+  CHECK(tree.overlaps({1, 5}));        // 10 and 11
+  CHECK(tree.overlaps({3, 0}));        // 0 to 7
+  CHECK(tree.overlaps({60, 0}));       // all there are
+  CHECK_FALSE(tree.overlaps({2, 0}));  // 0 to 3
+  CHECK_FALSE(tree.overlaps({2, 3}));  // 12 to 15
   CHECK_FALSE(tree.overlaps({60, 1}));
 }
 

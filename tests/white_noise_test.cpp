@@ -1,5 +1,5 @@
-// Coulomb friction under white noise, of which everything is known: with D = pi S0, the velocity is Laplace distributed,
-// p(v) = a / (2 D) exp(-a |v| / D), thesis chapter 3.
+// Coulomb friction under white noise, of which everything is known: with D = pi S0, the velocity is Laplace
+// distributed, p(v) = a / (2 D) exp(-a |v| / D), thesis chapter 3.
 //
 // White noise is loads held for dt, independent, of variance 2 pi S0 / dt. Away from rest a step is then exact: a drift
 // and a Gaussian increment. Near rest, within sqrt(D dt), the held load and the white one differ in when the velocity
@@ -28,7 +28,9 @@ constexpr double pi = std::numbers::pi;
 
 /// Held loads of white noise, S0 = 1, through `duration`.
 GaussianExcitation white(double dt, double duration) {
-  return {Spectrum::white(1), dt, static_cast<std::size_t>(std::lround(duration / dt)),
+  return {Spectrum::white(1),
+          dt,
+          static_cast<std::size_t>(std::lround(duration / dt)),
           {.interpolation = Interpolation::constant,
            .correct_interpolation = false,
            .random_amplitudes = true,
@@ -63,8 +65,8 @@ TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as d
     const GaussianExcitation noise = white(time_steps[i], duration);
     CHECK(noise.variance() == Approx(2 * pi / time_steps[i]).epsilon(1e-12));
     found[i] = run_ensemble(Coulomb(1), noise, options(5000)).stationary();
-    CAPTURE(time_steps[i], found[i].velocity_variance.value, found[i].velocity_variance.error, found[i].growth_rate.value,
-            found[i].growth_rate.error, found[i].velocity_kurtosis.value);
+    CAPTURE(time_steps[i], found[i].velocity_variance.value, found[i].velocity_variance.error,
+            found[i].growth_rate.value, found[i].growth_rate.error, found[i].velocity_kurtosis.value);
     const reference::WhiteRun& run = reference::white_runs[i];
     REQUIRE(run.dt == time_steps[i]);
     CHECK(apart(found[i].growth_rate, run.growth.value, run.growth.error) < 3);

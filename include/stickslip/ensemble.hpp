@@ -238,6 +238,16 @@ class Simulator {
   virtual void simulate(std::uint64_t first_member, std::size_t members, Block& block) = 0;
 };
 
+/// Does the work; a failure to converge says which member it was.
+template <class Work>
+void naming_member(std::uint64_t member, Work&& work) {
+  try {
+    work();
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError("run_ensemble: member " + std::to_string(member) + ": " + error.what());
+  }
+}
+
 /// Any slider under any excitation, one member after the other, through the event loop of `advance`.
 template <FrictionLaw Law, Excitation E>
 class MemberSimulator final : public Simulator {
@@ -251,11 +261,9 @@ class MemberSimulator final : public Simulator {
     velocity_.resize(times * width);
     for (std::size_t i = 0; i < members; ++i) {
       const GroundMotion motion = excitation_.sample(seed_, first_member + i);
-      try {
+      naming_member(first_member + i, [&] {
         with_flows(slider_, motion.dt(), [&](const auto& flows) { slide(flows, motion, i, block); });
-      } catch (const ConvergenceError& error) {
-        throw ConvergenceError("run_ensemble: member " + std::to_string(first_member + i) + ": " + error.what());
-      }
+      });
     }
     for (std::size_t k = 0; k < times; ++k) block.row(k, &displacement_[k * width], &velocity_[k * width]);
   }
@@ -297,7 +305,7 @@ class MemberSimulator final : public Simulator {
     const std::size_t width = block.width(), times = block.times().count;
     const double dt = block.times().dt, begin = motion.time(0);
     State state;
-    PeakObserver observer(block, 1'000'000 + 8 * (motion.segments() + times));  // as in `integrate`
+    PeakObserver observer(block, 1'000'000 + 8 * (motion.segments() + times));
     std::size_t next = 0;  // time of the statistics
     const auto keep = [&] {
       displacement_[next * width + member] = state.displacement;

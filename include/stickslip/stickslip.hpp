@@ -3,9 +3,11 @@
 
 #include "stickslip/build_info.hpp"
 #include "stickslip/core.hpp"
+#include "stickslip/ensemble.hpp"
 #include "stickslip/envelope.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/poisson.hpp"
+#include "stickslip/histories.hpp"
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"

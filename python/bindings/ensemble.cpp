@@ -168,9 +168,9 @@ Ensemble ensemble_of(const py::dict& state) {
   for (std::size_t i = 0; i < kept_block.size(); ++i) {
     expect(kept_size[i] <= block && kept_size[i] <= peak.size() - from, "a block has more members than peaks");
     const auto begin = static_cast<std::ptrdiff_t>(from), end = static_cast<std::ptrdiff_t>(from += kept_size[i]);
-    parts.kept.emplace_hint(parts.kept.end(), kept_block[i],
-                            Ensemble::Kept{{peak.begin() + begin, peak.begin() + end},
-                                           {residual.begin() + begin, residual.begin() + end}});
+    parts.kept.emplace_hint(
+        parts.kept.end(), kept_block[i],
+        Ensemble::Kept{{peak.begin() + begin, peak.begin() + end}, {residual.begin() + begin, residual.begin() + end}});
   }
   expect(from == peak.size(), "there are more peaks than members");
 
@@ -233,11 +233,10 @@ class PythonExcitation {
                     "run_ensemble: the excitation's duration must be positive and finite", duration_, "s");
     if (py::hasattr(object, "dt") && !object.attr("dt").is_none()) dt_ = object.attr("dt").cast<double>();
     const py::object configuration = attribute(object, "configuration");
-    configuration_ = py::isinstance<py::str>(configuration)
-                         ? configuration.cast<std::string>()
-                         : py::module_::import("json")
-                               .attr("dumps")(configuration, py::arg("sort_keys") = true)
-                               .cast<std::string>();
+    configuration_ =
+        py::isinstance<py::str>(configuration)
+            ? configuration.cast<std::string>()
+            : py::module_::import("json").attr("dumps")(configuration, py::arg("sort_keys") = true).cast<std::string>();
   }
 
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
@@ -399,8 +398,9 @@ Times are shape (T,), members shape (members,). Arrays are read-only and made wh
       .def_property_readonly(
           "block", [](const Ensemble& e) { return Ensemble::block(e.parts().times.count); },
           "Members are simulated and summed in blocks of this many: a part begins on a multiple of it.")
-      .def_property_readonly("configuration", &configuration_of,
-                             "What the members depend on, as a dict: slider, excitation, seed, times of the statistics.")
+      .def_property_readonly(
+          "configuration", &configuration_of,
+          "What the members depend on, as a dict: slider, excitation, seed, times of the statistics.")
       .def_property_readonly(
           "time", [](const Ensemble& e) { return array_of(e.time()); }, "Times of the statistics [s], from 0 on.")
       .def_property_readonly("displacement_mean", &by_time<&Ensemble::displacement_mean, &Estimates::value>,
@@ -519,8 +519,7 @@ Notes
 -----
 Some 100 bytes for each time and 16 for each member.)")
       .def_static(
-          "load",
-          [](const py::object& file) { return py::module_::import("stickslip.ensemble").attr("load")(file); },
+          "load", [](const py::object& file) { return py::module_::import("stickslip.ensemble").attr("load")(file); },
           py::arg("file"),
           R"(Reads what `save` wrote, to the bit.
 

@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import stickslip as ss
+from scipy.stats import kstatvar
 from sources import BAND, BLOCK, SHAKING, Delayed, refuse, same_bits
 
 CART = ss.Slider(ss.Caster(slip_level=2.0, reach=0.5), natural_frequency=1.3)
@@ -63,15 +64,31 @@ def test_statistics_are_those_of_the_single_members(slider):
     near(e.velocity_mean, v.mean(0), v.std())
     near(e.velocity_mean_error, v.std(0, ddof=1) / math.sqrt(n))
     dx, dv = x - x.mean(0), v - v.mean(0)
-    for name, d in (("displacement", dx), ("velocity", dv)):
-        variance, fourth = (d**2).sum(0) / (n - 1), (d**4).mean(0)
-        near(getattr(e, f"{name}_variance"), variance)
-        error = np.sqrt((fourth - variance**2 * (n - 3) / (n - 1)) / n)
-        near(getattr(e, f"{name}_variance_error"), error)
-    xx, xv, vv = ((a * b).sum(0) / (n - 1) for a, b in ((dx, dx), (dx, dv), (dv, dv)))
-    near(e.covariance, xv, np.sqrt(xx * vv).max())
-    square = (dx**2 * dv**2).mean(0) - (n - 2) / (n - 1) * xv**2 + xx * vv / (n - 1)
-    near(e.covariance_error, np.sqrt(square / n))
+    for name, a, b in (
+        ("displacement_variance", dx, dx),
+        ("velocity_variance", dv, dv),
+        ("covariance", dx, dv),
+    ):
+        covariance, error = covariance_of(a, b)
+        scale = np.sqrt(a.var(0).max() * b.var(0).max())
+        near(getattr(e, name), covariance, scale)
+        near(getattr(e, f"{name}_error"), error, scale)
+    assert covariance_of(dv, dv)[1][100] ** 2 == pytest.approx(kstatvar(v[:, 100], 2), rel=1e-9)
+
+
+def covariance_of(a, b):
+    """The unbiased covariance of deviations by time, and its standard error, by k-statistics.
+
+    Its variance is kappa_22 / n + (kappa_20 kappa_02 + kappa_11^2) / (n - 1); unbiased estimates of
+    the cumulants and their products: Kendall and Stuart, vol. 1, ch. 12 and 13.
+    """
+    n = len(a)
+    s11, s20, s02, s22 = ((c * d).sum(0) for c, d in ((a, b), (a, a), (b, b), (a * a, b * b)))
+    k11, k20, k02 = s11 / (n - 1), s20 / (n - 1), s02 / (n - 1)
+    k22 = n * (n + 1) * s22 - (n - 1) * (s20 * s02 + 2 * s11**2)
+    k22 /= (n - 1) * (n - 2) * (n - 3)
+    squares = ((n - 3) * k11**2 + (n - 1) * k20 * k02) / ((n - 2) * (n + 1))
+    return k11, np.sqrt((n - 1) / (n * (n + 1)) * k22 + squares)
 
 
 def test_stationary_averages_are_over_the_central_half():
