@@ -32,6 +32,7 @@ void bind_coulomb(py::module_& m);
 void bind_caster(py::module_& m);
 void bind_slider(py::module_& m);
 void bind_ground_motion(py::module_& m);
+void bind_histories(py::module_& m);
 void bind_records(py::module_& m);
 void bind_response(py::module_& m);
 void bind_integrate(py::module_& m);
@@ -42,9 +43,25 @@ void bind_poisson(py::module_& m);
 void bind_ensemble(py::module_& m);
 void bind_build_info(py::module_& m);
 
+/// Lets Ctrl-C through while the interpreter is not held.
+inline void check_for_interrupt() {
+  const py::gil_scoped_acquire held;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 /// A read-only array over `values`, which live as long as `owner`.
 inline py::array_t<double> view(std::span<const double> values, py::handle owner) {
   py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// A read-only array that takes the values over.
+template <class T>
+py::array_t<T> array_of(std::vector<T> values) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  py::array_t<T> array(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }

@@ -15,16 +15,6 @@ namespace {
 
 // ---- arrays and figures
 
-/// A read-only array that takes the values over.
-template <class T>
-py::array_t<T> array_of(std::vector<T> values) {
-  auto* const kept = new std::vector<T>(std::move(values));
-  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  py::array_t<T> array(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
 template <Estimates (Ensemble::*figure)() const, std::vector<double> Estimates::*part>
 py::array_t<double> by_time(const Ensemble& ensemble) {
   return array_of(std::move((ensemble.*figure)().*part));

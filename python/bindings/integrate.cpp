@@ -4,12 +4,6 @@
 namespace stickslip::python {
 namespace {
 
-// Lets Ctrl-C through while the interpreter is not held.
-void check_for_interrupt() {
-  const py::gil_scoped_acquire held;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
                         bool settle) {
   if (!py::isinstance<GroundMotion>(motion))

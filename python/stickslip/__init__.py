@@ -38,6 +38,7 @@ from ._core import (
     VelocitySpectrum,
     __version__,
     build_info,
+    histories,
     integrate,
     read_record,
 )
@@ -67,6 +68,7 @@ __all__ = [
     "VelocitySpectrum",
     "__version__",
     "build_info",
+    "histories",
     "integrate",
     "read_record",
     "run_ensemble",

@@ -472,6 +472,9 @@ def integrate(
     velocity: _Number = 0.0,
     settle: bool = False,
 ) -> Response: ...
+def histories(
+    slider: Slider | Coulomb | Caster, motion: GroundMotion
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def read_record(
     file: str | bytes | PathLike[str] | PathLike[bytes],
     *,
