@@ -234,6 +234,9 @@ void check(const Input& input) {
                        1e-12 * response.peak);
   advance_loop(Slider(Coulomb(slip_level)), n, x, v);
   bench::require_below("advance" + title + ": x from integrate's", largest_difference(x, response.displacement), 0);
+  bench::require_below("histories" + title + ": x from integrate's",
+                       largest_difference(histories(Coulomb(slip_level), motion).displacement, response.displacement),
+                       1e-12 * response.peak);
 }
 
 // ---- the times
@@ -266,6 +269,7 @@ std::vector<bench::Timing> time(const Input& input, int rounds) {
     response = integrate(Coulomb(slip_level), motion, {}, std::move(response));
     bench::keep(response);
   });
+  bench.add("histories: Coulomb", [&] { bench::keep(histories(Coulomb(slip_level), motion)); });
   for_each_slider([&](const std::string& name, const auto& slider) {
     bench.add("integrate: " + name, [&motion, slider] { bench::keep(integrate(slider, motion)); });
   });

@@ -109,7 +109,8 @@ ACCOUNT = "numba, with events and energies"
 BARE_STEP = "heyoka, a bare step of 0.1 s"
 SAME_SAMPLES = "stickslip, the samples heyoka had"
 AGAIN = ", memory used again"
-QUICK = ("stickslip", "numba", ACCOUNT)
+HISTORIES = "stickslip.histories: x and v alone"
+QUICK = ("stickslip", HISTORIES, "numba", ACCOUNT)
 
 Works = dict[str, tuple[Callable[[], object], int]]
 
@@ -145,6 +146,11 @@ class Run:
                 self.references[name] = fine
             self.add(name, "stickslip", partial(ss.integrate, slider, motion), N, r.displacement)
             require(f"{name}: x", self.errors[name]["stickslip"], 1e-9 * r.peak)
+
+            if name in ("Coulomb", "Coulomb, spring"):
+                work = partial(ss.histories, slider, motion)
+                self.add(name, HISTORIES, work, N, work()[0])
+                require(f"{name}: x of histories", self.errors[name][HISTORIES], 1e-9 * r.peak)
 
     def add(self, slider: str, name: str, work: Callable, items: int, x: np.ndarray) -> None:
         self.works[slider][name] = (work, items)
@@ -245,6 +251,8 @@ def print_bars(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | None
     plain = timings["Coulomb"].get("numba")
     if plain:
         print(bar("Coulomb through Python / numba", ours["Coulomb"].ratio(plain), 1))
+        same = timings["Coulomb"][HISTORIES].ratio(plain)
+        print(bar("Coulomb, x and v alone as numba's, through Python / numba", same, 1))
         if cpp:
             for more in ("", AGAIN):
                 in_cpp = cpp["rows"][f"integrate: Coulomb{more}"]["median"]

@@ -37,9 +37,9 @@ GaussianExcitation white(double dt, double duration) {
            .zero_frequency = true}};
 }
 
-// Under the sanitizers, which take ten times as long, a tenth of the members.
+// Under the sanitizers, which take ten times as long, a quarter of the members.
 #ifdef __SANITIZE_ADDRESS__
-constexpr unsigned fewer = 10;
+constexpr unsigned fewer = 4;
 #else
 constexpr unsigned fewer = 1;
 #endif
@@ -95,7 +95,7 @@ TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as d
   CAPTURE(variance.value, variance.error, growth.value, growth.error, kurtosis.value, kurtosis.error);
   CHECK(apart(variance, 2 * pi * pi) < 3);
   CHECK(apart(growth, 10 * pi * pi * pi) < 3);
-  CHECK(apart(kurtosis, 6) < 3);
+  if (fewer == 1) CHECK(apart(kurtosis, 6) < 3);  // few members know too little of eighth powers to tell its error
   CHECK(variance.error < 0.012 * 2 * pi * pi * std::sqrt(fewer));  // it says something
 }
 

@@ -86,7 +86,7 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   recorder.begin_segment(motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
-  const detail::Histories histories{response.displacement, response.velocity};
+  const detail::HistorySpans histories{response.displacement, response.velocity};
   detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
     detail::run(slider.law(), flows, motion, state, recorder, histories);
     if (options.settle) {

@@ -12,7 +12,7 @@
 namespace stickslip::detail {
 
 /// The motion at the samples.
-struct Histories {
+struct HistorySpans {
   std::span<double> displacement, velocity;
 
   void keep(std::size_t sample, const State& state) const noexcept {
@@ -24,7 +24,7 @@ struct Histories {
 /// Slides through all segments, one by one.
 template <FrictionLaw Law, class Flows>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          Recorder<Law>& recorder, const Histories& histories) {
+                          Recorder<Law>& recorder, const HistorySpans& histories) {
   State moving = state;
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     if ((i + 1) % Recorder<Law>::work_a_beat == 0) recorder.heartbeat();
