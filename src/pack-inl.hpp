@@ -29,6 +29,13 @@ template <std::size_t parts>
 struct PackMask {
   hn::Mask<Tag> part[parts];
 
+  /// The first `count` of them.
+  static HWY_INLINE PackMask first(std::size_t count) {
+    PackMask result;
+    for (std::size_t i = 0; i < parts; ++i)
+      result.part[i] = hn::FirstN(Tag(), count > i * lanes ? count - i * lanes : 0);
+    return result;
+  }
   friend HWY_INLINE PackMask operator&(const PackMask& a, const PackMask& b) {
     PackMask result;
     for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::And(a.part[i], b.part[i]);

@@ -3,158 +3,126 @@
 #include "row_moments.hpp"
 
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
 
+#include "pack-inl.hpp"
 #include "stickslip/statistics.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<double, row_padding>;
-using V = hn::Vec<D>;
 
-// The sums of (x - e)^p (v - f)^q become those about a mean that lies e, f lower.
+using Real = Pack<1>;
+using Bool = Real::Mask;
+
+// Sums of (x - mean)^p (x' - mean)^q.
 struct Sums {
-  V xx, xv, vv, xxx, xxv, xvv, vvv, xxxx, xxvv, vvvv;
+  Real xx, xv, vv, xxx, xxv, xvv, vvv, xxxx, xxvv, vvvv;
 
-  HWY_INLINE void shift(V n, V e, V f) {
-    const D d;
-    const V two = hn::Set(d, 2), three = hn::Set(d, 3), four = hn::Set(d, 4), six = hn::Set(d, 6);
-    const V ee = hn::Mul(e, e), ef = hn::Mul(e, f), ff = hn::Mul(f, f);
-    const auto sum = [](auto... terms) HWY_ATTR {
-      V total = hn::Zero(D());
-      ((total = hn::Add(total, terms)), ...);
-      return total;
-    };
-    const auto times = [](V first, auto... factors) HWY_ATTR {
-      ((first = hn::Mul(first, factors)), ...);
-      return first;
-    };
-    xxxx = sum(xxxx, times(four, e, xxx), times(six, ee, xx), times(n, ee, ee));
-    vvvv = sum(vvvv, times(four, f, vvv), times(six, ff, vv), times(n, ff, ff));
-    xxvv = sum(xxvv, times(two, f, xxv), times(two, e, xvv), times(ff, xx), times(ee, vv), times(four, ef, xv),
-               times(n, ee, ff));
-    xxx = sum(xxx, times(three, e, xx), times(n, ee, e));
-    xxv = sum(xxv, times(two, e, xv), times(f, xx), times(n, ee, f));
-    xvv = sum(xvv, times(two, f, xv), times(e, vv), times(n, e, ff));
-    vvv = sum(vvv, times(three, f, vv), times(n, ff, f));
-    xx = hn::Add(xx, hn::Mul(n, ee));
-    xv = hn::Add(xv, hn::Mul(n, ef));
-    vv = hn::Add(vv, hn::Mul(n, ff));
+  // To means that lie e and f lower, of n members.
+  HWY_INLINE void shift(const Real& n, const Real& e, const Real& f) {
+    const Real ee = e * e, ef = e * f, ff = f * f;
+    xxxx = xxxx + (e * 4.0 * xxx + ee * 6.0 * xx) + n * ee * ee;
+    vvvv = vvvv + (f * 4.0 * vvv + ff * 6.0 * vv) + n * ff * ff;
+    xxvv = xxvv + (f * xxv + e * xvv) * 2.0 + (ff * xx + ee * vv + ef * 4.0 * xv) + n * ee * ff;
+    xxx = xxx + e * 3.0 * xx + n * ee * e;
+    xxv = xxv + (e * 2.0 * xv + f * xx) + n * ee * f;
+    xvv = xvv + (f * 2.0 * xv + e * vv) + n * e * ff;
+    vvv = vvv + f * 3.0 * vv + n * ff * f;
+    xx = xx + n * ee;
+    xv = xv + n * ef;
+    vv = vv + n * ff;
   }
 
-  template <class F>
-  static HWY_INLINE void each(F use) {
+  template <class Use>
+  static HWY_INLINE void each(Use use) {
     use(&Sums::xx, Tally::xx), use(&Sums::xv, Tally::xv), use(&Sums::vv, Tally::vv);
     use(&Sums::xxx, Tally::xxx), use(&Sums::xxv, Tally::xxv), use(&Sums::xvv, Tally::xvv), use(&Sums::vvv, Tally::vvv);
     use(&Sums::xxxx, Tally::xxxx), use(&Sums::xxvv, Tally::xxvv), use(&Sums::vvvv, Tally::vvvv);
   }
 };
 
-// Lanes past the last member are left out.
-template <bool whole, class Use>
-HWY_INLINE void each_vector(std::size_t members, Use use) {
-  const D d;
-  for (std::size_t i = 0; i < members; i += hn::Lanes(d)) {
-    const auto counted = hn::FirstN(d, members - i);
-    use(i, [counted](V value) HWY_ATTR { return whole ? value : hn::IfThenElseZero(counted, value); });
-  }
-}
-
+// `whole`: the row has no lanes past the last member, which are left out.
 template <bool whole, bool central>
 HWY_INLINE void row(const double* HWY_RESTRICT x, const double* HWY_RESTRICT v, std::size_t members,
-                    double* HWY_RESTRICT sums, std::size_t stride, const CentralSums* central_sums) {
-  const D d;
-  V mean_x = hn::Zero(d), mean_v = hn::Zero(d);
-  each_vector<whole>(members, [&](std::size_t i, auto keep) HWY_ATTR {
-    mean_x = hn::Add(mean_x, keep(hn::LoadU(d, x + i)));
-    mean_v = hn::Add(mean_v, keep(hn::LoadU(d, v + i)));
-  });
-  const V share = hn::Set(d, 1.0 / static_cast<double>(members));
-  mean_x = hn::Mul(hn::SumOfLanes(d, mean_x), share);
-  mean_v = hn::Mul(hn::SumOfLanes(d, mean_v), share);
+                    double* HWY_RESTRICT sums, std::size_t stride, const CentralSums* HWY_RESTRICT to) {
+  const auto counted = [members](std::size_t i, const Real& value)
+                           HWY_ATTR { return whole ? value : where(Bool::first(members - i), value); };
+  Real total_x = 0.0, total_v = 0.0;
+  for (std::size_t i = 0; i < members; i += Real::size) {
+    total_x = total_x + counted(i, Real::load(x + i));
+    total_v = total_v + counted(i, Real::load(v + i));
+  }
+  const double mean_x = sum(total_x) / static_cast<double>(members);
+  const double mean_v = sum(total_v) / static_cast<double>(members);
 
-  const V zero = hn::Zero(d);
-  V xx = zero, xv = zero, vv = zero, xxx = zero, xxv = zero, xvv = zero, vvv = zero, xxxx = zero, xxvv = zero,
-    vvvv = zero;
-  each_vector<whole>(members, [&](std::size_t i, auto keep) HWY_ATTR {
-    const V velocity = hn::LoadU(d, v + i);
-    const V e = keep(hn::Sub(hn::LoadU(d, x + i), mean_x));
-    const V f = keep(hn::Sub(velocity, mean_v));
-    const V ee = hn::Mul(e, e), ef = hn::Mul(e, f), ff = hn::Mul(f, f);
-    xx = hn::Add(xx, ee);
-    xv = hn::Add(xv, ef);
-    vv = hn::Add(vv, ff);
-    xxx = hn::MulAdd(ee, e, xxx);
-    xxv = hn::MulAdd(ee, f, xxv);
-    xvv = hn::MulAdd(e, ff, xvv);
-    vvv = hn::MulAdd(ff, f, vvv);
-    xxxx = hn::MulAdd(ee, ee, xxxx);
-    xxvv = hn::MulAdd(ee, ff, xxvv);
-    vvvv = hn::MulAdd(ff, ff, vvvv);
+  const Real zero = 0.0;
+  Sums s{zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+  for (std::size_t i = 0; i < members; i += Real::size) {
+    const Real velocity = Real::load(v + i);
+    const Real e = counted(i, Real::load(x + i) - mean_x), f = counted(i, velocity - mean_v);
+    const Real ee = e * e, ef = e * f, ff = f * f;
+    s.xx = s.xx + ee;
+    s.xv = s.xv + ef;
+    s.vv = s.vv + ff;
+    s.xxx = fma(ee, e, s.xxx);
+    s.xxv = fma(ee, f, s.xxv);
+    s.xvv = fma(e, ff, s.xvv);
+    s.vvv = fma(ff, f, s.vvv);
+    s.xxxx = fma(ee, ee, s.xxxx);
+    s.xxvv = fma(ee, ff, s.xxvv);
+    s.vvvv = fma(ff, ff, s.vvvv);
     if constexpr (central) {
-      const auto add = [d, i](double* to, V value)
-                           HWY_ATTR { hn::StoreU(hn::Add(hn::LoadU(d, to + i), value), d, to + i); };
-      add(central_sums->velocity, velocity);
-      add(central_sums->velocity_square, ff);
-      hn::StoreU(hn::MulAdd(ff, ff, hn::LoadU(d, central_sums->velocity_fourth + i)), d,
-                 central_sums->velocity_fourth + i);
-      add(central_sums->product, ef);
+      (Real::load(to->velocity + i) + velocity).store(to->velocity + i);
+      (Real::load(to->velocity_square + i) + ff).store(to->velocity_square + i);
+      fma(ff, ff, Real::load(to->velocity_fourth + i)).store(to->velocity_fourth + i);
+      (Real::load(to->product + i) + ef).store(to->product + i);
     }
-  });
-  sums[Tally::x * stride] = hn::GetLane(mean_x);
-  sums[Tally::v * stride] = hn::GetLane(mean_v);
-  const Sums all{xx, xv, vv, xxx, xxv, xvv, vvv, xxxx, xxvv, vvvv};
-  Sums::each([&](auto member, std::size_t m)
-                 HWY_ATTR { sums[m * stride] = hn::GetLane(hn::SumOfLanes(d, all.*member)); });
+  }
+  sums[Tally::x * stride] = mean_x;
+  sums[Tally::v * stride] = mean_v;
+  Sums::each([&](auto member, std::size_t m) HWY_ATTR { sums[m * stride] = sum(s.*member); });
 }
 
 void RowMoments(const double* x, const double* v, std::size_t members, double* sums, std::size_t stride,
                 const CentralSums* central) {
   const bool whole = members % row_padding == 0;
-  if (whole)
-    central ? row<true, true>(x, v, members, sums, stride, central)
-            : row<true, false>(x, v, members, sums, stride, central);
-  else
-    central ? row<false, true>(x, v, members, sums, stride, central)
-            : row<false, false>(x, v, members, sums, stride, central);
+  const auto work =
+      whole ? (central ? &row<true, true> : &row<true, false>) : (central ? &row<false, true> : &row<false, false>);
+  work(x, v, members, sums, stride, central);
+}
+
+// One pack of times; moments lie `stride` apart.
+HWY_INLINE void merge(double left_members, double right_members, double* left, const double* right,
+                      std::size_t stride) {
+  const Real x = Real::load(left), v = Real::load(left + stride);
+  const Real dx = Real::load(right) - x, dv = Real::load(right + stride) - v;
+  const double share = right_members / (left_members + right_members);
+  const Real ex = dx * share, ev = dv * share;
+  Sums a, b;
+  Sums::each([&](auto member, std::size_t m) HWY_ATTR {
+    a.*member = Real::load(left + m * stride);
+    b.*member = Real::load(right + m * stride);
+  });
+  a.shift(left_members, -ex, -ev);
+  b.shift(right_members, dx - ex, dv - ev);
+  (x + ex).store(left);
+  (v + ev).store(left + stride);
+  Sums::each([&](auto member, std::size_t m) HWY_ATTR { (a.*member + b.*member).store(left + m * stride); });
 }
 
 void MergeMoments(double left_members, double right_members, double* left, const double* right, std::size_t times) {
-  const D d;
-  const V n_left = hn::Set(d, left_members), n_right = hn::Set(d, right_members);
-  const V share = hn::Set(d, right_members / (left_members + right_members));
-  const auto at = [times](auto* sums, std::size_t m, std::size_t i) HWY_ATTR { return sums + m * times + i; };
-  // The last vector ends with the last time: what it shares with the one before must not be merged twice.
-  alignas(64) double padded[2][Tally::moments][row_padding];
-  const auto vector = [&](double* l, const double* r, std::size_t stride) HWY_ATTR {
-    const V x = hn::LoadU(d, l), v = hn::LoadU(d, l + stride);
-    const V dx = hn::Sub(hn::LoadU(d, r), x), dv = hn::Sub(hn::LoadU(d, r + stride), v);
-    const V ex = hn::Mul(dx, share), ev = hn::Mul(dv, share);
-    Sums a, b;
-    Sums::each([&](auto member, std::size_t m) HWY_ATTR {
-      a.*member = hn::LoadU(d, l + m * stride);
-      b.*member = hn::LoadU(d, r + m * stride);
-    });
-    a.shift(n_left, hn::Neg(ex), hn::Neg(ev));
-    b.shift(n_right, hn::Sub(dx, ex), hn::Sub(dv, ev));
-    hn::StoreU(hn::Add(x, ex), d, l);
-    hn::StoreU(hn::Add(v, ev), d, l + stride);
-    Sums::each([&](auto member, std::size_t m)
-                   HWY_ATTR { hn::StoreU(hn::Add(a.*member, b.*member), d, l + m * stride); });
-  };
   std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= times; i += hn::Lanes(d)) vector(left + i, right + i, times);
+  for (; i + Real::size <= times; i += Real::size) merge(left_members, right_members, left + i, right + i, times);
   if (i == times) return;
-  const std::size_t rest = times - i;
+  // The last few go by way of a padded copy.
+  double l[Tally::moments][row_padding] = {}, r[Tally::moments][row_padding] = {};
   for (std::size_t m = 0; m < Tally::moments; ++m)
-    for (std::size_t k = 0; k < row_padding; ++k) {
-      padded[0][m][k] = k < rest ? *at(left, m, i + k) : 0;
-      padded[1][m][k] = k < rest ? *at(right, m, i + k) : 0;
+    for (std::size_t k = i; k < times; ++k) {
+      l[m][k - i] = left[m * times + k];
+      r[m][k - i] = right[m * times + k];
     }
-  vector(padded[0][0], padded[1][0], row_padding);
+  merge(left_members, right_members, l[0], r[0], row_padding);
   for (std::size_t m = 0; m < Tally::moments; ++m)
-    for (std::size_t k = 0; k < rest; ++k) *at(left, m, i + k) = padded[0][m][k];
+    for (std::size_t k = i; k < times; ++k) left[m * times + k] = l[m][k - i];
 }
 
 }  // namespace stickslip::detail::HWY_NAMESPACE
