@@ -94,7 +94,7 @@ class LanesSimulator final : public Simulator {
   std::vector<double> records_, ground_, displacement_, velocity_;
 };
 
-/// Under pulses, for which each member has its own times: they meet at those of the statistics.
+/// Under pulses, of which each member has its own, at its own times.
 class PulseSimulator final : public Simulator {
  public:
   PulseSimulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed, bool settle)
