@@ -301,8 +301,15 @@ class MemberSimulator final : public Simulator {
     double peak_ = 0;
   };
 
+  // One place for all: inlined wherever it is called it would take a compiler minutes.
   template <class Flows>
-  [[gnu::flatten]] void slide(const Flows& flows, const GroundMotion& motion, std::size_t member, Block& block) {
+  [[gnu::flatten, gnu::noinline]] void go(const Flows& flows, const Segment& segment, State& state,
+                                          PeakObserver& observer) const {
+    advance(slider_.law(), flows, segment, state, observer);
+  }
+
+  template <class Flows>
+  void slide(const Flows& flows, const GroundMotion& motion, std::size_t member, Block& block) {
     const std::size_t width = block.width(), times = block.times().count;
     const double dt = block.times().dt, begin = motion.time(0);
     State state;
@@ -324,14 +331,14 @@ class MemberSimulator final : public Simulator {
       while (next < times && wanted < to) {
         if (wanted > from) {
           const double middle = segment.start + (segment.end - segment.start) * ((wanted - from) / segment.duration);
-          advance(slider_.law(), flows, Segment{wanted - from, segment.start, middle}, state, observer);
+          go(flows, Segment{wanted - from, segment.start, middle}, state, observer);
           segment = {to - wanted, middle, segment.end};
           from = wanted;
         }
         keep();
         wanted = static_cast<double>(next) * dt;
       }
-      advance(slider_.law(), flows, segment, state, observer);
+      go(flows, segment, state, observer);
       if (next < times && wanted == to) {
         keep();
         wanted = static_cast<double>(next) * dt;
@@ -341,7 +348,7 @@ class MemberSimulator final : public Simulator {
     if (settle_)
       settle(slider_, state, [&](double duration) {
         block.beat();
-        advance(slider_.law(), flows, Segment{duration, 0, 0}, state, observer);
+        go(flows, Segment{duration, 0, 0}, state, observer);
       });
     block.peak()[member] = observer.peak();
     block.residual()[member] = state.displacement;
