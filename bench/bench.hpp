@@ -24,6 +24,38 @@ void keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");
 }
 
+/// What a bench is asked for on its command line.
+struct Options {
+  bool json = false;        ///< print figures for a program
+  bool check = false;       ///< answers alone
+  bool additional = false;  ///< what only this bench knows
+  int rounds = 21;
+};
+
+/// Reads [--check] [--json] [--rounds N] and, if it is named, one option more; else says so and exits with 2.
+inline Options options(int argc, char** argv, const std::string& name, const std::string& additional = {}) {
+  Options result;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view option = argv[i];
+    if (option == "--json") {
+      result.json = true;
+    } else if (option == "--check") {
+      result.check = true;
+    } else if (!additional.empty() && option == additional) {
+      result.additional = true;
+    } else if (option == "--rounds" && i + 1 < argc && std::atoi(argv[i + 1]) > 0) {
+      result.rounds = std::atoi(argv[++i]);
+    } else {
+      const std::string more = additional.empty() ? "" : " [" + additional + "]";
+      std::fprintf(stderr, "usage: %s [--check] [--json] [--rounds N]%s\n", name.c_str(), more.c_str());
+      std::exit(2);
+    }
+  }
+  return result;
+}
+
+inline std::string json_string(std::string_view text) { return '"' + std::string(text) + '"'; }
+
 /// Stops the bench: a wrong answer is not worth timing.
 inline void require(bool holds, std::string_view what, double found, double allowed) {
   if (holds) return;

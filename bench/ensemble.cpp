@@ -316,19 +316,17 @@ void million() {
 
 // ---- the report
 
-std::string json_string(std::string_view text) { return '"' + std::string(text) + '"'; }
-
 void print_json(const std::vector<Table>& tables) {
   const BuildInfo& build = build_info();
   std::printf("{\"processor\": %s, \"compiler\": %s, \"flags\": %s, \"commit\": %s, \"tables\": {",
-              json_string(bench::processor()).c_str(), json_string(build.compiler).c_str(),
-              json_string(build.compiler_flags).c_str(), json_string(build.commit).c_str());
+              bench::json_string(bench::processor()).c_str(), bench::json_string(build.compiler).c_str(),
+              bench::json_string(build.compiler_flags).c_str(), bench::json_string(build.commit).c_str());
   for (const Table& table : tables) {
     std::printf("%s\n%s: {\"note\": %s, \"rows\": {", &table == tables.data() ? "" : ",",
-                json_string(table.name).c_str(), json_string(table.note).c_str());
+                bench::json_string(table.name).c_str(), bench::json_string(table.note).c_str());
     for (const bench::Timing& timing : table.timings)
       std::printf("%s\n  %s: {\"median\": %.3f, \"least\": %.3f, \"spread\": %.3f, \"ratio\": %.3f}",
-                  &timing == table.timings.data() ? "" : ",", json_string(timing.name).c_str(), timing.median(),
+                  &timing == table.timings.data() ? "" : ",", bench::json_string(timing.name).c_str(), timing.median(),
                   timing.least(), timing.spread(), timing.ratio(table.timings[table.base]));
     std::printf("}}");
   }
@@ -338,42 +336,27 @@ void print_json(const std::vector<Table>& tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool json = false, check_only = false, only_million = false;
-  int rounds = 21;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view option = argv[i];
-    if (option == "--json") {
-      json = true;
-    } else if (option == "--check") {
-      check_only = true;
-    } else if (option == "--million") {
-      only_million = true;
-    } else if (option == "--rounds" && i + 1 < argc && std::atoi(argv[i + 1]) > 0) {
-      rounds = std::atoi(argv[++i]);
-    } else {
-      std::fprintf(stderr, "usage: ensemble [--check] [--json] [--rounds N] [--million]\n");
-      return 2;
-    }
-  }
+  const bench::Options asked = bench::options(argc, argv, "ensemble", "--million");
 
-  if (only_million) {  // alone: the check takes memory too
+  if (asked.additional) {  // alone: the check takes memory too
     bench::print_machine();
     million();
     return EXIT_SUCCESS;
   }
   check();
-  if (check_only) return EXIT_SUCCESS;
+  if (asked.check) return EXIT_SUCCESS;
 
-  const int fewer = std::max(3, rounds / 4);
-  const std::vector<Table> tables{time_coulomb(rounds), time_caster(fewer), time_pulses(rounds), time_threads(rounds)};
-  if (json) {
+  const int fewer = std::max(3, asked.rounds / 4);
+  const std::vector<Table> tables{time_coulomb(asked.rounds), time_caster(fewer), time_pulses(asked.rounds),
+                                  time_threads(asked.rounds)};
+  if (asked.json) {
     print_json(tables);
     return EXIT_SUCCESS;
   }
   bench::print_machine();
   std::printf("%llu members of %zu samples, %s at best; answers checked\ntimes over %d rounds (caster: %d)\n",
-              static_cast<unsigned long long>(members), samples, hwy::TargetName(instruction_sets().front()), rounds,
-              fewer);
+              static_cast<unsigned long long>(members), samples, hwy::TargetName(instruction_sets().front()),
+              asked.rounds, fewer);
   for (const Table& table : tables) {
     bench::print_table(table.title, table.timings, table.base);
     if (!table.note.empty()) std::printf("%s\n", table.note.c_str());

@@ -276,49 +276,33 @@ std::vector<bench::Timing> time(const Input& input, int rounds) {
   return bench.run(rounds);
 }
 
-std::string json_string(std::string_view text) { return '"' + std::string(text) + '"'; }
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool json = false, check_only = false;
-  int rounds = 21;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view option = argv[i];
-    if (option == "--json") {
-      json = true;
-    } else if (option == "--check") {
-      check_only = true;
-    } else if (option == "--rounds" && i + 1 < argc && std::atoi(argv[i + 1]) > 0) {
-      rounds = std::atoi(argv[++i]);
-    } else {
-      std::fprintf(stderr, "usage: long_record [--check] [--json] [--rounds N]\n");
-      return 2;
-    }
-  }
+  const bench::Options asked = bench::options(argc, argv, "long_record");
 
   const std::vector<Input> all = inputs();
   for (const Input& input : all) check(input);
-  if (check_only) return EXIT_SUCCESS;
+  if (asked.check) return EXIT_SUCCESS;
 
   const BuildInfo& build = build_info();
-  if (json)
+  if (asked.json)
     std::printf("{\"processor\": %s, \"compiler\": %s, \"flags\": %s, \"commit\": %s, \"inputs\": {",
-                json_string(bench::processor()).c_str(), json_string(build.compiler).c_str(),
-                json_string(build.compiler_flags).c_str(), json_string(build.commit).c_str());
+                bench::json_string(bench::processor()).c_str(), bench::json_string(build.compiler).c_str(),
+                bench::json_string(build.compiler_flags).c_str(), bench::json_string(build.commit).c_str());
   else
     bench::print_machine();
-  if (!json)
+  if (!asked.json)
     std::printf(
         "%zu samples, dt = %g s, standard deviation %g m/s^2, slip level %g m/s^2; answers checked\n"
         "ns of processor time per sample over %d rounds; ratio to the plain loop, which like integrate returns new "
         "arrays\n",
-        samples, dt, deviation, slip_level, rounds);
+        samples, dt, deviation, slip_level, asked.rounds);
 
   for (const Input& input : all) {
-    const std::vector<bench::Timing> timings = time(input, rounds);
+    const std::vector<bench::Timing> timings = time(input, asked.rounds);
     const Response response = integrate(Coulomb(slip_level), GroundMotion(input.acceleration, dt));
-    if (!json) {
+    if (!asked.json) {
       bench::print_table(input.title, timings, 0);
       std::printf("Coulomb: %.3f events a sample, sliding %.0f %% of the time\n",
                   static_cast<double>(response.events.size()) / samples,
@@ -326,13 +310,13 @@ int main(int argc, char** argv) {
       continue;
     }
     std::printf("%s\n%s: {\"residual\": %.17g, \"rows\": {", &input == all.data() ? "" : ",",
-                json_string(input.name).c_str(), response.residual);
+                bench::json_string(input.name).c_str(), response.residual);
     for (const bench::Timing& timing : timings)
       std::printf("%s\n  %s: {\"median\": %.3f, \"least\": %.3f, \"spread\": %.3f}",
-                  &timing == timings.data() ? "" : ",", json_string(timing.name).c_str(), timing.median(),
+                  &timing == timings.data() ? "" : ",", bench::json_string(timing.name).c_str(), timing.median(),
                   timing.least(), timing.spread());
     std::printf("}}");
   }
-  if (json) std::printf("}}\n");
+  if (asked.json) std::printf("}}\n");
   return EXIT_SUCCESS;
 }

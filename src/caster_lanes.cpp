@@ -105,12 +105,6 @@ struct Series {
     converges = ((way <= 1) & (next <= left_out)) | (abs(y) - way > far_off);
   }
 
-  HWY_INLINE Real speed_at(const Real& t) const {
-    Real sum = w[order + 1];
-#pragma GCC unroll 16
-    for (int k = order; k >= 0; --k) sum = fma(sum, t, w[k]);
-    return sum;
-  }
   HWY_INLINE Real distance(const Real& t) const {
     Real sum = w[order + 1] * (1.0 / (order + 2));
 #pragma GCC unroll 16

@@ -1,6 +1,5 @@
 #include "stickslip/ensemble.hpp"
 
-#include <fftw3.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_bessel.h>
 
@@ -14,9 +13,8 @@
 #include <numbers>
 #include <stdexcept>
 #include <thread>
-#include <type_traits>
 
-#include "fftw_planner.hpp"
+#include "fftw_plan.hpp"
 #include "json.hpp"
 #include "row_moments.hpp"
 
@@ -24,13 +22,6 @@ namespace stickslip {
 namespace detail {
 
 // ---- one block
-
-struct DestroyPlan {
-  void operator()(fftw_plan plan) const {
-    const std::scoped_lock lock(fftw_planner());
-    fftw_destroy_plan(plan);
-  }
-};
 
 /// Periodograms of the velocities of a block.
 struct Block::Spectrum {
@@ -45,15 +36,16 @@ struct Block::Spectrum {
       squares += window[i] * window[i];
     }
     for (double& w : window) w *= std::sqrt(static_cast<double>(samples) / squares);
-    const std::scoped_lock lock(fftw_planner());
-    plan.reset(fftw_plan_dft_r2c_1d(static_cast<int>(samples), real.data(), output(), FFTW_ESTIMATE | FFTW_UNALIGNED));
+    plan = make_plan([&] {
+      return fftw_plan_dft_r2c_1d(static_cast<int>(samples), real.data(), output(), FFTW_ESTIMATE | FFTW_UNALIGNED);
+    });
   }
 
   fftw_complex* output() { return reinterpret_cast<fftw_complex*>(complex.data()); }
 
   std::vector<double> window, real;
   std::vector<std::complex<double>> complex;
-  std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan> plan;
+  FftwPlan plan;
 };
 
 Block::Block(const EnsembleTimes& times, bool velocity_spectrum, const std::atomic<bool>& stopped)

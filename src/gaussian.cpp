@@ -4,13 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <new>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
-#include "fftw_planner.hpp"
+#include "fftw_plan.hpp"
 #include "json.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/gaussian.hpp"
@@ -38,27 +37,20 @@ double interpolation_loss(Interpolation interpolation, double u) {
 /// The plan for one period, made once and used by all threads.
 struct GaussianExcitation::Transform {
   explicit Transform(std::size_t period) {
-    // ESTIMATE chooses by rule; measured plans may differ from one run to the next, and with them the bits.
     Workspace workspace;
     workspace.grow(period / 2 + 1, period, 0);
-    const std::lock_guard lock(detail::fftw_planner());
-    plan = fftw_plan_dft_c2r_1d(static_cast<int>(period), reinterpret_cast<fftw_complex*>(workspace.lines_.get()),
-                                workspace.samples_.get(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-    if (plan == nullptr) throw std::bad_alloc();
-  }
-  Transform(const Transform&) = delete;
-  Transform& operator=(const Transform&) = delete;
-  ~Transform() {
-    const std::lock_guard lock(detail::fftw_planner());
-    fftw_destroy_plan(plan);
+    plan = detail::make_plan([&] {
+      return fftw_plan_dft_c2r_1d(static_cast<int>(period), reinterpret_cast<fftw_complex*>(workspace.lines_.get()),
+                                  workspace.samples_.get(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+    });
   }
 
   /// Both arrays aligned as fftw_malloc does it; `lines` is destroyed.
   void operator()(std::complex<double>* lines, double* samples) const {
-    fftw_execute_dft_c2r(plan, reinterpret_cast<fftw_complex*>(lines), samples);
+    fftw_execute_dft_c2r(plan.get(), reinterpret_cast<fftw_complex*>(lines), samples);
   }
 
-  fftw_plan plan = nullptr;
+  detail::FftwPlan plan;
 };
 
 void GaussianExcitation::Workspace::Free::operator()(void* memory) const noexcept { fftw_free(memory); }

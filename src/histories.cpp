@@ -5,16 +5,6 @@
 #include "coulomb_lanes.hpp"
 
 namespace stickslip::detail {
-namespace {
-
-// A square of `row_padding` numbers, from rows `from_stride` apart to columns `to_stride` apart.
-void transpose(const double* from, std::size_t from_stride, double* to, std::size_t to_stride) {
-  for (std::size_t i = 0; i < row_padding; ++i)
-    for (std::size_t k = 0; k < row_padding; ++k) to[i * to_stride + k] = from[k * from_stride + i];
-}
-
-}  // namespace
-
 Histories histories_by_pieces(const Coulomb& law, const GroundMotion& motion, const std::function<void()>& heartbeat) {
   constexpr std::size_t pieces = most_lanes;
   const std::size_t segments = motion.segments();
@@ -36,7 +26,7 @@ Histories histories_by_pieces(const Coulomb& law, const GroundMotion& motion, co
     if (heartbeat && k % 4096 == 0) heartbeat();
     std::copy_n(&loads[row_padding * pieces], pieces, loads.data());
     for (std::size_t p = 0; p < pieces; p += row_padding)
-      transpose(&ground[p * length + k + 1], length, &loads[pieces + p], pieces);
+      transpose(&ground[p * length + k + 1], length, row_padding, &loads[pieces + p], pieces);
     for (std::size_t i = 0; i < row_padding; ++i) {
       const double* const start = &loads[i * pieces];
       advance_lanes(lanes, pieces, start, linear ? start + pieces : start, states);
@@ -44,8 +34,8 @@ Histories histories_by_pieces(const Coulomb& law, const GroundMotion& motion, co
       std::copy_n(velocity.data(), pieces, &vs[i * pieces]);
     }
     for (std::size_t p = 0; p < pieces; p += row_padding) {
-      transpose(&xs[p], pieces, &x[p * length + k + 1], length);
-      transpose(&vs[p], pieces, &v[p * length + k + 1], length);
+      transpose(&xs[p], pieces, row_padding, &x[p * length + k + 1], length);
+      transpose(&vs[p], pieces, row_padding, &v[p * length + k + 1], length);
     }
   }
 

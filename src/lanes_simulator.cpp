@@ -75,15 +75,8 @@ class LanesSimulator final : public Simulator {
         excitation_.sample(seed_, first_member + i + k, {&records_[k * samples], samples}, workspace_);
       if (some < row_padding)
         std::fill(records_.begin() + static_cast<std::ptrdiff_t>(some * samples), records_.end(), 0.0);
-      transpose(records_.data(), samples, &ground_[i], width);
+      transpose(records_.data(), samples, samples, &ground_[i], width);
     }
-  }
-
-  // Eight rows of `samples` become columns, `width` apart.
-  static void transpose(const double* __restrict rows, std::size_t samples, double* __restrict columns,
-                        std::size_t width) {
-    for (std::size_t s = 0; s < samples; ++s)
-      for (std::size_t k = 0; k < row_padding; ++k) columns[s * width + k] = rows[k * samples + s];
   }
 
   Law law_;

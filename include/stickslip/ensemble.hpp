@@ -130,7 +130,7 @@ class Ensemble {
     detail::Sketch peaks;                      ///< then this counts them
   };
 
-  /// More peaks and residuals than these are counted in bins 0.1 % wide instead of kept.
+  /// Of more members than these no single peak and residual is kept; peaks are then counted in bins 0.1 % wide.
   static constexpr std::uint64_t most_kept = std::uint64_t{1} << 24;
 
   /// Members are simulated and summed in blocks of this many, which the parts of an ensemble may not cut: 64, and fewer

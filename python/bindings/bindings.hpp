@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +43,22 @@ void bind_gaussian(py::module_& m);
 void bind_poisson(py::module_& m);
 void bind_ensemble(py::module_& m);
 void bind_build_info(py::module_& m);
+
+/// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.
+class HeldFunction {
+ public:
+  explicit HeldFunction(py::function function)
+      : function_(new py::function(std::move(function)), [](py::function* f) {
+          if (!Py_IsInitialized()) return;
+          const py::gil_scoped_acquire lock;
+          delete f;
+        }) {}
+
+  const py::function& function() const { return *function_; }
+
+ private:
+  std::shared_ptr<py::function> function_;
+};
 
 /// Lets Ctrl-C through while the interpreter is not held.
 inline void check_for_interrupt() {

@@ -49,8 +49,8 @@ Notes
 -----
 As accurate as `integrate`, of which the last bits may differ. A long record of even steps is cut in 64 pieces which,
 with Coulomb friction and no spring, move side by side from rest; each is then done again from where the one before has
-come to, until both are stuck at the same sample and so move alike: two to three times as fast as `integrate`. The
-interpreter is not held meanwhile.)");
+come to, until both are stuck at the same sample and so move alike: about twice as fast as `integrate`. The interpreter
+is not held meanwhile.)");
 }
 
 }  // namespace stickslip::python

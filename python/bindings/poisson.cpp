@@ -10,30 +10,20 @@ namespace {
 
 using Shape = std::pair<py::object, py::object>;
 
-/// A Python function as the quantile function. It is copied and dropped by threads without the interpreter's lock.
-class PythonQuantile {
+/// A Python function as the quantile function.
+class PythonQuantile : public HeldFunction {
  public:
-  explicit PythonQuantile(py::function function)
-      : function_(new py::function(std::move(function)), [](py::function* f) {
-          if (!Py_IsInitialized()) return;
-          const py::gil_scoped_acquire lock;
-          delete f;
-        }) {}
-
-  const py::function& function() const { return *function_; }
+  using HeldFunction::HeldFunction;
 
   void operator()(std::span<double> numbers) const {
     const py::gil_scoped_acquire lock;
     const py::array_t<double> uniform(static_cast<py::ssize_t>(numbers.size()), numbers.data());  // a copy
-    const std::vector<double> values = to_vector((*function_)(uniform), "PoissonPulses: what quantile returns");
+    const std::vector<double> values = to_vector(function()(uniform), "PoissonPulses: what quantile returns");
     if (values.size() != numbers.size())
       throw std::invalid_argument("PoissonPulses: quantile must return one number for each it is given, got " +
                                   std::to_string(values.size()) + " for " + std::to_string(numbers.size()));
     std::ranges::copy(values, numbers.begin());
   }
-
- private:
-  std::shared_ptr<py::function> function_;
 };
 
 PoissonOptions options_of(bool stationary_start, const std::optional<Shape>& shape,

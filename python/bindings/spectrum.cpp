@@ -9,28 +9,18 @@
 namespace stickslip::python {
 namespace {
 
-/// A Python function as a density. It may be copied, dropped and called without the interpreter's lock.
-class PythonDensity {
+/// A Python function as a density.
+class PythonDensity : public HeldFunction {
  public:
-  explicit PythonDensity(py::function function)
-      : function_(new py::function(std::move(function)), [](py::function* f) {
-          if (!Py_IsInitialized()) return;
-          const py::gil_scoped_acquire lock;
-          delete f;
-        }) {}
-
-  const py::function& function() const { return *function_; }
+  using HeldFunction::HeldFunction;
 
   double operator()(double omega) const {
     const py::gil_scoped_acquire lock;
-    const py::object value = (*function_)(omega);
+    const py::object value = function()(omega);
     const double result = PyFloat_AsDouble(value.ptr());
     if (result == -1 && PyErr_Occurred()) throw py::error_already_set();
     return result;
   }
-
- private:
-  std::shared_ptr<py::function> function_;
 };
 
 py::array_t<double> to_array(const std::vector<double>& values) {
