@@ -478,6 +478,17 @@ Estimates Ensemble::covariance() const {
   });
 }
 
+Moments Ensemble::moments() const {
+  return {.time = time(),
+          .displacement_mean = displacement_mean(),
+          .displacement_variance = displacement_variance(),
+          .covariance = covariance(),
+          .velocity_mean = velocity_mean(),
+          .velocity_variance = velocity_variance(),
+          .growth_rate = stationary().growth_rate,
+          .remark = {}};
+}
+
 Stationary Ensemble::stationary() const {
   need_two(members());
   const Tally total = parts_.tallies.total();

@@ -722,3 +722,19 @@ TEST_CASE("bounds of quantiles and exceedances hold as often as they say", "[ens
     CHECK(exceedance_holds[i] >= 869);
   }
 }
+
+TEST_CASE("the moments of an ensemble are its figures by time") {
+  const PoissonPulses pulses(1, 1, 2, 40);
+  EnsembleOptions options;
+  options.members = 100;
+  const Ensemble e = run_ensemble(Coulomb(1), pulses, options);
+  const Moments m = e.moments();
+  REQUIRE(m.time == e.time());
+  REQUIRE(m.displacement_mean.value == e.displacement_mean().value);
+  REQUIRE(m.displacement_variance.error == e.displacement_variance().error);
+  REQUIRE(m.covariance.value == e.covariance().value);
+  REQUIRE(m.velocity_mean.error == e.velocity_mean().error);
+  REQUIRE(m.velocity_variance.value == e.velocity_variance().value);
+  REQUIRE(m.growth_rate.value == e.stationary().growth_rate.value);
+  REQUIRE(m.remark.empty());
+}

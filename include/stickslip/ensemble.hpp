@@ -24,6 +24,7 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground_motion.hpp"
 #include "stickslip/integrate.hpp"
+#include "stickslip/moments.hpp"
 #include "stickslip/recorder.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics.hpp"
@@ -154,6 +155,9 @@ class Ensemble {
   Estimates covariance() const;         ///< of x and x' [m^2/s], by time
   Estimates velocity_mean() const;      ///< of x' [m/s], by time
   Estimates velocity_variance() const;  ///< of x' [m^2/s^2], by time
+
+  /// All of these and the stationary growth rate, as a theory answers.
+  Moments moments() const;
 
   Stationary stationary() const;
   /// @throws std::domain_error also where it was not asked for

@@ -8,6 +8,7 @@
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/histories.hpp"
+#include "stickslip/moments.hpp"
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"

@@ -41,6 +41,7 @@ void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
 void bind_gaussian(py::module_& m);
 void bind_poisson(py::module_& m);
+void bind_moments(py::module_& m);
 void bind_ensemble(py::module_& m);
 void bind_build_info(py::module_& m);
 

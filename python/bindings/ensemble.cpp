@@ -423,6 +423,9 @@ which `quantile` and `exceedance` come.)")
       .def_property_readonly(
           "residual", [](const Ensemble& e) { return array_of(e.residual()); },
           "Last x of each member [m]; ValueError as for `peak`.")
+      .def_property_readonly(
+          "moments", &Ensemble::moments,
+          "Means, variances and covariance by time and the growth rate, as Moments: what theories give.")
       .def_property_readonly("stationary", &Ensemble::stationary,
                              "Averages over the central half of the motions, as Stationary.")
       .def_property_readonly("velocity_spectrum", &Ensemble::velocity_spectrum,

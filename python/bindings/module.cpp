@@ -17,6 +17,7 @@ PYBIND11_MODULE(_core, m) {
   bind_spectrum(m);
   bind_gaussian(m);
   bind_poisson(m);
+  bind_moments(m);
   bind_ensemble(m);
   bind_build_info(m);
 }

@@ -18,6 +18,7 @@ A friction law makes a slider, a record or a list of numbers makes a ground moti
 SI units everywhere. Displacement and velocity are relative to the ground; forward is x > 0.
 """
 
+from . import theory
 from ._core import (
     STANDARD_GRAVITY,
     Caster,
@@ -30,6 +31,7 @@ from ._core import (
     GaussianExcitation,
     GroundMotion,
     Interval,
+    Moments,
     PoissonPulses,
     Response,
     Slider,
@@ -60,6 +62,7 @@ __all__ = [
     "GaussianExcitation",
     "GroundMotion",
     "Interval",
+    "Moments",
     "PoissonPulses",
     "Response",
     "Slider",
@@ -72,6 +75,7 @@ __all__ = [
     "integrate",
     "read_record",
     "run_ensemble",
+    "theory",
 ]
 
 if not TYPE_CHECKING:
