@@ -441,7 +441,10 @@ class SlowlyVaryingParameters::Plane {
  public:
   Plane(const SlowlyVaryingParameters& theory, double force, double frequency, double amplitude, double phase,
         const std::function<void()>& heartbeat)
-      : balance_(theory, force, frequency), length_(force / frequency / frequency), rests_(theory.rests(force)) {
+      : balance_(theory, force, frequency),
+        length_(force / frequency / frequency),
+        rests_(theory.rests(force)),
+        heartbeat_(heartbeat) {
     check_cycle(amplitude);
     require(std::isfinite(phase), "SlowlyVaryingParameters: phase must be finite", phase, "rad");
     const double start = amplitude / length_;
@@ -451,7 +454,6 @@ class SlowlyVaryingParameters::Plane {
     at_ = {start * std::cos(phase), start * std::sin(phase)};
     options_.relative_tolerance = 1e-10;
     options_.absolute_tolerance = {1e-12};
-    options_.heartbeat = heartbeat;
   }
 
   const Balance& balance() const { return balance_; }
@@ -463,22 +465,33 @@ class SlowlyVaryingParameters::Plane {
     return {a * std::cos(s.phase), a * std::sin(s.phase)};
   }
 
-  /// Goes on through `times`, from where it is.
+  /// Goes on through `angles` of omega t, counted from where it is, as long as `visit` wants.
   template <class Visit>
-  void follow(double from, std::span<const double> times, const Visit& visit) {
+  void follow(std::span<const double> angles, const Visit& visit) {
     const std::array<double, 2> start{at_.x, at_.y};
-    const detail::OdeSolution solution =
-        detail::solve_ode([this](double, std::span<const double> y, std::span<double> slope) { rate(y, slope); }, from,
-                          start, times, options_);
-    for (std::size_t i = 0; i < times.size(); ++i) {
+    const detail::OdeSolution solution = [&] {
+      try {
+        return detail::solve_ode([this](double, std::span<const double> y, std::span<double> slope) { rate(y, slope); },
+                                 0, start, angles, options_);
+      } catch (const detail::OdeFailure& failure) {
+        throw ConvergenceError("SlowlyVaryingParameters: reached " +
+                               detail::shortest((passed_ + failure.reached) / balance_.omega) + " s: " + failure.why);
+      }
+    }();
+    if (!angles.empty()) passed_ += angles.back();
+    for (std::size_t i = 0; i < angles.size(); ++i) {
       at_ = {solution.at(i)[0], solution.at(i)[1]};
       if (!visit(at_)) return;
     }
   }
 
+  /// Time since the start [s].
+  double passed() const { return passed_ / balance_.omega; }
+
  private:
   // A' = (S - B sin(phi)) / (2 omega), A phi' = (C - omega^2 A - B cos(phi)) / (2 omega)
-  void rate(std::span<const double> y, std::span<double> slope) const {
+  void rate(std::span<const double> y, std::span<double> slope) {
+    if (heartbeat_ && ++rates_ % 4096 == 0) heartbeat_();
     const double a = std::hypot(y[0], y[1]), amplitude = a * length_;
     if (rests({y[0], y[1]})) {
       slope[0] = slope[1] = 0;
@@ -494,7 +507,10 @@ class SlowlyVaryingParameters::Plane {
   Balance balance_;
   double length_;
   bool rests_;
+  const std::function<void()>& heartbeat_;
+  long rates_ = 0;
   Point at_{};
+  double passed_ = 0;  // omega t
   detail::OdeOptions options_;
 };
 
@@ -510,7 +526,7 @@ HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, dou
     angles.push_back(omega * times[i]);
   }
   HarmonicTransient result;
-  plane.follow(0, angles, [&](Point p) {
+  plane.follow(angles, [&](Point p) {
     const double a = plane.rests(p) ? 0 : std::hypot(p.x, p.y);
     result.amplitude.push_back(a * plane.length());
     result.phase.push_back(a > 0 ? std::atan2(p.y, p.x) : not_a_number);
@@ -542,11 +558,11 @@ HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, dou
   if (ends.size() == 1) return ends.front();
 
   const double detuning = std::max(std::abs(balance.stiffness) / omega / omega, 0.01);
-  std::array<double, samples> times;
-  for (int i = 0; i < samples; ++i) times[static_cast<std::size_t>(i)] = 4 * pi / detuning * (i + 1) / samples;
+  std::array<double, samples> angles;
+  for (int i = 0; i < samples; ++i) angles[static_cast<std::size_t>(i)] = 4 * pi / detuning * (i + 1) / samples;
   for (int turn = 0; turn < most_turns; ++turn) {
     const HarmonicSolution* end = nullptr;
-    plane.follow(0, times, [&](Point p) {
+    plane.follow(angles, [&](Point p) {
       if (plane.rests(p)) end = &ends[turns.size()];
       if (grows && p.y * plane.length() < -largest) end = &ends.back();  // there -S < B, and phi goes to -pi/2
       for (std::size_t i = 0; i < turns.size(); ++i)
@@ -555,8 +571,7 @@ HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, dou
     });
     if (end != nullptr) return *end;
   }
-  throw ConvergenceError("SlowlyVaryingParameters: not settled after " +
-                         detail::shortest(most_turns * times.back() / omega) + " s");
+  throw ConvergenceError("SlowlyVaryingParameters: not settled after " + detail::shortest(plane.passed()) + " s");
 }
 
 }  // namespace stickslip::theory
