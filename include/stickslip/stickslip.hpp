@@ -12,3 +12,4 @@
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"
+#include "stickslip/theory/slowly_varying_parameters.hpp"

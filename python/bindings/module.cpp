@@ -19,5 +19,6 @@ PYBIND11_MODULE(_core, m) {
   bind_poisson(m);
   bind_moments(m);
   bind_ensemble(m);
+  bind_slowly_varying_parameters(m);
   bind_build_info(m);
 }

@@ -1,0 +1,379 @@
+#include "stickslip/theory/slowly_varying_parameters.hpp"
+
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+namespace {
+
+using theory::Branches;
+using theory::HarmonicSolution;
+
+/// The theory, which also knows the slider it was made from.
+struct SlowlyVaryingParameters : theory::SlowlyVaryingParameters {
+  explicit SlowlyVaryingParameters(AnySlider any)
+      : theory::SlowlyVaryingParameters(
+            std::visit([](const auto& s) { return theory::SlowlyVaryingParameters(s); }, any)),
+        slider(std::move(any)) {}
+
+  AnySlider slider;
+};
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Two numbers by amplitude: a tuple of floats for a float, of arrays of the same shape for an array.
+template <class F>
+py::tuple branches(const Numbers& amplitude, const F& f) {
+  if (amplitude.ndim() == 0) {
+    const Branches b = f(*amplitude.data());
+    return py::make_tuple(b.lower, b.upper);
+  }
+  const std::vector<py::ssize_t> shape(amplitude.shape(), amplitude.shape() + amplitude.ndim());
+  py::array_t<double> lower(shape), upper(shape);
+  const auto size = static_cast<std::size_t>(amplitude.size());
+  const double* const in = amplitude.data();
+  double *const low = lower.mutable_data(), *const up = upper.mutable_data();
+  {
+    const py::gil_scoped_release released;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Branches b = f(in[i]);
+      low[i] = b.lower;
+      up[i] = b.upper;
+    }
+  }
+  return py::make_tuple(std::move(lower), std::move(upper));
+}
+
+template <double (theory::SlowlyVaryingParameters::*f)(double) const>
+py::object by_amplitude(const SlowlyVaryingParameters& self, const Numbers& amplitude) {
+  return py::vectorize([&self](double a) { return (self.*f)(a); })(amplitude);
+}
+
+}  // namespace
+
+void bind_slowly_varying_parameters(py::module_& m) {
+  py::class_<HarmonicSolution>(m, "HarmonicSolution",
+                               R"(A periodic motion x = amplitude cos(omega t + phase) under B cos(omega t).)")
+      .def_readonly("amplitude", &HarmonicSolution::amplitude, "A [m].")
+      .def_readonly("phase", &HarmonicSolution::phase, "phi [rad], from -pi to pi; nan where the amplitude is 0.")
+      .def_readonly("stable", &HarmonicSolution::stable, "Whether it is come back to after a small disturbance.")
+      .def("__repr__", [](const HarmonicSolution& s) {
+        return "<HarmonicSolution: amplitude " + detail::shortest(s.amplitude) + " m, phase " +
+               detail::shortest(s.phase) + " rad, " + (s.stable ? "stable" : "unstable") + ">";
+      });
+
+  py::class_<SlowlyVaryingParameters>(
+      m, "SlowlyVaryingParameters",
+      R"(Harmonic response by the method of slowly varying parameters, thesis 2.2 and 2.3.
+
+With the signs put right::
+
+    x'' + level(x) sgn(x') + wn^2 x = B cos(omega t),   x = A cos(omega t + phi)            (2.28), (2.50)
+    -2 omega A' + S(A) = B sin(phi)                                                         (2.10) corrected
+    -2 omega A phi' - omega^2 A + C(A) = B cos(phi)                                         (2.11)
+
+A and phi vary little within a cycle; so the motion is taken for a cosine about x = 0, which slides all the time. A cycle
+of amplitude A does the work W(A) against friction: S = -W / (pi A), which is -4 a / pi for Coulomb friction and
+-(4 a / pi) gd(A / 3l) / (A / 3l) for the caster; C = wn^2 A.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides; a law alone is a slider without a spring. Coulomb friction of equal levels.
+
+Raises
+------
+ValueError
+    Unlike levels forward and backward: the mass drifts.
+
+Notes
+-----
+It holds for B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 % at 4,
+25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi.
+
+References
+----------
+N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).)")
+      .def(py::init<AnySlider>(), py::arg("slider"))
+      .def_property_readonly(
+          "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "What slides.")
+      .def("dissipative", &by_amplitude<&SlowlyVaryingParameters::dissipative>, py::arg("amplitude"),
+           R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates.
+
+Parameters
+----------
+amplitude : float or array_like
+    A [m], finite and at least 0; at 0, the limit.
+
+Returns
+-------
+float or ndarray
+    Of the same shape [m/s^2], at most 0.
+
+Raises
+------
+ValueError
+    Another amplitude.
+
+Notes
+-----
+To round-off for every A / 3l; some 100 ns.)")
+      .def("dissipative_slope", &by_amplitude<&SlowlyVaryingParameters::dissipative_slope>, py::arg("amplitude"),
+           R"(S'(A), thesis (2.38).
+
+Parameters
+----------
+amplitude : float or array_like
+    A [m], finite and at least 0.
+
+Returns
+-------
+float or ndarray
+    Of the same shape [1/s^2].
+
+Raises
+------
+ValueError
+    Another amplitude.)")
+      .def(
+          "in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
+          R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): what acts in phase with x, the spring.
+
+Parameters
+----------
+amplitude : float or array_like
+    A [m], finite and at least 0.
+
+Returns
+-------
+float or ndarray
+    Of the same shape [m/s^2].
+
+Raises
+------
+ValueError
+    Another amplitude.)")
+      .def("in_phase_slope", &by_amplitude<&SlowlyVaryingParameters::in_phase_slope>, py::arg("amplitude"),
+           R"(C'(A), thesis (2.39).
+
+Parameters
+----------
+amplitude : float or array_like
+    A [m], finite and at least 0.
+
+Returns
+-------
+float or ndarray
+    Of the same shape [1/s^2].
+
+Raises
+------
+ValueError
+    Another amplitude.)")
+      .def("response", &SlowlyVaryingParameters::response, py::arg("B"), py::arg("omega"),
+           py::call_guard<py::gil_scoped_release>(),
+           R"(Every periodic solution other than rest, by increasing amplitude.
+
+S^2 + (C - omega^2 A)^2 = B^2, thesis (2.16); phi = atan2(S, C - omega^2 A), (2.17) corrected. Stable where
+S' + S/A <= 0, (2.18) corrected, which friction always meets, and (C/A - omega^2) (C' - omega^2) + S S'/A > 0, (2.19).
+
+Parameters
+----------
+B : float
+    Amplitude of the force per unit mass, and so of the ground acceleration [m/s^2]; positive and finite.
+omega : float
+    [rad/s], positive and finite.
+
+Returns
+-------
+list of HarmonicSolution
+    Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, Coulomb friction
+    has none: the amplitude grows for ever where B exceeds 4 a / pi. Without friction there is the one amplitude
+    B / abs(omega^2 - wn^2), which is neutral and counts as stable. At a fold, to round-off, where two solutions meet,
+    both, one or none of them.
+
+Raises
+------
+ValueError
+    A value out of its range.
+OverflowError
+    Amplitudes beyond the range of doubles.
+
+Notes
+-----
+All of them, amplitudes to round-off; 1 to 10 us.)")
+      .def(
+          "frequency",
+          [](const SlowlyVaryingParameters& self, double B, const Numbers& amplitude) {
+            return branches(amplitude, [&](double a) { return self.frequency(B, a); });
+          },
+          py::arg("B"), py::arg("amplitude"),
+          R"(The two frequencies at which the amplitude is A: both branches of (2.48), (2.53), and (2.25), (2.32).
+
+omega^2 = C/A -+ sqrt(B^2 - S^2) / A.
+
+Parameters
+----------
+B : float
+    [m/s^2], positive and finite.
+amplitude : float or array_like
+    A [m], positive and finite.
+
+Returns
+-------
+lower, upper : float or ndarray
+    Of the same shape [rad/s]. nan where none is real: both below the least amplitude, the lower one also where it would
+    be imaginary. Without a spring there is the upper one alone.
+
+Raises
+------
+ValueError
+    A value out of its range.)")
+      .def(
+          "stability_boundary",
+          [](const SlowlyVaryingParameters& self, const Numbers& amplitude) {
+            return branches(amplitude, [&](double a) { return self.stability_boundary(a); });
+          },
+          py::arg("amplitude"),
+          R"(The frequencies between which solutions of amplitude A are unstable, whatever their B.
+
+The locus of vertical tangencies, (2.19) as an equation, thesis (2.41), (2.42), on both sides of wn.
+
+Parameters
+----------
+amplitude : float or array_like
+    A [m], positive and finite.
+
+Returns
+-------
+lower, upper : float or ndarray
+    Of the same shape [rad/s]. The lower one is 0 where the zone reaches there, as it always does without a spring.
+    Where both are the same, as for Coulomb friction, all are stable.
+
+Raises
+------
+ValueError
+    Another amplitude.)")
+      .def(
+          "least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
+          R"(The least amplitude of any solution, whatever the frequency: -S(A) = B, thesis (2.36), (2.37), by bracketing.
+
+Parameters
+----------
+B : float
+    [m/s^2], positive and finite.
+
+Returns
+-------
+float
+    [m]. 0 for B of at least -S(0) = 4 a / pi; inf where there is none, as for Coulomb friction below that.
+
+Raises
+------
+ValueError
+    Another B.)")
+      .def("rests", &SlowlyVaryingParameters::rests, py::arg("B"),
+           R"(Whether a small motion dies down to rest: B <= -S(0), which is 4 a / pi.
+
+The exact motion rests only for B <= a; from there to 4 a / pi it is a small one that sticks twice a cycle.
+
+Parameters
+----------
+B : float
+    [m/s^2], positive and finite.
+
+Returns
+-------
+bool
+
+Raises
+------
+ValueError
+    Another B.)")
+      .def(
+          "transient",
+          [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase,
+             const py::object& times) {
+            const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times");
+            theory::HarmonicTransient found;
+            {
+              const py::gil_scoped_release released;
+              found = self.transient(B, omega, amplitude, phase, at, check_for_interrupt);
+            }
+            return py::make_tuple(array_of(std::move(found.amplitude)), array_of(std::move(found.phase)));
+          },
+          py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"), py::arg("times"),
+          R"(Amplitude and phase on their way, from the averaged equations (2.10) corrected and (2.11).
+
+A motion that dies down stays at rest where `rests`.
+
+Parameters
+----------
+B, omega : float
+    As for `response`.
+amplitude : float
+    A at t = 0 [m], finite and at least 0.
+phase : float
+    phi at t = 0 [rad], finite: x(0) = A cos(phi), x'(0) = -omega A sin(phi).
+times : array_like, shape (T,)
+    [s], increasing, from 0 on.
+
+Returns
+-------
+amplitude, phase : ndarray, shape (T,)
+    [m], and [rad] from -pi to pi; the phase is nan where the amplitude is 0.
+
+Raises
+------
+ValueError
+    A value out of its range.
+ConvergenceError
+    After a million steps, with the time reached.
+
+Notes
+-----
+By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B / omega^2.)")
+      .def(
+          "settles_on",
+          [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase) {
+            const py::gil_scoped_release released;
+            return self.settles_on(B, omega, amplitude, phase, check_for_interrupt);
+          },
+          py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"),
+          R"(The solution that a motion comes to in the end.
+
+The averaged equations contract areas, by (S' + S/A) / (2 omega), so that they have no closed orbits, and a motion which
+turns about a stable solution once, with all others outside, can't leave it.
+
+Parameters
+----------
+B, omega, amplitude, phase : float
+    As for `transient`.
+
+Returns
+-------
+HarmonicSolution
+    One of `response`, or rest (amplitude 0), or, at resonance, an infinite amplitude. Without friction, the one about
+    which it turns for ever.
+
+Raises
+------
+ValueError
+    A value out of its range.
+ConvergenceError
+    Not decided after a hundred thousand turns: within round-off of the boundary between two solutions.
+
+Notes
+-----
+Some milliseconds where several are stable.)")
+      .def("__repr__",
+           [](const SlowlyVaryingParameters& self) {
+             return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
+           })
+      .def("__reduce__", [](const py::object& self) {
+        return py::make_tuple(py::type::of(self), py::make_tuple(self.attr("slider")));
+      });
+}
+
+}  // namespace stickslip::python

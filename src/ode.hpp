@@ -1,0 +1,56 @@
+// Ordinary differential equations, by SUNDIALS CVODE.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "stickslip/error.hpp"
+
+namespace stickslip::detail {
+
+/// dy/dt into `slope`, of as many numbers as `y`.
+using OdeRightSide = std::function<void(double t, std::span<const double> y, std::span<double> slope)>;
+
+struct OdeOptions {
+  double relative_tolerance = 1e-10;
+  /// One a component, or one for all. Zero is allowed for components that never are zero.
+  std::vector<double> absolute_tolerance = {0};
+  /// Backward differentiation and Newton iteration on a dense Jacobian of differences, for what decays far faster than
+  /// it is looked at; else Adams' formulas and fixed-point iteration.
+  bool stiff = false;
+  long most_steps = 1'000'000;
+  std::function<void()> heartbeat{};  ///< called every thousand steps; may throw to end the work; optional
+};
+
+/// The solver gave up; for callers whose `t` is not the time that users know.
+struct OdeFailure : ConvergenceError {
+  OdeFailure(double at, double last, const std::string& reason)
+      : ConvergenceError("solve_ode: reached t = " + shortest(at) + " of " + shortest(last) + ": " + reason),
+        reached(at),
+        why(reason) {}
+
+  double reached;
+  std::string why;
+};
+
+struct OdeSolution {
+  std::size_t dimension;
+  std::vector<double> states;  ///< time by time
+  long steps = 0, evaluations = 0;
+
+  std::span<const double> at(std::size_t time) const { return std::span(states).subspan(time * dimension, dimension); }
+};
+
+/// y(t) at `times`, from y(t0) = `y0`. Local errors are held within the tolerances; the error at a time is some ten
+/// times that. What `right_side` or the heartbeat throw comes through; where a slope is not finite a shorter step is
+/// tried.
+/// @param times  increasing, from t0 on
+/// @throws std::invalid_argument where times, sizes or tolerances make no sense
+/// @throws OdeFailure, a ConvergenceError with the time reached, where the solver gives up
+OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const double> y0,
+                      std::span<const double> times, const OdeOptions& options = {});
+
+}  // namespace stickslip::detail
