@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "stickslip/error.hpp"
 
@@ -163,16 +164,15 @@ OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const
   }
 
   double reached = t0;
-  const auto give_up = [&](const std::string& why) {
-    throw ConvergenceError("solve_ode: reached t = " + shortest(reached) + " of " + shortest(times.back()) + ": " +
-                           why);
-  };
+  const auto give_up = [&](const std::string& why) { throw OdeFailure(reached, times.back(), why); };
+  double beat = t0;
   for (const double time : times) {
     int flag;
     while ((flag = CVode(memory.get(), time, y.get(), &reached, CV_NORMAL)) == CV_TOO_MUCH_WORK) {
       CVodeGetNumSteps(memory.get(), &solution.steps);
       if (solution.steps >= options.most_steps)
         give_up(std::to_string(solution.steps) + " steps done, no more are allowed");
+      if (reached == std::exchange(beat, reached)) give_up("steps have become too short to get on");
       if (options.heartbeat) options.heartbeat();
     }
     if (problem.thrown) std::rethrow_exception(problem.thrown);

@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
+
+#include "stickslip/error.hpp"
 
 namespace stickslip::detail {
 
@@ -22,6 +25,17 @@ struct OdeOptions {
   std::function<void()> heartbeat{};  ///< called every thousand steps; may throw to end the work; optional
 };
 
+/// The solver gave up; for callers whose `t` is not the time that users know.
+struct OdeFailure : ConvergenceError {
+  OdeFailure(double at, double last, const std::string& reason)
+      : ConvergenceError("solve_ode: reached t = " + shortest(at) + " of " + shortest(last) + ": " + reason),
+        reached(at),
+        why(reason) {}
+
+  double reached;
+  std::string why;
+};
+
 struct OdeSolution {
   std::size_t dimension;
   std::vector<double> states;  ///< time by time
@@ -35,7 +49,7 @@ struct OdeSolution {
 /// tried.
 /// @param times  increasing, from t0 on
 /// @throws std::invalid_argument where times, sizes or tolerances make no sense
-/// @throws ConvergenceError with the time reached, where the solver gives up
+/// @throws OdeFailure, a ConvergenceError with the time reached, where the solver gives up
 OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const double> y0,
                       std::span<const double> times, const OdeOptions& options = {});
 
