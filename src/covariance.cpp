@@ -30,6 +30,14 @@ double one_less_sinc(double z) {
   return sum;
 }
 
+/// Of the laws that have a closed form then.
+bool frictionless(const LinearizedLaw& law) {
+  const auto* const coulomb = std::get_if<Coulomb>(&law);
+  const auto* const wheel = std::get_if<Caster>(&law);
+  return coulomb != nullptr ? coulomb->forward() == 0 && coulomb->backward() == 0
+                            : wheel != nullptr && wheel->slip_level() == 0;
+}
+
 /// The slip level at x = 0.
 double level_at_rest(const LinearizedLaw& law) {
   if (const auto* const any = std::get_if<std::function<double(double, Direction)>>(&law))
@@ -108,14 +116,11 @@ Variables early(double a, double s0, double t, Start start) {
 }  // namespace
 
 Covariance frictionless_covariance(double natural_frequency, double s0, double time) {
-  const double angle = natural_frequency * time, velocity = std::sqrt(2 * pi * s0 * time);
-  const double displacement = time * std::sqrt(2 * pi / 3 * s0 * time);
-  if (angle == 0)  // thesis (3.41) to (3.43)
-    return {displacement * displacement, std::sqrt(0.75) * displacement * velocity, velocity * velocity};
+  const Covariance free{2 * pi / 3 * s0 * time * time * time, pi * s0 * time * time, 2 * pi * s0 * time};
+  const double angle = natural_frequency * time;
+  if (angle < 1e-9) return free;
   const double phase = std::sin(angle) / angle, less = one_less_sinc(2 * angle);
-  const double shorter = displacement * std::sqrt(3 * less / 2) / angle;
-  return {shorter * shorter, std::sqrt(0.75) * displacement * velocity * phase * phase,
-          velocity * velocity * (1 - less / 2)};
+  return {free.q11 * (1.5 * less / angle / angle), free.q12 * phase * phase, free.q22 * (1 - less / 2)};
 }
 
 CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_frequency, double s0,
@@ -145,6 +150,11 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
     if (times.empty()) return solution;
   }
 
+  if (frictionless(law)) {
+    for (const double time : times) keep(frictionless_covariance(natural_frequency, s0, time), time);
+    return solution;
+  }
+
   const Expectation friction = expectation(law, options.force, 10 * last * std::sqrt(2 * pi / 3 * s0 * last));
   // So early that what the start neglects has died away, as t0 / t, by the first time asked for.
   const double t0 = std::min({1e-8 * times.front(), 1e-10 * unit, 1e-8 / natural_frequency});
@@ -159,11 +169,13 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   for (const double time : times) ln_times.push_back(std::log(time / last));
   const std::array<double, 3> y0 = {start.ln_r11, start.c, start.ln_r22};
   try {
-    const auto states =
-        solve_ode(std::cref(equations), std::log(t0 / last), y0, ln_times,
-                  {.relative_tolerance = options.tolerance / 10,
-                   .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
-                   .stiff = true,  // the velocity settles within S0 / a^2, times go to millions of that; no slower where they do not
+    const auto states = solve_ode(
+        std::cref(equations), std::log(t0 / last), y0, ln_times,
+        {.relative_tolerance = options.tolerance / 10,
+         .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
+         .stiff =
+             true,  // the velocity settles within S0 / a^2, times go to millions of that; no slower where they do not
+         .most_steps = 300'000,  // a second; it is the periods of a spring that take so many
          .heartbeat = heartbeat});
     solution.steps = states.steps;
     solution.evaluations = states.evaluations;

@@ -92,6 +92,8 @@ TransitionTime transition_time(const Slider<Caster>& slider, WhiteLevel s0) {
   require(a > 0, "transition_time: without friction there is no transition: slip_level must be positive", a, "m/s^2");
   const double unit = s0.s0() / a / a, loose = reach / (s0.s0() / a) / unit;     // 1 / gamma
   const double thesis = unit * (loose * loose / std::pow(pi, 5) + pi * pi / 4);  // (3.51)
+  require(std::isfinite(thesis) || std::isinf(reach),
+          "transition_time: exceeds the range of doubles: reach must be less, or slip_level nearer to s0", reach, "m");
   return {thesis, thesis + 47 * pi * pi / 48 * unit};
 }
 

@@ -53,9 +53,10 @@ Friction caster(double slip_level, double reach, double displacement, double c, 
   for (const Node& node : sinh_nodes()) {
     const double x = scale * node.x, y = eta * x, narrow = x / s;
     if (x > gaussian_end || y > 42) break;
-    const double e = std::exp(-y), cosh = (1 + e * e) / 2, sech = e / cosh, sinh = (1 - e * e) / 2;
+    const double less = std::expm1(-y), e = 1 + less, sech = 2 * e / (1 + e * e),
+                 tanh = -less * (2 + less) / (1 + e * e);
     if (narrow < gaussian_end) level += node.weight * sech * std::exp(-narrow * narrow / 2);
-    pull += node.weight * sech * (sinh / cosh) * std::erf(steepness * x) * std::exp(-x * x / 2);
+    pull += node.weight * sech * tanh * std::erf(steepness * x) * std::exp(-x * x / 2);
   }
   const double density = scale / std::sqrt(2 * pi);
   return {slip_level * (density / s) * level, slip_level * eta * density * pull};

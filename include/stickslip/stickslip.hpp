@@ -12,3 +12,5 @@
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"
+#include "stickslip/theory/equivalent_linearization.hpp"
+#include "stickslip/theory/white_noise.hpp"
