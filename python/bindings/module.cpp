@@ -19,5 +19,7 @@ PYBIND11_MODULE(_core, m) {
   bind_poisson(m);
   bind_moments(m);
   bind_ensemble(m);
+  bind_white_noise(m);
+  bind_equivalent_linearization(m);
   bind_build_info(m);
 }
