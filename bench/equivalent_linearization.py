@@ -37,7 +37,7 @@ WEIGHTS = WEIGHTS / WEIGHTS.sum()
 
 
 def gaussian(q11: float, q12: float, q22: float) -> tuple[float, float]:
-    """(3.22), (3.25), by Gauss and Hermite's rule where the density is narrow, else by trapezoids."""
+    """(3.22), (3.25): Gauss and Hermite where the density is narrow, else trapezoids."""
     from scipy.special import erf
 
     det = q11 * q22 - q12**2
