@@ -13,3 +13,5 @@
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"
 #include "stickslip/theory/slowly_varying_parameters.hpp"
+#include "stickslip/theory/equivalent_linearization.hpp"
+#include "stickslip/theory/white_noise.hpp"

@@ -44,6 +44,8 @@ void bind_poisson(py::module_& m);
 void bind_moments(py::module_& m);
 void bind_ensemble(py::module_& m);
 void bind_slowly_varying_parameters(py::module_& m);
+void bind_white_noise(py::module_& m);
+void bind_equivalent_linearization(py::module_& m);
 void bind_build_info(py::module_& m);
 
 /// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.

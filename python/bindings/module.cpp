@@ -20,5 +20,7 @@ PYBIND11_MODULE(_core, m) {
   bind_moments(m);
   bind_ensemble(m);
   bind_slowly_varying_parameters(m);
+  bind_white_noise(m);
+  bind_equivalent_linearization(m);
   bind_build_info(m);
 }

@@ -7,3 +7,6 @@ refuses the rest.
 from ._core import HarmonicSolution, SlowlyVaryingParameters
 
 __all__ = ["HarmonicSolution", "SlowlyVaryingParameters"]
+from ._core import EquivalentLinearization, TransitionTime, WhiteNoise, transition_time
+
+__all__ = ["EquivalentLinearization", "TransitionTime", "WhiteNoise", "transition_time"]

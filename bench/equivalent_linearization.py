@@ -1,0 +1,159 @@
+"""The covariance under white noise for one caster, against SciPy's solve_ivp at equal error.
+
+SciPy is given what its user would write: the covariance equations in plain time, from the leading
+terms of the series, each force by array arithmetic. Answers are checked before they are timed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import stickslip as ss
+from measure import UNRELIABLE, bar, machine, peer, take_turns, versions
+
+# As in equivalent_linearization.cpp: thesis figures 3.1 to 3.3.
+TIMES = 10 ** (np.arange(37) / 9 - 1)
+GAMMA, ALLOWED = 0.01, 1e-7
+START = 1e-9
+FASTER = 50
+
+Slope = Callable[[float, np.ndarray], list[float]]
+
+
+def thesis(q11: float, q12: float, q22: float) -> tuple[float, float]:
+    """(3.29), (3.30)."""
+    from scipy.special import erfcx
+
+    z = math.sqrt(q22 / (2 * (q11 * q22 - q12**2))) / GAMMA
+    return 0.0, -math.sqrt(2 / q22) * z * erfcx(z)
+
+
+NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(64)
+WEIGHTS = WEIGHTS / WEIGHTS.sum()
+
+
+def gaussian(q11: float, q12: float, q22: float) -> tuple[float, float]:
+    """(3.22), (3.25): Gauss and Hermite where the density is narrow, else trapezoids."""
+    from scipy.special import erf
+
+    det = q11 * q22 - q12**2
+    rms, width = math.sqrt(q11), math.sqrt(det / q22)
+
+    def expected(f: Callable[[np.ndarray], np.ndarray], scale: float) -> float:
+        if scale * GAMMA < 0.5:
+            return float(WEIGHTS @ f(scale * NODES))
+        end = min(9 * scale, 30 / GAMMA)
+        x = np.linspace(-end, end, 401)
+        density = np.exp(-((x / scale) ** 2) / 2) / (scale * math.sqrt(2 * math.pi))
+        return float((f(x) * density).sum() * (x[1] - x[0]))
+
+    level = expected(lambda x: 1 / np.cosh(GAMMA * x), width)
+    pull = expected(
+        lambda x: np.tanh(GAMMA * x) / np.cosh(GAMMA * x) * erf(q12 * x / math.sqrt(2 * q11 * det)),
+        rms,
+    )
+    return GAMMA * pull, -math.sqrt(2 / (math.pi * q22)) * level
+
+
+def slope(force: Callable[[float, float, float], tuple[float, float]]) -> Slope:
+    def right_side(_: float, q: np.ndarray) -> list[float]:
+        a21, a22 = force(*q)
+        return [
+            2 * q[1],
+            a21 * q[0] + a22 * q[1] + q[2],
+            2 * (a21 * q[1] + a22 * q[2] + math.pi),
+        ]
+
+    return right_side
+
+
+def solve_ivp(right_side: Slope, tolerance: float, method: str) -> tuple[np.ndarray, int]:
+    from scipy.integrate import solve_ivp as solve
+
+    t, root = START, math.sqrt(START)
+    start = [
+        2 * math.pi / 3 * t**3 - 88 / 105 * t**3 * root,
+        math.pi * t**2 - 22 / 15 * t**2 * root,
+        2 * math.pi * t - 8 / 3 * t * root,
+    ]
+    found = solve(right_side, (t, TIMES[-1]), start, method, TIMES, rtol=tolerance, atol=1e-40)
+    return found.y, found.nfev
+
+
+def covariance(m: ss.Moments) -> np.ndarray:
+    return np.array([m.displacement_variance, m.covariance, m.velocity_variance])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=11)
+    parser.add_argument("--check", action="store_true", help="answers alone")
+    options = parser.parse_args()
+    wheel = ss.Caster(slip_level=1, reach=1 / GAMMA)
+    scipy = peer("scipy")
+
+    works, rows = {}, []
+    for name, force in {"gaussian": gaussian, "thesis": thesis}.items():
+        exact = covariance(
+            ss.theory.EquivalentLinearization(name, tolerance=1e-12).predict(wheel, 1, TIMES)
+        )
+        ours = ss.theory.EquivalentLinearization(name, tolerance=1e-8)
+        error = abs(covariance(ours.predict(wheel, 1, TIMES)) / exact - 1).max()
+        if not error < ALLOWED:
+            sys.exit(f"wrong answer: {name}, {error:.3g}, allowed {ALLOWED}")
+        works[name] = (lambda ours=ours: ours.predict(wheel, 1, TIMES), 1)
+        rows.append((name, f"{error:.0e}"))
+        if scipy is None:
+            continue
+        # The loosest tolerance that leaves an error no larger than allowed, by each of SciPy's
+        # methods for this; the fastest counts.
+        for method in ("DOP853", "LSODA", "RK45"):
+            for tolerance in 10.0 ** np.arange(-6, -12, -1):
+                q, evaluations = solve_ivp(slope(force), tolerance, method)
+                error = abs(q / exact - 1).max() if q.shape == exact.shape else math.inf
+                if error < ALLOWED:
+                    break
+            else:
+                sys.exit(f"wrong answer: scipy {method}, {name}, {error:.3g}, allowed {ALLOWED}")
+            key = f"{name}, scipy {method}"
+            works[key] = (
+                lambda f=force, tol=tolerance, how=method: solve_ivp(slope(f), tol, how),
+                1,
+            )
+            rows.append((key, f"{error:.0e}, rtol {tolerance:.0e}, {evaluations} evaluations"))
+    if options.check:
+        return
+
+    timings = take_turns(works, options.rounds)
+    print(machine())
+    print(versions("numpy", "scipy"))
+    print(f"\n{'gamma = 0.01, 37 times: ms per solution':44} {'median':>9} {'spread':>7}  error")
+    for key, note in rows:
+        t = timings[key]
+        flag = " " if t.reliable else "!"
+        print(f"{key:44} {t.median / 1e6:9.3f} {100 * t.spread:6.0f}%{flag} {note}")
+    if not all(t.reliable for t in timings.values()):
+        print(UNRELIABLE)
+    if scipy is not None:
+        print()
+        for name in ("gaussian", "thesis"):
+            best = min(
+                (t for key, t in timings.items() if key.startswith(f"{name}, scipy")),
+                key=lambda t: t.median,
+            )
+            print(
+                bar(
+                    f"{name}: times as fast as scipy's fastest",
+                    best.ratio(timings[name]),
+                    FASTER,
+                    True,
+                )
+            )
+
+
+if __name__ == "__main__":
+    main()
