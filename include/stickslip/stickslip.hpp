@@ -12,3 +12,5 @@
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"
+#include "stickslip/theory/pulse_response.hpp"
+#include "stickslip/theory/pulse_superposition.hpp"
