@@ -166,11 +166,13 @@ struct Rates {
 
 class Pulses {
  public:
-  Pulses(const detail::PulseSystem& system, const PoissonPulses& pulses, Overlap overlap)
-      : system_(system), pulses_(pulses), overlap_(overlap) {}
+  Pulses(const detail::PulseSystem& system, const PoissonPulses& pulses, Overlap overlap,
+         const std::function<void()>& heartbeat)
+      : system_(system), pulses_(pulses), overlap_(overlap), heartbeat_(heartbeat) {}
 
   /// At x, with amplitudes of rms `sigma`.
   Rates rates(double x, double sigma) const {
+    if (heartbeat_) heartbeat_();
     const double forward = system_.level(x, Direction::forward), backward = system_.level(x, Direction::backward);
     const PulseShape& shape = pulses_.options().shape;
     const std::vector<double> up = thresholds(shape, forward, backward, 1),
@@ -212,6 +214,7 @@ class Pulses {
   const detail::PulseSystem& system_;
   const PoissonPulses& pulses_;
   Overlap overlap_;
+  const std::function<void()>& heartbeat_;
 };
 
 /// Rates by position, computed where they are asked for and interpolated by cubics.
@@ -271,7 +274,7 @@ void remark(Moments& moments, const std::string& sentence) {
 }  // namespace
 
 Moments PulseSuperposition::predict(const detail::PulseSystem& system, const PoissonPulses& pulses,
-                                    std::span<const double> times) const {
+                                    std::span<const double> times, const std::function<void()>& heartbeat) const {
   const double dt = pulses.half_width(), sigma = pulses.sigma(), overlap = pulses.rate() * dt;
   const PoissonOptions& options = pulses.options();
   for (const double time : times)
@@ -289,7 +292,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
   if (options.envelope && !system.constant_level)
     throw std::invalid_argument("PulseSuperposition: an envelope is covered for constant slip levels only");
 
-  const Pulses law(system, pulses, overlap_);
+  const Pulses law(system, pulses, overlap_, heartbeat);
   const Rates rest = law.rates(0, sigma);
   const double per_composite = overlap_ == Overlap::none ? 1 : 1 + overlap;  // at most: the mean square
   if (rest.lost > 1e-3)

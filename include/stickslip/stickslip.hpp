@@ -12,5 +12,6 @@
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"
+#include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"

@@ -19,5 +19,8 @@ PYBIND11_MODULE(_core, m) {
   bind_poisson(m);
   bind_moments(m);
   bind_ensemble(m);
+  bind_pulse_response(m);
+  bind_pulse_superposition(m);
+  bind_pulse_chain(m);
   bind_build_info(m);
 }

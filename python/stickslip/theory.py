@@ -4,4 +4,22 @@ Each takes the sliders and the sources of motion that a simulation takes, says w
 refuses the rest.
 """
 
-__all__: list[str] = []
+from ._core import (
+    PulseChain,
+    PulseResponse,
+    PulseSuperposition,
+    peak_from_growth,
+    pulse_response,
+    viscous_damping_for,
+    viscous_pulse_response,
+)
+
+__all__ = [
+    "PulseChain",
+    "PulseResponse",
+    "PulseSuperposition",
+    "peak_from_growth",
+    "pulse_response",
+    "viscous_damping_for",
+    "viscous_pulse_response",
+]

@@ -1,7 +1,9 @@
 // Poisson pulses as if each found the slider at rest.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <span>
 
 #include "stickslip/excitation/poisson.hpp"
@@ -66,21 +68,24 @@ class PulseSuperposition {
   /// @param slider  without a spring
   /// @param pulses  the excitation
   /// @param times   where to answer [s], finite, at least 0
+  /// @param heartbeat  called now and then; what it throws ends the work
   /// @return moments; velocities are stationary, `growth_rate` NaN under an envelope. `remark` says where times are too
   ///         short, where nothing slips and why, and which share of the pulses would carry a caster off
   /// @throws std::invalid_argument naming what is not covered or the value refused
   /// Integrals over the amplitudes to 1e-13, Coulomb; 20 to 60 us. A caster takes 0.1 to 1 s.
   template <FrictionLaw Law>
-  Moments predict(const Slider<Law>& slider, const PoissonPulses& pulses, std::span<const double> times) const {
+  Moments predict(const Slider<Law>& slider, const PoissonPulses& pulses, std::span<const double> times,
+                  const std::function<void()>& heartbeat = {}) const {
     detail::require_no_spring(slider.natural_frequency(), "PulseSuperposition");
-    return predict(system(slider, pulses), pulses, times);
+    return predict(system(slider, pulses), pulses, times, heartbeat);
   }
 
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
   template <FrictionLaw Law>
-  double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses) const {
+  double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
+                   const std::function<void()>& heartbeat = {}) const {
     const double end[] = {pulses.duration()};
-    const Moments moments = predict(slider, pulses, end);
+    const Moments moments = predict(slider, pulses, end, heartbeat);
     return std::hypot(std::sqrt(moments.displacement_variance.value[0]), moments.displacement_mean.value[0]);
   }
 
@@ -90,12 +95,17 @@ class PulseSuperposition {
     return {ConstantLevelLaw<Law>,
             [&slider](double x, Direction direction) { return slider.law().level(x, direction); },
             [&slider, &pulses](double b, double x) {
-              const detail::Ride end = detail::ride(slider, pulses.options().shape, b, pulses.half_width(), x);
-              return detail::PulseEffect{end.state.displacement - x, end.velocity_square};
+              try {
+                const detail::Ride end = detail::ride(slider, pulses.options().shape, b, pulses.half_width(), x);
+                return detail::PulseEffect{end.state.displacement - x, end.velocity_square};
+              } catch (const ConvergenceError&) {  // where the slip level is as good as zero
+                return detail::PulseEffect{std::numeric_limits<double>::infinity(), 0};
+              }
             }};
   }
 
-  Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times) const;
+  Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
+                  const std::function<void()>& heartbeat) const;
 
   Overlap overlap_;
 };
