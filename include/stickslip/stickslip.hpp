@@ -15,3 +15,6 @@
 #include "stickslip/theory/slowly_varying_parameters.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/white_noise.hpp"
+#include "stickslip/theory/pulse_chain.hpp"
+#include "stickslip/theory/pulse_response.hpp"
+#include "stickslip/theory/pulse_superposition.hpp"

@@ -46,6 +46,9 @@ void bind_ensemble(py::module_& m);
 void bind_slowly_varying_parameters(py::module_& m);
 void bind_white_noise(py::module_& m);
 void bind_equivalent_linearization(py::module_& m);
+void bind_pulse_response(py::module_& m);
+void bind_pulse_superposition(py::module_& m);
+void bind_pulse_chain(py::module_& m);
 void bind_build_info(py::module_& m);
 
 /// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.

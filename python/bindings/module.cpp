@@ -22,5 +22,8 @@ PYBIND11_MODULE(_core, m) {
   bind_slowly_varying_parameters(m);
   bind_white_noise(m);
   bind_equivalent_linearization(m);
+  bind_pulse_response(m);
+  bind_pulse_superposition(m);
+  bind_pulse_chain(m);
   bind_build_info(m);
 }

@@ -10,3 +10,22 @@ __all__ = ["HarmonicSolution", "SlowlyVaryingParameters"]
 from ._core import EquivalentLinearization, TransitionTime, WhiteNoise, transition_time
 
 __all__ = ["EquivalentLinearization", "TransitionTime", "WhiteNoise", "transition_time"]
+from ._core import (
+    PulseChain,
+    PulseResponse,
+    PulseSuperposition,
+    peak_from_growth,
+    pulse_response,
+    viscous_damping_for,
+    viscous_pulse_response,
+)
+
+__all__ = [
+    "PulseChain",
+    "PulseResponse",
+    "PulseSuperposition",
+    "peak_from_growth",
+    "pulse_response",
+    "viscous_damping_for",
+    "viscous_pulse_response",
+]

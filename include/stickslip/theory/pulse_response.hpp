@@ -1,0 +1,264 @@
+// What one pulse does to a slider at rest.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stickslip/advance.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/excitation/poisson.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip::theory {
+
+/// The motion that one pulse of ground acceleration causes.
+struct PulseResponse {
+  std::vector<double> time;          ///< [s] from the arrival of the pulse on
+  std::vector<double> displacement;  ///< x, less where it lay before [m]
+  std::vector<double> velocity;      ///< x' [m/s]
+  double offset = 0;                 ///< the last displacement [m], thesis (5.8); infinite where it never stops
+  double peak = 0;                   ///< largest |displacement| over all time [m]
+  double stop = 0;                   ///< when it has come to rest for good [s]; 0 if it never moves
+  double velocity_square = 0;        ///< integral of x'^2 over all time [m^2/s], thesis (5.32)
+};
+
+namespace detail {
+
+using stickslip::detail::require;
+
+/// Along the way of a response.
+struct Ride {
+  State state{};
+  double velocity_square = 0;  ///< integral of x'^2 so far [m^2/s]
+
+  void uniform(double duration, double last_velocity) {
+    const double v = state.velocity;
+    state.displacement += (v + last_velocity) / 2 * duration;
+    velocity_square += (v * v + v * last_velocity + last_velocity * last_velocity) / 3 * duration;
+    state.velocity = last_velocity;
+  }
+};
+
+/// Calls knot(time since the call, ride) where a motion under a held ground acceleration stops or turns. Coulomb
+/// friction: closed forms, nothing of the event loop.
+template <class Knot>
+void hold(const Slider<Coulomb>& slider, double n, double duration, Ride& ride, Knot&& knot) {
+  const Coulomb& law = slider.law();
+  double left = duration;
+  if (ride.state.velocity != 0) {
+    const double v = ride.state.velocity;
+    const double acceleration = v > 0 ? -n - law.forward() : -n + law.backward();
+    const double stop = -v / acceleration;
+    if (!(stop >= 0 && stop <= left)) return ride.uniform(left, v + acceleration * left);
+    ride.uniform(stop, 0);
+    left -= stop;
+    knot(duration - left, ride);
+  }
+  const double acceleration = -n > law.forward() ? -n - law.forward() : n > law.backward() ? -n + law.backward() : 0;
+  if (acceleration != 0) ride.uniform(left, acceleration * left);
+}
+
+/// Any law: by the event loop. Between events the velocity is analytic, so that its square is integrated by
+/// Gauss-Legendre quadrature of eight points.
+template <FrictionLaw Law, class Knot>
+void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot&& knot) {
+  struct Watch {
+    std::vector<double> times{};
+    void slide(Direction, double, double, double, double) const noexcept {}
+    void event(EventKind, double time, const State&) { times.push_back(time); }
+  } watch;
+  State probe = ride.state;
+  advance(slider, {duration, n, n}, probe, watch);
+  watch.times.push_back(duration);
+
+  constexpr std::array<double, 8> nodes = {0.019855071751231884, 0.10166676129318664, 0.23723379504183550,
+                                           0.40828267875217510,  0.59171732124782490, 0.76276620495816450,
+                                           0.89833323870681336,  0.98014492824876812};
+  constexpr std::array<double, 4> weights = {0.050614268145188130, 0.11119051722668724, 0.15685332293894364,
+                                             0.18134189168918100};
+  double from = 0;
+  for (const double to : watch.times) {
+    double now = from;
+    const auto go = [&](double time) {
+      advance(slider, {time - now, n, n}, ride.state);
+      now = time;
+      return ride.state.velocity * ride.state.velocity;
+    };
+    double sum = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      sum += weights[i < 4 ? i : 7 - i] * go(from + nodes[i] * (to - from));
+    ride.velocity_square += sum * (to - from);
+    go(to);
+    if (to < duration) knot(to, ride);
+    from = to;
+  }
+}
+
+/// Lets it slide on over ground at rest until it stops; returns how long that takes [s], infinite where it never does.
+inline double coast(const Slider<Coulomb>& slider, Ride& ride) {
+  const double v = ride.state.velocity;
+  if (v == 0) return 0;
+  const double time = std::abs(v) / (v > 0 ? slider.law().forward() : slider.law().backward());
+  ride.uniform(time, 0);
+  return time;
+}
+
+template <FrictionLaw Law>
+double coast(const Slider<Law>& slider, Ride& ride) {
+  constexpr double never_stops = std::numeric_limits<double>::infinity();
+  constexpr int most_doublings = 30;
+  const auto level = [&] { return slider.law().level(ride.state.displacement, direction_of(ride.state.mode)); };
+  double time = 0, step = 0;
+  for (int i = 0; ride.state.mode != Mode::stuck; ++i) {
+    step = i == 0 ? std::abs(ride.state.velocity) / level() : 2 * step;
+    if (i > most_doublings || !std::isfinite(step)) {
+      ride.state.displacement *= never_stops;
+      return never_stops;
+    }
+    double stopped = step;
+    try {
+      hold(slider, 0, step, ride, [&](double now, const Ride&) { stopped = now; });
+    } catch (const ConvergenceError&) {  // where the level is as good as zero
+      step = never_stops;
+      continue;
+    }
+    time += ride.state.mode == Mode::stuck ? stopped : step;
+  }
+  return time;
+}
+
+struct NoKnot {
+  void operator()(double, const Ride&) const noexcept {}
+};
+
+/// One pulse from rest at `position`, its end waited for; calls knot(time, ride) at the edges of the pulse, at stops
+/// and turns, and at the end. The slider has no spring.
+template <FrictionLaw Law, class Knot = NoKnot>
+Ride ride(const Slider<Law>& slider, const PulseShape& shape, double b, double dt, double position, Knot&& knot = {}) {
+  Ride ride{State::at(position, 0)};
+  const auto times = shape.times();
+  double rounding = 0;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const double begin = times[i] * dt;
+    rounding += 1e-15 * std::abs(b * shape.values()[i]) * (times[i + 1] - times[i]) * dt;
+    knot(begin, ride);
+    hold(slider, b * shape.values()[i], (times[i + 1] - times[i]) * dt, ride,
+         [&](double now, const Ride& there) { knot(begin + now, there); });
+  }
+  const double end = shape.length() * dt;
+  // What round-off leaves of a velocity would take for ever to stop where the slip level is zero.
+  if (std::abs(ride.state.velocity) <= rounding) ride.state = State::at(ride.state.displacement, 0);
+  knot(end, ride);
+  if (const double more = coast(slider, ride); more > 0) knot(end + more, ride);
+  return ride;
+}
+
+void check_pulse(double b, double dt, std::span<const double> times);
+
+inline void require_no_spring(double natural_frequency, const char* theory) {
+  require(natural_frequency == 0,
+          std::string(theory) +
+              ": a slider with a spring is not covered, natural_frequency "
+              "must be 0",
+          natural_frequency, "rad/s");
+}
+
+}  // namespace detail
+
+/// What one pulse does to a slider at rest, thesis (5.7), (5.8), (5.32): x'' + level sgn x' = -b w(t / dt).
+///
+/// Coulomb friction in closed form (its velocity is straight between the instants that are answered without `times`),
+/// any other law by the event loop, `advance`: a pulse is a few held loads, and what it does is not random.
+/// @param slider    without a spring
+/// @param b         amplitude [m/s^2], finite
+/// @param dt        half width [s], positive and finite; the unit of the shape's times
+/// @param shape     of the pulse
+/// @param position  where it lies before [m], finite: matters where the slip level depends on it
+/// @param times     where to answer [s], ascending, finite, at least 0; empty: the edges of the pulse, stops and turns
+/// @return displacements less `position`; all over where the motion is
+/// @throws std::invalid_argument naming the value
+/// Coulomb: to round-off, 30 ns; others: to about 1e-10, some 20 us.
+template <FrictionLaw Law>
+PulseResponse pulse_response(const Slider<Law>& slider, double b, double dt, const PulseShape& shape = {},
+                             double position = 0, std::span<const double> times = {}) {
+  detail::check_pulse(b, dt, times);
+  detail::require_no_spring(slider.natural_frequency(), "pulse_response");
+  detail::require(std::isfinite(position), "pulse_response: position must be finite", position, "m");
+
+  struct Knot {
+    double time;
+    detail::Ride ride;
+  };
+  std::vector<Knot> knots;
+  const detail::Ride end = detail::ride(slider, shape, b, dt, position, [&](double time, const detail::Ride& ride) {
+    knots.push_back({time, ride});
+  });
+  PulseResponse response;
+  response.offset = end.state.displacement - position;
+  response.velocity_square = end.velocity_square;
+  for (const Knot& knot : knots) {
+    response.peak = std::max(response.peak, std::abs(knot.ride.state.displacement - position));
+    if (knot.ride.velocity_square > 0 && response.stop == 0) response.stop = knot.time;  // it has moved
+  }
+  if (response.velocity_square > 0)
+    for (auto knot = knots.rbegin(); knot != knots.rend() && knot->ride.velocity_square == end.velocity_square; ++knot)
+      response.stop = knot->time;
+
+  const auto answer = [&](double time, const State& state) {
+    response.time.push_back(time);
+    response.displacement.push_back(state.displacement - position);
+    response.velocity.push_back(state.velocity);
+  };
+  if (times.empty()) {
+    for (const Knot& knot : knots) answer(knot.time, knot.ride.state);
+    return response;
+  }
+  const auto edges = shape.times();
+  for (std::size_t i = 0, k = 0; i < times.size(); ++i) {
+    while (k + 1 < knots.size() && knots[k + 1].time <= times[i]) ++k;
+    detail::Ride ride = knots[k].ride;
+    double n = 0;
+    for (std::size_t j = 0; j + 1 < edges.size(); ++j)
+      if (edges[j] * dt <= knots[k].time && knots[k].time < edges[j + 1] * dt) n = b * shape.values()[j];
+    detail::hold(slider, n, times[i] - knots[k].time, ride, detail::NoKnot{});
+    answer(times[i], ride.state);
+  }
+  return response;
+}
+
+/// What the symmetric rectangular pulse does to a mass on a viscous damper, thesis (5.2), (5.14), corrected (5.15):
+/// x'' + damping x' = -n(t).
+///
+/// In a form that does not cancel, down to no damping at all. It leaves no offset, whatever the damping above 0.
+/// @param damping  zeta [1/s], finite and at least 0
+/// @param b        amplitude [m/s^2], finite
+/// @param dt       half width [s], positive and finite
+/// @param times    where to answer [s], ascending, finite, at least 0; empty: 0, dt and 2 dt
+/// @return `stop` is infinite (0 where b = 0)
+/// @throws std::invalid_argument naming the value
+PulseResponse viscous_pulse_response(double damping, double b, double dt, std::span<const double> times = {});
+
+/// The viscous damping that makes the integral of x'^2 under the symmetric rectangular pulse what it is under friction,
+/// thesis figure 5.3: both have the same rms velocity.
+/// @param velocity_square  the integral to be matched [m^2/s], `PulseResponse::velocity_square`, positive, below the
+///                         2 b^2 dt^3 / 3 of no damping (5.43)
+/// @param b                amplitude [m/s^2], finite, not 0
+/// @param dt               half width [s], positive and finite
+/// @param window           from the arrival to when it is integrated [s], above 0; infinite by default
+/// @return zeta [1/s]
+/// @throws std::invalid_argument naming the value
+/// To round-off, by bisection.
+double viscous_damping_for(double velocity_square, double b, double dt,
+                           double window = std::numeric_limits<double>::infinity());
+
+}  // namespace stickslip::theory

@@ -1,0 +1,126 @@
+// Poisson pulses as if each found the slider at rest.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+
+#include "stickslip/excitation/poisson.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/moments.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
+#include "stickslip/theory/pulse_response.hpp"
+
+namespace stickslip::theory {
+
+namespace detail {
+
+/// What a pulse of amplitude b [m/s^2] leaves of a slider that lay at x [m].
+struct PulseEffect {
+  double offset;           ///< [m], infinite where it never stops
+  double velocity_square;  ///< integral of x'^2 [m^2/s]
+};
+
+/// A slider as the superposition sees it.
+struct PulseSystem {
+  bool constant_level;
+  std::function<double(double, Direction)> level;     ///< (x, direction) [m/s^2]
+  std::function<PulseEffect(double, double)> effect;  ///< (b, x)
+};
+
+}  // namespace detail
+
+/// How pulses that overlap are counted.
+enum class Overlap {
+  none,    ///< each acts alone: thesis (5.34), (5.40)
+  thesis,  ///< those that begin within dt of another's begin are one with it: (5.52) to (5.55) as printed
+  renewal  ///< the same, corrected: each composite takes up 1 + lambda dt pulses, so they come 1 + lambda dt times
+           ///< more rarely (errata to 5.52)
+};
+
+/// Superposition of the responses to single pulses, thesis 5.3:
+///     E[x'^2] = lambda E[int v^2],  d/dt Var[x] = lambda E[dx^2],  d/dt E[x] = lambda E[dx]       (5.25), (5.28)
+/// over the amplitudes' law p(b); with overlaps, of sqrt(m + 1) sigma and the probability P(m; lambda dt) of (5.51).
+///
+/// Asymptotic in time: (5.38), (5.39) ask for t >> 4 dt. Right where pulses are rare, lambda dt << 1, and exact for a
+/// frictionless slider with `none` and `renewal`; else off by factors, down to 1/4000 (`none`) and 1/14 (the others) of
+/// the growth rate at sigma / a = 1/3, up to 3.7 times (`thesis`) at 5. `PulseChain` is better for Coulomb friction.
+///
+/// Covers any friction law without a spring, unequal slip levels, any pulse shape that lets the slider stop, and with
+/// `none` any law of amplitudes, of any mean. An envelope of the pulses: the growth is integrated over its strength
+/// (constant slip levels only). Where the slip level depends on the position (Caster), the moments of a pulse's effect
+/// are functions of x: the equations of the moments
+///     d/dt E[x] = E[r1(x)],  d/dt Var[x] = 2 Cov[x, r1(x)] + E[r2(x)],   rk(x) = lambda E[dx^k | x]
+/// are closed by a Gaussian law of x, and `growth_rate` is that at x = 0.
+///
+/// Reference: thesis 5.3; Y. K. Lin, Probabilistic Theory of Structural Dynamics (1967), pp. 87-94.
+class PulseSuperposition {
+ public:
+  /// Above this lambda dt the overlap series describes one never-ending composite, and is refused.
+  static constexpr double most_overlap = 1e6;
+
+  explicit PulseSuperposition(Overlap overlap = Overlap::renewal) : overlap_(overlap) {}
+
+  Overlap overlap() const noexcept { return overlap_; }
+
+  /// @param slider  without a spring
+  /// @param pulses  the excitation
+  /// @param times   where to answer [s], finite, at least 0
+  /// @param heartbeat  called now and then; what it throws ends the work
+  /// @return moments; velocities are stationary, `growth_rate` NaN under an envelope. `remark` says where times are too
+  ///         short, where nothing slips and why, and which share of the pulses would carry a caster off
+  /// @throws std::invalid_argument naming what is not covered or the value refused
+  /// Integrals over the amplitudes to 1e-13, Coulomb; 20 to 60 us. A caster takes 0.1 to 1 s.
+  template <FrictionLaw Law>
+  Moments predict(const Slider<Law>& slider, const PoissonPulses& pulses, std::span<const double> times,
+                  const std::function<void()>& heartbeat = {}) const {
+    detail::require_no_spring(slider.natural_frequency(), "PulseSuperposition");
+    return predict(system(slider, pulses), pulses, times, heartbeat);
+  }
+
+  /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
+  template <FrictionLaw Law>
+  double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
+                   const std::function<void()>& heartbeat = {}) const {
+    const double end[] = {pulses.duration()};
+    const Moments moments = predict(slider, pulses, end, heartbeat);
+    return std::hypot(std::sqrt(moments.displacement_variance.value[0]), moments.displacement_mean.value[0]);
+  }
+
+ private:
+  template <FrictionLaw Law>
+  static detail::PulseSystem system(const Slider<Law>& slider, const PoissonPulses& pulses) {
+    return {ConstantLevelLaw<Law>,
+            [&slider](double x, Direction direction) { return slider.law().level(x, direction); },
+            [&slider, &pulses](double b, double x) {
+              try {
+                const detail::Ride end = detail::ride(slider, pulses.options().shape, b, pulses.half_width(), x);
+                return detail::PulseEffect{end.state.displacement - x, end.velocity_square};
+              } catch (const ConvergenceError&) {  // where the slip level is as good as zero
+                return detail::PulseEffect{std::numeric_limits<double>::infinity(), 0};
+              }
+            }};
+  }
+
+  Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
+                  const std::function<void()>& heartbeat) const;
+
+  Overlap overlap_;
+};
+
+/// The peak that Brownian motion without drift, whose variance is growth_rate t, does not exceed with a probability:
+/// the L with
+///     P(|x| <= L on [0, T]) = (4 / pi) sum_k (-1)^k / (2k+1) exp(-(2k+1)^2 pi^2 growth_rate T / (8 L^2)) = probability
+/// and by images (reflections) where this converges slowly. For a slider an estimate: its displacement is Brownian
+/// motion only over many slips, and the way out and back within a pulse comes on top.
+/// @param growth_rate  of the displacement variance [m^2/s], finite and at least 0
+/// @param duration     T [s], finite and at least 0
+/// @param probability  that the peak is not exceeded, in (0, 1)
+/// @return L [m], to a relative 1e-14
+/// @throws std::invalid_argument naming the value
+/// Reference: W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1971), X.5.
+double peak_from_growth(double growth_rate, double duration, double probability);
+
+}  // namespace stickslip::theory

@@ -1,0 +1,155 @@
+#include "stickslip/theory/pulse_superposition.hpp"
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+namespace {
+
+using theory::Overlap;
+using theory::PulseSuperposition;
+
+constexpr std::pair<const char*, Overlap> overlaps[] = {
+    {"none", Overlap::none}, {"thesis", Overlap::thesis}, {"renewal", Overlap::renewal}};
+
+PulseSuperposition theory_of(const std::string& overlap) {
+  for (const auto& [name, value] : overlaps)
+    if (overlap == name) return PulseSuperposition(value);
+  throw std::invalid_argument("PulseSuperposition: overlap must be 'none', 'thesis' or 'renewal', got '" + overlap +
+                              "'");
+}
+
+std::string overlap_of(const PulseSuperposition& theory) {
+  for (const auto& [name, value] : overlaps)
+    if (theory.overlap() == value) return name;
+  return {};
+}
+
+Moments predict(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses,
+                const py::object& times) {
+  const std::vector<double> at = to_vector(times, "PulseSuperposition: times");
+  const py::gil_scoped_release released;
+  return std::visit([&](const auto& s) { return self.predict(s, pulses, at, &check_for_interrupt); }, slider);
+}
+
+double final_rms(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses) {
+  const py::gil_scoped_release released;
+  return std::visit([&](const auto& s) { return self.final_rms(s, pulses, &check_for_interrupt); }, slider);
+}
+
+}  // namespace
+
+void bind_pulse_superposition(py::module_& m) {
+  py::class_<PulseSuperposition>(m, "PulseSuperposition", R"(Poisson pulses as if each found the slider at rest.
+
+E[x'^2] = lambda E[int v^2], d/dt Var[x] = lambda E[dx^2], d/dt E[x] = lambda E[dx], thesis (5.25), (5.28): v and dx are
+what one pulse does.
+
+Parameters
+----------
+overlap : str, optional
+    'none': each pulse acts alone, (5.34), (5.40). 'thesis': those that begin within dt of another's begin are one with
+    it, (5.52) to (5.55) as printed. 'renewal': the same, corrected: each composite takes up 1 + lambda dt pulses, so
+    that they come 1 + lambda dt times more rarely (errata to 5.52).
+
+Raises
+------
+ValueError
+    Another overlap.
+
+Notes
+-----
+Asymptotic in time: (5.38), (5.39) ask for t >> 4 dt. Right where pulses are rare, lambda dt << 1, and exact for a
+frictionless slider with 'none' and 'renewal'; else off by factors, down to 1/4000 ('none') and 1/14 (the others) of the
+growth rate at sigma / a = 1/3, up to 3.7 times ('thesis') at 5. `PulseChain` is better for Coulomb friction.
+
+Covers any friction law without a spring, unequal slip levels, any pulse shape that lets the slider stop, and with
+'none' any law of amplitudes, of any mean. Under an envelope the growth is integrated over its strength (constant slip
+levels only). A caster's rates depend on where it is: the equations of the moments are closed by a Gaussian law of x, and
+`growth_rate` is that at x = 0.
+
+References
+----------
+Thesis 5.3 with the errata to (5.52); Y. K. Lin, Probabilistic Theory of Structural Dynamics (1967), 87-94.)")
+      .def(py::init(&theory_of), py::arg("overlap") = "renewal")
+      .def_property_readonly("overlap", &overlap_of, "'none', 'thesis' or 'renewal'.")
+      .def("predict", &predict, py::arg("slider"), py::arg("pulses"), py::arg("times"),
+           R"(Moments by time.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    Without a spring.
+pulses : PoissonPulses
+    The excitation.
+times : array_like
+    Where to answer [s], shape (T,), finite, at least 0.
+
+Returns
+-------
+Moments
+    Velocities are stationary; `growth_rate` is NaN under an envelope. `remark` says where times are too short, where
+    nothing slips and why, and which share of the pulses would carry a caster off.
+
+Raises
+------
+ValueError
+    What is not covered; a value out of its range.
+
+Notes
+-----
+Integrals over the amplitudes to 1e-12 for Coulomb friction, 60 us. A caster takes 0.1 to 1 s.)")
+      .def("final_rms", &final_rms, py::arg("slider"), py::arg("pulses"),
+           R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis 5.6 and figure 5.7.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    Without a spring.
+pulses : PoissonPulses
+    The excitation.
+
+Returns
+-------
+float
+    [m]
+
+Raises
+------
+ValueError
+    As for `predict`.)")
+      .def("__repr__",
+           [](const PulseSuperposition& t) { return "PulseSuperposition(overlap='" + overlap_of(t) + "')"; });
+
+  m.def("peak_from_growth", &theory::peak_from_growth, py::arg("growth_rate"), py::arg("duration"),
+        py::arg("probability"),
+        R"(An estimate of the peak that a slider does not exceed with a probability, from its growth rate.
+
+The L with P(|x| <= L on [0, T]) = probability for Brownian motion without drift of variance growth_rate t: by its series
+of eigenfunctions, or of reflections, whichever converges at once. An estimate: a slider's displacement is Brownian
+motion only over many slips, and the way out and back within a pulse comes on top.
+
+Parameters
+----------
+growth_rate : float
+    Of the displacement variance [m^2/s], finite and at least 0.
+duration : float
+    T [s], finite and at least 0.
+probability : float
+    That the peak is not exceeded, in (0, 1).
+
+Returns
+-------
+float
+    L [m], to a relative 1e-14.
+
+Raises
+------
+ValueError
+    A value out of its range.
+
+References
+----------
+W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1971), X.5.)");
+}
+
+}  // namespace stickslip::python

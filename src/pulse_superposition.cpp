@@ -1,0 +1,451 @@
+#include "stickslip/theory/pulse_superposition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace stickslip::theory {
+namespace {
+
+using stickslip::detail::refuse;
+using stickslip::detail::require;
+using stickslip::detail::shortest;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// An amplitude and its weight in a mean over the law of amplitudes.
+struct Node {
+  double b;
+  double weight;
+};
+
+/// Gauss-Legendre, sixteen points on [-1, 1].
+constexpr std::array<double, 8> abscissae = {0.095012509837637440, 0.28160355077925891, 0.45801677765722739,
+                                             0.61787624440264375,  0.75540440835500303, 0.86563120238783174,
+                                             0.94457502307323258,  0.98940093499164993};
+constexpr std::array<double, 8> weights = {0.18945061045506850,  0.18260341504492359, 0.16915651939500254,
+                                           0.14959598881657673,  0.12462897125553387, 0.095158511682492785,
+                                           0.062253523938647893, 0.027152459411754095};
+
+/// Calls use(x, weight) for the points of a panel.
+template <class Use>
+void panel(double from, double to, Use use) {
+  const double half = (to - from) / 2, middle = (to + from) / 2;
+  for (std::size_t i = 0; i < abscissae.size(); ++i)
+    for (const double side : {-1.0, 1.0}) use(middle + side * half * abscissae[i], half * weights[i]);
+}
+
+/// Amplitudes of one sign at which a step of the pulse just moves the slider, ascending.
+std::vector<double> thresholds(const PulseShape& shape, double forward, double backward, double sign) {
+  std::vector<double> result;
+  for (const double value : shape.values())
+    if (const double threshold = (sign * value > 0 ? backward : forward) / std::abs(value); std::isfinite(threshold))
+      result.push_back(threshold);
+  std::ranges::sort(result);
+  return result;
+}
+
+// ---- Gaussian amplitudes, alone or in composites
+
+/// Of a mixture of Gaussian laws of mean zero.
+struct Component {
+  double log_weight;
+  double sigma;
+};
+
+/// Terms that would add less than this to the largest one's logarithm are left out.
+constexpr double negligible = 45;
+
+/// The law of composite amplitudes, thesis (5.50), (5.51): those terms that matter to what happens above a threshold.
+std::vector<Component> composites(double sigma, double overlap, double threshold) {
+  const double squared = 0.5 * (threshold / sigma) * (threshold / sigma);
+  const double first = overlap > 400 ? std::floor(overlap - 15 * std::sqrt(overlap)) : 0;
+  double log_weight = first == 0 ? -overlap : first * std::log(overlap) - overlap - std::lgamma(first + 1);
+  double most = -infinity;
+  std::vector<Component> terms;
+  for (double m = first;; ++m) {
+    if (m > first) log_weight += std::log(overlap / m);
+    const double size = log_weight - squared / (m + 1);
+    most = std::max(most, size);
+    if (m > overlap && (size < most - negligible || log_weight < -800)) break;
+    terms.push_back({log_weight, std::sqrt(m + 1) * sigma});
+  }
+  std::erase_if(terms, [&](const Component& term) {
+    const double ratio = sigma / term.sigma;
+    return !(term.log_weight - squared * ratio * ratio >= most - negligible);
+  });
+  return terms;
+}
+
+/// Positive amplitudes, for means of what is zero below the first threshold and smooth between them; by panels as wide
+/// as the density is smooth.
+void add_gaussian(std::vector<Node>& nodes, const std::vector<Component>& components, std::vector<double> edges) {
+  if (edges.empty() || components.empty()) return;
+  const double narrow = components.front().sigma, wide = components.back().sigma;
+  edges.push_back(std::hypot(edges.front(), std::sqrt(120.0) * wide));
+  for (std::size_t i = 0; i + 1 < edges.size() && edges[i] < edges.back(); ++i) {
+    const double end = std::min(edges[i + 1], edges.back());
+    // The density falls within sigma^2 / b, and a slider's answers have poles at about minus the threshold.
+    double width = edges[i] > narrow ? narrow * (narrow / edges[i]) : edges[i] > 0 ? edges[i] : narrow;
+    for (double from = edges[i]; from < end; width = std::min(2 * width, std::max(2 * narrow, from / 5))) {
+      const double to = std::min(from + width, end);
+      if (!(to > from)) break;  // steps below the last digit: nothing slips
+      panel(from, to, [&](double b, double weight) {
+        double density = 0;
+        for (const Component& c : components) {
+          const double z = b / c.sigma;
+          density += std::exp(c.log_weight - z * z / 2) / c.sigma;
+        }
+        nodes.push_back({b, weight * density / std::sqrt(2 * std::numbers::pi)});
+      });
+      from = to;
+    }
+  }
+}
+
+// ---- any other law of amplitudes
+
+void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double sigma, const std::vector<double>& up,
+                   const std::vector<double>& down) {
+  const auto& quantile = pulses.options().quantile;
+  std::vector<double> edges = {0, 0.5, 1};
+  const auto place = [&](double b) {  // of an amplitude, by bisection
+    double low = 0, high = 1;
+    while (true) {
+      double middle = low + (high - low) / 2;
+      if (middle <= low || middle >= high || middle < 1e-17) return high;
+      double value = middle;
+      quantile({&value, 1});
+      (sigma * value < b ? low : high) = middle;
+    }
+  };
+  for (const double b : up) edges.push_back(place(b));
+  for (const double b : down) edges.push_back(place(-b));
+  std::ranges::sort(edges);
+
+  std::vector<double> u, w;
+  const auto add = [&](double from, double to) {
+    if (to > from)
+      panel(from, to, [&](double x, double weight) {
+        u.push_back(x);
+        w.push_back(weight);
+      });
+  };
+  constexpr int halvings = 40;  // towards 0 and 1, where a law without bounds has its tails
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double from = edges[i], to = edges[i + 1], length = to - from;
+    if (!(length > 0)) continue;
+    if (from == 0)
+      for (int k = 0; k < halvings; ++k) add(std::ldexp(to, -k - 1), std::ldexp(to, -k));
+    else if (to == 1)
+      for (int k = 0; k < halvings; ++k) add(1 - std::ldexp(length, -k), 1 - std::ldexp(length, -k - 1));
+    else
+      for (int k = 0; k < 8; ++k) add(from + k * length / 8, from + (k + 1) * length / 8);
+  }
+  std::vector<double> values = u;
+  quantile(values);
+  for (std::size_t i = 0; i < values.size(); ++i) nodes.push_back({sigma * values[i], w[i]});
+}
+
+// ---- means over the law
+
+/// What pulses do to a slider at one place, per second.
+struct Rates {
+  double drift = 0;            ///< of E[x] [m/s]
+  double growth = 0;           ///< of Var[x] [m^2/s]
+  double velocity_square = 0;  ///< stationary E[x'^2] [m^2/s^2]
+  double lost = 0;             ///< share of the pulses that carry it off for good, left out of the others
+};
+
+class Pulses {
+ public:
+  Pulses(const detail::PulseSystem& system, const PoissonPulses& pulses, Overlap overlap,
+         const std::function<void()>& heartbeat)
+      : system_(system), pulses_(pulses), overlap_(overlap), heartbeat_(heartbeat) {}
+
+  /// At x, with amplitudes of rms `sigma`.
+  Rates rates(double x, double sigma) const {
+    if (heartbeat_) heartbeat_();
+    const double forward = system_.level(x, Direction::forward), backward = system_.level(x, Direction::backward);
+    const PulseShape& shape = pulses_.options().shape;
+    const std::vector<double> up = thresholds(shape, forward, backward, 1),
+                              down = thresholds(shape, forward, backward, -1);
+    std::vector<Node> nodes;
+    double rate = pulses_.rate();
+    if (pulses_.options().quantile) {
+      add_quantiles(nodes, pulses_, sigma, up, down);
+    } else {
+      const double overlap = pulses_.rate() * pulses_.half_width();
+      const double least = std::min(up.empty() ? infinity : up.front(), down.empty() ? infinity : down.front());
+      std::vector<Component> components = {{0, sigma}};
+      if (overlap_ != Overlap::none) components = composites(sigma, overlap, least);
+      if (overlap_ == Overlap::renewal) rate /= 1 + overlap;
+      add_gaussian(nodes, components, up);
+      const std::size_t count = nodes.size();
+      if (up == down)
+        nodes.resize(2 * count), std::copy_n(nodes.begin(), count, nodes.begin() + static_cast<std::ptrdiff_t>(count));
+      else
+        add_gaussian(nodes, components, down);
+      for (std::size_t i = count; i < nodes.size(); ++i) nodes[i].b = -nodes[i].b;
+    }
+    Rates rates;
+    for (const auto& [b, weight] : nodes) {
+      if (weight == 0) continue;
+      const detail::PulseEffect effect = system_.effect(b, x);
+      if (!std::isfinite(effect.offset)) {
+        rates.lost += weight;
+        continue;
+      }
+      rates.drift += rate * weight * effect.offset;
+      rates.growth += rate * weight * effect.offset * effect.offset;
+      rates.velocity_square += rate * weight * effect.velocity_square;
+    }
+    return rates;
+  }
+
+ private:
+  const detail::PulseSystem& system_;
+  const PoissonPulses& pulses_;
+  Overlap overlap_;
+  const std::function<void()>& heartbeat_;
+};
+
+/// Rates by position, computed where they are asked for and interpolated by cubics.
+class RatesByPosition {
+ public:
+  RatesByPosition(const Pulses& pulses, double sigma, double spacing)
+      : pulses_(pulses), sigma_(sigma), spacing_(spacing) {}
+
+  Rates operator()(double x) {
+    const double place = x / spacing_, cell = std::floor(place), u = place - cell;
+    const std::array<double, 4> c = {-u * (u - 1) * (u - 2) / 6, (u + 1) * (u - 1) * (u - 2) / 2,
+                                     -(u + 1) * u * (u - 2) / 2, (u + 1) * u * (u - 1) / 6};
+    Rates sum;
+    for (int i = 0; i < 4; ++i) {
+      const Rates& node = at(static_cast<int>(cell) + i - 1);
+      const double w = c[static_cast<std::size_t>(i)];
+      sum.drift += w * node.drift;
+      sum.growth += w * node.growth;
+      sum.velocity_square += w * node.velocity_square;
+    }
+    return sum;
+  }
+
+ private:
+  const Rates& at(int i) {
+    const auto found = nodes_.find(i);
+    return found != nodes_.end() ? found->second : nodes_.emplace(i, pulses_.rates(i * spacing_, sigma_)).first->second;
+  }
+
+  const Pulses& pulses_;
+  double sigma_;
+  double spacing_;
+  std::map<int, Rates> nodes_{};
+};
+
+/// Where the slip level has changed by half, at least one way; infinite where it does not, within 2^60 slips.
+double reach_of(const detail::PulseSystem& system, double step) {
+  const auto far = [&](double x) {
+    const double here = system.level(0, Direction::forward);
+    return std::max(std::abs(system.level(x, Direction::forward) - here),
+                    std::abs(system.level(-x, Direction::backward) - here)) >= here / 2;
+  };
+  double high = step;
+  for (int i = 0; i < 60 && !far(high); ++i) high *= 2;
+  if (!far(high)) return infinity;
+  double low = 0;
+  for (int i = 0; i < 20; ++i) (far((low + high) / 2) ? high : low) = (low + high) / 2;
+  return high;
+}
+
+std::string percent(double share) { return shortest(std::round(share * 1e4) / 1e2) + " %"; }
+
+void remark(Moments& moments, const std::string& sentence) {
+  moments.remark += (moments.remark.empty() ? "" : " ") + sentence;
+}
+
+}  // namespace
+
+Moments PulseSuperposition::predict(const detail::PulseSystem& system, const PoissonPulses& pulses,
+                                    std::span<const double> times, const std::function<void()>& heartbeat) const {
+  const double dt = pulses.half_width(), sigma = pulses.sigma(), overlap = pulses.rate() * dt;
+  const PoissonOptions& options = pulses.options();
+  for (const double time : times)
+    require(std::isfinite(time) && time >= 0, "PulseSuperposition: times must be finite and at least 0", time, "s");
+  if (overlap_ != Overlap::none) {
+    require(overlap <= most_overlap,
+            "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
+                shortest(most_overlap),
+            overlap);
+    if (options.quantile)
+      throw std::invalid_argument(
+          "PulseSuperposition: composites of overlapping pulses are known for Gaussian amplitudes; with a quantile "
+          "function overlap must be none");
+  }
+  if (options.envelope && !system.constant_level)
+    throw std::invalid_argument("PulseSuperposition: an envelope is covered for constant slip levels only");
+
+  const Pulses law(system, pulses, overlap_, heartbeat);
+  const Rates rest = law.rates(0, sigma);
+  const double per_composite = overlap_ == Overlap::none ? 1 : 1 + overlap;  // at most: the mean square
+  if (rest.lost > 1e-3)
+    throw std::invalid_argument("PulseSuperposition: friction never stops the slider again after " +
+                                percent(rest.lost) + " of the pulses");
+
+  const std::size_t count = times.size();
+  Moments moments;
+  moments.time.assign(times.begin(), times.end());
+  for (Estimates* e : {&moments.displacement_mean, &moments.displacement_variance, &moments.covariance,
+                       &moments.velocity_mean, &moments.velocity_variance}) {
+    e->value.assign(count, 0);
+    e->error.assign(count, 0);
+  }
+  const auto set = [&](std::size_t i, double mean, double variance, const Rates& rates, double growth) {
+    moments.displacement_mean.value[i] = mean;
+    moments.displacement_variance.value[i] = variance;
+    moments.covariance.value[i] = growth / 2;  // thesis (5.59)
+    moments.velocity_mean.value[i] = rates.drift;
+    moments.velocity_variance.value[i] = rates.velocity_square;
+  };
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return times[i]; });
+
+  if (system.constant_level && !options.envelope) {
+    for (std::size_t i = 0; i < count; ++i) set(i, rest.drift * times[i], rest.growth * times[i], rest, rest.growth);
+    moments.growth_rate = {rest.growth, 0};
+  } else if (system.constant_level) {
+    const double longest = std::max(pulses.duration() / 64, 4 * dt);
+    double now = 0, mean = 0, variance = 0;
+    for (const std::size_t i : order) {
+      while (now < times[i]) {
+        const double to = std::min(times[i], now + longest);
+        panel(now, to, [&](double t, double weight) {
+          const double strength = sigma * (*options.envelope)(t);
+          if (strength == 0) return;
+          const Rates rates = law.rates(0, strength);
+          mean += weight * rates.drift;
+          variance += weight * rates.growth;
+        });
+        now = to;
+      }
+      const double strength = sigma * (*options.envelope)(now);
+      const Rates rates = strength > 0 ? law.rates(0, strength) : Rates{};
+      set(i, mean, variance, rates, rates.growth);
+    }
+    moments.growth_rate = {nan, 0};
+  } else {
+    const double reach = reach_of(system, std::max(std::sqrt(rest.growth / pulses.rate()), sigma * dt * dt * 1e-6));
+    RatesByPosition by_position(law, sigma, std::isinf(reach) ? 1 : reach / 4);
+    struct Slopes {
+      double mean, variance;
+      Rates rates;
+    };
+    const auto slopes = [&](double mean, double variance) {
+      if (std::isinf(reach)) return Slopes{rest.drift, rest.growth, rest};
+      const double spread = std::sqrt(variance);
+      Slopes s{0, 0, {}};
+      double total = 0;
+      for (int k = -20; k <= 20; ++k) {  // the trapezoidal rule, which is for Gaussian laws as good as any
+        const double z = 0.3 * k, weight = std::exp(-z * z / 2);
+        const Rates r = by_position(mean + spread * z);
+        total += weight;
+        s.mean += weight * r.drift;
+        s.variance += weight * (2 * spread * z * r.drift + r.growth);
+        s.rates.drift += weight * r.drift;
+        s.rates.velocity_square += weight * r.velocity_square;
+        if (spread == 0) break;
+      }
+      return Slopes{s.mean / total, s.variance / total, {s.rates.drift / total, 0, s.rates.velocity_square / total, 0}};
+    };
+    double now = 0, mean = 0, variance = 0, widest = 0;
+    for (const std::size_t i : order) {
+      while (now < times[i]) {
+        const Slopes k1 = slopes(mean, variance);
+        const double scale = std::isinf(reach) ? infinity : 0.05 * reach;
+        const double step =
+            std::min({times[i] - now, scale * reach / std::abs(k1.variance), scale / std::abs(k1.mean)});
+        const double h = now + step > now ? step : times[i] - now;
+        const auto positive = [](double v) { return std::max(v, 0.0); };
+        const Slopes k2 = slopes(mean + h / 2 * k1.mean, positive(variance + h / 2 * k1.variance));
+        const Slopes k3 = slopes(mean + h / 2 * k2.mean, positive(variance + h / 2 * k2.variance));
+        const Slopes k4 = slopes(mean + h * k3.mean, positive(variance + h * k3.variance));
+        mean += h / 6 * (k1.mean + 2 * k2.mean + 2 * k3.mean + k4.mean);
+        variance = positive(variance + h / 6 * (k1.variance + 2 * k2.variance + 2 * k3.variance + k4.variance));
+        now = h == step ? now + h : times[i];
+        if (times[i] - now < 1e-12 * times[i]) now = times[i];
+        if (std::hypot(mean, std::sqrt(variance)) > 4 * reach)
+          throw std::invalid_argument("PulseSuperposition: by " + shortest(now) +
+                                      " s the displacement has outgrown four times the distance over which the slip "
+                                      "level halves, " +
+                                      shortest(reach) + " m: give earlier times");
+      }
+      const Slopes s = slopes(mean, variance);
+      set(i, mean, variance, s.rates, s.variance);
+      widest = std::max(widest, std::hypot(mean, std::sqrt(variance)));
+    }
+    moments.growth_rate = {rest.growth, 0};
+    if (widest > reach / 2)
+      remark(moments, "The displacement is no longer small against the distance over which the slip level halves, " +
+                          shortest(reach) + " m: it is not Gaussian, as is assumed.");
+  }
+
+  if (rest.velocity_square == 0 && sigma > 0) {
+    const double level = std::min(system.level(0, Direction::forward), system.level(0, Direction::backward));
+    remark(moments, "Nothing slips: the slip level, " + shortest(level) +
+                        " m/s^2, is never exceeded by a pulse whose chance a double can hold.");
+  }
+  if (rest.lost > 0)
+    remark(moments, "Left out: pulses that carry the slider off for good, " + shortest(rest.lost / per_composite) +
+                        " of all or less.");
+  if (overlap > 1)
+    remark(moments,
+           "Pulses overlap much, rate x half_width = " + shortest(overlap) + ": superposition was never right here.");
+  const double early = 40 * dt;  // there a straight line from the origin is off by 3 % without friction
+  if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < early; }); n > 0)
+    remark(moments, std::to_string(n) + " of the times are below " + shortest(early) +
+                        " s, 40 half widths: too short for (5.39), which takes the velocity for stationary and the "
+                        "offsets for all there is.");
+  return moments;
+}
+
+double peak_from_growth(double growth_rate, double duration, double probability) {
+  require(std::isfinite(growth_rate) && growth_rate >= 0, "peak_from_growth: growth_rate must be finite and at least 0",
+          growth_rate, "m^2/s");
+  require(std::isfinite(duration) && duration >= 0, "peak_from_growth: duration must be finite and at least 0",
+          duration, "s");
+  require(probability > 0 && probability < 1, "peak_from_growth: probability must lie in (0, 1)", probability);
+  const double spread = std::sqrt(growth_rate) * std::sqrt(duration);
+  // The probability as a function of z = L / spread: theta functions of each other's modulus.
+  const auto below = [&](double z) {
+    double sum = 0;
+    for (int k = 0; k < 8; ++k) {
+      const double j = 2 * k + 1, q = j * std::numbers::pi / z;
+      sum += (k % 2 ? -1 : 1) / j * std::exp(-q * q / 8);
+    }
+    return 4 / std::numbers::pi * sum;
+  };
+  const auto above = [&](double z) {  // its complement
+    double sum = 0;
+    for (int k = 0; k < 8; ++k) sum += (k % 2 ? -1 : 1) * std::erfc((2 * k + 1) * z / std::numbers::sqrt2);
+    return 2 * sum;
+  };
+  const bool rare = probability > 0.5;
+  double low = 0, high = 1;
+  const auto reached = [&](double z) { return rare ? above(z) <= 1 - probability : below(z) >= probability; };
+  while (!reached(high)) high *= 2;
+  for (;;) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) return high * spread;
+    (reached(middle) ? high : low) = middle;
+  }
+}
+
+}  // namespace stickslip::theory
