@@ -7,6 +7,7 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground_motion.hpp"
+#include "stickslip/harmonic_motion.hpp"
 #include "stickslip/integrate.hpp"
 #include "stickslip/response.hpp"
 #include "stickslip/segment.hpp"
