@@ -91,6 +91,8 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
     const auto start = segment.slip(s, std::abs(state.velocity), acceleration, ground_load, left);
     const auto flow = flows.flow(direction, state.displacement, start, left);
     const double stop = flow.first_stop();
+    if constexpr (requires { observer.follow(flow, stop); })
+      observer.follow(flow, stop < never ? stop : flow.horizon());
     // Two accounts that differ in little: as one, the way that nearly every piece goes would be 5 to 10 % slower.
     if (stop == never) {
       const double taken = flow.horizon();

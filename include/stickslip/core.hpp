@@ -9,6 +9,7 @@
 #include "stickslip/ground_motion.hpp"
 #include "stickslip/harmonic_motion.hpp"
 #include "stickslip/integrate.hpp"
+#include "stickslip/orbits.hpp"
 #include "stickslip/response.hpp"
 #include "stickslip/segment.hpp"
 #include "stickslip/slider.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -88,6 +89,13 @@ class SinusoidalFlow {
 
   Progress at(double t) const noexcept { return progress(oscillator_.basis(t), t); }
   Progress at_horizon() const noexcept { return at(duration_); }
+
+  /// Net, at the start [m/s^2].
+  double acceleration() const noexcept { return start_.acceleration; }
+
+  /// What becomes of a small change of the distance and the speed at the start: to each its share of either after t,
+  /// row by row.
+  std::array<double, 4> variation(double t) const noexcept { return {1, t, 0, 1}; }
 
   /// Work of what the load has gained since the start [m^2/s^2]: the integral of V' (u + a t + V).
   double work_of_gain(double t) const noexcept {

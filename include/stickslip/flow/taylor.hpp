@@ -10,6 +10,7 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/dual.hpp"
 #include "stickslip/flow/series.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
@@ -156,15 +157,16 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 template <FrictionLaw Law, class SlipStart = Start>
 class TaylorFlow {
  public:
+  /// @param longest  step to try first [s]
   TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const SlipStart& start,
-             double duration)
+             double duration, double longest = never)
       : slider_(slider),
         direction_(direction),
         displacement_(displacement),
         start_(start),
         gain_(detail::gain_series(start, duration)),
         level_here_(slider.law().level(displacement, direction)),
-        horizon_(std::min(duration, gain_.reach(slider.natural_frequency()))) {
+        horizon_(std::min({duration, longest, gain_.reach(slider.natural_frequency())})) {
     // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
     // the way at most.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
@@ -197,6 +199,34 @@ class TaylorFlow {
 
   Progress at(double t) const noexcept { return at_part(t / horizon_); }
   Progress at_horizon() const noexcept { return end_; }
+
+  /// Net, at the start [m/s^2].
+  double acceleration() const noexcept { return start_.acceleration; }
+
+  /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- level'(x)) y from (1, 0) and from (0, 1).
+  std::array<double, 4> variation(double t) const {
+    constexpr int order = series::highest_order;
+    const double h = horizon_;
+    series::Coefficients x, stiffness, y[2];
+    x[0] = displacement_;
+    for (int k = 1; k <= order; ++k) x[k] = k <= order_ ? sign(direction_) * d_[k] : 0;
+    auto slope = series::slope_of(slider_.law().level(series::variable(x), direction_));
+    for (const int i : {0, 1}) y[i][i] = 1, y[i][1 - i] = 0;
+    for (int k = 0; k + 2 <= order; ++k) {
+      slope.update(k);
+      stiffness[k] = h * h * (sign(direction_) * slope[k] + (k == 0 ? slider_.stiffness() : 0));
+      for (auto& c : y)
+        c[k + 2] = -series::convolve(stiffness, c, 0, k) * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
+    }
+    const double s = t / h;
+    double value[2] = {0, 0}, rate[2] = {0, 0};
+    for (const int i : {0, 1})
+      for (int k = order; k >= 0; --k) {
+        rate[i] = rate[i] * s + value[i];
+        value[i] = value[i] * s + y[i][k];
+      }
+    return {value[0], value[1] * h, rate[0] / h, rate[1]};
+  }
 
   /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
   double work_of_gain(double t) const noexcept {
@@ -312,11 +342,20 @@ class TaylorFlow {
 template <FrictionLaw Law>
 struct Taylor {
   const Slider<Law>& slider;
+  mutable double last_step = never;  // that a flow was shortened to, where pieces of motion are long [s]
+
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
-  template <class SlipStart>
-  TaylorFlow<Law, SlipStart> flow(Direction direction, double displacement, const SlipStart& start,
-                                  double duration) const {
+
+  TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
     return {slider, direction, displacement, start, duration};
+  }
+
+  TaylorFlow<Law, SinusoidalStart> flow(Direction direction, double displacement, const SinusoidalStart& start,
+                                        double duration) const {
+    const TaylorFlow<Law, SinusoidalStart> flow(slider, direction, displacement, start, duration, 1.25 * last_step);
+    const double step = flow.horizon();
+    last_step = step < duration ? step : std::max(step, last_step);
+    return flow;
   }
 };
 
