@@ -8,6 +8,7 @@
 
 #include "stickslip/flow/harmonic.hpp"
 #include "stickslip/flow/polynomial.hpp"
+#include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/response.hpp"
@@ -34,13 +35,14 @@ struct NoObserver {
 
 namespace detail {
 
-template <FrictionLaw Law, class Flows, MotionObserver Observer>
-void advance(const Law& law, const Flows& flows, const Segment& segment, State& state, Observer& observer) {
+/// The event loop, over a piece of any kind (segment.hpp); `flows` makes the flows of the law under its load.
+template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer>
+void advance(const Law& law, const Flows& flows, const Piece& segment, State& state, Observer& observer) {
   if (!(segment.duration > 0)) return;
   double left = segment.duration;
-  double load = -segment.start - flows.pull(state.displacement);  // all but friction
-  double acceleration = 0;                                        // net, in the direction of sliding
-  Mode stopped = Mode::stuck;                                     // the mode of a slip that stopped just now
+  double load = segment.first_load() - flows.pull(state.displacement);  // all but friction
+  double acceleration = 0;                                              // net, in the direction of sliding
+  Mode stopped = Mode::stuck;                                           // the mode of a slip that stopped just now
   if (state.mode != Mode::stuck) {
     const Direction direction = direction_of(state.mode);
     acceleration = sign(direction) * load - law.level(state.displacement, direction);
@@ -52,7 +54,6 @@ void advance(const Law& law, const Flows& flows, const Segment& segment, State& 
       // segment, with a net acceleration of exactly zero. At the level itself it holds.
       const double forward = law.level(state.displacement, Direction::forward);
       const double backward = law.level(state.displacement, Direction::backward);
-      const double last_load = -segment.end - flows.pull(state.displacement);
       double delay = 0;
       if (load > forward) {
         state.mode = Mode::forward;
@@ -60,16 +61,14 @@ void advance(const Law& law, const Flows& flows, const Segment& segment, State& 
       } else if (load < -backward) {
         state.mode = Mode::backward;
         acceleration = -load - backward;
-      } else if (left > 0 && last_load > forward) {
-        state.mode = Mode::forward;
-        delay = left * ((forward - load) / (last_load - load));
-        acceleration = 0;
-        load = forward;
-      } else if (left > 0 && last_load < -backward) {
-        state.mode = Mode::backward;
-        delay = left * ((backward + load) / (load - last_load));
-        acceleration = 0;
-        load = -backward;
+      } else if (left > 0) {
+        const Departure next = segment.departure(load, flows.pull(state.displacement), forward, backward, left);
+        if (next.mode != Mode::stuck) {
+          state.mode = next.mode;
+          delay = next.delay;
+          acceleration = 0;
+          load = next.mode == Mode::forward ? forward : -backward;
+        }
       }
 
       // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
@@ -89,17 +88,19 @@ void advance(const Law& law, const Flows& flows, const Segment& segment, State& 
     const Direction direction = direction_of(state.mode);
     const double s = sign(direction);
     const double ground_load = load + flows.pull(state.displacement);
-    const Start start{std::abs(state.velocity), acceleration, s * (-segment.end - ground_load)};
+    const auto start = segment.slip(s, std::abs(state.velocity), acceleration, ground_load, left);
     const auto flow = flows.flow(direction, state.displacement, start, left);
     const double stop = flow.first_stop();
+    if constexpr (requires { observer.follow(flow, stop); })
+      observer.follow(flow, stop < never ? stop : flow.horizon());
     // Two accounts that differ in little: as one, the way that nearly every piece goes would be 5 to 10 % slower.
     if (stop == never) {
       const double taken = flow.horizon();
       const Progress end = flow.at_horizon();
       const bool whole = taken == left;
-      const double gain = whole ? start.gain : start.gain * (taken / left);
+      const double gain = start.gain_within(taken, left);
       observer.slide(direction, state.displacement, end.distance, taken,
-                     (s * ground_load + gain) * end.distance - gain * end.mean_distance);
+                     start.work(flow, s * ground_load, gain, taken, end));
       state.displacement += s * end.distance;
       state.velocity = s * std::max(end.speed, 0.0);
       if (whole) return;
@@ -108,9 +109,9 @@ void advance(const Law& law, const Flows& flows, const Segment& segment, State& 
       acceleration = s * load - law.level(state.displacement, direction);
     } else {
       const Progress end = flow.at(stop);
-      const double gain = start.gain * (stop / left);
+      const double gain = start.gain_within(stop, left);
       observer.slide(direction, state.displacement, end.distance, stop,
-                     (s * ground_load + gain) * end.distance - gain * end.mean_distance);
+                     start.work(flow, s * ground_load, gain, stop, end));
       state.displacement += s * end.distance;
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
@@ -133,6 +134,15 @@ void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   }
 }
 
+/// The same under a load of one frequency.
+template <FrictionLaw Law, class Work>
+void with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
+  if constexpr (ConstantLevelLaw<Law>) {
+    if (slider.stiffness() == 0) return work(Sinusoidal{omega, usual_duration});
+  }
+  work(Taylor<Law>{slider});
+}
+
 }  // namespace detail
 
 /// Moves a slider over one segment of ground motion:
@@ -152,6 +162,14 @@ template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
                      [&](const auto& flows) { detail::advance(slider.law(), flows, segment, state, observer); });
+}
+
+/// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28).
+template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
+void advance(const Slider<Law>& slider, const HarmonicSegment& segment, State& state, Observer&& observer = {}) {
+  detail::with_harmonic_flows(slider, segment.omega, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
+    detail::advance(slider.law(), flows, segment, state, observer);
+  });
 }
 
 }  // namespace stickslip

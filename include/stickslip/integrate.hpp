@@ -43,12 +43,12 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
 
 }  // namespace detail
 
-/// Slides through a whole ground motion:
-///     x'' + level(x) sgn(x') + wn^2 x = -n(t),                    thesis (4.51) to (4.53), (2.44), (2.50)
+/// Slides through a whole motion of the ground:
+///     x'' + level(x) sgn(x') + wn^2 x = -n(t),            thesis (4.51) to (4.53), (2.44), (2.50); (2.27), (2.28)
 /// with all breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
 ///
 /// @param slider   a law and an optional spring; a law alone is a slider without one
-/// @param motion   the ground acceleration
+/// @param motion   the ground acceleration: a GroundMotion or a HarmonicMotion
 /// @param options  state at the start, and whether to go on until the slider rests
 /// @param storage  a response that is no longer needed, for its memory, which can cost as much time as the motion
 /// @return the motion at the samples, its events, peak and energy. Where it settles, the last event (`end`) and the
@@ -56,12 +56,12 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
 /// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
 /// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
-///                                escaped); more than 1,000,000 events and eight a segment (a spring that swings that
-///                                often within the pieces of the motion)
+///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic
+///                                motion (a spring that swings that often within the pieces of the motion)
 /// Constant friction: exact to round-off, 1e-13 of the scale of x; 7 to 25 ns a sample, 20 to 65 with a spring. Other
 /// laws: Taylor series, to near round-off; 150 to 850 ns a sample.
-template <FrictionLaw Law>
-Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options = {},
+template <FrictionLaw Law, Motion M>
+Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                    Response storage = {}) {
   detail::require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement,
                   "m");
@@ -80,25 +80,24 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   response.displacement[0] = state.displacement;
   response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
-  const std::size_t most_events = 1'000'000 + 8 * motion.segments();  // without a spring a segment has five at most
-  detail::Recorder<Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat,
-                                 std::move(response.events));
+  const std::size_t most_events = 1'000'000 + 8 * detail::pieces(motion);  // without a spring one has five at most
+  detail::RecorderFor<M, Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat,
+                                       std::move(response.events));
   recorder.begin_segment(motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
   const detail::HistorySpans histories{response.displacement, response.velocity};
-  detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
-    detail::run(slider.law(), flows, motion, state, recorder, histories);
-    if (options.settle) {
-      double time = end;
-      detail::settle(slider, state, [&](double duration) {
-        recorder.begin_segment(time);
-        detail::advance(slider.law(), flows, Segment{duration, 0, 0}, state, recorder);
-        time += duration;
-      });
-      end = std::max(end, recorder.last_event());
-    }
-  });
+  detail::with_flows(slider, motion,
+                     [&](const auto& flows) { detail::run(slider.law(), flows, motion, state, recorder, histories); });
+  if (options.settle) {
+    double time = end;
+    detail::settle(slider, state, [&](double duration) {
+      recorder.begin_segment(time);
+      advance(slider, Segment{duration, 0, 0}, state, recorder);
+      time += duration;
+    });
+    end = std::max(end, recorder.last_event());
+  }
   recorder.finish(end, state, response);
 
   response.residual = state.displacement;
@@ -111,9 +110,8 @@ Response integrate(const Slider<Law>& slider, const GroundMotion& motion, const 
   return response;
 }
 
-template <FrictionLaw Law>
-Response integrate(const Law& law, const GroundMotion& motion, const IntegrateOptions& options = {},
-                   Response storage = {}) {
+template <FrictionLaw Law, Motion M>
+Response integrate(const Law& law, const M& motion, const IntegrateOptions& options = {}, Response storage = {}) {
   return integrate(Slider<Law>(law), motion, options, std::move(storage));
 }
 

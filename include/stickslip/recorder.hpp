@@ -19,7 +19,8 @@
 namespace stickslip::detail {
 
 /// Sums up slips and keeps events.
-template <FrictionLaw Law>
+/// @tparam in_steps  slips come in many steps, of which a segment may have so many that they must beat
+template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>>
 class Recorder {
  public:
   static constexpr std::uint32_t work_a_beat = 16384;  // segments, events or steps, each far below a millisecond
@@ -48,7 +49,7 @@ class Recorder {
   }
 
   void slide(Direction direction, double from, double distance, double duration, double work) {
-    if constexpr (!ConstantLevelLaw<Law>) beat();
+    if constexpr (in_steps) beat();
     slip_direction_ = direction;
     slip_distance_ += distance;
     time_sliding_ += duration;

@@ -1,15 +1,27 @@
-// A slider through the segments of a ground motion, one after another.
+// A slider through a whole motion of the ground, piece by piece.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include "stickslip/advance.hpp"
 #include "stickslip/ground_motion.hpp"
+#include "stickslip/harmonic_motion.hpp"
 #include "stickslip/recorder.hpp"
 #include "stickslip/state.hpp"
 
-namespace stickslip::detail {
+namespace stickslip {
+
+/// What the ground does: straight pieces between samples, or one harmonic.
+template <class M>
+concept Motion = std::same_as<M, GroundMotion> || std::same_as<M, HarmonicMotion>;
+
+namespace detail {
 
 /// The motion at the samples.
 struct HistorySpans {
@@ -21,13 +33,17 @@ struct HistorySpans {
   }
 };
 
+/// Under a harmonic motion slips of any law but Coulomb's without a spring come in steps.
+template <Motion M, FrictionLaw Law>
+using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
+
 /// Slides through all segments, one by one.
 template <FrictionLaw Law, class Flows>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          Recorder<Law>& recorder, const HistorySpans& histories) {
+                          RecorderFor<GroundMotion, Law>& recorder, const HistorySpans& histories) {
   State moving = state;
   for (std::size_t i = 0; i < motion.segments(); ++i) {
-    if ((i + 1) % Recorder<Law>::work_a_beat == 0) recorder.heartbeat();
+    if ((i + 1) % RecorderFor<GroundMotion, Law>::work_a_beat == 0) recorder.heartbeat();
     recorder.begin_segment(motion.time(i));
     detail::advance(law, flows, motion.segment(i), moving, recorder);
     histories.keep(i + 1, moving);
@@ -35,4 +51,39 @@ template <FrictionLaw Law, class Flows>
   state = moving;
 }
 
-}  // namespace stickslip::detail
+/// Calls `work` with the flows that fit the slider under a motion.
+template <FrictionLaw Law, class Work>
+void with_flows(const Slider<Law>& slider, const GroundMotion& motion, Work&& work) {
+  with_flows(slider, motion.dt(), std::forward<Work>(work));
+}
+template <FrictionLaw Law, class Work>
+void with_flows(const Slider<Law>& slider, const HarmonicMotion& motion, Work&& work) {
+  with_harmonic_flows(slider, motion.omega(), motion.dt(), std::forward<Work>(work));
+}
+
+/// How many pieces a motion has at least: one a period, so that phases stay small.
+inline std::size_t pieces(const GroundMotion& motion) noexcept { return motion.segments(); }
+inline std::size_t pieces(const HarmonicMotion& motion) noexcept {
+  return std::max(motion.segments(), static_cast<std::size_t>(motion.duration() / motion.period()));
+}
+
+template <FrictionLaw Law, class Flows>
+void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State& state,
+         RecorderFor<HarmonicMotion, Law>& recorder, const HistorySpans& histories) {
+  std::uint32_t pieces = 0;
+  for (std::size_t i = 0; i < motion.segments(); ++i) {
+    const double end = motion.time(i + 1);
+    for (double time = motion.time(i); time < end;) {
+      if (++pieces % RecorderFor<HarmonicMotion, Law>::work_a_beat == 0) recorder.heartbeat();
+      const double next = std::min(time + motion.period(), end);
+      recorder.begin_segment(time);
+      detail::advance(law, flows, HarmonicSegment{next - time, motion.amplitude(), motion.omega(), motion.phase(time)},
+                      state, recorder);
+      time = next;
+    }
+    histories.keep(i + 1, state);
+  }
+}
+
+}  // namespace detail
+}  // namespace stickslip

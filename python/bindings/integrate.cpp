@@ -4,13 +4,9 @@
 namespace stickslip::python {
 namespace {
 
-Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
-                        bool settle) {
-  if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error("integrate: motion must be a GroundMotion, got " +
-                         py::type::of(motion).attr("__name__").cast<std::string>());
-  const auto& ground = motion.cast<const GroundMotion&>();
-  const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
+template <Motion M>
+Recording integrate_under(const AnySlider& slider, const py::object& motion, const IntegrateOptions& options) {
+  const auto& ground = motion.cast<const M&>();
   Response storage = Storage::take();
   Response response = [&] {
     const py::gil_scoped_release released;
@@ -19,21 +15,30 @@ Recording integrate_any(const AnySlider& slider, const py::object& motion, doubl
   return {std::move(response), py::cast(slider), motion};
 }
 
+Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
+                        bool settle) {
+  const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
+  if (py::isinstance<GroundMotion>(motion)) return integrate_under<GroundMotion>(slider, motion, options);
+  if (py::isinstance<HarmonicMotion>(motion)) return integrate_under<HarmonicMotion>(slider, motion, options);
+  throw py::type_error("integrate: motion must be a GroundMotion or a HarmonicMotion, got " +
+                       py::type::of(motion).attr("__name__").cast<std::string>());
+}
+
 }  // namespace
 
 void bind_integrate(py::module_& m) {
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false,
-        R"(Slides through a whole ground motion.
+        R"(Slides through a whole motion of the ground.
 
-x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), with all breakaways, reversals and
-arrests, up to two reversals within one straight piece of n(t).
+x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50); (2.27), (2.28); with all breakaways,
+reversals and arrests, up to two reversals within one straight piece of n(t).
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
     What slides; a law alone is a slider without a spring.
-motion : GroundMotion
+motion : GroundMotion or HarmonicMotion
     The ground acceleration.
 displacement : float, optional
     x at the start [m], finite.
@@ -54,13 +59,14 @@ OverflowError
     A displacement, velocity or energy beyond the range of doubles.
 ConvergenceError
     Asked to settle, and the slider does not come to rest (no friction; a caster that has escaped). More than 1,000,000
-    events and eight a sample (a spring that swings that often between samples).
+    events and eight a sample, or period of a harmonic motion (a spring that swings that often between samples).
 
 Notes
 -----
 Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 7 to 25 ns a
-sample, 20 to 65 with a spring. The caster by Taylor series, to near round-off; 150 to 850 ns a sample. The interpreter
-is not held meanwhile.)");
+sample, 20 to 65 with a spring. The caster by Taylor series, to near round-off; 150 to 850 ns a sample. Under a harmonic
+motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
+power series to round-off. The interpreter is not held meanwhile.)");
 }
 
 }  // namespace stickslip::python

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, m) {
   bind_caster(m);
   bind_slider(m);
   bind_ground_motion(m);
+  bind_harmonic_motion(m);
   bind_records(m);
   bind_response(m);
   bind_integrate(m);

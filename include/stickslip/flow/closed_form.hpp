@@ -7,6 +7,14 @@
 
 namespace stickslip {
 
+/// What a flow has come to after a time.
+struct Progress {
+  double distance;       ///< slid since its start [m]
+  double speed;          ///< [m/s]
+  double acceleration;   ///< net, in the direction of sliding [m/s^2]
+  double mean_distance;  ///< mean of the distance over the time since the start [m]
+};
+
 /// The beginning of a slip or of a part of one, seen in the direction of sliding: speed is |x'|, and the net
 /// acceleration (load less friction less spring) is positive where the slip speeds up. Unequal levels, slopes and the
 /// sign of the motion have vanished into it.
@@ -14,14 +22,14 @@ struct Start {
   double speed;         ///< [m/s], at least 0
   double acceleration;  ///< [m/s^2]; exactly 0 on breaking away
   double gain;          ///< of the load until the end of the flow's duration, linear in time [m/s^2]
-};
 
-/// What a flow has come to after a time.
-struct Progress {
-  double distance;       ///< slid since its start [m]
-  double speed;          ///< [m/s]
-  double acceleration;   ///< net, in the direction of sliding [m/s^2]
-  double mean_distance;  ///< mean of the distance over the time since the start [m]
+  double gain_within(double t, double duration) const noexcept { return t == duration ? gain : gain * (t / duration); }
+
+  /// Work of the load within a time in which it comes from `load` to `load + gained` [m^2/s^2].
+  template <class Flow>
+  double work(const Flow&, double load, double gained, double /*t*/, const Progress& end) const noexcept {
+    return (load + gained) * end.distance - gained * end.mean_distance;
+  }
 };
 
 inline constexpr double never = std::numeric_limits<double>::infinity();

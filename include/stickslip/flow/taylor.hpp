@@ -10,7 +10,9 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/dual.hpp"
 #include "stickslip/flow/series.hpp"
+#include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
 
@@ -88,23 +90,83 @@ class FirstRoot {
   int degree_;
 };
 
+namespace detail {
+
+/// What a load gains from the start of a flow, as a power series: linear.
+class GainSeries {
+ public:
+  GainSeries(const Start& start, double duration) noexcept : rate_(start.gain / duration) {}
+
+  /// The longest step over which the series keeps its digits [s].
+  double reach(double /*natural_frequency*/) const noexcept { return never; }
+
+  /// Coefficients of time in units of h, to be asked for in order from k = 1 [m/s^2].
+  auto coefficients(double h) const noexcept {
+    return [first = rate_ * h](int k) { return k == 1 ? first : 0.0; };
+  }
+
+  double at(double h, double part) const noexcept { return rate_ * h * part; }
+  double largest(double h, double part) const noexcept { return std::abs(at(h, part)); }
+  double steepest() const noexcept { return std::abs(rate_); }  // [m/s^3]
+
+ private:
+  double rate_;
+};
+
+/// A cosine's. Its orders rise to exp(omega h) before they fall: over two radians, of it or of the spring, a digit is
+/// lost, and both are as if there were one frequency; resonance is nothing special.
+class SinusoidalGainSeries {
+ public:
+  SinusoidalGainSeries(const SinusoidalStart& start, double /*duration*/) noexcept
+      : start_(start),
+        derivatives_{start.amplitude * std::cos(start.phase), -start.amplitude * std::sin(start.phase)} {}
+
+  double reach(double natural_frequency) const noexcept { return 2 / std::max(start_.frequency, natural_frequency); }
+
+  auto coefficients(double h) const noexcept {
+    return [this, radians = start_.frequency * h, power = 1.0](int k) mutable {
+      power *= radians * series::reciprocal[k];
+      return (k & 2 ? -power : power) * derivatives_[k & 1];
+    };
+  }
+
+  double at(double h, double part) const noexcept { return start_.gain_within(h * part, h); }
+  double largest(double h, double part) const noexcept {
+    return std::abs(start_.amplitude) * std::min(2.0, start_.frequency * h * part);
+  }
+  double steepest() const noexcept { return std::abs(start_.amplitude) * start_.frequency; }
+
+ private:
+  SinusoidalStart start_;
+  double derivatives_[2];  // the load and its derivative by the phase at the start [m/s^2]
+};
+
+inline GainSeries gain_series(const Start& start, double duration) noexcept { return {start, duration}; }
+inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double duration) noexcept {
+  return {start, duration};
+}
+
+}  // namespace detail
+
 /// Friction that varies with position: the distance slid is a Taylor series in time, with the coefficients of
-///     d'' = a + g t/T - wn^2 d - [level(x0 +- d) - level(x0)],                           thesis (2.27), (2.50)
-/// where the load gains g within the duration T, found order by order (series.hpp).
+///     d'' = a + g(t) - wn^2 d - [level(x0 +- d) - level(x0)],                            thesis (2.27), (2.50)
+/// where g is what the load gains, linear in time or a cosine's; found order by order (series.hpp).
 ///
 /// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
 /// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
-template <FrictionLaw Law>
+template <FrictionLaw Law, class SlipStart = Start>
 class TaylorFlow {
  public:
-  TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const Start& start, double duration)
+  /// @param longest  step to try first [s]
+  TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const SlipStart& start,
+             double duration, double longest = never)
       : slider_(slider),
         direction_(direction),
         displacement_(displacement),
         start_(start),
-        load_rate_(start.gain / duration),
+        gain_(detail::gain_series(start, duration)),
         level_here_(slider.law().level(displacement, direction)),
-        horizon_(duration) {
+        horizon_(std::min({duration, longest, gain_.reach(slider.natural_frequency())})) {
     // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
     // the way at most.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
@@ -138,6 +200,48 @@ class TaylorFlow {
   Progress at(double t) const noexcept { return at_part(t / horizon_); }
   Progress at_horizon() const noexcept { return end_; }
 
+  /// Net, at the start [m/s^2].
+  double acceleration() const noexcept { return start_.acceleration; }
+
+  /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- level'(x)) y from (1, 0) and from (0, 1).
+  std::array<double, 4> variation(double t) const {
+    constexpr int order = series::highest_order;
+    const double h = horizon_;
+    series::Coefficients x, stiffness, y[2];
+    x[0] = displacement_;
+    for (int k = 1; k <= order; ++k) x[k] = k <= order_ ? sign(direction_) * d_[k] : 0;
+    auto slope = series::slope_of(slider_.law().level(series::variable(x), direction_));
+    for (const int i : {0, 1}) y[i][i] = 1, y[i][1 - i] = 0;
+    for (int k = 0; k + 2 <= order; ++k) {
+      slope.update(k);
+      stiffness[k] = h * h * (sign(direction_) * slope[k] + (k == 0 ? slider_.stiffness() : 0));
+      for (auto& c : y)
+        c[k + 2] = -series::convolve(stiffness, c, 0, k) * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
+    }
+    const double s = t / h;
+    double value[2] = {0, 0}, rate[2] = {0, 0};
+    for (const int i : {0, 1})
+      for (int k = order; k >= 0; --k) {
+        rate[i] = rate[i] * s + value[i];
+        value[i] = value[i] * s + y[i][k];
+      }
+    return {value[0], value[1] * h, rate[0] / h, rate[1]};
+  }
+
+  /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
+  double work_of_gain(double t) const noexcept {
+    const double s = t / horizon_;
+    auto gain = gain_.coefficients(horizon_ * s);
+    double way[series::highest_order + 1], power = 1, work = 0;  // way[k]: k d_k s^k
+    for (int k = 1; k <= order_; ++k) way[k] = k * (power *= s) * d_[k];
+    for (int i = 1; i <= order_; ++i) {
+      double sum = 0;
+      for (int k = 1; k <= order_; ++k) sum += way[k] * reciprocal_sums[i + k];
+      work += gain(i) * sum;
+    }
+    return work;
+  }
+
  private:
   Progress at_part(double s) const noexcept {
     double distance = 0, speed = 0, acceleration = 0, mean = 0;
@@ -163,11 +267,12 @@ class TaylorFlow {
 
     const double largest_level = std::max(std::abs(level[0]), vanishing);
     fastest_ = d_[1];
+    auto gain = gain_.coefficients(h);
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
       double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
-        net = (k == 1 ? load_rate_ * h : 0.0) - stiffness * d_[k] - level[k];
+        net = gain(k) - stiffness * d_[k] - level[k];
       }
       d_[k + 2] = h * h * net * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
       x[k + 2] = s * d_[k + 2];
@@ -189,10 +294,10 @@ class TaylorFlow {
   bool balanced(double part) {
     end_ = at_part(part);
     const double level_there = slider_.law().level(displacement_ + sign(direction_) * end_.distance, direction_);
-    const double gain = load_rate_ * horizon_ * part, pull = slider_.stiffness() * end_.distance;
+    const double gain = gain_.at(horizon_, part), pull = slider_.stiffness() * end_.distance;
     const double net = start_.acceleration + gain - pull - (level_there - level_here_);
-    const double terms = std::abs(start_.acceleration) + std::abs(gain) + std::abs(pull) + std::abs(level_here_) +
-                         std::abs(level_there) + slider_.stiffness() * std::abs(displacement_) +
+    const double terms = std::abs(start_.acceleration) + gain_.largest(horizon_, part) + std::abs(pull) +
+                         std::abs(level_here_) + std::abs(level_there) + slider_.stiffness() * std::abs(displacement_) +
                          fastest_ / (horizon_ * horizon_);
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
@@ -200,9 +305,16 @@ class TaylorFlow {
   // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
   double time_to_half_way() const noexcept {
     const double third = std::abs(displacement_) / 6;
-    return std::min({third / start_.speed, std::sqrt(third / std::abs(start_.acceleration)),
-                     std::cbrt(third / std::abs(load_rate_))});
+    return std::min(
+        {third / start_.speed, std::sqrt(third / std::abs(start_.acceleration)), std::cbrt(third / gain_.steepest())});
   }
+
+  // 1/k, for k = 1 to twice the highest order.
+  static constexpr auto reciprocal_sums = [] {
+    std::array<double, 2 * series::highest_order + 1> table{};
+    for (std::size_t k = 1; k < table.size(); ++k) table[k] = 1.0 / static_cast<double>(k);
+    return table;
+  }();
 
   static auto as_series(double level) noexcept { return series::Constant{level}; }
   template <series::Series S>
@@ -216,8 +328,8 @@ class TaylorFlow {
   const Slider<Law>& slider_;
   Direction direction_;
   double displacement_;
-  Start start_;
-  double load_rate_;   // [m/s^3]
+  SlipStart start_;
+  decltype(detail::gain_series(SlipStart{}, 0)) gain_;
   double level_here_;  // [m/s^2]
   double horizon_;
   double fastest_ = 0;  // the largest term of the speed, for time in units of the horizon [m]
@@ -230,9 +342,20 @@ class TaylorFlow {
 template <FrictionLaw Law>
 struct Taylor {
   const Slider<Law>& slider;
+  mutable double last_step = never;  // that a flow was shortened to, where pieces of motion are long [s]
+
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
+
   TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
     return {slider, direction, displacement, start, duration};
+  }
+
+  TaylorFlow<Law, SinusoidalStart> flow(Direction direction, double displacement, const SinusoidalStart& start,
+                                        double duration) const {
+    const TaylorFlow<Law, SinusoidalStart> flow(slider, direction, displacement, start, duration, 1.25 * last_step);
+    const double step = flow.horizon();
+    last_step = step < duration ? step : std::max(step, last_step);
+    return flow;
   }
 };
 

@@ -1,0 +1,164 @@
+// Constant friction under a load that is a cosine in time: the displacement is a parabola and a cosine.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/harmonic.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// The beginning of a slip under a load that is a cosine, seen in the direction of sliding as in `Start`: the load goes
+/// on as amplitude cos(phase + frequency t).
+struct SinusoidalStart {
+  double speed;         ///< [m/s], at least 0
+  double acceleration;  ///< net [m/s^2]; exactly 0 on breaking away
+  double amplitude;     ///< of the load, negative where the slip goes backward [m/s^2]
+  double frequency;     ///< omega [rad/s], positive
+  double phase;         ///< of the load at the start [rad]
+
+  /// What the load has gained after a time [m/s^2], in a form that does not cancel.
+  double gain_within(double t, double /*duration*/) const noexcept {
+    const double half = frequency * t / 2;
+    return -2 * amplitude * std::sin(phase + half) * std::sin(half);
+  }
+
+  /// Work of the load within a time, of which `load` is its value at the start [m^2/s^2].
+  template <class Flow>
+  double work(const Flow& flow, double load, double /*gain*/, double t, const Progress& end) const noexcept {
+    return load * end.distance + flow.work_of_gain(t);
+  }
+};
+
+/// Constant friction without a spring under a load A cos(phase + omega t), in closed form: thesis (2.28). With the
+/// speed u and the net acceleration a at the start,
+///     speed = u + a t + V,  V = -A (omega^2 cos(phase) b3 + omega sin(phase) b2),
+/// where each b is the integral of the one before and b0 = cos(omega t), as in `Harmonic`: no difference of large
+/// numbers, however short the time.
+///
+/// The net acceleration is A cos(phase + omega t) less the slip level: its zeros are known, between them the speed runs
+/// one way, and from cycle to cycle its least value falls by 2 pi level / omega.
+class SinusoidalFlow {
+ public:
+  SinusoidalFlow(const Harmonic& oscillator, const SinusoidalStart& start, double duration) noexcept
+      : oscillator_(oscillator),
+        start_(start),
+        cosine_(start.amplitude * std::cos(start.phase)),
+        sine_(start.amplitude * std::sin(start.phase)),
+        square_(start.frequency * start.frequency),
+        duration_(duration) {}
+
+  double horizon() const noexcept { return duration_; }
+
+  /// As `ClosedForm::first_stop`.
+  double first_stop() const noexcept {
+    const auto [u, a, amplitude, omega, phase] = start_;
+    if (u == 0 && (a < 0 || (a == 0 && sine_ >= 0))) return 0;
+
+    // In the phase of a push that is greatest at 0, the speed rises within -turn and turn and falls elsewhere.
+    constexpr double cycle = 2 * std::numbers::pi;
+    const double push = std::abs(amplitude), level = cosine_ - a;
+    const double room = (push - level) / (2 * push);
+    const double turn = room > 0 ? 2 * std::asin(std::sqrt(std::min(room, 1.0))) : 0;
+    const double now = std::remainder(amplitude < 0 ? phase + std::numbers::pi : phase, cycle);
+    const bool rises = a > 0 || (a == 0 && sine_ < 0);
+    double falls_from = rises ? std::max(turn - now, 0.0) : 0;                               // phase gone until then
+    double least = rises || now >= -turn ? std::max(cycle - turn - now, 0.0) : -turn - now;  // at the end of the fall
+    if (falls_from >= omega * duration_) return never;
+
+    const auto speed_after = [&](double phase_gone) {
+      return speed(oscillator_.basis(phase_gone / omega), phase_gone / omega);
+    };
+    const double first_least = least / omega < duration_ ? speed_after(least) : 0;
+    if (first_least > 0) {  // some cycles later
+      const double lost = cycle * level / omega;
+      if (!(lost > 0)) return never;
+      const double cycles = std::ceil(first_least / lost);
+      least += cycle * cycles;
+      falls_from = least - (cycle - 2 * turn);
+      if (!(falls_from < omega * duration_)) return never;
+    }
+    const double low = falls_from / omega, high = std::min(least / omega, duration_);
+    if (high == duration_ && speed(oscillator_.basis(duration_), duration_) > 0) return never;
+    return polish(low, high);
+  }
+
+  Progress at(double t) const noexcept { return progress(oscillator_.basis(t), t); }
+  Progress at_horizon() const noexcept { return at(duration_); }
+
+  /// Net, at the start [m/s^2].
+  double acceleration() const noexcept { return start_.acceleration; }
+
+  /// What becomes of a small change of the distance and the speed at the start: to each its share of either after t,
+  /// row by row.
+  std::array<double, 4> variation(double t) const noexcept { return {1, t, 0, 1}; }
+
+  /// Work of what the load has gained since the start [m^2/s^2]: the integral of V' (u + a t + V).
+  double work_of_gain(double t) const noexcept {
+    const Harmonic::Basis b = oscillator_.basis(t);
+    const double v = gained_speed(b, t);
+    return v * (start_.speed + start_.acceleration * t + v / 2) - start_.acceleration * gained_distance(b, t);
+  }
+
+ private:
+  double gained_speed(const Harmonic::Basis& b, double t) const noexcept {
+    return -(cosine_ * (square_ * t * b.c3) + sine_ * (start_.frequency * b.b2));
+  }
+  double gained_distance(const Harmonic::Basis& b, double t) const noexcept {
+    return -t * (cosine_ * (square_ * t * b.c4) + sine_ * (start_.frequency * b.c3));
+  }
+  double speed(const Harmonic::Basis& b, double t) const noexcept {
+    return start_.speed + start_.acceleration * t + gained_speed(b, t);
+  }
+  double acceleration(const Harmonic::Basis& b) const noexcept {
+    return start_.acceleration - (cosine_ * (square_ * b.b2) + sine_ * (start_.frequency * b.b1));
+  }
+  Progress progress(const Harmonic::Basis& b, double t) const noexcept {
+    return {t * (start_.speed + t * (start_.acceleration / 2)) + gained_distance(b, t), speed(b, t), acceleration(b),
+            0};
+  }
+
+  // The zero of a speed that falls from `low` to `high` and has come to zero there, by Newton's method in a bracket.
+  double polish(double low, double high) const noexcept {
+    for (double t = low + (high - low) / 2;;) {
+      const Harmonic::Basis b = oscillator_.basis(t);
+      const double value = speed(b, t);
+      (value > 0 ? low : high) = t;
+      double next = t - value / acceleration(b);
+      if (std::abs(next - t) <= 0x1p-52 * t) return t;
+      if (!(next > low && next < high)) next = low + (high - low) / 2;
+      if (next <= low || next >= high) return high;
+      t = next;
+    }
+  }
+
+  const Harmonic& oscillator_;
+  SinusoidalStart start_;
+  double cosine_, sine_;  // of the load at the start [m/s^2]
+  double square_;         // of omega
+  double duration_;
+};
+
+/// Makes the flows of constant friction without a spring under a load of one frequency.
+class Sinusoidal {
+ public:
+  /// @param usual_duration  as of `Harmonic`
+  explicit Sinusoidal(double omega, double usual_duration) noexcept : oscillator_(omega, usual_duration) {}
+
+  /// No spring pulls.
+  static constexpr double pull(double) noexcept { return 0; }
+
+  SinusoidalFlow flow(Direction, double /*displacement*/, const SinusoidalStart& start,
+                      double duration) const noexcept {
+    return {oscillator_, start, duration};
+  }
+
+ private:
+  Harmonic oscillator_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,104 @@
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+namespace {
+
+HarmonicMotion make(double amplitude, double omega, double duration, std::optional<double> dt) {
+  return dt ? HarmonicMotion(amplitude, omega, duration, *dt) : HarmonicMotion(amplitude, omega, duration);
+}
+
+// An array over the samples of `value(time)`.
+template <class Value>
+py::array_t<double> over_samples(const HarmonicMotion& motion, Value&& value) {
+  py::array_t<double> values(static_cast<py::ssize_t>(motion.samples()));
+  double* v = values.mutable_data();
+  for (std::size_t i = 0; i < motion.samples(); ++i) v[i] = value(motion.time(i));
+  return values;
+}
+
+std::string arguments(const HarmonicMotion& m) {
+  return "amplitude=" + detail::shortest(m.amplitude()) + ", omega=" + detail::shortest(m.omega()) +
+         ", duration=" + detail::shortest(m.duration()) + ", dt=" + detail::shortest(m.dt());
+}
+
+py::tuple state_of(const HarmonicMotion& m) { return py::make_tuple(m.amplitude(), m.omega(), m.duration(), m.dt()); }
+
+}  // namespace
+
+void bind_harmonic_motion(py::module_& m) {
+  py::class_<HarmonicMotion>(m, "HarmonicMotion", R"(A ground acceleration of one frequency: -n(t) = B cos(omega t).
+
+Thesis (2.28), from t = 0 on. Nothing of it is sampled: a slider slides exactly under the cosine. Samples say only where
+the response is asked for: at 0, dt, 2 dt, ... and at the end.
+
+Parameters
+----------
+amplitude : float
+    B [m/s^2], positive and at most 1e100.
+omega : float
+    Angular frequency [rad/s], positive, with a finite square.
+duration : float
+    [s], positive and finite, at most 2^45 periods.
+dt : float, optional
+    Time between samples of the response [s], positive and finite; a 64th of a period if not given. The last step may be
+    shorter; longer than the duration leaves its two ends. At most 2^40 samples.
+
+Raises
+------
+ValueError
+    Naming the value refused.
+
+Notes
+-----
+omega t is reduced to one cycle with 150 bits of pi: the phase is right to round-off after any number of cycles.)")
+      .def(py::init(&make), py::arg("amplitude"), py::arg("omega"), py::arg("duration"), py::arg("dt") = py::none())
+      .def_property_readonly("amplitude", &HarmonicMotion::amplitude, "B [m/s^2].")
+      .def_property_readonly("omega", &HarmonicMotion::omega, "Angular frequency [rad/s].")
+      .def_property_readonly("period", &HarmonicMotion::period, "2 pi / omega [s].")
+      .def_property_readonly("duration", &HarmonicMotion::duration, "[s].")
+      .def_property_readonly("dt", &HarmonicMotion::dt, "Time between samples [s]; the last step may be shorter.")
+      .def_property_readonly(
+          "time", [](const HarmonicMotion& h) { return over_samples(h, [](double t) { return t; }); },
+          "Times of the samples [s], shape (N,).")
+      .def_property_readonly(
+          "acceleration",
+          [](const HarmonicMotion& h) { return over_samples(h, [&](double t) { return h.acceleration(t); }); },
+          "Ground acceleration n at the samples [m/s^2], shape (N,).")
+      .def_property_readonly("peak_acceleration", &HarmonicMotion::amplitude,
+                             "Largest magnitude of the ground acceleration [m/s^2]: B.")
+      .def_property_readonly(
+          "interpolation", [](const HarmonicMotion&) { return "linear"; },
+          "'linear': how its samples are best drawn; the motion itself is the cosine.")
+      .def_property_readonly(
+          "name",
+          [](const HarmonicMotion& h) {
+            return detail::shortest(h.amplitude()) + " m/s^2 at " + detail::shortest(h.omega()) + " rad/s";
+          },
+          "What it is, as a plot calls it.")
+      .def("sampled", &HarmonicMotion::sampled, py::arg("dt"), R"(The same motion in samples, with lines between them.
+
+Parameters
+----------
+dt : float
+    Time between samples [s], positive; the last may come after the end.
+
+Returns
+-------
+GroundMotion)")
+      .def("__len__", &HarmonicMotion::samples)
+      .def("__repr__", [](const HarmonicMotion& h) { return "HarmonicMotion(" + arguments(h) + ")"; })
+      .def(
+          "__eq__",
+          [](const HarmonicMotion& a, const py::object& other) {
+            return py::isinstance<HarmonicMotion>(other) && state_of(a).equal(state_of(other.cast<HarmonicMotion>()));
+          },
+          py::is_operator())
+      .def("__hash__", [](const HarmonicMotion& h) { return py::hash(state_of(h)); })
+      .def(py::pickle(&state_of, [](const py::tuple& t) {
+        return HarmonicMotion(t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>(), t[3].cast<double>());
+      }));
+}
+
+}  // namespace stickslip::python
