@@ -4,28 +4,34 @@ Each takes the sliders and the sources of motion that a simulation takes, says w
 refuses the rest.
 """
 
-from ._core import HarmonicSolution, SlowlyVaryingParameters
-
-__all__ = ["HarmonicSolution", "SlowlyVaryingParameters"]
-from ._core import EquivalentLinearization, TransitionTime, WhiteNoise, transition_time
-
-__all__ = ["EquivalentLinearization", "TransitionTime", "WhiteNoise", "transition_time"]
 from ._core import (
+    EquivalentLinearization,
+    HarmonicSolution,
     PulseChain,
     PulseResponse,
     PulseSuperposition,
+    SlowlyVaryingParameters,
+    TransitionTime,
+    WhiteNoise,
     peak_from_growth,
     pulse_response,
+    transition_time,
     viscous_damping_for,
     viscous_pulse_response,
 )
 
 __all__ = [
+    "EquivalentLinearization",
+    "HarmonicSolution",
     "PulseChain",
     "PulseResponse",
     "PulseSuperposition",
+    "SlowlyVaryingParameters",
+    "TransitionTime",
+    "WhiteNoise",
     "peak_from_growth",
     "pulse_response",
+    "transition_time",
     "viscous_damping_for",
     "viscous_pulse_response",
 ]
