@@ -42,7 +42,7 @@ refined : bool, optional
 Notes
 -----
 Against simulation, for the symmetric rectangular pulse and Gaussian amplitudes, lambda dt from 0.05 to 2 (4): growth rate
-and velocity variance are within 3 % (7 %) for sigma / a from 1 to 20, within 9 % (13 %) from 1/3 on. Refined they are
+and velocity variance are within 4 % (9 %) for sigma / a from 1 to 20, within 9 % (13 %) from 1/3 on. Refined they are
 within 3 % (4 %) from 1/3 on, within 7 % at 0.25 and 17 % at 0.2; above sigma / a = 1 refined is the same.
 
 Covers equal slip levels without a spring; pulses of two to four equal steps, two if refined, whose values are multiples
