@@ -211,6 +211,7 @@ class OrbitFinder {
     for (const Event& e : orbit.events) {
       orbit.stops_per_cycle += e.kind == EventKind::arrest;
       orbit.reversals_per_cycle += e.kind == EventKind::reversal;
+      if (e.kind == EventKind::breakaway) continue;
       low = std::min(low, e.displacement);
       if (e.displacement > high) high = e.displacement, time = e.time;
     }
@@ -246,7 +247,7 @@ class OrbitFinder {
   static constexpr double close_enough = 1e-11;  // a miss, of the amplitude: beyond it Newton's method goes on
 
   /// The symmetric orbits that have been found, by amplitude.
-  std::vector<Orbit> find() const {
+  std::vector<Orbit> find(const std::function<void()>& heartbeat) const {
     std::vector<Orbit> found;
     if (load_ <= level(0)) found.push_back(rest());
     if constexpr (ConstantLevelLaw<Law>) {
@@ -257,7 +258,7 @@ class OrbitFinder {
       }
       if (slider_.stiffness() == 0) return {with_stops()};
     }
-    search(found);
+    search(found, heartbeat);
     std::ranges::sort(found, {}, &Orbit::amplitude);
     return found;
   }
@@ -315,21 +316,25 @@ class OrbitFinder {
   // Any symmetric orbit turns or stops at its highest x, A > 0, and goes back from there at a phase theta at which the
   // load lets it: an arc, whose beginning is where it breaks away from a stop. For all A and all of the arc the miss is
   // laid on a grid; where its two parts are both zero on a triangle, as if it were linear, Newton's method goes on. On
-  // the beginning of the arc x' is missed by nothing, and x alone must change sign.
-  void search(std::vector<Orbit>& found) const {
+  // the beginning of the arc x' is missed by nothing, and x alone must change sign. Two orbits next to a fold may be
+  // closer than the grid: so where the miss is less than all around, they are sought too.
+  void search(std::vector<Orbit>& found, const std::function<void()>& heartbeat) const {
     constexpr int rows_a_decade = 12;
     constexpr double smallest = 1e-5;
     const double largest = largest_amplitude();
     const double usual = load_ / (omega_ * omega_ + slider_.stiffness());
     const double step = std::pow(10.0, 1.0 / rows_a_decade);
 
-    Row before{.free = load_ > level(0), .misses = {{{-1, 0}}}};  // at A = 0
+    std::vector<Row> rows{{.free = load_ > level(0), .misses = {{{-1, 0}}}}};  // at A = 0
     for (double amplitude = smallest * usual; amplitude < largest * step; amplitude *= step) {
-      const bool no_slips_alone = amplitude > 1e-3 * usual;  // a slip without stops goes so far at least
-      const Row row = row_at(amplitude, no_slips_alone ? columns : 0);
-      if (row.free && (row.misses[0].x > 0) != (before.misses[0].x > 0)) search_beginning(before, row, found);
-      if (row.free && before.free && before.columns == columns) search_between(before, row, found);
-      before = row;
+      if (heartbeat) heartbeat();
+      rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));  // so far goes a slip without stops
+    }
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (heartbeat) heartbeat();
+      search_beginning(rows[i - 1], rows[i], found);
+      if (rows[i - 1].columns == columns && rows[i].columns == columns) search_between(rows[i - 1], rows[i], found);
+      if (i + 1 < rows.size()) search_dips(rows[i - 1], rows[i], rows[i + 1], found);
     }
   }
 
@@ -346,9 +351,14 @@ class OrbitFinder {
     double phase(double column) const noexcept { return begin + (end - begin) * (column / OrbitFinder::columns); }
   };
 
+  // What is too fast to be computed is no orbit.
   Miss miss_from(double phase, double displacement) const {
     const Place turn{phase, State::at(displacement, 0)};
-    return miss(turn, after(turn, std::numbers::pi), displacement);
+    try {
+      return miss(turn, after(turn, std::numbers::pi), displacement);
+    } catch (const ConvergenceError&) {
+      return {2, 0};
+    }
   }
 
   Row row_at(double amplitude, int wanted) const {
@@ -364,8 +374,9 @@ class OrbitFinder {
     return row;
   }
 
-  // Between two amplitudes whose misses of x differ in sign at the beginning of the arc.
+  // Between two amplitudes, at the beginning of the arc, if their misses of x differ in sign.
   void search_beginning(const Row& before, const Row& row, std::vector<Orbit>& found) const {
+    if ((before.misses[0].x > 0) == (row.misses[0].x > 0)) return;
     double low = before.amplitude, high = row.amplitude;
     Row middle = row;
     while (high - low > 1e-10 * high) {
@@ -406,8 +417,45 @@ class OrbitFinder {
     }
   }
 
+  // Around the places of the middle row at which the miss is less than all around.
+  void search_dips(const Row& before, const Row& row, const Row& after, std::vector<Orbit>& found) const {
+    const auto beginning = [](const Row& r) { return std::abs(r.misses[0].x); };
+    if (before.free && row.free && beginning(row) < beginning(before) && beginning(row) < beginning(after)) {
+      double low = before.amplitude, high = after.amplitude;  // golden section
+      Row least = row;
+      for (int i = 0; i < 30 && high - low > 1e-7 * high; ++i) {
+        constexpr double part = 0.3819660112501051;
+        const bool below = least.amplitude - low > high - least.amplitude;
+        const double at = below ? least.amplitude - part * (least.amplitude - low)
+                                : least.amplitude + part * (high - least.amplitude);
+        const Row next = row_at(at, 0);
+        if ((next.misses[0].x > 0) != (row.misses[0].x > 0)) {
+          search_beginning(before, next, found);
+          search_beginning(next, after, found);
+          break;
+        }
+        if (beginning(next) < beginning(least))
+          (below ? high : low) = std::exchange(least, next).amplitude;
+        else
+          (below ? low : high) = at;
+      }
+    }
+    if (!(before.columns == columns && row.columns == columns && after.columns == columns)) return;
+    for (std::size_t j = 0; j <= columns; ++j) {
+      const double size = row.misses[j].size();
+      bool least = size < 0.5;
+      for (const Row* r : {&before, &row, &after})
+        for (std::size_t k = j == 0 ? 0 : j - 1; k <= std::min<std::size_t>(j + 1, columns); ++k)
+          least = least && r->misses[k].size() >= size;
+      if (!least) continue;
+      for (const double amplitude :
+           {std::sqrt(before.amplitude * row.amplitude), row.amplitude, std::sqrt(row.amplitude * after.amplitude)})
+        keep(row.phase(static_cast<double>(j)), amplitude, found);
+    }
+  }
+
   // The orbit next to a turn at x = A, unless it is known.
-  void keep(double phase, double displacement, std::vector<Orbit>& found) const {
+  void keep(double phase, double displacement, std::vector<Orbit>& found) const try {
     constexpr double quarter = std::numbers::pi / 2;  // away from the turn, where the map is not smooth
     const auto place = shoot({phase + quarter, after({phase, State::at(displacement, 0)}, quarter)}, displacement);
     if (!place) return;
@@ -417,6 +465,7 @@ class OrbitFinder {
              std::abs(std::remainder(other.phase - orbit.phase, 2 * std::numbers::pi)) <= 1e-6;
     };
     if (orbit.amplitude > 0 && std::ranges::none_of(found, same)) found.push_back(orbit);
+  } catch (const ConvergenceError&) {  // Newton's method has gone astray
   }
 
   // No harmonic n of x is larger than the load's and friction's together by |wn^2 - n^2 omega^2|; at resonance no
@@ -703,21 +752,51 @@ class BranchFollower {
 /// @param slider  a law with equal levels both ways, and an optional spring
 /// @param load    B [m/s^2], positive and at most 1e100
 /// @param omega   [rad/s], positive, with a finite square
+/// @param heartbeat  called some times a second; may throw to end the work; optional
 /// @return orbits in order of amplitude
 /// @throws std::invalid_argument  a value out of its range; levels that differ by direction (the slider drifts)
-/// @throws ConvergenceError       a law without power series
 /// Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction without stops
-/// takes some 10 us, a search of a few milliseconds.
+/// takes some 10 us, with stops on a spring 1 to 3 ms, a caster 15 to 200 ms.
 /// Reference: J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous friction, Trans. ASME 53 (1931).
 template <FrictionLaw Law>
-std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega) {
+std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega,
+                          const std::function<void()>& heartbeat = {}) {
   detail::check_orbit_arguments(slider, load, omega, "orbits");
-  return detail::with_finder(slider, load, omega, [](const auto& finder) { return finder.find(); });
+  return detail::with_finder(slider, load, omega, [&](const auto& finder) { return finder.find(heartbeat); });
 }
 
 template <FrictionLaw Law>
-std::vector<Orbit> orbits(const Law& law, double load, double omega) {
-  return orbits(Slider<Law>(law), load, omega);
+std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::function<void()>& heartbeat = {}) {
+  return orbits(Slider<Law>(law), load, omega, heartbeat);
+}
+
+/// Where the slider is on its orbit.
+/// @param slider  the one that `orbit` is an orbit of
+/// @param times   [s], finite, in any order: the orbit has neither beginning nor end
+/// @return the state at each time
+template <FrictionLaw Law>
+std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, const std::vector<double>& times) {
+  std::vector<State> states(times.size());
+  if (orbit.at_rest() || times.empty()) return states;
+  for (const double time : times) detail::require(std::isfinite(time), "states_at: times must be finite", time, "s");
+  const HarmonicMotion motion(orbit.load, orbit.omega, orbit.period());
+  std::vector<std::pair<double, std::size_t>> phases;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double phase = motion.phase(times[i]);
+    phases.emplace_back(phase < 0 ? phase + 2 * std::numbers::pi : phase, i);
+  }
+  std::ranges::sort(phases);
+  detail::with_finder(slider, orbit.load, orbit.omega, [&](const auto& finder) {
+    State state = orbit.state;
+    double now = 0;
+    for (const auto& [phase, i] : phases) {
+      if (phase > now) state = finder.after({now, state}, phase - now);
+      now = phase;
+      states[i] = state;
+    }
+    return true;
+  });
+  return states;
 }
 
 /// The orbits that hang together with one, along the response curve: by pseudo-arclength continuation over the

@@ -34,6 +34,7 @@ void bind_caster(py::module_& m);
 void bind_slider(py::module_& m);
 void bind_ground_motion(py::module_& m);
 void bind_harmonic_motion(py::module_& m);
+void bind_harmonic(py::module_& m);
 void bind_histories(py::module_& m);
 void bind_records(py::module_& m);
 void bind_response(py::module_& m);

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, m) {
   bind_response(m);
   bind_integrate(m);
   bind_histories(m);
+  bind_harmonic(m);
   bind_envelope(m);
   bind_spectrum(m);
   bind_gaussian(m);

@@ -27,14 +27,15 @@ constexpr const char32_t* name_of(EventKind kind) {
   return U"";
 }
 
-py::array events_array(const Response& response) {
+}  // namespace
+
+py::array events_array(const std::vector<Event>& events) {
   py::dict layout;
   layout["names"] = py::make_tuple("time", "displacement", "velocity", "kind");
   layout["formats"] = py::make_tuple("f8", "f8", "f8", "U10");
   layout["offsets"] = py::make_tuple(offsetof(EventRow, time), offsetof(EventRow, displacement),
                                      offsetof(EventRow, velocity), offsetof(EventRow, kind));
   layout["itemsize"] = sizeof(EventRow);
-  const auto& events = response.events;
   py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(events.size()));
   auto* row = static_cast<EventRow*>(rows.mutable_data());
   for (const Event& e : events) {
@@ -45,6 +46,8 @@ py::array events_array(const Response& response) {
   }
   return rows;
 }
+
+namespace {
 
 // The array in `kept`, made by `make` when first asked for.
 template <class Make>
@@ -57,7 +60,7 @@ py::object keep(py::object& kept, Make&& make) {
 }
 
 py::object events_of(Recording& recording) {
-  return keep(recording.events, [&] { return events_array(recording.response); });
+  return keep(recording.events, [&] { return events_array(recording.response.events); });
 }
 
 py::object time_of(Recording& recording) {

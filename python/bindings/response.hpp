@@ -34,6 +34,9 @@ class Storage {
   }
 };
 
+/// Events as the structured array that `Response.events` is.
+py::array events_array(const std::vector<Event>& events);
+
 struct Recording {
   Response response;
   py::object slider;

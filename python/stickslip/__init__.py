@@ -18,7 +18,7 @@ A friction law makes a slider, a record or a list of numbers makes a ground moti
 SI units everywhere. Displacement and velocity are relative to the ground; forward is x > 0.
 """
 
-from . import theory
+from . import harmonic, theory
 from ._core import (
     STANDARD_GRAVITY,
     Caster,
@@ -73,6 +73,7 @@ __all__ = [
     "VelocitySpectrum",
     "__version__",
     "build_info",
+    "harmonic",
     "histories",
     "integrate",
     "read_record",
