@@ -209,6 +209,16 @@ double SlowlyVaryingParameters::in_phase_friction_slope(double amplitude) const 
          4 / pi * mean_level(amplitude) / amplitude;
 }
 
+// B + S, which small cycles of B next to -S(0) would otherwise lose: B + S(0) with 4 a / pi in two doubles, and
+// S - S(0) by its power series.
+double SlowlyVaryingParameters::surplus(double B, double amplitude, double mean_level) const {
+  constexpr double four_over_pi = 4 / pi, rest_of_it = -7.8714706700729948e-17;
+  if (amplitude > reach_ / 4) return B - four_over_pi * mean_level;
+  const double y = reach_ > 0 ? amplitude / reach_ : 0;
+  const double first = four_over_pi * mean_[0], rest = std::fma(four_over_pi, mean_[0], -first) + rest_of_it * mean_[0];
+  return (B - first) - rest - four_over_pi * (polynomial(std::span(mean_).subspan(1), y * y) * y * y);
+}
+
 // S S' / A.
 double SlowlyVaryingParameters::fold_term(double amplitude, double mean_level) const {
   return 4 / pi * mean_level / amplitude * (4 / pi) * mean_level_slope(amplitude, mean_level);
@@ -297,7 +307,7 @@ struct SlowlyVaryingParameters::Balance {
  private:
   double at(double amplitude, double mean_level) const {
     const double s = 4 / pi * mean_level / B, e = excess(amplitude) / B;
-    return e * e - (1 - s) * (1 + s);
+    return e * e - svp.surplus(B, amplitude, mean_level) / B * (1 + s);
   }
 
   double determinant(double amplitude, double mean_level) const {
@@ -335,9 +345,9 @@ std::vector<HarmonicSolution> SlowlyVaryingParameters::response(double B, double
 Branches SlowlyVaryingParameters::frequency(double B, double amplitude) const {
   check_force(B);
   check_amplitude(amplitude);
-  const double s = 4 / pi * mean_level(amplitude);
+  const double mean = mean_level(amplitude), less = surplus(B, amplitude, mean), more = B + 4 / pi * mean;
   const double middle = natural_frequency_ * natural_frequency_ + in_phase_friction(amplitude) / amplitude;
-  const double distance = s <= B ? std::sqrt(B - s) * std::sqrt(B + s) / amplitude : not_a_number;
+  const double distance = std::sqrt(less) * std::sqrt(more) / amplitude;
   return {std::sqrt(middle - distance), std::sqrt(middle + distance)};  // (2.48), (2.53); NaN below 0
 }
 
@@ -352,27 +362,26 @@ Branches SlowlyVaryingParameters::stability_boundary(double amplitude) const {
 }
 
 double SlowlyVaryingParameters::least_amplitude(double B) const {
-  if (rests(B) && B < 4 / pi * mean_level(0)) {
-    if (std::isinf(reach_)) return infinity;
-    const auto excess = [&](double amplitude) { return 4 / pi * mean_level(amplitude) - B; };
-    const double length = reach_ > 0 ? reach_ : 1, step = law_.one_fold ? 2 : search_ratio;
-    const double last = law_.one_fold ? std::numeric_limits<double>::max() : search_reaches * length;
-    double low = 0, low_excess = excess(low), high = length / 64, high_excess = excess(high);
-    while (high_excess > 0) {
-      low = high;
-      low_excess = high_excess;
-      high *= step;
-      if (!(high <= last)) return infinity;
-      high_excess = excess(high);
-    }
-    return root(excess, low, low_excess, high, high_excess);
+  check_force(B);
+  if (surplus(B, 0, mean_[0]) >= 0) return 0;
+  if (std::isinf(reach_)) return infinity;
+  const auto shortage = [&](double amplitude) { return -surplus(B, amplitude, mean_level(amplitude)); };
+  const double length = reach_ > 0 ? reach_ : 1, step = law_.one_fold ? 2 : search_ratio;
+  const double last = law_.one_fold ? std::numeric_limits<double>::max() : search_reaches * length;
+  double low = 0, low_value = shortage(low), high = length / 64, high_value = shortage(high);
+  while (high_value > 0) {
+    low = high;
+    low_value = high_value;
+    high *= step;
+    if (!(high <= last)) return infinity;
+    high_value = shortage(high);
   }
-  return 0;
+  return root(shortage, low, low_value, high, high_value);
 }
 
 bool SlowlyVaryingParameters::rests(double B) const {
   check_force(B);
-  return B <= 4 / pi * mean_level(0);
+  return surplus(B, 0, mean_[0]) <= 0;
 }
 
 // ---- transients

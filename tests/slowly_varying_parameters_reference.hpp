@@ -184,6 +184,19 @@ inline const CasterResponse caster_responses[] = {
      {{4.564748305994383631910342, -0.982789681158673, 3.054079918, true}}},
 };
 
+/// The smallest solution of a caster of a = 1 m/s^2 and a reach of 1 m for B next to 4 a / pi, where B^2 - S^2 is
+/// small: mpmath, 60 digits, of B as a double.
+struct SmallSolution {
+  double B, omega, amplitude, phase_over_pi;
+  bool stable;
+};
+inline constexpr SmallSolution small_solutions[] = {
+    {1.2733, 2.0, 0.00315567913860189941203059, -0.503155580996843006, true},
+    {1.2732396, 1.0, 0.0005533435563986151564991953, -0.500138335887449847, true},
+    {1.2732, 0.5, 0.01451673677101257591952609, -0.500907325456869606, false},
+    {1.27323954, 0.3, 0.0001505107702669736727523368, -0.500003386492343665, false},
+};
+
 /// The fold of B = 1 m/s^2 of that caster without a spring. values.json svp.caster.fold.b1.0.
 inline constexpr struct {
   double least, amplitude, omega;

@@ -258,6 +258,19 @@ TEST_CASE("a caster has the solutions found with 40 digits, with and without a s
   }
 }
 
+TEST_CASE("solutions keep their digits where B is next to 4 a / pi", "[svp]") {
+  const Theory svp(Caster(1, 1));
+  for (const auto& r : reference::small_solutions) {
+    INFO("B = " << r.B << ", omega = " << r.omega);
+    const auto found = svp.response(r.B, r.omega);
+    REQUIRE(!found.empty());
+    CHECK(relative(found[0].amplitude, r.amplitude) <= 4e-15);  // a few roundings of each term of (2.16)
+    CHECK(std::abs(found[0].phase / pi - r.phase_over_pi) <= 1e-15);
+    CHECK(found[0].stable == r.stable);
+    CHECK(relative(svp.frequency(r.B, r.amplitude).upper, r.omega) <= 4e-15);
+  }
+}
+
 TEST_CASE("a curve of the caster folds where its frequency is highest", "[svp]") {
   const Theory svp(Caster(1, 1));
   const auto& fold = reference::caster_fold;

@@ -90,7 +90,9 @@ ValueError
 Notes
 -----
 It holds for B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 % at 4,
-25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi.
+25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi. It takes the mean position for x = 0, where
+without a spring nothing holds it: an exact caster may creep away and escape. That a caster's amplitude lies between
+those of Coulomb friction and of the ground, (2.34), is said of these amplitudes, not of motions.
 
 References
 ----------
@@ -188,10 +190,10 @@ omega : float
 Returns
 -------
 list of HarmonicSolution
-    Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, Coulomb friction
-    has none: the amplitude grows for ever where B exceeds 4 a / pi. Without friction there is the one amplitude
-    B / abs(omega^2 - wn^2), which is neutral and counts as stable. At a fold, to round-off, where two solutions meet,
-    both, one or none of them.
+    Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, no amplitude is
+    stable: Coulomb friction lets it grow for ever where B exceeds 4 a / pi, the caster from its unstable solution on.
+    Without friction there is the one amplitude B / abs(omega^2 - wn^2), which is neutral and counts as stable. At a
+    fold, to round-off, where two solutions meet, both, one or none of them.
 
 Raises
 ------

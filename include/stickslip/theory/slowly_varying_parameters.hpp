@@ -110,7 +110,10 @@ struct HarmonicTransient {
 /// because its mass drifts.
 ///
 /// Where it holds: B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 %
-/// at 4, 25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi; see the exact orbits.
+/// at 4, 25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi; see the exact orbits. It takes
+/// the mean position for x = 0, where without a spring nothing holds it: an exact caster may creep away and escape.
+/// That a caster's amplitude lies between those of Coulomb friction and of the ground, (2.34), is said of these
+/// amplitudes, not of motions.
 ///
 /// Reference: the thesis's chapter 2; N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).
 class SlowlyVaryingParameters {
@@ -149,10 +152,10 @@ class SlowlyVaryingParameters {
   /// phi = atan2(S, C - omega^2 A), (2.17) corrected; stable where S' + S/A <= 0, (2.18) corrected, which friction
   /// always meets, and (C/A - omega^2) (C' - omega^2) + S S'/A > 0, (2.19).
   ///
-  /// Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, Coulomb
-  /// friction has none: the amplitude grows for ever where B exceeds 4 a / pi. Without friction there is the one
-  /// amplitude B / |omega^2 - wn^2|, which is neutral and counts as stable. At a fold, to round-off, where two
-  /// solutions meet, both, one or none of them.
+  /// Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, no amplitude
+  /// is stable: Coulomb friction lets it grow for ever where B exceeds 4 a / pi, the caster from its unstable solution
+  /// on. Without friction there is the one amplitude B / |omega^2 - wn^2|, which is neutral and counts as stable. At a
+  /// fold, to round-off, where two solutions meet, both, one or none of them.
   ///
   /// @param B      amplitude of the force per unit mass, and so of the ground acceleration [m/s^2], positive and finite
   /// @param omega  [rad/s], positive and finite
@@ -224,9 +227,10 @@ class SlowlyVaryingParameters {
 
   // Mean of the levels at +-x, which is the same both ways.
   double level(double x) const;
-  // -pi S / 4, the mean level over a cycle; what friction adds to C; and their derivatives.
+  // -pi S / 4, the mean level over a cycle, B + S, S S' / A; what friction adds to C; and derivatives.
   double mean_level(double amplitude) const;
   double mean_level_slope(double amplitude, double mean_level) const;
+  double surplus(double B, double amplitude, double mean_level) const;
   double fold_term(double amplitude, double mean_level) const;
   double in_phase_friction(double amplitude) const;
   double in_phase_friction_slope(double amplitude) const;
