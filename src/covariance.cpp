@@ -91,26 +91,42 @@ class CovarianceEquations {
   double natural_frequency_, s0_, last_;
 };
 
-/// The covariance that integration begins with, at a time so early that the law away from x = 0 and the spring are
-/// nothing yet. From rest, in p = a sqrt(t / S0) / pi:
+/// From rest, before the law away from x = 0 and the spring come in, by p = a sqrt(t / S0) / pi:
 ///     q22 = 2 pi S0 t (1 - 4/3 p + 2/3 p^2 - ...)             2 pi t - (8/3) t^1.5 + ... in units of S0 and a
 ///     q12 = pi S0 t^2 (1 - 22/15 p + 32/45 p^2 - ...)
 ///     q11 = (2 pi / 3) S0 t^3 (1 - 44/35 p + 8/15 p^2 - ...)
-/// From (3.38) to (3.40), one step of Euler's.
-Variables early(double a, double s0, double t, Start start) {
-  if (start == Start::thesis) {
-    const double unit = s0 / a / a, q11 = 0.01, q12 = 5.4e-8, q22 = 1.3e-5, damping = std::sqrt(2 / (pi * q22)),
-                 passed = t / unit;
-    const double velocity = s0 / a, displacement = velocity * unit;
-    return variables({displacement * displacement * (q11 + 2 * q12 * passed),
-                      displacement * velocity * (q12 + (q22 - damping * q12) * passed),
-                      velocity * velocity * (q22 + 2 * (pi - damping * q22) * passed)},
-                     s0, t);
-  }
+Variables from_rest(double a, double s0, double t) {
   const double p = a * std::sqrt(t / s0) / pi;
-  const double r22 = 1 - p * (4. / 3 - p * 2. / 3), r12 = 1 - p * (22. / 15 - p * 32. / 45),
-               r11 = 1 - p * (44. / 35 - p * 8. / 15);
-  return {std::log(r11), std::sqrt(0.75) * r12 / std::sqrt(r11 * r22), std::log(r22)};
+  const auto series = [p](const std::array<double, 5>& terms) {
+    double sum = 0;
+    for (std::size_t i = terms.size(); i-- > 0;) sum = p * (terms[i] + sum);
+    return sum;
+  };
+  const double r22 = series({-4. / 3, 2. / 3, -4. / 45, -8. / 405, -2. / 945}),
+               r12 = series({-22. / 15, 32. / 45, -22. / 315, -52. / 2835, -199. / 42525}),
+               r11 = series({-44. / 35, 8. / 15, -44. / 945, -52. / 4725, -398. / 155925});
+  return {std::log1p(r11), std::sqrt(0.75) * (1 + r12) / std::sqrt((1 + r11) * (1 + r22)), std::log1p(r22)};
+}
+
+/// From (3.38) to (3.40), one step of Euler's.
+Variables from_thesis(double a, double s0, double t) {
+  const double unit = s0 / a / a, velocity = s0 / a, displacement = velocity * unit, passed = t / unit;
+  const double q11 = 0.01, q12 = 5.4e-8, q22 = 1.3e-5, damping = std::sqrt(2 / (pi * q22));
+  return variables({displacement * displacement * (q11 + 2 * q12 * passed),
+                    displacement * velocity * (q12 + (q22 - damping * q12) * passed),
+                    velocity * velocity * (q22 + 2 * (pi - damping * q22) * passed)},
+                   s0, t);
+}
+
+/// When integration begins: as late as the series is good for 1e-12; at the latest, when what it neglects has died
+/// away, as t0 / t, by the first time asked for.
+double first_time(const Expectation& friction, double a, double natural_frequency, double s0, double asked) {
+  const double unit = s0 / a / a, surely = std::min({1e-8 * asked, 1e-10 * unit, 1e-6 / natural_frequency});
+  for (double t = std::min(1e-3 * unit, 1e-6 / natural_frequency); t > surely && std::isfinite(t); t /= 8) {
+    const Friction early = friction(t * std::sqrt(2 * pi / 3 * s0 * t), std::sqrt(0.75), 0.5);
+    if (std::abs(early.level - a) <= 1e-11 * a && std::abs(early.pull) <= 1e-11 * a) return t;
+  }
+  return surely;
 }
 
 }  // namespace
@@ -132,7 +148,8 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   if (times.empty()) return solution;
   const double a = level_at_rest(law), last = times.back();
   const double unit = s0 / a / a;
-  if (options.start == Start::thesis)
+  const bool rest = options.start == Start::rest;
+  if (!rest)
     require(std::isfinite(unit * unit * unit * s0) && unit > 0,
             noun + ": (3.38) to (3.40) need friction: slip_level must be positive, and not too far from s0", a,
             "m/s^2");
@@ -142,7 +159,7 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   };
   if (times.front() == 0) {
     const double velocity = s0 / a, displacement = velocity * unit;
-    if (options.start == Start::thesis)
+    if (!rest)
       keep({0.01 * displacement * displacement, 5.4e-8 * displacement * velocity, 1.3e-5 * velocity * velocity}, 0);
     else
       keep({0, 0, 0}, 0);
@@ -156,15 +173,16 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   }
 
   const Expectation friction = expectation(law, options.force, 10 * last * std::sqrt(2 * pi / 3 * s0 * last));
-  // So early that what the start neglects has died away, as t0 / t, by the first time asked for.
-  const double t0 = std::min({1e-8 * times.front(), 1e-10 * unit, 1e-8 / natural_frequency});
+  const double t0 = rest ? first_time(friction, a, natural_frequency, s0, times.front())
+                         : std::min({1e-8 * times.front(), 1e-10 * unit, 1e-8 / natural_frequency});
+  const auto early = [&](double time) { return rest ? from_rest(a, s0, time) : from_thesis(a, s0, time); };
   const std::size_t before = static_cast<std::size_t>(std::ranges::upper_bound(times, t0) - times.begin());
-  for (const double time : times.first(before)) keep(covariance(early(a, s0, time, options.start), s0, time), time);
+  for (const double time : times.first(before)) keep(covariance(early(time), s0, time), time);
   times = times.subspan(before);
   if (times.empty()) return solution;
 
   const CovarianceEquations equations(friction, natural_frequency, s0, last);
-  const Variables start = early(a, s0, t0, options.start);
+  const Variables start = early(t0);
   std::vector<double> ln_times;
   for (const double time : times) ln_times.push_back(std::log(time / last));
   const std::array<double, 3> y0 = {start.ln_r11, start.c, start.ln_r22};
@@ -173,9 +191,8 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
         std::cref(equations), std::log(t0 / last), y0, ln_times,
         {.relative_tolerance = options.tolerance / 10,
          .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
-         .stiff =
-             true,  // the velocity settles within S0 / a^2, times go to millions of that; no slower where they do not
-         .most_steps = 300'000,  // a second; it is the periods of a spring that take so many
+         .stiff = last > 1000 * unit,  // Coulomb's velocity settles within unit; up to there no slower without
+         .most_steps = 300'000,        // a second; it is the periods of a spring that take so many
          .heartbeat = heartbeat});
     solution.steps = states.steps;
     solution.evaluations = states.evaluations;
