@@ -12,3 +12,5 @@
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"
+#include "stickslip/strong_motion.hpp"
+#include "stickslip/theory/stationary_linearization.hpp"
