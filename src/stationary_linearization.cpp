@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -25,18 +24,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double squared(double x) { return x * x; }
 
-/// The frequency that is detuned as much from a spring of wn as this one: (omega^2 - wn^2) / omega.
-double detuning(double omega, double wn) { return omega - wn * (wn / omega); }
-
-/// The frequencies at which an integral over the spectrum and the linear system's response is to be split.
-std::vector<double> cuts_of(const Spectrum& spectrum, double wn, std::initializer_list<double> widths) {
-  std::vector<double> cuts = spectrum.breakpoints();
-  if (wn > 0) cuts.push_back(wn);
-  for (const double width : widths)
-    for (const double cut : {wn - width, wn + width})
-      if (cut > 0 && std::isfinite(cut)) cuts.push_back(cut);
-  std::ranges::sort(cuts);
-  return cuts;
+/// (omega^2 - wn^2) / omega: without a spring omega.
+double detuning(double omega, double wn) {
+  return wn == 0 || std::isinf(omega) ? omega : (omega - wn) * ((omega + wn) / omega);
 }
 
 /// Where f, which rises through zero once, has its zero: a bracket by steps that double, then the false position
@@ -113,9 +103,31 @@ struct Band {
 
 // ---- any spectrum
 
-double integral_over(const Spectrum& spectrum, double wn, std::initializer_list<double> widths,
-                     const std::function<double(double)>& f) {
-  return detail::integral(f, spectrum.low(), spectrum.high(), cuts_of(spectrum, wn, widths));
+/// The integral of S(omega) kernel(omega, r) over the whole line, by the detuning r, in which the linear system's gain
+/// is 1 / (r^2 + zeta^2) with a spring as without:
+///     omega = (r + sqrt(r^2 + 4 wn^2)) / 2,   d omega / dr = omega^2 / (omega^2 + wn^2)
+/// @param width  of the kernel in r
+template <class Kernel>
+double integral_over(const Spectrum& spectrum, double wn, double width, const Kernel& kernel) {
+  const auto side = [&](double sign) {
+    double near = sign * detuning(spectrum.low(), wn), far = sign * detuning(spectrum.high(), wn);
+    if (sign < 0) std::swap(near, far);
+    near = std::max(near, 0.0);
+    if (!(near < far)) return 0.0;
+    std::vector<double> cuts = spectrum.breakpoints();
+    for (double& cut : cuts) cut = sign * detuning(cut, wn);
+    const double last = std::isfinite(far) ? far : std::max({1e3 * wn, 1e3 * width, cuts.empty() ? 0 : cuts.back()});
+    for (const double scale : {width, wn})  // what declines from there on, by pieces
+      for (double cut = scale; cut > 0 && cut < last; cut *= 100) cuts.push_back(cut);
+    std::ranges::sort(cuts);
+    return detail::integral(
+        [&](double u) {
+          const double root = std::hypot(u, 2 * wn), omega = sign > 0 ? (u + root) / 2 : 2 * wn * (wn / (u + root));
+          return spectrum(omega) * kernel(omega, sign * u) / (1 + squared(wn / omega));
+        },
+        near, far, cuts);
+  };
+  return 2 * (side(1) + side(-1));
 }
 
 /// S = factor omega^power near zero.
@@ -154,13 +166,12 @@ void check(const Slider<Coulomb>& slider) {
 
 constexpr double critical = 0.79788456080286536;  // sqrt(2/pi), thesis (4.22)
 
+/// sigma_n / a, to be read.
+std::string shown(double ratio) { return "sigma_n / a = " + detail::shortest(std::round(1e4 * ratio) / 1e4); }
+
 std::string remark_of(double ratio, double wn, double low_power) {
-  const std::string level = "sigma_n / a = " + detail::shortest(std::round(1e4 * ratio) / 1e4);
-  if (!(ratio > critical))
-    return level +
-           " is not above sqrt(2/pi), thesis (4.22): no motion is predicted, though now and then friction lets go";
   std::string remark;
-  if (ratio < 1.5 * critical) remark = level + " is near sqrt(2/pi), thesis (4.22): the velocity is too low";
+  if (ratio < 1.5 * critical) remark = shown(ratio) + " is near sqrt(2/pi), thesis (4.22): the velocity is too low";
   if (wn == 0 && low_power > 0 && std::isfinite(ratio))
     remark += std::string(remark.empty() ? "" : "; ") +
               "no acceleration at zero frequency: under friction the displacement drifts all the same";
@@ -182,7 +193,8 @@ StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& sli
   StationaryPrediction p{0, 0, 0, 0, {}, spectrum, wn};
   if (!(excess > 0)) {
     p.damping = infinity;
-    p.remark = remark_of(std::min(ratio, critical), wn, 0);
+    p.remark = shown(ratio) +
+               " is not above sqrt(2/pi), thesis (4.22): no motion is predicted, though now and then friction lets go";
     return p;
   }
 
@@ -200,16 +212,13 @@ StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& sli
                                         [&](double z) { return band.lack(z); }));  // thesis (4.35)
     } else {
       const std::vector<double> known = spectrum.breakpoints();
-      p.damping = std::exp(log_damping(
-          wanted, excess, known.empty() ? 0 : std::log(known.back()),
-          [&](double zeta) {
-            return 2 * integral_over(spectrum, wn, {zeta},
-                                     [&](double w) { return spectrum(w) / (1 + squared(detuning(w, wn) / zeta)); });
-          },
-          [&](double zeta) {
-            return 2 * integral_over(spectrum, wn, {zeta},
-                                     [&](double w) { return spectrum(w) / (1 + squared(zeta / detuning(w, wn))); });
-          }));
+      const auto share = [&](double zeta) {
+        return integral_over(spectrum, wn, zeta, [=](double, double r) { return 1 / (1 + squared(r / zeta)); });
+      };
+      const auto lack = [&](double zeta) {
+        return integral_over(spectrum, wn, zeta, [=](double, double r) { return 1 / (1 + squared(zeta / r)); });
+      };
+      p.damping = std::exp(log_damping(wanted, excess, known.empty() ? 0 : std::log(known.back()), share, lack));
     }
   }
 
@@ -227,7 +236,7 @@ StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& sli
   else if (band_pass)
     p.velocity_std = std::sqrt(2 * band_pass->s0 / band_pass->high * band.velocity(0));
   else
-    p.velocity_std = std::sqrt(2 * integral_over(spectrum, wn, {}, [&](double w) { return p.velocity_spectrum(w); }));
+    p.velocity_std = std::sqrt(integral_over(spectrum, wn, 0, [](double, double r) { return 1 / (r * r); }));
 
   if (resonant || power <= 1)
     p.displacement_std = infinity;
@@ -237,10 +246,10 @@ StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& sli
     p.displacement_std =
         std::sqrt(2 * band_pass->s0 / band_pass->high * band.displacement(zeta / band_pass->high)) / band_pass->high;
   else
-    p.displacement_std = std::sqrt(2 * integral_over(spectrum, wn, {zeta}, [&](double w) {
-                                     return p.velocity_spectrum(w) / (w * w);
-                                   }));  // thesis (4.12)
-  p.remark = remark_of(std::max(ratio, std::nextafter(critical, 1)), wn, begin.power);
+    p.displacement_std = std::sqrt(integral_over(spectrum, wn, zeta, [=](double w, double r) {
+      return 1 / (squared(w) * (r * r + zeta * zeta));
+    }));  // thesis (4.12)
+  p.remark = remark_of(ratio, wn, begin.power);
   return p;
 }
 
@@ -248,7 +257,7 @@ double StationaryPrediction::velocity_spectrum(double omega) const {
   const double s = spectrum(omega);
   if (s == 0 || std::isinf(damping)) return 0;
   if (omega == 0 && natural_frequency > 0) return 0;
-  return s / (squared(detuning(omega, natural_frequency)) + squared(damping));
+  return s / (squared(detuning(std::abs(omega), natural_frequency)) + squared(damping));
 }
 
 // ---- from rest
@@ -346,8 +355,11 @@ struct Section {
 std::vector<Section> sections_of(const Spectrum& spectrum, double zeta, double wn, double time) {
   const double near = FromRest::slow_phase / time;
   const double begin = wn > 2 * near ? wn - near : 0;  // of what is straight about the spring's frequency
-  std::vector<double> cuts = cuts_of(spectrum, wn, {zeta, near});
-  cuts.insert(cuts.end(), {near, spectrum.low(), spectrum.high()});
+  std::vector<double> cuts = spectrum.breakpoints();
+  cuts.insert(cuts.end(), {spectrum.low(), spectrum.high(), wn, zeta, begin, wn + near, near});
+  double last = std::max({wn, zeta, spectrum.breakpoints().empty() ? 0 : spectrum.breakpoints().back()});
+  if (last == 0) last = 1e-15 * near;  // nothing says where the spectrum has its strength
+  for (double cut = 10 * last; cut > 0 && cut < near; cut *= 10) cuts.push_back(cut);  // what declines, by pieces
   std::ranges::sort(cuts);
   std::vector<Section> sections;
   for (std::size_t i = 1; i < cuts.size(); ++i) {
