@@ -196,7 +196,8 @@ TEST_CASE("lanes find the peaks between samples, with each instruction set", "[v
   for (const auto& [zeta, wn] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.0, 1.0}, {0.2, 1.0}, {2.0, 1.0}, {9.0, 1.0}}) {
     CAPTURE(zeta, wn);
     const detail::ViscousLanes lanes{ViscousSlider(zeta, wn), ViscousStep(ViscousSlider(zeta, wn), h)};
-    for_each_instruction_set([&] {
+    on_each_instruction_set([&](const std::string& set) {
+      INFO(set);
       alignas(64) double x[detail::most_lanes] = {}, v[detail::most_lanes] = {}, peak[detail::most_lanes] = {};
       std::vector<Response> one_by_one;
       std::vector<std::vector<double>> n;

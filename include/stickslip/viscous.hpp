@@ -181,7 +181,7 @@ struct ViscousEnergy {
   }
 };
 
-/// Where a function that has one zero between `low` and `high` has it, by Newton's method within the bracket.
+/// Where a function that has one zero between `low` and `high` has it, to 1e-12, by Newton's method within the bracket.
 /// @param f  gives value and slope; of opposite signs at both ends
 template <class F>
 double crossing(double low, double high, const F& f) {
@@ -189,11 +189,10 @@ double crossing(double low, double high, const F& f) {
   double time = low + (high - low) / 2;
   for (int i = 0; i < 100; ++i) {
     const auto [value, slope] = f(time);
+    const double next = time - value / slope;
+    if (value == 0 || std::abs(next - time) <= 1e-12 * time) return time;
     (rises == (value > 0) ? high : low) = time;
-    double next = time - value / slope;
-    if (!(next > low && next < high)) next = low + (high - low) / 2;
-    if (value == 0 || std::abs(next - time) <= 4e-16 * high) return next;
-    time = next;
+    time = next > low && next < high ? next : low + (high - low) / 2;
   }
   return time;
 }
