@@ -39,9 +39,12 @@ void bind_response(py::module_& m);
 void bind_integrate(py::module_& m);
 void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
+void bind_strong_motion(py::module_& m);
+void bind_viscous(py::module_& m);
 void bind_gaussian(py::module_& m);
 void bind_poisson(py::module_& m);
 void bind_moments(py::module_& m);
+void bind_stationary_linearization(py::module_& m);
 void bind_ensemble(py::module_& m);
 void bind_build_info(py::module_& m);
 

@@ -4,4 +4,6 @@ Each takes the sliders and the sources of motion that a simulation takes, says w
 refuses the rest.
 """
 
-__all__: list[str] = []
+from ._core import StationaryLinearization, StationaryPrediction
+
+__all__ = ["StationaryLinearization", "StationaryPrediction"]

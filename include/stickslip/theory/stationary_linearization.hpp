@@ -56,8 +56,9 @@ struct StationaryPrediction {
 /// predicts no motion. It is bracketed; the iteration (4.41) shrinks too slowly near that threshold and cycles for
 /// bands far from zero.
 ///
-/// Right for the velocity (within some 20 %) from about 1.5 times the threshold on. Wrong for the displacement wherever
-/// the acceleration has no content at zero frequency: friction makes some, and x drifts; the linear system cannot.
+/// Right for the velocity (within some 13 %) from about 1.5 times the threshold on. Wrong for the displacement wherever
+/// the acceleration has no content at zero frequency: friction makes some, and x drifts; the linear system cannot. On a
+/// spring the displacement is too small until sigma_n is some four times a. docs/filtered_noise.md has figures.
 ///
 /// Reference: thesis 4.3; C. K. Constantinou, I. G. Tadjbakhsh, J. Struct. Eng. 110 (1984).
 class StationaryLinearization {
