@@ -192,7 +192,8 @@ def plot_response(
         if not v.any():
             speed.set_ylim(-1, 1)
         speed.set_ylabel(f"relative velocity\n[{fast_unit}/s]")
-        speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
+        if not isinstance(response.slider, ViscousSlider):
+            speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
 
         way.plot(t, x * length, color=BLUE, linewidth=1.4)
         way.axhline(0, color=GREY, linewidth=0.6, zorder=0)

@@ -99,7 +99,7 @@ def test_below_the_threshold_it_predicts_no_motion_and_says_so():
     assert above.velocity_std > 0
     assert "near sqrt(2/pi)" in above.remark
     # A simulation moves all the same.
-    shaking = ss.GaussianExcitation(band(s0=0.81 * at), dt=0.1, samples=512)
+    shaking = ss.GaussianExcitation(band(s0=0.81 * at), dt=0.1, samples=512, period=4096)
     e = ss.run_ensemble(block(), shaking, members=200, seed=1)
     assert e.stationary.velocity_variance.value > 10 * e.stationary.velocity_variance.error
 
@@ -139,7 +139,7 @@ def test_what_is_not_covered_is_refused():
     with pytest.raises(ValueError, match="same both ways"):
         METHOD.threshold(ss.Coulomb.on_slope(mu=0.5, degrees=5), band())
     with pytest.raises(TypeError):
-        METHOD.predict(block(), ss.GaussianExcitation(band(), 0.1, 256))
+        METHOD.predict(block(), ss.GaussianExcitation(band(), 0.1, 1024))
     p = METHOD.predict(block(), band())
     for times in ([-1.0], [math.nan], [INF], [[1.0]], ["a"]):
         with pytest.raises(ValueError, match="StationaryPrediction: times"):
