@@ -230,6 +230,10 @@ std::string describe(const char* type, std::span<const double> levels, double na
   return describe(type, "\"levels\": " + json(levels), natural_frequency);
 }
 
+std::string describe(const ViscousSlider& slider) {
+  return describe("viscous", "\"damping\": " + json(slider.damping()), slider.natural_frequency());
+}
+
 Ensemble run_ensemble(const Ensemble::Configuration& configuration, const EnsembleTimes& times,
                       const EnsembleOptions& options, const Ensemble* start, const MakeSimulator& make_simulator) {
   const std::size_t block_size = Ensemble::block(times.count);

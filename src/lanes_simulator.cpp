@@ -10,12 +10,14 @@
 #include "coulomb_lanes.hpp"
 #include "pulse_lanes.hpp"
 #include "stickslip/ensemble.hpp"
+#include "viscous_lanes.hpp"
 
 namespace stickslip::detail {
 namespace {
 
 CoulombLanes lanes_of(const Coulomb& law, double duration) { return {law.forward(), law.backward(), duration}; }
 CasterLanes lanes_of(const Caster& law, double duration) { return {law, duration}; }
+ViscousLanes lanes_of(const ViscousSlider& slider, double duration) { return {slider, ViscousStep(slider, duration)}; }
 
 // Without ground acceleration until they rest.
 template <class Law>
@@ -31,7 +33,10 @@ void settle_all(const Law& law, const LaneStates& states, std::uint64_t first_me
   }
 }
 
+void settle_all(const ViscousSlider&, const LaneStates&, std::uint64_t, std::size_t) {}  // refused before
+
 /// Under a Gaussian excitation, whose members share their times.
+/// @tparam Law  or the viscous slider
 template <class Law>
 class LanesSimulator final : public Simulator {
  public:
@@ -171,6 +176,12 @@ std::unique_ptr<Simulator> lanes_simulator(const Caster& law, const GaussianExci
   // The lanes measure lengths in reaches.
   if (!(law.reach() > 1e-9 && law.reach() < 1e9)) return nullptr;
   return std::make_unique<LanesSimulator<Caster>>(law, excitation, seed, settle);
+}
+
+std::unique_ptr<Simulator> lanes_simulator(const ViscousSlider& slider, const GaussianExcitation& excitation,
+                                           std::uint64_t seed, bool settle) {
+  if (!(slider.natural_frequency() * excitation.dt() <= ViscousLanes::longest)) return nullptr;
+  return std::make_unique<LanesSimulator<ViscousSlider>>(slider, excitation, seed, settle);
 }
 
 }  // namespace stickslip::detail

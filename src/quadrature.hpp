@@ -12,4 +12,15 @@ namespace stickslip::detail {
 double integral(const std::function<double(double)>& f, double low, double high,
                 std::span<const double> breakpoints = {});
 
+/// Integral of `f(x) cos(frequency x)`, or of `f(x) sin(frequency x)`, from `low` to `high` (which may be infinite),
+/// for a smooth `f` whatever the frequency: by its moments, Clenshaw and Curtis (QAWO, QAWF). What `f` throws comes
+/// through.
+/// @param frequency  positive and finite
+/// @param tolerance  absolute, positive
+/// @throws ConvergenceError where not even a thousand times the tolerance is reached
+double cosine_integral(const std::function<double(double)>& f, double frequency, double low, double high,
+                       double tolerance);
+double sine_integral(const std::function<double(double)>& f, double frequency, double low, double high,
+                     double tolerance);
+
 }  // namespace stickslip::detail

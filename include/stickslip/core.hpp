@@ -15,3 +15,4 @@
 #include "stickslip/slider.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
+#include "stickslip/viscous.hpp"

@@ -275,7 +275,18 @@ auto with_excitation(const py::object& excitation, F&& f) {
   return f(PythonExcitation(excitation));
 }
 
-Ensemble run(const AnySlider& slider, const py::object& excitation, std::uint64_t members, std::uint64_t first_member,
+template <class E>
+Ensemble run_members(const AnySlider& slider, const E& source, const EnsembleOptions& options, const Ensemble* start) {
+  return std::visit([&](const auto& s) { return run_ensemble(s, source, options, start); }, slider);
+}
+template <class E>
+Ensemble run_members(const ViscousSlider& slider, const E& source, const EnsembleOptions& options,
+                     const Ensemble* start) {
+  return run_ensemble(slider, source, options, start);
+}
+
+template <class S>
+Ensemble run(const S& slider, const py::object& excitation, std::uint64_t members, std::uint64_t first_member,
              std::uint64_t seed, unsigned threads, double dt, bool settle, bool velocity_spectrum,
              const Ensemble* start, const py::object& heartbeat, const py::object& interrupted) {
   EnsembleOptions options{members, first_member, seed, threads, dt, settle, velocity_spectrum};
@@ -299,13 +310,14 @@ Ensemble run(const AnySlider& slider, const py::object& excitation, std::uint64_
   };
   return with_excitation(excitation, [&](const auto& source) {
     const py::gil_scoped_release released;
-    return std::visit([&](const auto& s) { return run_ensemble(s, source, options, start); }, slider);
+    return run_members(slider, source, options, start);
   });
 }
 
 /// An ensemble of no members yet, for the parts of a run to be merged into.
-Ensemble run_nothing(const AnySlider& slider, const py::object& excitation, std::uint64_t first_member,
-                     std::uint64_t seed, double dt, bool settle, bool velocity_spectrum) {
+template <class S>
+Ensemble run_nothing(const S& slider, const py::object& excitation, std::uint64_t first_member, std::uint64_t seed,
+                     double dt, bool settle, bool velocity_spectrum) {
   const py::none nobody;
   const Ensemble one =  // which tells whether all is as it must be
       run(slider, excitation, 1, first_member, seed, 1, dt, settle, velocity_spectrum, nullptr, nobody, nobody);
@@ -320,6 +332,21 @@ std::string repr(const Ensemble& ensemble) {
   const EnsembleTimes& times = ensemble.parts().times;
   return "<Ensemble: " + std::to_string(ensemble.members()) + " members" + seed + ", " + std::to_string(times.count) +
          " times to " + digits(static_cast<double>(times.count - 1) * times.dt) + " s>";
+}
+
+/// Both for one kind of slider.
+template <class S>
+void add_runs(py::module_& m) {
+  m.def("run_ensemble", &run<S>, py::arg("slider"), py::arg("excitation"), py::kw_only(), py::arg("members"),
+        py::arg("first_member"), py::arg("seed"), py::arg("threads"), py::arg("dt"), py::arg("settle"),
+        py::arg("velocity_spectrum"), py::arg("start"), py::arg("heartbeat"), py::arg("interrupted"),
+        R"(What `stickslip.run_ensemble` calls, which see.
+
+`heartbeat(done, members, so_far)` is called ten times a second with the interpreter held; `interrupted(so_far)` where
+that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
+  m.def("run_nothing", &run_nothing<S>, py::arg("slider"), py::arg("excitation"), py::kw_only(),
+        py::arg("first_member"), py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("velocity_spectrum"),
+        "The ensemble of a run that has no members yet; simulates one to see that all is as it must be.");
 }
 
 }  // namespace
@@ -541,16 +568,8 @@ Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.
       .def("__repr__", &repr)
       .def(py::pickle(&state_of, &ensemble_of));
 
-  m.def("run_ensemble", &run, py::arg("slider"), py::arg("excitation"), py::kw_only(), py::arg("members"),
-        py::arg("first_member"), py::arg("seed"), py::arg("threads"), py::arg("dt"), py::arg("settle"),
-        py::arg("velocity_spectrum"), py::arg("start"), py::arg("heartbeat"), py::arg("interrupted"),
-        R"(What `stickslip.run_ensemble` calls, which see.
-
-`heartbeat(done, members, so_far)` is called ten times a second with the interpreter held; `interrupted(so_far)` where
-that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
-  m.def("run_nothing", &run_nothing, py::arg("slider"), py::arg("excitation"), py::kw_only(), py::arg("first_member"),
-        py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("velocity_spectrum"),
-        "The ensemble of a run that has no members yet; simulates one to see that all is as it must be.");
+  add_runs<AnySlider>(m);
+  add_runs<ViscousSlider>(m);
 }
 
 }  // namespace stickslip::python

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, m) {
   bind_coulomb(m);
   bind_caster(m);
   bind_slider(m);
+  bind_viscous(m);
   bind_ground_motion(m);
   bind_harmonic_motion(m);
   bind_records(m);
@@ -20,6 +21,8 @@ PYBIND11_MODULE(_core, m) {
   bind_gaussian(m);
   bind_poisson(m);
   bind_moments(m);
+  bind_strong_motion(m);
+  bind_stationary_linearization(m);
   bind_ensemble(m);
   bind_slowly_varying_parameters(m);
   bind_white_noise(m);

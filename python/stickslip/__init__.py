@@ -38,12 +38,15 @@ from ._core import (
     Slider,
     Spectrum,
     Stationary,
+    StrongMotion,
     VelocitySpectrum,
+    ViscousSlider,
     __version__,
     build_info,
     histories,
     integrate,
     read_record,
+    strong_motion,
 )
 
 TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of this
@@ -70,7 +73,9 @@ __all__ = [
     "Slider",
     "Spectrum",
     "Stationary",
+    "StrongMotion",
     "VelocitySpectrum",
+    "ViscousSlider",
     "__version__",
     "build_info",
     "harmonic",
@@ -78,6 +83,7 @@ __all__ = [
     "integrate",
     "read_record",
     "run_ensemble",
+    "strong_motion",
     "theory",
 ]
 

@@ -32,6 +32,7 @@ from ._core import (
     GroundMotion,
     PoissonPulses,
     Slider,
+    ViscousSlider,
 )
 from ._files import replacing
 
@@ -57,7 +58,7 @@ class Excitation(Protocol):
         """The motion of that name, the same for ever."""
 
 
-_AnySlider: TypeAlias = Slider | Coulomb | Caster
+_AnySlider: TypeAlias = Slider | Coulomb | Caster | ViscousSlider
 _AnyExcitation: TypeAlias = GaussianExcitation | PoissonPulses | Excitation
 _Progress: TypeAlias = Callable[[int, int], object]
 
@@ -102,7 +103,7 @@ def run_ensemble(
 
     Parameters
     ----------
-    slider : Slider, Coulomb or Caster
+    slider : Slider, Coulomb, Caster or ViscousSlider
         What slides; a law alone is a slider without a spring.
     excitation : GaussianExcitation, PoissonPulses or Excitation
         A source of ground motions; of your own, see `stickslip.ensemble.Excitation`.
@@ -118,7 +119,8 @@ def run_ensemble(
         Between the times of the statistics [s], a multiple of the excitation's own; that itself, if
         not given, or 1/512 of the duration where it has none.
     settle : bool, optional
-        Residuals and peaks after the slider has come to rest without ground acceleration.
+        Residuals and peaks after the slider has come to rest without ground acceleration, which a
+        ViscousSlider never does: ValueError.
     velocity_spectrum : bool, optional
         The velocity's spectral density too, at an FFT a member.
     progress : bool or callable, optional
@@ -160,10 +162,10 @@ def run_ensemble(
     Notes
     -----
     On one thread, the motions and the statistics included (2.5 GHz, AVX2): without a spring,
-    Coulomb friction takes 6 to 7 ns a sample and casters 70 under Gaussian excitation, Coulomb
-    friction 10 ns a step under pulses, the velocity's spectrum 2 ns a sample; others take what
-    `integrate` takes, and some 10 ns. Memory: 16 bytes a member, and for each thread 1 kB a time;
-    above 2^24 members peaks are counted in bins. A call costs 0.1 ms.
+    Coulomb friction and viscous sliders take 6 to 7 ns a sample and casters 70 under Gaussian
+    excitation, Coulomb friction 10 ns a step under pulses, the velocity's spectrum 2 ns a sample;
+    others take what `integrate` takes, and some 10 ns. Memory: 16 bytes a member, and for each
+    thread 1 kB a time; above 2^24 members peaks are counted in bins. A call costs 0.1 ms.
 
     References
     ----------

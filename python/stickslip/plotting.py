@@ -25,7 +25,7 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
-from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response
+from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response, ViscousSlider
 from ._files import replacing
 
 __all__ = [
@@ -127,6 +127,8 @@ def sticks(response: Response) -> np.ndarray:
     ndarray, shape (S, 2)
         Begin and end of each stick [s], in order of time; the last may end with the response.
     """
+    if isinstance(response.slider, ViscousSlider):
+        return np.empty((0, 2))
     events = response.events
     kinds, times = events["kind"], events["time"]
     begins = np.append(response.time[0], times[kinds == "arrest"])
@@ -190,7 +192,8 @@ def plot_response(
         if not v.any():
             speed.set_ylim(-1, 1)
         speed.set_ylabel(f"relative velocity\n[{fast_unit}/s]")
-        speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
+        if not isinstance(response.slider, ViscousSlider):
+            speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
 
         way.plot(t, x * length, color=BLUE, linewidth=1.4)
         way.axhline(0, color=GREY, linewidth=0.6, zorder=0)
@@ -465,8 +468,13 @@ def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Bounds [g] of the ground acceleration that friction holds at rest, at displacements x [m]."""
+    """Bounds [g] of the ground acceleration that friction holds at rest, at displacements x [m].
+
+    Infinite, which draws nothing, where there is none.
+    """
     slider = response.slider
+    if isinstance(slider, ViscousSlider):
+        return np.full(x.shape, -np.inf), np.full(x.shape, np.inf)
     spring = slider.natural_frequency**2 * x
     forward, backward = (
         np.array([slider.level(at, backward=back) for at in x.tolist()]) for back in (False, True)
@@ -491,6 +499,8 @@ def _draw_ground(axes: Axes, response: Response) -> None:
 def _note_levels(axes: Axes, response: Response) -> None:
     """Names the slip levels at the right edge, at the height where they end."""
     slider, x = response.slider, response.residual
+    if isinstance(slider, ViscousSlider):
+        return
     (lower,), (upper,) = _held(response, np.array([x]))
     ahead, back = (slider.level(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
     if ahead == back:
@@ -567,14 +577,17 @@ def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: st
 
 def _describe(slider: Any) -> str:
     """A slider in a few words, as 'slip level 0.06 g, period 3 s'."""
-    law, wn = slider.law, slider.natural_frequency
-    ahead, back = (slider.level(backward=b) / STANDARD_GRAVITY for b in (False, True))
-    words = [f"slip level {_digits(ahead)} g"]
-    if back != ahead:
-        words[0] += " forward"
-        words.append("never backward" if np.isinf(back) else f"{_digits(back)} g backward")
-    if hasattr(law, "reach"):
-        words.append(f"caster, reach {_digits(law.reach * 100)} cm")
+    wn = slider.natural_frequency
+    if isinstance(slider, ViscousSlider):
+        words = [f"viscous damping {_digits(slider.damping)} 1/s"]
+    else:
+        ahead, back = (slider.level(backward=b) / STANDARD_GRAVITY for b in (False, True))
+        words = [f"slip level {_digits(ahead)} g"]
+        if back != ahead:
+            words[0] += " forward"
+            words.append("never backward" if np.isinf(back) else f"{_digits(back)} g backward")
+        if hasattr(slider.law, "reach"):
+            words.append(f"caster, reach {_digits(slider.law.reach * 100)} cm")
     if wn > 0:
         words.append(f"period {_digits(2 * np.pi / wn)} s")
     return ", ".join(words)
@@ -660,6 +673,8 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
     """As '10,000 members of 60 s, slip level 0.2 g'."""
     slider, times = ensemble.configuration["slider"], ensemble.time
     words = [f"{ensemble.members:,} members of {times[-1]:.4g} s"]
+    if "damping" in slider:
+        words.append(f"viscous damping {_digits(slider['damping'])} 1/s")
     if "slip_level" in slider:
         ahead = slider["slip_level"] / STANDARD_GRAVITY
         words.append(f"slip level {_digits(ahead)} g")

@@ -88,6 +88,16 @@ try:
 except ss.EnsembleError as failure:
     failure.partial.save(f"until-{failure.members.start}.npz")
 
+damper = ss.ViscousSlider(1, natural_frequency=np.float64(2))
+r = ss.integrate(damper, quake)
+e = ss.run_ensemble(damper, shaking, members=10, seed=1)
+strong = ss.strong_motion(quake)
+seconds: float = strong.duration + strong.centre_frequency_hz
+linearized = ss.theory.StationaryLinearization().predict(block, soil)
+linearized = ss.theory.StationaryLinearization().predict(ss.Slider(block, 2), soil)
+spread: float = linearized.velocity_std + linearized.velocity_spectrum(3)
+moments: ss.Moments = linearized.transient([1, 2])
+
 try:
     r.plot(title="Kobe")
 except ss.ConvergenceError as error:
@@ -121,6 +131,7 @@ e.members = 3  # type: ignore[misc]
 ss.run_ensemble(block, quake, members=10, seed=1)  # type: ignore[arg-type]
 ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[arg-type]
 ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-arg]
+ss.theory.StationaryLinearization().predict(wheel, soil)  # type: ignore[arg-type]
 ss.nothing  # type: ignore[attr-defined]
 """
 
