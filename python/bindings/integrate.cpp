@@ -1,60 +1,52 @@
+#include <concepts>
+
 #include "bindings.hpp"
 #include "response.hpp"
 
 namespace stickslip::python {
 namespace {
 
-<<<<<<< HEAD
-template <Motion M>
-Recording integrate_under(const AnySlider& slider, const py::object& motion, const IntegrateOptions& options) {
+template <class S, class M>
+Recording integrate_under(const S& slider, const py::object& motion, const IntegrateOptions& options) {
   const auto& ground = motion.cast<const M&>();
-=======
-Response slide(const AnySlider& slider, const GroundMotion& ground, const IntegrateOptions& options,
-               Response&& storage) {
-  return std::visit([&](const auto& s) { return integrate(s, ground, options, std::move(storage)); }, slider);
-}
-Response slide(const ViscousSlider& slider, const GroundMotion& ground, const IntegrateOptions& options,
-               Response&& storage) {
-  return integrate(slider, ground, options, std::move(storage));
-}
-
-template <class S>
-Recording integrate_any(const S& slider, const py::object& motion, double displacement, double velocity, bool settle) {
-  if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error("integrate: motion must be a GroundMotion, got " +
-                         py::type::of(motion).attr("__name__").cast<std::string>());
-  const auto& ground = motion.cast<const GroundMotion&>();
-  const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
->>>>>>> stationary
   Response storage = Storage::take();
   Response response = [&] {
     const py::gil_scoped_release released;
-    return slide(slider, ground, options, std::move(storage));
+    if constexpr (std::same_as<S, AnySlider>)
+      return std::visit([&](const auto& s) { return integrate(s, ground, options, std::move(storage)); }, slider);
+    else
+      return integrate(slider, ground, options, std::move(storage));
   }();
   return {std::move(response), py::cast(slider), motion};
+}
+
+[[noreturn]] void refuse(const char* motions, const py::object& motion) {
+  throw py::type_error(std::string("integrate: motion must be ") + motions + ", got " +
+                       py::type::of(motion).attr("__name__").cast<std::string>());
 }
 
 Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
                         bool settle) {
   const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
-  if (py::isinstance<GroundMotion>(motion)) return integrate_under<GroundMotion>(slider, motion, options);
-  if (py::isinstance<HarmonicMotion>(motion)) return integrate_under<HarmonicMotion>(slider, motion, options);
-  throw py::type_error("integrate: motion must be a GroundMotion or a HarmonicMotion, got " +
-                       py::type::of(motion).attr("__name__").cast<std::string>());
+  if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
+  if (py::isinstance<HarmonicMotion>(motion))
+    return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
+  refuse("a GroundMotion or a HarmonicMotion", motion);
+}
+
+Recording integrate_viscous(const ViscousSlider& slider, const py::object& motion, double displacement, double velocity,
+                            bool settle) {
+  if (!py::isinstance<GroundMotion>(motion)) refuse("a GroundMotion", motion);
+  return integrate_under<ViscousSlider, GroundMotion>(slider, motion,
+                                                      {displacement, velocity, settle, check_for_interrupt});
 }
 
 }  // namespace
 
 void bind_integrate(py::module_& m) {
-<<<<<<< HEAD
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false,
         R"(Slides through a whole motion of the ground.
-=======
-  m.def("integrate", &integrate_any<AnySlider>, py::arg("slider"), py::arg("motion"), py::kw_only(),
-        py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("settle") = false,
-        R"(Slides through a whole ground motion.
->>>>>>> stationary
 
 x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50); (2.27), (2.28); with all breakaways,
 reversals and arrests, up to two reversals within one straight piece of n(t).
@@ -89,21 +81,16 @@ ConvergenceError
 Notes
 -----
 Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 7 to 25 ns a
-<<<<<<< HEAD
 sample, 20 to 65 with a spring. The caster by Taylor series, to near round-off; 150 to 850 ns a sample. Under a harmonic
 motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
 power series to round-off. The interpreter is not held meanwhile.)");
-=======
-sample, 20 to 65 with a spring. The caster by Taylor series, to near round-off; 150 to 850 ns a sample. The interpreter
-is not held meanwhile.)");
-  m.def("integrate", &integrate_any<ViscousSlider>, py::arg("slider"), py::arg("motion"), py::kw_only(),
+  m.def("integrate", &integrate_viscous, py::arg("slider"), py::arg("motion"), py::kw_only(),
         py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("settle") = false,
         R"(The same for the linear system, x'' + zeta x' + wn^2 x = -n(t), thesis (4.2), (5.2).
 
 Parameters, answers and errors are those of a slider on friction. There are no events but the end; what is dissipated is
 the integral of zeta x'^2 dt; settle must be False, for it never comes to rest. Exact to round-off for any damping and
 step; some 60 ns a sample at even steps, 3 us where they are uneven.)");
->>>>>>> stationary
 }
 
 }  // namespace stickslip::python
