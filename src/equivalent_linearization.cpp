@@ -15,9 +15,9 @@
 namespace stickslip::theory {
 namespace {
 
+using detail::require;
+using detail::shortest;
 using std::numbers::pi;
-using stickslip::detail::require;
-using stickslip::detail::shortest;
 
 const std::string noun = "EquivalentLinearization";
 const double nowhere = std::numeric_limits<double>::quiet_NaN();

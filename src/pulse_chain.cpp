@@ -18,8 +18,8 @@ namespace stickslip::theory {
 namespace {
 
 using detail::PairTable;
-using stickslip::detail::require;
-using stickslip::detail::shortest;
+using detail::require;
+using detail::shortest;
 
 // Inside, the unit of acceleration is the slip level, that of time the step of the pulse.
 
@@ -562,14 +562,6 @@ void remark(Moments& moments, const std::string& sentence) {
 
 }  // namespace
 
-PairTable detail::pair_coefficients(double sigma, int slots) {
-  const double spacing = lattice_spacing(sigma, 3);
-  const int reach = static_cast<int>(std::ceil(6 * sigma / spacing));
-  const Steps steps{{1, -1}, 1};
-  return Pairs(steps, gaussian(sigma, spacing, reach, 1), gaussian(sigma, spacing / 2, 2 * reach, 1))
-      .table(slots, true);
-}
-
 Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
                             const std::function<void()>& heartbeat) const {
   const double level = slider.law().forward();
@@ -689,3 +681,16 @@ double PulseChain::final_rms(const Slider<Coulomb>& slider, const PoissonPulses&
 }
 
 }  // namespace stickslip::theory
+
+namespace stickslip::detail {
+
+PairTable pair_coefficients(double sigma, int slots) {
+  using namespace theory;
+  const double spacing = lattice_spacing(sigma, 3);
+  const int reach = static_cast<int>(std::ceil(6 * sigma / spacing));
+  const Steps steps{{1, -1}, 1};
+  return Pairs(steps, gaussian(sigma, spacing, reach, 1), gaussian(sigma, spacing / 2, 2 * reach, 1))
+      .table(slots, true);
+}
+
+}  // namespace stickslip::detail

@@ -81,16 +81,6 @@ void check(double b, double dt, const char* who) {
 
 }  // namespace
 
-void detail::check_pulse(double b, double dt, std::span<const double> times) {
-  check(b, dt, "pulse_response");
-  double before = 0;
-  for (const double time : times) {
-    require(std::isfinite(time) && time >= before, "pulse_response: times must be finite, at least 0 and ascending",
-            time, "s");
-    before = time;
-  }
-}
-
 PulseResponse viscous_pulse_response(double damping, double b, double dt, std::span<const double> times) {
   detail::check_pulse(b, dt, times);
   detail::require(std::isfinite(damping) && damping >= 0,
@@ -122,7 +112,7 @@ double viscous_damping_for(double velocity_square, double b, double dt, double w
   const double most = viscous_square(0, until);
   detail::require(square > 0 && square < most,
                   "viscous_damping_for: velocity_square must lie between 0 and the " +
-                      stickslip::detail::shortest(most * b * b * dt * dt * dt) + " m^2/s of no damping",
+                      detail::shortest(most * b * b * dt * dt * dt) + " m^2/s of no damping",
                   velocity_square, "m^2/s");
   double low = 0, high = 1;  // the integral falls as the damping rises
   while (viscous_square(high, until) > square) high *= 2;
@@ -134,3 +124,17 @@ double viscous_damping_for(double velocity_square, double b, double dt, double w
 }
 
 }  // namespace stickslip::theory
+
+namespace stickslip::detail {
+
+void check_pulse(double b, double dt, std::span<const double> times) {
+  theory::check(b, dt, "pulse_response");
+  double before = 0;
+  for (const double time : times) {
+    require(std::isfinite(time) && time >= before, "pulse_response: times must be finite, at least 0 and ascending",
+            time, "s");
+    before = time;
+  }
+}
+
+}  // namespace stickslip::detail

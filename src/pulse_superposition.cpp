@@ -13,9 +13,9 @@
 namespace stickslip::theory {
 namespace {
 
-using stickslip::detail::refuse;
-using stickslip::detail::require;
-using stickslip::detail::shortest;
+using detail::refuse;
+using detail::require;
+using detail::shortest;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

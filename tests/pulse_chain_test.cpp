@@ -62,8 +62,8 @@ TEST_CASE("pairs of pulses do what a midpoint rule finds", "[pulse_chain]") {
   // to 0.5 % together, as its own convergence and ours show.
   for (const auto& row : reference::pair_rows) {
     CAPTURE(row.sigma);
-    const theory::detail::PairTable one = theory::detail::pair_coefficients(row.sigma, 1);
-    const theory::detail::PairTable two = theory::detail::pair_coefficients(row.sigma, 2);
+    const stickslip::detail::PairTable one = stickslip::detail::pair_coefficients(row.sigma, 1);
+    const stickslip::detail::PairTable two = stickslip::detail::pair_coefficients(row.sigma, 2);
     CHECK(one.growth.single == Approx(row.c1).epsilon(0.005));
     CHECK(one.growth.pair == Approx(row.c2).epsilon(0.005));
     CHECK(one.growth.lattice == Approx(row.c2_1).epsilon(0.005));

@@ -18,8 +18,8 @@
 using namespace stickslip;
 using namespace test;
 using Catch::Matchers::ContainsSubstring;
+using detail::integral;
 using std::numbers::pi;
-using stickslip::detail::integral;
 using theory::WhiteNoise;
 
 namespace {

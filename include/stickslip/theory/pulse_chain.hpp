@@ -53,7 +53,9 @@ class PulseChain {
   bool refined_;
 };
 
-namespace detail {
+}  // namespace stickslip::theory
+
+namespace stickslip::detail {
 
 /// What pairs of pulses do, in units of the slip level and the step: see docs/pulse_chain.md, section 4.
 struct PairCoefficients {
@@ -69,5 +71,4 @@ struct PairTable {
 /// For the symmetric rectangular pulse and Gaussian amplitudes of rms `sigma`, `slots` to a step.
 PairTable pair_coefficients(double sigma, int slots);
 
-}  // namespace detail
-}  // namespace stickslip::theory
+}  // namespace stickslip::detail

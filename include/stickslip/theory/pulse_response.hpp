@@ -32,9 +32,9 @@ struct PulseResponse {
   double velocity_square = 0;        ///< integral of x'^2 over all time [m^2/s], thesis (5.32)
 };
 
-namespace detail {
+}  // namespace stickslip::theory
 
-using stickslip::detail::require;
+namespace stickslip::detail {
 
 /// Along the way of a response.
 struct Ride {
@@ -173,7 +173,9 @@ inline void require_no_spring(double natural_frequency, const char* theory) {
           natural_frequency, "rad/s");
 }
 
-}  // namespace detail
+}  // namespace stickslip::detail
+
+namespace stickslip::theory {
 
 /// What one pulse does to a slider at rest, thesis (5.7), (5.8), (5.32): x'' + level sgn x' = -b w(t / dt).
 ///

@@ -13,9 +13,7 @@
 #include "stickslip/state.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 
-namespace stickslip::theory {
-
-namespace detail {
+namespace stickslip::detail {
 
 /// What a pulse of amplitude b [m/s^2] leaves of a slider that lay at x [m].
 struct PulseEffect {
@@ -30,7 +28,9 @@ struct PulseSystem {
   std::function<PulseEffect(double, double)> effect;  ///< (b, x)
 };
 
-}  // namespace detail
+}  // namespace stickslip::detail
+
+namespace stickslip::theory {
 
 /// How pulses that overlap are counted.
 enum class Overlap {
