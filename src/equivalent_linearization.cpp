@@ -39,11 +39,14 @@ double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, d
 
 std::string remark(const detail::LinearizedLaw& law, const EquivalentLinearization::Options& options,
                    double natural_frequency, double s0) {
+  const auto* const wheel = std::get_if<Caster>(&law);
+  const auto* const coulomb = std::get_if<Coulomb>(&law);
+  if ((coulomb != nullptr && coulomb->forward() == 0) || (wheel != nullptr && wheel->slip_level() == 0))
+    return {};  // exact
   if (options.start == EquivalentLinearization::Start::thesis)
     return "starts from (3.38) to (3.40), whose q11(0) outweighs the displacement up to t = 0.2 S0 / a^2";
   if (natural_frequency > 0) return {};
-  const auto* const wheel = std::get_if<Caster>(&law);
-  if (std::holds_alternative<Coulomb>(law) || (wheel != nullptr && std::isinf(wheel->reach())))
+  if (coulomb != nullptr || (wheel != nullptr && std::isinf(wheel->reach())))
     return "the stationary velocity variance is 21 % low and the growth of the displacement variance 51 %: WhiteNoise "
            "has the exact figures";
   if (options.force != EquivalentLinearization::Force::gaussian)
