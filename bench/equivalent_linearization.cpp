@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench.hpp"
+#include "covariance.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/white_noise.hpp"
 
@@ -92,5 +93,12 @@ int main(int argc, char** argv) {
     return 0;
   }
   bench::print_machine();
+  std::printf("\n");
+  for (const auto& [name, force] : {std::pair{"gaussian", Force::gaussian}, std::pair{"thesis", Force::thesis}})
+    for (const double wanted : {1e-6, 1e-8, 1e-10}) {
+      const auto solution = detail::solve_covariance(wheel, 0, 1, times, {.force = force, .tolerance = wanted});
+      std::printf("%-9s tolerance %g: %ld steps, %ld evaluations\n", name, wanted, solution.steps,
+                  solution.evaluations);
+    }
   bench::print_table("gamma = 0.01, 37 times: us per solution", timings, 0);
 }

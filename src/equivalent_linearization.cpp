@@ -38,15 +38,24 @@ double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, d
 }
 
 std::string remark(const detail::LinearizedLaw& law, const EquivalentLinearization::Options& options,
-                   double natural_frequency) {
+                   double natural_frequency, double s0) {
+  const auto* const wheel = std::get_if<Caster>(&law);
+  const auto* const coulomb = std::get_if<Coulomb>(&law);
+  if ((coulomb != nullptr && coulomb->forward() == 0) || (wheel != nullptr && wheel->slip_level() == 0))
+    return {};  // exact
   if (options.start == EquivalentLinearization::Start::thesis)
     return "starts from (3.38) to (3.40), whose q11(0) outweighs the displacement up to t = 0.2 S0 / a^2";
-  if (options.force != EquivalentLinearization::Force::gaussian && !std::holds_alternative<Coulomb>(law))
-    return "a21, which the thesis drops, is left out: the displacement variance is low by a third and more once a "
-           "caster breaks loose";
-  if (std::holds_alternative<Coulomb>(law) && natural_frequency == 0)
+  if (natural_frequency > 0) return {};
+  if (coulomb != nullptr || (wheel != nullptr && std::isinf(wheel->reach())))
     return "the stationary velocity variance is 21 % low and the growth of the displacement variance 51 %: WhiteNoise "
            "has the exact figures";
+  if (options.force != EquivalentLinearization::Force::gaussian)
+    return "a21, which the thesis drops, is left out: the displacement variance is low by a third and more once a "
+           "caster breaks loose";
+  if (wheel != nullptr &&
+      s0 / wheel->slip_level() * (s0 / wheel->slip_level()) < 0.05 * wheel->reach() * wheel->slip_level())
+    return "gamma = S0^2 / (reach a^3) is small: the displacement variance is low by up to a factor of three while the "
+           "caster breaks loose";
   return {};
 }
 
@@ -68,7 +77,7 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
     moments.velocity_variance.value[i] = q22;
   }
   moments.growth_rate.value = growth_rate(law, natural_frequency, s0);
-  moments.remark = remark(law, options_, natural_frequency);
+  moments.remark = remark(law, options_, natural_frequency, s0);
   return moments;
 }
 

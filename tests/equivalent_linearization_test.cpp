@@ -383,6 +383,18 @@ TEST_CASE("a start at time zero is answered with where it starts", "[equivalent_
   CHECK(by_gauss.predict(Coulomb(1), 1.0, {}).time.empty());
 }
 
+TEST_CASE("remarks say what the figures neglect", "[equivalent_linearization]") {
+  const auto remark = [](const EquivalentLinearization& el, const auto& slider) {
+    return el.predict(slider, 1.0, std::array<double, 1>{1}).remark;
+  };
+  for (const std::string& coulomb : {remark(by_gauss, Coulomb(1)), remark(by_thesis, Caster(1, infinity))})
+    CHECK_THAT(coulomb, ContainsSubstring("WhiteNoise has the exact figures"));
+  CHECK_THAT(remark(by_thesis, Caster(1, 1)), ContainsSubstring("a21"));
+  CHECK_THAT(remark(by_gauss, Caster(1, 100)), ContainsSubstring("gamma"));
+  CHECK(remark(by_gauss, Caster(1, 1)).empty());
+  CHECK(remark(by_thesis, Coulomb(0)).empty());  // exact
+}
+
 TEST_CASE("z exp(z^2) erfc(z) for any z", "[equivalent_linearization]") {
   CHECK(detail::scaled_erfc(0) == 0);
   CHECK(relative(detail::scaled_erfc(1), 0.42758357615580700442) < 1e-15);  // e erfc(1)

@@ -132,7 +132,7 @@ ConvergenceError
 
 Notes
 -----
-1 to 5 ms; with a spring that swings for long some 30 us a period. The interpreter is not held meanwhile.)")
+About 1 ms; with a spring that swings for long some 0.1 ms a period. The interpreter is not held meanwhile.)")
       .def(
           "coefficients",
           [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {

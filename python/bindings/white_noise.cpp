@@ -40,7 +40,7 @@ TypeError
 Notes
 -----
 A level of 0 leaves no stationary velocity that way: stationary figures are then infinite, transient ones stay right.
-Figures at a time are those of a start from rest. All are good to 1e-12 of themselves or better; a time takes about 2 us.
+Figures at a time are those of a start from rest. All are good to 1e-12 of themselves or better; a time takes about 3 us.
 
 References
 ----------

@@ -60,9 +60,9 @@ def test_covariances_are_those_of_scipy():
 
 
 def test_an_ensemble_stands_between_theory_and_the_frictionless():
-    # gamma = 1: friction soon fades. Theory is off by 3 % at t = 10 (see docs/white_noise.md); what
+    # gamma = 1: friction soon fades. Theory is off by 1 % at t = 10 (see docs/white_noise.md); what
     # is checked is that both take the same slider, the same noise and the same times. 4000 members
-    # know the variance to 2.2 % each way: the check would fail once in 10,000 times.
+    # know the variance to 2.4 %: drawn anew, the check would fail once in 10,000 times.
     wheel, noise = ss.Caster(slip_level=1, reach=1), ss.Spectrum.white(s0=1)
     shaking = ss.GaussianExcitation(
         noise, dt=0.01, samples=1000, interpolation="constant", zero_frequency=True
@@ -70,7 +70,7 @@ def test_an_ensemble_stands_between_theory_and_the_frictionless():
     m = ss.run_ensemble(wheel, shaking, members=4000, seed=3).moments
     theory = EquivalentLinearization().predict(wheel, noise, m.time[1:])
     ratio = m.displacement_variance[-1] / theory.displacement_variance[-1]
-    assert 0.85 < ratio < 1.1
+    assert 0.9 < ratio < 1.1
     free = EquivalentLinearization().predict(ss.Coulomb(slip_level=0), noise, m.time[1:])
     assert m.displacement_variance[-1] < free.displacement_variance[-1]
 

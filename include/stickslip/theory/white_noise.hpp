@@ -36,7 +36,7 @@ class WhiteLevel {
 ///
 /// A level of 0 leaves no stationary velocity that way: stationary figures are then infinite, transient ones stay
 /// right. An infinite backward level never slides backward, as for `Coulomb`. Figures at a time are those of a start
-/// from rest. All are good to 1e-12 of themselves or better; a time takes about 1 us.
+/// from rest. All are good to 1e-12 of themselves or better; a time takes about 3 us.
 ///
 /// References: T. K. Caughey, J. K. Dienes, J. Appl. Phys. 32 (1961), 2476-2479; I. Karatzas, S. E. Shreve, Ann.
 /// Probab. 12 (1984), 819-828; transforms by the contour of J. A. C. Weideman, SIAM J. Numer. Anal. 44 (2006),
