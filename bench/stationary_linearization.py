@@ -18,7 +18,7 @@ OURS, CLOSED, QUAD = "stickslip", "SciPy, brentq on (4.35)", "SciPy, brentq and 
 
 
 def ours() -> np.ndarray:
-    method, block = ss.theory.StationaryLinearization(), ss.Coulomb(slip_level=1.0)
+    method, block = ss.theory.StationaryLinearization(), ss.Slider(ss.Coulomb(slip_level=1.0))
     band = ss.Spectrum.band_pass
     return np.array(
         [

@@ -172,7 +172,7 @@ std::string shown(double ratio) { return "sigma_n / a = " + detail::shortest(std
 std::string remark_of(double ratio, double wn, double low_power) {
   std::string remark;
   if (ratio < 1.5 * critical)
-    remark = shown(ratio) + " is near sqrt(2/pi), thesis (4.22): the velocity may be far too low";
+    remark = shown(ratio) + " is near sqrt(2/pi), thesis (4.22): velocities may be far too low";
   if (wn == 0 && low_power > 0 && std::isfinite(ratio))
     remark += std::string(remark.empty() ? "" : "; ") +
               "no acceleration at zero frequency: under friction the displacement drifts all the same";

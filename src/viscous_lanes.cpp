@@ -23,10 +23,10 @@ void AdvanceViscous(const ViscousLanes& all, std::size_t members, const double* 
   const double h = step.duration;
   const Real zeta = slider.damping(), stiffness = slider.stiffness(), decay = step.decay, impulse = step.impulse,
              by_step = step.step, ramp = step.ramp, rate = 1 / h;
-  // The acceleration is a free vibration or decay, of a radian at most: within the segment it is less than three times
-  // the sum of those at the ends. To a turn and back, half a segment each, the displacement goes by an eighth of it
-  // times the segment squared, then.
-  const Real reach = h * h;
+  // The acceleration decays, or is a free vibration of a radian at most: within the segment it is at most the larger of
+  // those at the ends, with a spring less than three times their sum. From a turn to the nearer end, half a segment at
+  // most, the displacement goes by an eighth of it times the segment squared.
+  const Real reach = (slider.stiffness() == 0 ? 1 : 3) * h * h / 8;
   double displacement[most_lanes], velocity[most_lanes];  // at the beginning
   std::uint64_t turning = 0;
   for (std::size_t i = 0; i < members; i += Real::size) {

@@ -517,7 +517,7 @@ Ensemble run_ensemble(const Law& law, const E& excitation, const EnsembleOptions
 /// The same for the linear system
 ///     x'' + zeta x' + wn^2 x = -n(t),                                                               thesis (4.2), 4.4
 /// as `integrate` solves it, exactly. Options and answers are those of a slider on friction; `settle` is refused, for
-/// it never comes to rest. Cost on one thread: 6 ns a sample under Gaussian excitation with steps of less than 1 / wn,
+/// it never comes to rest. Cost on one thread: 9 ns a sample under Gaussian excitation with steps of less than 1 / wn,
 /// else 0.1 to 0.3 us.
 template <Excitation E>
 Ensemble run_ensemble(const ViscousSlider& slider, const E& excitation, const EnsembleOptions& options = {},

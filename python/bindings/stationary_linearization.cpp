@@ -89,7 +89,7 @@ ConvergenceError
 
 Notes
 -----
-Accuracy 1e-8 of the values at most; some 0.2 to 3 ms for each time, however late. The interpreter is not held.)")
+Accuracy 1e-8 of the values at most; some 0.3 to 2 ms for each time, however late. The interpreter is not held.)")
       .def("__repr__", [](const StationaryPrediction& p) {
         const auto number = [](double value) { return std::isinf(value) ? "inf" : detail::shortest(value); };
         return "<StationaryPrediction: damping " + number(p.damping) + " 1/s, velocity_std " + number(p.velocity_std) +

@@ -162,7 +162,7 @@ def run_ensemble(
     Notes
     -----
     On one thread, the motions and the statistics included (2.5 GHz, AVX2): without a spring,
-    Coulomb friction and viscous sliders take 6 to 7 ns a sample and casters 70 under Gaussian
+    Coulomb friction takes 6 to 7 ns a sample, viscous sliders 9 and casters 70 under Gaussian
     excitation, Coulomb friction 10 ns a step under pulses, the velocity's spectrum 2 ns a sample;
     others take what `integrate` takes, and some 10 ns. Memory: 16 bytes a member, and for each
     thread 1 kB a time; above 2^24 members peaks are counted in bins. A call costs 0.1 ms.

@@ -92,16 +92,12 @@ def test_it_can_be_drawn(wn):
     r = ss.integrate(slider, quake())
     assert plotting.sticks(r).shape == (0, 2)
     figure = r.plot()
-    assert "viscous damping 1.00 1/s" in "".join(
-        t.get_text() for t in figure.findobj(match=_is_text)
-    )
+    assert "viscous damping 1.00 1/s" in texts(figure)
     plotting.plot_responses([r, ss.integrate(ss.Coulomb(mu=0.01), r.motion)])
     spectrum = ss.Spectrum.band_pass(s0=1, low=2, high=4)
     shaking = ss.GaussianExcitation(spectrum, 0.1, 128, period=1024)
     figure = ss.run_ensemble(slider, shaking, members=64, seed=1).plot()
-    assert "viscous damping 1.00 1/s" in "".join(
-        t.get_text() for t in figure.findobj(match=_is_text)
-    )
+    assert "viscous damping 1.00 1/s" in texts(figure)
 
 
 def texts(figure):

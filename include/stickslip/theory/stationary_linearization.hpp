@@ -25,9 +25,8 @@ struct StationaryPrediction {
   Spectrum spectrum;         ///< of the ground acceleration
   double natural_frequency;  ///< wn [rad/s]
 
-  /// Two-sided spectral density of the stationary velocity [m^2/s]: (m/s)^2 for each rad/s.
-  ///     S(omega) / (omega^2 + zeta^2),   with a spring S omega^2 / ((omega^2 - wn^2)^2 + zeta^2 omega^2)   thesis
-  ///     (4.8)
+  /// Two-sided spectral density of the stationary velocity [m^2/s]: (m/s)^2 for each rad/s; thesis (4.8),
+  ///     S(omega) / (omega^2 + zeta^2),   with a spring S omega^2 / ((omega^2 - wn^2)^2 + zeta^2 omega^2)
   /// Its integral over the whole line is velocity_std^2.
   /// @param omega  [rad/s], of either sign
   double velocity_spectrum(double omega) const;
@@ -41,7 +40,7 @@ struct StationaryPrediction {
   /// @param heartbeat  called at each time; may throw to end the work; optional
   /// @throws std::invalid_argument  a time out of its range
   /// @throws ConvergenceError       a spectrum that cannot be integrated
-  /// Accuracy 1e-8 of the values at most; cost some 0.1 to 1 ms for each time, however late.
+  /// Accuracy 1e-8 of the values at most; cost some 0.3 to 2 ms for each time, however late.
   Moments transient(std::span<const double> times, const std::function<void()>& heartbeat = {}) const;
 };
 
@@ -68,7 +67,7 @@ class StationaryLinearization {
   /// @throws std::invalid_argument  unequal levels: friction then has a mean, and the slider drifts
   /// @throws ConvergenceError       a spectrum that cannot be integrated
   /// Accuracy: round-off for band-pass and white noise without a spring, else that of quadrature, 1e-9. Cost: 1 us, or
-  /// 0.1 to 5 ms.
+  /// 0.1 to 10 ms.
   StationaryPrediction predict(const Slider<Coulomb>& slider, const Spectrum& spectrum) const;
   StationaryPrediction predict(const Coulomb& law, const Spectrum& spectrum) const {
     return predict(Slider(law), spectrum);
