@@ -87,6 +87,15 @@ TEST_CASE("at resonance the amplitude of a block on a spring grows in proportion
   CHECK(std::abs(integrate(Slider(Coulomb(1), 1.0), cycles(1.2, 1, 200)).peak - 0.1638) <= 5e-5);
 }
 
+TEST_CASE("a caster at rest in the middle comes to where the reference does", "[harmonic_motion]") {
+  // values.json harm.caster.*, from_rest_at_zero: after 200 cycles, to 1e-8. One wanders off for ever, one is caught.
+  const auto end = [](double load, double omega) { return integrate(Caster(1, 1), cycles(load, omega, 200)); };
+  CHECK(std::abs(end(1.25, 0.3).residual + 6187.37033885485) <= 1e-8 * 6187);
+  CHECK(std::abs(end(1.25, 0.5).residual + 4.522536180539736) <= 1e-8);
+  CHECK(std::abs(end(1.25, 0.7).residual + 0.22138711296055794) <= 1e-8);
+  CHECK(std::abs(end(1.25, 0.75).residual + 0.1831675342805871) <= 1e-8);
+}
+
 TEST_CASE("a ground that never outgrows the slip level moves nothing, were it as strong", "[harmonic_motion]") {
   for (const double amplitude : {1e-3, 0.999, 1.0}) {
     for_each_slider([&](const auto& slider) {

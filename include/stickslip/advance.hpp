@@ -19,7 +19,7 @@
 namespace stickslip {
 
 /// Watches a motion while it is computed: each slip or part of one, and each event. Times count from the beginning of
-/// the segment [s].
+/// the segment [s]. One that has `follow(flow, taken)` is also shown each flow and how long it lasts [s].
 template <class Observer>
 concept MotionObserver = requires(Observer& observer, Direction direction, double number, EventKind kind, State state) {
   /// (direction, x where it began [m], way slid [m], time taken [s], work of the ground on it [m^2/s^2])

@@ -289,7 +289,7 @@ class OrbitFinder {
   //     x = a/wn^2 (1 - cos wn t) + D sin wn t + G cos(omega t + theta),   G = B / (wn^2 - omega^2),
   //     D = -a/wn^2 tan(pi wn / 2 omega),  A = G cos(theta),  G omega sin(theta) = wn D;
   // it is one if it neither stops nor turns on its way.
-  std::optional<Orbit> without_stops() const requires ConstantLevelLaw<Law> {
+  std::optional<Orbit> without_stops() const {
     const double wn = slider_.natural_frequency(), angle = std::numbers::pi / 2 * (wn / omega_);
     const double tangent = wn > 0 ? std::tan(angle) / wn : std::numbers::pi / (2 * omega_);
     const double g = load_ / ((wn - omega_) * (wn + omega_));
@@ -319,14 +319,14 @@ class OrbitFinder {
   // the beginning of the arc x' is missed by nothing, and x alone must change sign. Two orbits next to a fold may be
   // closer than the grid: so where the miss is less than all around, they are sought too.
   void search(std::vector<Orbit>& found, const std::function<void()>& heartbeat) const {
-    constexpr int rows_a_decade = 12;
-    constexpr double smallest = 1e-5;
-    const double largest = largest_amplitude();
+    const auto [least, largest] = amplitudes();
     const double usual = load_ / (omega_ * omega_ + slider_.stiffness());
-    const double step = std::pow(10.0, 1.0 / rows_a_decade);
+    const double begin = std::max(least, 1e-5 * usual);
+    const double step = std::min(std::pow(10.0, 1.0 / 12), std::pow(largest / begin, 1.0 / 30));  // at least 30 rows
 
-    std::vector<Row> rows{{.free = load_ > level(0), .misses = {{{-1, 0}}}}};  // at A = 0
-    for (double amplitude = smallest * usual; amplitude < largest * step; amplitude *= step) {
+    std::vector<Row> rows;
+    if (least == 0) rows.push_back({.free = load_ > level(0), .misses = {{{-1, 0}}}});
+    for (double amplitude = begin; amplitude < largest * step; amplitude *= step) {
       if (heartbeat) heartbeat();
       rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));  // so far goes a slip without stops
     }
@@ -468,16 +468,21 @@ class OrbitFinder {
   } catch (const ConvergenceError&) {  // Newton's method has gone astray
   }
 
-  // No harmonic n of x is larger than the load's and friction's together by |wn^2 - n^2 omega^2|; at resonance no
-  // bound is left but one of reason.
-  double largest_amplitude() const {
-    double sum = 0;
-    for (int n = 1; n < 100; n += 2) {
-      const double friction = 4 * level(0) / (std::numbers::pi * n);
-      const double wn = slider_.natural_frequency();
-      sum += ((n == 1 ? load_ : 0) + friction) / std::abs((wn - n * omega_) * (wn + n * omega_));
-    }
-    return std::min(sum, 1e6 * load_ / (omega_ * omega_ + slider_.stiffness()));
+  // Between which the amplitude is: the harmonic n of x, times |wn^2 - n^2 omega^2|, is the load's less that of
+  // friction, which is at most 4 level / pi n. At resonance no bound is left but one of reason.
+  std::pair<double, double> amplitudes() const {
+    const double wn = slider_.natural_frequency(), usual = load_ / (omega_ * omega_ + slider_.stiffness());
+    double highest = level(0);
+    for (double x = 1e-6 * usual; x < 1e6 * usual; x *= 2) highest = std::max(highest, level(x));
+    const auto harmonic = [&](int n) {
+      return 4 * highest / (std::numbers::pi * n) / std::abs((wn - n * omega_) * (wn + n * omega_));
+    };
+    const double first = load_ / std::abs((wn - omega_) * (wn + omega_));
+    double others = 0;
+    for (int n = 3; n < 100; n += 2) others += harmonic(n);
+    if (!std::isfinite(first + others)) return {0, 1e6 * usual};
+    return {std::max(0.99 * first - harmonic(1) - others, 0.0),
+            std::min(1.01 * first + harmonic(1) + others, 1e6 * usual)};
   }
 
   const Slider<Law>& slider_;
@@ -496,12 +501,15 @@ auto with_finder(const Slider<Law>& slider, double load, double omega, Work&& wo
 
 template <FrictionLaw Law>
 void check_orbit_arguments(const Slider<Law>& slider, double load, double omega, const std::string& who) {
-  HarmonicMotion(load, omega, 1 / omega);  // refuses what is out of range
+  require(load > 0 && load <= GroundMotion::largest_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
+          load, "m/s^2");
+  require(omega > 0 && std::isfinite(omega * omega) && std::isfinite(2 * std::numbers::pi / omega),
+          who + ": omega must be positive, its square and its period finite", omega, "rad/s");
   const double length = load / (omega * omega + slider.stiffness());
   for (const double x : {0.0, 0.1, 1.0, 10.0}) {
     const double forward = slider.law().level(x * length, Direction::forward);
     const double backward = slider.law().level(-x * length, Direction::backward);
-    require(std::isfinite(forward), who + ": the slip level must be finite, got", forward, "m/s^2");
+    require(std::isfinite(forward), who + ": the slip level must be finite", forward, "m/s^2");
     require(std::abs(forward - backward) <= 1e-12 * forward,
             who + ": the slip level against forward sliding, " + shortest(forward) +
                 " m/s^2, must be that of the mirrored slip, for else the slider drifts",
