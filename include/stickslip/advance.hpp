@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <utility>
 
@@ -164,9 +165,10 @@ void advance(const Slider<Law>& slider, const Segment& segment, State& state, Ob
                      [&](const auto& flows) { detail::advance(slider.law(), flows, segment, state, observer); });
 }
 
-/// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28).
-template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
-void advance(const Slider<Law>& slider, const HarmonicSegment& segment, State& state, Observer&& observer = {}) {
+/// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
+/// piece in bare braces is a Segment.)
+template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver Observer = const NoObserver>
+void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
   detail::with_harmonic_flows(slider, segment.omega, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
     detail::advance(slider.law(), flows, segment, state, observer);
   });

@@ -78,7 +78,7 @@ void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot
     void event(EventKind, double time, const State&) { times.push_back(time); }
   } watch;
   State probe = ride.state;
-  advance(slider, {duration, n, n}, probe, watch);
+  advance(slider, Segment{duration, n, n}, probe, watch);
   watch.times.push_back(duration);
 
   constexpr std::array<double, 8> nodes = {0.019855071751231884, 0.10166676129318664, 0.23723379504183550,
@@ -90,7 +90,7 @@ void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot
   for (const double to : watch.times) {
     double now = from;
     const auto go = [&](double time) {
-      advance(slider, {time - now, n, n}, ride.state);
+      advance(slider, Segment{time - now, n, n}, ride.state);
       now = time;
       return ride.state.velocity * ride.state.velocity;
     };
