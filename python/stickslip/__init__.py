@@ -51,11 +51,13 @@ from ._core import (
 
 TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of this
 if TYPE_CHECKING:
+    from .comparison import Comparison, compare
     from .ensemble import EnsembleError, run_ensemble
 
 __all__ = [
     "STANDARD_GRAVITY",
     "Caster",
+    "Comparison",
     "ConvergenceError",
     "Coulomb",
     "Energy",
@@ -78,6 +80,7 @@ __all__ = [
     "ViscousSlider",
     "__version__",
     "build_info",
+    "compare",
     "harmonic",
     "histories",
     "integrate",
@@ -95,4 +98,8 @@ if not TYPE_CHECKING:
             from . import ensemble
 
             return globals().setdefault(name, getattr(ensemble, name))
+        if name in ("Comparison", "compare"):
+            from . import comparison
+
+            return globals().setdefault(name, getattr(comparison, name))
         raise AttributeError(f"module 'stickslip' has no attribute {name!r}")

@@ -27,8 +27,10 @@ except ImportError as error:
 
 from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response, ViscousSlider
 from ._files import replacing
+from .comparison import Comparison
 
 __all__ = [
+    "plot_comparison",
     "plot_ensemble",
     "plot_friction_sweep",
     "plot_response",
@@ -341,6 +343,61 @@ def plot_friction_sweep(
         axes.set_ylabel("peak relative displacement [cm]")
         axes.set_title(f"How far a block slides in {len(names)} earthquake records")
         axes.legend(loc="lower left", fontsize=8)
+    return figure
+
+
+def plot_comparison(
+    comparison: Comparison, figure: FigureBase | None = None, title: str | None = None
+) -> FigureBase:
+    """Variances by time: the ensemble with its errors, and every theory as a line of its own.
+
+    Bands are two standard errors either way.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        What `compare` returned.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; a new figure of 9 x 4.4 inches if not given.
+    title : str, optional
+        Instead of what slid and how many members there are.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+        Its axes: variance of x, variance of x'.
+    """
+    e = comparison.ensemble
+    with style():
+        figure = figure or _figure(9, 4.4)
+        figure.suptitle(
+            title or _describe_ensemble(e), x=0.01, ha="left", fontsize=10, fontweight="bold"
+        )
+        for axes, name, part in zip(
+            figure.subplots(1, 2),
+            ("displacement_variance", "velocity_variance"),
+            ("displacement", "velocity"),
+        ):
+            variance, error = getattr(e, name), getattr(e, name + "_error")
+            factor, unit = _unit(np.sqrt(variance.max()))
+            _band(axes, e.time, variance * factor**2, error * factor**2, INK)
+            axes.lines[-1].set_label("simulation")
+            for i, (theory, moments) in enumerate(comparison.theories.items()):
+                axes.plot(
+                    moments.time,
+                    getattr(moments, name) * factor**2,
+                    color=COLOURS[i % len(COLOURS)],
+                    linestyle=("--", "-.", ":")[i % 3],
+                    marker=".",
+                    label=theory,
+                )
+            unit = unit if part == "displacement" else f"({unit}/s)"
+            axes.set_ylabel(f"variance of {part} [{unit}\N{SUPERSCRIPT TWO}]")
+            axes.set_xlabel("time [s]")
+            axes.set_xlim(0, comparison.time[-1])
+            axes.set_ylim(bottom=0)
+            _note(axes, "")
+        figure.axes[0].legend(loc="upper left", fontsize=8)
     return figure
 
 

@@ -1,5 +1,6 @@
 """What the README shows runs as it stands."""
 
+import math
 import re
 import shlex
 import shutil
@@ -33,7 +34,7 @@ def kobe(tmp_path, monkeypatch, record_a):
 
 
 def test_the_python_runs(kobe, capsys):
-    code, _ = blocks("python")
+    code, _, _ = blocks("python")
     exec(compile(code, str(README), "exec"), {})
     lines = capsys.readouterr().out.splitlines()
     assert re.fullmatch(r"peak \d+\.\d cm, residual -?\d+\.\d cm, \d+ slips", lines[0])
@@ -42,7 +43,7 @@ def test_the_python_runs(kobe, capsys):
 
 def test_the_ensembles_run(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    _, code = blocks("python")
+    _, code, _ = blocks("python")
     names = {}
     exec(compile(code, str(README), "exec"), names)
     quantile, exceedance, growth = capsys.readouterr().out.splitlines()
@@ -51,6 +52,17 @@ def test_the_ensembles_run(tmp_path, monkeypatch, capsys):
     assert growth.startswith("<Estimate: ")
     assert names["e"].member_ranges == [(0, 10_000)]
     assert [file.name for file in tmp_path.iterdir()] == ["run.npz"]
+
+
+def test_the_theories_run(capsys):
+    *_, code = blocks("python")
+    exec(compile(code, str(README), "exec"), {})
+    averaged, exact, _, growth, rms, *table = capsys.readouterr().out.splitlines()
+    assert len(averaged.split()) == 2  # a small one, unstable, and a large one
+    assert float(exact.rstrip("]").split()[-1]) == pytest.approx(3.3288206151, rel=1e-9)
+    assert float(growth) == pytest.approx(10 * math.pi**3, rel=1e-14)
+    assert float(rms) == pytest.approx(0.278, rel=0.04)  # 20,000 members, and what the chain claims
+    assert "theory / simulation" in table[0]
 
 
 def test_the_command_lines_run(kobe):
