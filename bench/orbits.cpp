@@ -60,7 +60,7 @@ void check() {
     }
   });
   const OrbitBranch branch = caster_branch();
-  bench::require("the branch has one fold", branch.folds.size() == 1, static_cast<double>(branch.folds.size()), 1);
+  bench::require(branch.folds.size() == 1, "folds of the branch", static_cast<double>(branch.folds.size()), 1);
 }
 
 }  // namespace

@@ -59,10 +59,11 @@ class HarmonicMotion {
   double acceleration(double time) const noexcept { return -amplitude_ * std::cos(phase(time)); }
 
   /// omega t without its whole cycles [rad], right to round-off however many there were.
-  double phase(double time) const noexcept {
+  /// @param rounding  of the time, to be added to it [s]
+  double phase(double time, double rounding = 0) const noexcept {
     // The rounding of the product is known, and 2 pi is written with 150 bits.
     constexpr double high = 2 * std::numbers::pi, middle = 0x1.1a62633145c07p-52, low = -0x1.f1976b7ed8fbcp-108;
-    const double angle = omega_ * time, rest = std::fma(omega_, time, -angle);
+    const double angle = omega_ * time, rest = std::fma(omega_, time, -angle) + omega_ * rounding;
     const double cycles = std::nearbyint(angle / high);
     return std::fma(-cycles, high, angle) + (rest - cycles * middle - cycles * low);
   }

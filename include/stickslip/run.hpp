@@ -71,15 +71,22 @@ template <FrictionLaw Law, class Flows>
 void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State& state,
          RecorderFor<HarmonicMotion, Law>& recorder, const HistorySpans& histories) {
   std::uint32_t pieces = 0;
+  const auto piece = [&](double begin, double duration, double phase) {
+    if (++pieces % RecorderFor<HarmonicMotion, Law>::work_a_beat == 0) recorder.heartbeat();
+    recorder.begin_segment(begin);
+    detail::advance(law, flows, HarmonicSegment{duration, motion.amplitude(), motion.omega(), phase}, state, recorder);
+  };
+  const bool short_steps = motion.dt() <= motion.period();
   for (std::size_t i = 0; i < motion.segments(); ++i) {
-    const double end = motion.time(i + 1);
-    for (double time = motion.time(i); time < end;) {
-      if (++pieces % RecorderFor<HarmonicMotion, Law>::work_a_beat == 0) recorder.heartbeat();
-      const double next = std::min(time + motion.period(), end);
-      recorder.begin_segment(time);
-      detail::advance(law, flows, HarmonicSegment{next - time, motion.amplitude(), motion.omega(), motion.phase(time)},
-                      state, recorder);
-      time = next;
+    const double begin = motion.time(i), end = motion.time(i + 1);
+    if (short_steps && i + 1 < motion.segments()) {  // all of one length, as if times were not rounded
+      piece(begin, motion.dt(), motion.phase(begin, std::fma(static_cast<double>(i), motion.dt(), -begin)));
+    } else {
+      for (double time = begin; time < end;) {
+        const double next = std::min(time + motion.period(), end);
+        piece(time, next - time, motion.phase(time));
+        time = next;
+      }
     }
     histories.keep(i + 1, state);
   }

@@ -53,7 +53,9 @@ struct HarmonicSegment {
 
   double first_load() const noexcept { return amplitude * std::cos(phase); }
 
-  Departure departure(double /*net*/, double pull, double forward, double backward, double left) const noexcept {
+  Departure departure(double net, double pull, double forward, double backward, double left) const noexcept {
+    const double most = amplitude * (omega * left);  // that it can gain, or lose
+    if (net + most <= forward && net - most >= -backward) return {};
     const double now = phase + omega * (duration - left);
     const double one = time_to_exceed(forward + pull, now);
     const double other = time_to_exceed(backward - pull, now + std::numbers::pi);

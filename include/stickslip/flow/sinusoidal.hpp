@@ -50,7 +50,8 @@ class SinusoidalFlow {
         cosine_(start.amplitude * std::cos(start.phase)),
         sine_(start.amplitude * std::sin(start.phase)),
         square_(start.frequency * start.frequency),
-        duration_(duration) {}
+        duration_(duration),
+        end_(oscillator.basis(duration)) {}
 
   double horizon() const noexcept { return duration_; }
 
@@ -58,6 +59,9 @@ class SinusoidalFlow {
   double first_stop() const noexcept {
     const auto [u, a, amplitude, omega, phase] = start_;
     if (u == 0 && (a < 0 || (a == 0 && sine_ >= 0))) return 0;
+
+    // So fast that no push could stop it in time, as most of short pieces.
+    if (u > (std::abs(amplitude) + std::abs(cosine_ - a)) * duration_) return never;
 
     // In the phase of a push that is greatest at 0, the speed rises within -turn and turn and falls elsewhere.
     constexpr double cycle = 2 * std::numbers::pi;
@@ -83,12 +87,12 @@ class SinusoidalFlow {
       if (!(falls_from < omega * duration_)) return never;
     }
     const double low = falls_from / omega, high = std::min(least / omega, duration_);
-    if (high == duration_ && speed(oscillator_.basis(duration_), duration_) > 0) return never;
+    if (high == duration_ && speed(end_, duration_) > 0) return never;
     return polish(low, high);
   }
 
   Progress at(double t) const noexcept { return progress(oscillator_.basis(t), t); }
-  Progress at_horizon() const noexcept { return at(duration_); }
+  Progress at_horizon() const noexcept { return progress(end_, duration_); }
 
   /// Net, at the start [m/s^2].
   double acceleration() const noexcept { return start_.acceleration; }
@@ -99,7 +103,7 @@ class SinusoidalFlow {
 
   /// Work of what the load has gained since the start [m^2/s^2]: the integral of V' (u + a t + V).
   double work_of_gain(double t) const noexcept {
-    const Harmonic::Basis b = oscillator_.basis(t);
+    const Harmonic::Basis b = t == duration_ ? end_ : oscillator_.basis(t);
     const double v = gained_speed(b, t);
     return v * (start_.speed + start_.acceleration * t + v / 2) - start_.acceleration * gained_distance(b, t);
   }
@@ -141,6 +145,7 @@ class SinusoidalFlow {
   double cosine_, sine_;  // of the load at the start [m/s^2]
   double square_;         // of omega
   double duration_;
+  Harmonic::Basis end_;
 };
 
 /// Makes the flows of constant friction without a spring under a load of one frequency.
