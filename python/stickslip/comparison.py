@@ -175,8 +175,8 @@ def compare(
     slider : Slider, Coulomb or Caster
     excitation : GaussianExcitation or PoissonPulses
     times : array_like, shape (T,), optional
-        Where to compare [s], increasing, above 0, multiples of a common step, at most the
-        excitation's duration; six even ones if not given.
+        Where to compare [s], increasing, above 0, at most the excitation's duration; multiples of
+        its dt, or, under pulses, of a common step. Six even ones if not given.
     members, seed, threads, progress
         As of `run_ensemble`.
 
@@ -188,7 +188,8 @@ def compare(
     Raises
     ------
     ValueError
-        Times out of their range; what `run_ensemble` refuses.
+        Times out of their range; Gaussian excitation with an envelope, which no theory covers, or
+        white without a line at zero frequency; what `run_ensemble` refuses.
     TypeError
         Another kind of excitation: there is no theory for it.
     KeyboardInterrupt
@@ -247,6 +248,11 @@ def _rivals(slider: Any, excitation: Any) -> dict[str, Callable[[Any], Moments]]
                 theory.StationaryLinearization().predict(slider, spectrum).transient(time)
             )
         }
+    if not excitation.zero_frequency:
+        raise ValueError(
+            "compare: white noise has a line at zero frequency, without which the ground comes "
+            "back to where it was; zero_frequency must be True"
+        )
     return {
         "WhiteNoise": lambda time: theory.WhiteNoise(slider, spectrum).predict(time),
         "EquivalentLinearization": lambda time: theory.EquivalentLinearization().predict(
@@ -260,8 +266,12 @@ def _rivals(slider: Any, excitation: Any) -> dict[str, Callable[[Any], Moments]]
 
 def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:
     """The times [s], and a step of the statistics that has all of them."""
-    end = excitation.duration
-    time = np.linspace(end / 6, end, 6) if times is None else np.asarray(times, float)
+    end, own = excitation.duration, getattr(excitation, "dt", None)
+    if times is None:
+        time = np.linspace(end / 6, end, 6)
+        time = time if own is None else np.maximum(np.rint(time / own), 1) * own
+    else:
+        time = np.asarray(times, float)
     if time.ndim != 1 or len(time) == 0 or not np.isfinite(time).all():
         raise ValueError(f"compare: times must be a row of finite numbers, got {times!r}")
     if not (np.diff(time, prepend=0) > 0).all() or time[-1] > end * (1 + 1e-12):
@@ -269,15 +279,17 @@ def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:
             f"compare: times must increase, from above 0 to at most the duration of {end:.6g} s, "
             f"got {times!r}"
         )
-    # In the excitation's own step where all are multiples of it, else in a common part of them.
-    own = getattr(excitation, "dt", None)
-    if own is not None and np.allclose(np.rint(time / own) * own, time, rtol=1e-9, atol=0):
+    if own is not None:
+        if not np.allclose(np.rint(time / own) * own, time, rtol=1e-9, atol=0):
+            raise ValueError(
+                f"compare: times must be multiples of the excitation's {own:.6g} s, got {times!r}"
+            )
         return time, own
     parts = [Fraction(t / time[0]).limit_denominator(10_000) for t in time]
-    if not np.allclose([float(p) for p in parts], time / time[0], rtol=1e-9, atol=0):
-        raise ValueError(f"compare: times must be multiples of a common step, got {times!r}")
     step = time[0] / math.lcm(*(p.denominator for p in parts))
-    if time[-1] / step > 2**14:
+    if not np.allclose(np.rint(time / step) * step, time, rtol=1e-9, atol=0) or (
+        time[-1] / step > 2**14
+    ):
         raise ValueError(
             "compare: times must be multiples of a common step of at least 1/16384 of the last, "
             f"got {times!r}"

@@ -16,6 +16,8 @@ def white(dt=0.1, samples=401):
         samples,
         interpolation="constant",
         correct_interpolation=False,
+        random_amplitudes=True,
+        zero_frequency=True,
     )
 
 
@@ -126,6 +128,11 @@ def test_other_excitations_are_refused():
                 envelope=ss.Envelope(build_up=4, strong=10, decay_rate=0.5),
             ),
         )
+    periodic = ss.GaussianExcitation(ss.Spectrum.white(s0=1.0), 0.1, 401)
+    with pytest.raises(ValueError, match="zero_frequency must be True"):
+        ss.compare(BLOCK, periodic, [20.0])
+    with pytest.raises(ValueError, match="multiples of the excitation"):
+        ss.compare(BLOCK, white(), [0.25])
     c = ss.compare(BLOCK, PULSES, [60.0], members=64)
     with pytest.raises(ValueError, match="figure must be one of"):
         c.simulated("peak")
