@@ -66,7 +66,8 @@ Notes
 Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 7 to 25 ns a
 sample, 20 to 65 with a spring. The caster by Taylor series, to near round-off; 150 to 850 ns a sample. Under a harmonic
 motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
-power series to round-off. The interpreter is not held meanwhile.)");
+power series to round-off; 1.4 us a cycle with Coulomb friction, 6 us with a spring, 60 us for a caster, and each sample
+adds 0.1 to 0.2 us. The interpreter is not held meanwhile.)");
 }
 
 }  // namespace stickslip::python
