@@ -18,7 +18,7 @@ namespace {
 
 constexpr double load = 1.5, omega = 0.7, slip_level = 1, reach = 1, frequency = 1.3;
 constexpr double cycles = 200;
-constexpr double fine = 4000;  // samples a cycle, for some six digits
+constexpr double fine = 4000;  // samples a cycle, which leave an error of some 1e-6 a cycle
 
 const double period = 2 * std::numbers::pi / omega;
 
