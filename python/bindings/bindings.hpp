@@ -54,6 +54,7 @@ void bind_equivalent_linearization(py::module_& m);
 void bind_pulse_response(py::module_& m);
 void bind_pulse_superposition(py::module_& m);
 void bind_pulse_chain(py::module_& m);
+void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
 
 /// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.

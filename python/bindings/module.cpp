@@ -30,5 +30,6 @@ PYBIND11_MODULE(_core, m) {
   bind_pulse_response(m);
   bind_pulse_superposition(m);
   bind_pulse_chain(m);
+  bind_thesis(m);
   bind_build_info(m);
 }

@@ -2,11 +2,12 @@
 
 ``stickslip slide kobe.AT2 --mu 0.1 0.2 0.3`` prints how far a block slides; ``stickslip slide
 --help`` tells all. ``stickslip ensemble --event "great very near field" --mu 0.2 --members 100000``
-does so for random earthquakes. A subcommand is a function that adds its arguments and one that runs
-them.
+does so for random earthquakes, and ``stickslip thesis`` draws the thesis's figures anew. A
+subcommand is a function that adds its arguments and one that runs them.
 
-Exit codes: 0, also for a slider that never comes to rest, which its row says; 2 where the input was
-refused, with one line on stderr and nothing on stdout; 130 after Ctrl-C.
+Exit codes: 0, also for a slider that never comes to rest, which its row says; 1 where ``stickslip
+thesis --check`` finds a number off; 2 where the input was refused, with one line on stderr and
+nothing on stdout; 130 after Ctrl-C.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import os
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from . import (
     STANDARD_GRAVITY,
@@ -36,6 +38,7 @@ from . import (
     integrate,
     read_record,
 )
+from ._files import replacing
 
 __all__ = ["main"]
 
@@ -65,9 +68,10 @@ def main(argv: list[str] | None = None) -> int:
     )
     parser.add_argument("--version", action="version", version=_version())
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for add in (_add_slide, _add_ensemble):
+    for add in (_add_slide, _add_ensemble, _add_thesis):
         add(commands)
     args = parser.parse_args(argv)
+    args.code = 0
     try:
         print(args.run(args), flush=True)
     except BrokenPipeError:  # the reader, as `head`, has seen enough
@@ -83,7 +87,7 @@ def main(argv: list[str] | None = None) -> int:
             file=sys.stderr,
         )
         return 130
-    return 0
+    return args.code
 
 
 def _refuse(message: str) -> int:
@@ -447,3 +451,85 @@ def _with_error(value: float, error: float) -> tuple[str, str]:
         return f"{value:.{places}f}", f"+- {error:.{places}f}"
     digits = max(0, math.floor(math.log10(max(abs(value), error))) + places)
     return f"{value:.{digits}e}", f"+- {error:.1e}"
+
+
+def _add_thesis(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "thesis",
+        help="draw the thesis's figures anew, theory beside simulation",
+        description="Draws figures and tables of the thesis on the response of stick-slip systems"
+        " to random seismic excitation: its own curves, exact answers, and ensembles with standard"
+        " errors. Writes a picture and a CSV file of every curve and point for each, and a page"
+        " of all of them, gallery.md; prints what the thesis says in numbers and what is found."
+        " With --check it prints each number beside the one expected and by how much it may be off,"
+        " exits with 1 if one is, and writes nothing unless --out is given.",
+    )
+    add = parser.add_argument
+    add("numbers", nargs="*", metavar="NUMBER", help="as 4.6, A.2, 'Table 5.1'; all if none")
+    add("--members", type=int, metavar="N", help="of an ensemble (default 100000; --check: 2000)")
+    add("--seed", type=int, metavar="N", help="names the random numbers (default 1; --check: 2)")
+    add("--threads", type=int, metavar="N", help="as many as the machine has, if not given")
+    add("--out", type=Path, metavar="FOLDER", help="where to (default: thesis); --check: draw too")
+    add("--format", choices=("png", "pdf", "svg"), default="png", help="of pictures (default png)")
+    add("--check", action="store_true", help="against what is expected, quickly")
+    parser.set_defaults(run=_thesis)
+
+
+def _thesis(args: argparse.Namespace) -> str:
+    from . import thesis
+
+    folder = args.out or (None if args.check else Path("thesis"))
+    if folder:
+        from . import plotting  # matplotlib: only who plots waits for it
+
+        folder.mkdir(parents=True, exist_ok=True)
+    numbers = args.numbers or thesis.Thesis.numbers
+    for number in numbers:
+        if number not in thesis.Thesis.numbers:
+            raise ValueError(
+                f"NUMBER must be one of {', '.join(thesis.Thesis.numbers)}, got {number}"
+            )
+    members = args.members if args.members is not None else 2000 if args.check else 100_000
+    seed = args.seed if args.seed is not None else 2 if args.check else 1
+    shown = sys.stderr is not None and sys.stderr.isatty()
+
+    def heartbeat(what: str, share: float) -> None:
+        print(f"\r\33[K{what} {share:4.0%}", end="", file=sys.stderr, flush=True)
+
+    source = thesis.Thesis(
+        members=members,
+        seed=seed,
+        threads=args.threads,
+        heartbeat=heartbeat if shown else None,
+    )
+    figures, lines = [], []
+    try:
+        for number in numbers:
+            figure = source.figure(number)
+            figures.append(figure)
+            if folder:
+                stem = folder / thesis.file_stem(number)
+                with replacing(stem.with_suffix(".csv")) as part:
+                    part.write_text(figure.csv(), encoding="utf-8")
+                plotting.save(thesis.plot(figure), stem.with_suffix(f".{args.format}"))
+            if args.check:
+                lines += [_checked(check) for check in figure.check(members)]
+    finally:
+        if shown:
+            print("\r\33[K", end="", file=sys.stderr, flush=True)
+    summary = thesis.thesis_summary(figures)
+    if folder:
+        with replacing(folder / "gallery.md") as part:
+            part.write_text(thesis.page(figures, f".{args.format}"), encoding="utf-8")
+    if not args.check:
+        return f"{summary}wrote {len(figures)} figures to {folder}"
+    off = sum(line.startswith("off") for line in lines)
+    args.code = 1 if off else 0
+    return "\n".join([*lines, f"{len(lines)} numbers of {len(figures)} figures, {off} off"])
+
+
+def _checked(check: Any) -> str:
+    return (
+        f"{'holds' if check.holds else 'off  '}  {check.what:28} found {check.found:<14.8g}"
+        f" expected {check.expected:<14.8g} +- {check.allowed:.2g}"
+    )

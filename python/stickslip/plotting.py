@@ -164,7 +164,7 @@ def plot_response(
         Its axes: ground acceleration [g], relative velocity, relative displacement.
     """
     with style():
-        figure = figure or _figure(7, 6)
+        figure = figure or new_figure(7, 6)
         ground, speed, way = figure.subplots(3, sharex=True, height_ratios=(1, 1, 1.25))
         t, x, v = _path(response)
         length, unit = _unit(response.peak)
@@ -249,7 +249,7 @@ def plot_responses(
             f"plot_responses: a label for each of {len(responses)} responses, got {len(labels)}"
         )
     with style():
-        figure = figure or _figure(7, 5)
+        figure = figure or new_figure(7, 5)
         ground, way = figure.subplots(2, sharex=True, height_ratios=(1, 1.7))
         length, unit = _unit(max(r.peak for r in responses))
         _title(ground, responses[0].motion)
@@ -323,7 +323,7 @@ def plot_friction_sweep(
         (i for i, name in enumerate(names) if name in set(highlight)), key=lambda i: -lines[i, 0]
     )
     with style():
-        figure = figure or _figure(7, 5)
+        figure = figure or new_figure(7, 5)
         axes = figure.subplots()
         for line in np.delete(lines, lifted, axis=0):
             axes.plot(mu, line, color="#c4c4c4", linewidth=0.8)
@@ -369,7 +369,7 @@ def plot_comparison(
     """
     e = comparison.ensemble
     with style():
-        figure = figure or _figure(9, 4.4)
+        figure = figure or new_figure(9, 4.4)
         figure.suptitle(
             title or _describe_ensemble(e), x=0.01, ha="left", fontsize=10, fontweight="bold"
         )
@@ -431,7 +431,7 @@ def plot_ensemble(
     e, t, s = ensemble, ensemble.time, ensemble.stationary
     has_spectrum = e.configuration["velocity_spectrum"]
     with style():
-        figure = figure or _figure(9, 6)
+        figure = figure or new_figure(9, 6)
         layout = [["way", "peaks"], ["speed", "spectrum" if has_spectrum else "peaks"]]
         axes = figure.subplot_mosaic(layout)
         way, speed, peaks = axes["way"], axes["speed"], axes["peaks"]
@@ -479,7 +479,7 @@ _AT_RIGHT = {
 }
 
 
-def _figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches that belongs to no window."""
     figure = _Picture(figsize=(width, height), layout="constrained", dpi=100)
     FigureCanvasAgg(figure)

@@ -1,0 +1,105 @@
+// The thesis's figures as numbers: CSV files and the summary, without Python.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stickslip/thesis.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+constexpr const char* usage =
+    "usage: thesis_figures [NUMBER...] [--members N] [--seed N] [--out FOLDER] [--check] [--expectations]\n"
+    "  writes a CSV file for each figure (all of them if none is named) to FOLDER, prints the summary\n"
+    "  --check         2000 members and seed 2 unless given; each number against what is expected of it\n"
+    "  --expectations  prints what src/thesis/expected.inc is made of\n";
+
+std::string file_name(const std::string& number) {
+  std::string name = number.starts_with("Table") ? number : "figure " + number;
+  std::ranges::transform(name, name.begin(), [](char c) { return c == ' ' || c == '.' ? '_' : c == 'T' ? 't' : c; });
+  return name + ".csv";
+}
+
+int run(const std::vector<std::string>& arguments) {
+  using namespace stickslip;
+  std::vector<std::string> numbers;
+  std::filesystem::path out = "thesis";
+  bool check = false, expectations = false;
+  std::uint64_t members = 0, seed = 0;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const auto value = [&]() -> const std::string& {
+      if (i + 1 == arguments.size()) throw std::invalid_argument(argument + " needs a value");
+      return arguments[++i];
+    };
+    if (argument == "--members") {
+      members = std::stoull(value());
+    } else if (argument == "--seed") {
+      seed = std::stoull(value());
+    } else if (argument == "--out") {
+      out = value();
+    } else if (argument == "--check") {
+      check = true;
+    } else if (argument == "--expectations") {
+      expectations = true;
+    } else if (argument.starts_with("-")) {
+      std::fputs(usage, stderr);
+      return 2;
+    } else {
+      numbers.push_back(argument);
+    }
+  }
+  if (numbers.empty()) numbers.assign(Thesis::numbers().begin(), Thesis::numbers().end());
+  ThesisOptions options{.members = members > 0 ? members
+                                   : check     ? 2000
+                                               : 100'000,
+                        .seed = seed > 0 ? seed
+                                : check  ? 2u
+                                         : 1u};
+  std::string told;
+  options.heartbeat = [&](std::string_view what, double) {
+    if (what != told) std::fprintf(stderr, "%.*s\n", static_cast<int>(what.size()), what.data());
+    told = what;
+  };
+  Thesis thesis(options);
+  std::vector<ThesisFigure> figures;
+  std::size_t off = 0, checked = 0;
+  for (const std::string& number : numbers) {
+    figures.push_back(thesis.figure(number));
+    if (expectations) std::fputs(thesis_expectations(figures.back()).c_str(), stdout);
+    if (check)
+      for (const ThesisCheck& c : thesis_check(figures.back(), options.members)) {
+        ++checked;
+        if (c.holds) continue;
+        ++off;
+        std::printf("%s: found %.9g, expected %.9g, allowed %.3g\n", c.what.c_str(), c.found, c.expected, c.allowed);
+      }
+    if (check || expectations) continue;
+    std::filesystem::create_directories(out);
+    const std::filesystem::path file = out / file_name(number);
+    std::ofstream stream(file);
+    stream << thesis_csv(figures.back());
+    if (!stream.flush()) throw std::runtime_error("cannot write " + file.string());
+  }
+  if (check) {
+    std::printf("%zu numbers, %zu off\n", checked, off);
+    return off > 0 ? EXIT_FAILURE : EXIT_SUCCESS;
+  }
+  if (!expectations) std::fputs(thesis_summary(figures).c_str(), stdout);
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "thesis_figures: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,129 @@
+// The thesis's figures and tables computed anew: its own theory, the exact answer and simulation side by side.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stickslip/ensemble.hpp"
+
+namespace stickslip {
+
+/// One curve or set of points of a figure.
+struct ThesisCurve {
+  enum class Kind {
+    thesis,      ///< what the thesis drew, or its method as printed
+    theory,      ///< a theory corrected, or one that the thesis did not have
+    exact,       ///< an exact answer
+    unstable,    ///< an exact answer that no disturbed motion comes back to
+    simulation,  ///< an ensemble, with standard errors
+    limit,       ///< a line to compare with
+    region       ///< an outline, whose inside is meant
+  };
+  std::string label;  ///< what is drawn, in TeX between dollar signs; curves of one label belong together
+  Kind kind;
+  std::vector<double> x, y;
+  std::vector<double> error{};  ///< standard errors of y; empty where there are none
+  std::uint64_t members = 0;    ///< of the ensemble
+  bool even = true;             ///< whether x is the same in every run, so that y can be compared point by point
+};
+
+/// One pair of axes.
+struct ThesisPanel {
+  std::string title;
+  std::string x, y;  ///< what the axes show, with units or as non-dimensional groups
+  bool log_x = false, log_y = false;
+  std::vector<ThesisCurve> curves{};
+  std::vector<double> x_limits{}, y_limits{};  ///< two, or none
+};
+
+/// Something that the thesis says with a number, and what was found.
+struct ThesisStatement {
+  std::string where;  ///< page or equation of the thesis
+  std::string claim;  ///< in the thesis's sense, with the unit
+  double said;        ///< by the thesis
+  double found;       ///< by this library
+  double error;       ///< standard error of `found`; 0 where it is no estimate
+  bool agrees;        ///< within the digits or the bound that the thesis gives, and 3 standard errors
+  std::string why;    ///< what is different, or how it was found
+};
+
+/// A figure or table of the thesis, as it comes out here.
+struct ThesisFigure {
+  std::string number;       ///< "2.1" to "5.7", "A.2", "Table 5.1"
+  std::string caption;      ///< what is seen
+  std::string thesis_cost;  ///< what the thesis says it took; empty where it doesn't
+  std::vector<ThesisPanel> panels{};
+  std::vector<ThesisStatement> statements{};
+  double seconds = 0;  ///< that it took here
+};
+
+/// A number of a figure beside the one that is expected.
+struct ThesisCheck {
+  std::string what;
+  double found, expected, allowed;
+  bool holds;
+};
+
+struct ThesisOptions {
+  std::uint64_t members = 100'000;  ///< of each ensemble, at least 100
+  std::uint64_t seed = 1;
+  unsigned threads = 0;  ///< at most; 0: as many as the machine has
+  /// Called some times a second with what is being done and how much of it is; may throw to end the work.
+  std::function<void(std::string_view what, double share)> heartbeat{};
+};
+
+/// Draws the figures of the thesis, number by number; what figures share is computed once.
+///
+/// Groups without dimension are had by a slip level, a level S0 of the spectrum and a half width of 1.
+class Thesis {
+ public:
+  /// @throws std::invalid_argument  fewer than 100 members
+  explicit Thesis(ThesisOptions options = {});
+
+  /// What there is, in the thesis's order.
+  static std::span<const std::string_view> numbers() noexcept;
+
+  /// @param number  one of `numbers()`
+  /// @throws std::invalid_argument  another number; lists those there are
+  /// All figures together take some minutes on two threads with 100,000 members, and some seconds with 1000.
+  ThesisFigure figure(std::string_view number);
+
+  const ThesisOptions& options() const noexcept { return options_; }
+
+  /// An ensemble, remembered under a name of its own.
+  /// @param what  as the heartbeat is told
+  /// @param run   simulates it with the options given
+  const Ensemble& ensemble(const std::string& what, std::uint64_t members, bool velocity_spectrum,
+                           const std::function<Ensemble(const EnsembleOptions&)>& run);
+
+ private:
+  ThesisOptions options_;
+  std::string number_;
+  std::map<std::string, Ensemble> ensembles_;
+};
+
+/// Every curve and point of a figure: panel, label, kind, members, x, y, error; a line each, 17 digits.
+std::string thesis_csv(const ThesisFigure& figure);
+
+/// What the thesis says in numbers and what was found, and the time each figure took beside the thesis's own.
+std::string thesis_summary(std::span<const ThesisFigure> figures);
+
+/// Holds a figure against what is expected of it: curves at up to nine points each, every simulated point and every
+/// statement.
+///
+/// The expectations are of 100,000 members and seed 1, so that another seed is an independent trial. A simulated number
+/// may be off by 5 standard errors of the difference, its own error being the expectation's times sqrt(100,000 /
+/// members): a false alarm in 2 million for each (Gaussian), in a thousand for all. What would have an own error of
+/// more than a tenth is left out: so few events are not Gaussian. Else it may be off by 1e-6 of the largest of its
+/// curve.
+std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure, std::uint64_t members);
+
+/// The lines by which `thesis_check` would expect this figure: what src/thesis/expected.inc is made of.
+std::string thesis_expectations(const ThesisFigure& figure);
+
+}  // namespace stickslip

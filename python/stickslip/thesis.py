@@ -1,0 +1,227 @@
+"""The thesis's figures and tables, computed anew: theory, exact answer and simulation side by side.
+
+``stickslip thesis`` draws them all; `Thesis` gives their numbers, and `plot` a picture::
+
+    from stickslip.thesis import Thesis, plot
+
+    figure = Thesis(members=10_000).figure("4.6")
+    plot(figure).savefig("figure_4_6.png")
+    for s in figure.statements:
+        print(s.where, s.claim, s.said, s.found, s.agrees)
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._core import (
+    Thesis,
+    ThesisCheck,
+    ThesisCurve,
+    ThesisFigure,
+    ThesisPanel,
+    ThesisStatement,
+    thesis_summary,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "Thesis",
+    "ThesisCheck",
+    "ThesisCurve",
+    "ThesisFigure",
+    "ThesisPanel",
+    "ThesisStatement",
+    "file_stem",
+    "page",
+    "plot",
+    "thesis_summary",
+]
+
+_LINES = {"thesis": "--", "theory": "-.", "exact": "-", "unstable": ":"}
+_WORDS = {
+    "thesis": "as in the thesis",
+    "theory": "corrected, or another theory",
+    "exact": "exact",
+    "unstable": "exact, unstable",
+    "simulation": "simulation, two standard errors",
+}
+_MOST_LABELS = 8  # more are told apart by a scale of colours
+
+
+def file_stem(number: str) -> str:
+    """The name of a figure's files without a suffix: 'figure_2_1', 'table_5_1'.
+
+    Parameters
+    ----------
+    number : str
+        One of `Thesis.numbers`.
+    """
+    name = number if number.startswith("Table") else f"figure {number}"
+    return name.lower().replace(" ", "_").replace(".", "_")
+
+
+def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
+    """A page in Markdown that shows figures, with their captions and what the thesis says of them.
+
+    Parameters
+    ----------
+    figures : sequence of ThesisFigure
+    suffix : str
+        Of the pictures, which lie beside the page under their `file_stem`: '.png', '.svg'.
+
+    Returns
+    -------
+    str
+        For each figure a heading, picture, caption, and the table of its statements; times taken.
+    """
+    lines = []
+    for figure in figures:
+        stem = file_stem(figure.number)
+        cost = f"; the thesis: {figure.thesis_cost}" if figure.thesis_cost else ""
+        lines += [
+            f"## {_name(figure)}",
+            "",
+            f"![{_name(figure)}]({stem}{suffix})",
+            "",
+            f"{figure.caption} [Numbers]({stem}.csv). Took {figure.seconds:.2g} s{cost}.",
+            "",
+        ]
+        if figure.statements:
+            lines += ["| | the thesis | found | | |", "|---|---|---|---|---|"]
+            lines += [
+                f"| {f'{s.where}: ' if s.where else ''}{s.claim} | {s.said:.4g} | {_found(s)} "
+                f"| {'agrees' if s.agrees else '**differs**'} | {s.why} |"
+                for s in figure.statements
+            ]
+            lines.append("")
+    return "\n".join(lines)
+
+
+def _name(figure: ThesisFigure) -> str:
+    return figure.number if figure.number.startswith("Table") else f"Figure {figure.number}"
+
+
+def _found(statement: ThesisStatement) -> str:
+    return f"{statement.found:.4g}" + (f" ± {statement.error:.1g}" if statement.error else "")
+
+
+def plot(figure: ThesisFigure) -> Figure:
+    """Draws a figure of the thesis, with its caption; needs matplotlib.
+
+    Parameters
+    ----------
+    figure : ThesisFigure
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As wide as its panels need, up to three side by side; its axes are the panels.
+
+    Raises
+    ------
+    ImportError
+        matplotlib is missing.
+    """
+    from . import plotting
+
+    panels = figure.panels
+    width = {1: 6.4, 2: 9.0}.get(len(panels), 11.0)
+    caption = textwrap.wrap(figure.caption, round(16.5 * width))
+    with plotting.style():
+        picture = plotting.new_figure(width, 4.3 + 0.16 * len(caption))
+        picture.suptitle(_name(figure), x=0.01, ha="left", fontsize=11, fontweight="bold")
+        for axes, panel in zip(picture.subplots(1, len(panels), squeeze=False)[0], panels):
+            _draw(axes, panel)
+        _legend_of_kinds(picture, panels)
+        picture.text(0.01, 0.01, "\n".join(caption), fontsize=8, color=plotting.GREY, va="bottom")
+        bottom = (0.16 * len(caption) + 0.35) / (4.3 + 0.16 * len(caption))
+        picture.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
+    return picture
+
+
+def _draw(axes: Axes, panel: ThesisPanel) -> None:
+    from . import plotting
+
+    colours = _colours(panel)
+    named = set()
+    for curve in panel.curves:
+        label = curve.label if curve.label not in named else None
+        named.add(curve.label)
+        colour = colours[curve.label]
+        if curve.kind == "region":
+            axes.fill(curve.x, curve.y, color=plotting.PALE, lw=0, label=label, zorder=0)
+        elif curve.kind == "limit":
+            axes.plot(curve.x, curve.y, ":", color=plotting.GREY, lw=1, label=label, zorder=1)
+        elif curve.kind == "simulation":
+            error = 2 * curve.error if len(curve.error) else None
+            axes.errorbar(
+                curve.x,
+                curve.y,
+                error,
+                fmt="o",
+                ms=2.6,
+                lw=0.8,
+                color=colour,
+                label=label,
+                zorder=3,
+            )
+        else:
+            axes.plot(curve.x, curve.y, _LINES[curve.kind], color=colour, label=label, zorder=2)
+    if panel.log_x:
+        axes.set_xscale("log")
+    if panel.log_y:
+        axes.set_yscale("log")
+    if panel.x_limits:
+        axes.set_xlim(panel.x_limits)
+    if panel.y_limits:
+        axes.set_ylim(panel.y_limits)
+    axes.set(title=panel.title, xlabel=panel.x, ylabel=panel.y)
+    axes.grid(color=plotting.PALE, lw=0.6)
+    axes.set_axisbelow(True)
+    many = len(named) > _MOST_LABELS
+    axes.legend(fontsize=6.5 if many else 7.5, ncols=2 if many else 1, handlelength=2.6)
+
+
+def _colours(panel: ThesisPanel) -> dict[str, object]:
+    """A colour for each label: the house's, or a scale where there are many."""
+    from matplotlib import colormaps
+
+    from . import plotting
+
+    labels = list(dict.fromkeys(c.label for c in panel.curves if c.kind not in ("limit", "region")))
+    if len(labels) <= len(plotting.COLOURS):
+        colours = dict(zip(labels, plotting.COLOURS))
+    else:
+        colours = dict(zip(labels, colormaps["viridis"](np.linspace(0, 0.92, len(labels)))))
+    return {curve.label: plotting.GREY for curve in panel.curves} | colours
+
+
+def _legend_of_kinds(picture: Figure, panels: list[ThesisPanel]) -> None:
+    """What dashes and points mean, in one line under the panels."""
+    from matplotlib.lines import Line2D
+
+    from . import plotting
+
+    kinds = {curve.kind for panel in panels for curve in panel.curves}
+    handles = [
+        Line2D([], [], color=plotting.INK, marker="o", ls="", ms=2.6, label=words)
+        if kind == "simulation"
+        else Line2D([], [], color=plotting.INK, ls=_LINES[kind], label=words)
+        for kind, words in _WORDS.items()
+        if kind in kinds
+    ]
+    picture.legend(
+        handles=handles,
+        loc="outside upper right",
+        ncols=len(handles),
+        fontsize=7.5,
+        handlelength=2.6,
+    )

@@ -1,0 +1,229 @@
+// What there is, and how it is written, summed up and held against what is expected.
+#include <stickslip/error.hpp>
+#include <stickslip/thesis.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "thesis/figures.hpp"
+
+namespace stickslip {
+
+namespace {
+
+struct Entry {
+  std::string_view number;
+  ThesisFigure (*draw)(Thesis&);
+};
+
+constexpr std::array contents{
+    Entry{"2.1", detail::figure_2_1}, Entry{"2.2", detail::figure_2_2}, Entry{"2.3", detail::figure_2_3},
+    Entry{"2.4", detail::figure_2_4}, Entry{"2.5", detail::figure_2_5}, Entry{"2.6", detail::figure_2_6},
+    Entry{"3.1", detail::figure_3_1}, Entry{"3.2", detail::figure_3_2}, Entry{"3.3", detail::figure_3_3},
+    Entry{"4.1", detail::figure_4_1}, Entry{"4.2", detail::figure_4_2}, Entry{"4.3", detail::figure_4_3},
+    Entry{"4.4", detail::figure_4_4}, Entry{"4.5", detail::figure_4_5}, Entry{"4.6", detail::figure_4_6},
+    Entry{"4.7", detail::figure_4_7}, Entry{"4.8", detail::figure_4_8}, Entry{"5.1", detail::figure_5_1},
+    Entry{"5.2", detail::figure_5_2}, Entry{"5.3", detail::figure_5_3}, Entry{"5.4", detail::figure_5_4},
+    Entry{"5.5", detail::figure_5_5}, Entry{"5.6", detail::figure_5_6}, Entry{"Table 5.1", detail::table_5_1},
+    Entry{"5.7", detail::figure_5_7}, Entry{"A.2", detail::figure_a_2}};
+
+constexpr auto listed = [] {
+  std::array<std::string_view, contents.size()> result{};
+  for (std::size_t i = 0; i < contents.size(); ++i) result[i] = contents[i].number;
+  return result;
+}();
+
+constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "simulation", "limit", "region"};
+const char* name(ThesisCurve::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+
+std::string format(const char* form, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, form, value);
+  return text;
+}
+std::string exactly(double value) { return format("%.17g", value); }
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
+}
+
+// A figure as the summary prints it.
+std::string digits(double value) { return format("%.4g", value); }
+std::string digits(double value, double error) {
+  return error > 0 ? digits(value) + " +- " + format("%.1g", error) : digits(value);
+}
+
+// One number that is checked: where it stands, and what it is.
+struct Number {
+  std::string place;
+  double value, error, scale;
+};
+
+// Curves at up to nine points, all points of simulations, all statements.
+std::vector<Number> numbers_of(const ThesisFigure& figure) {
+  std::vector<Number> result;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p)
+    for (std::size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
+      const ThesisCurve& curve = figure.panels[p].curves[c];
+      // The 1000 members of the thesis are there to be looked at.
+      if (!curve.even || curve.kind == ThesisCurve::Kind::limit || curve.y.empty()) continue;
+      double scale = 0;
+      for (const double y : curve.y)
+        if (std::isfinite(y)) scale = std::max(scale, std::abs(y));
+      const std::size_t last = curve.y.size() - 1, parts = curve.members > 0 ? last : std::min<std::size_t>(last, 8);
+      for (std::size_t i = 0; i <= parts; ++i) {
+        const std::size_t at = parts == 0 ? 0 : i * last / parts;
+        result.push_back({std::to_string(p) + "/" + std::to_string(c) + "/" + std::to_string(at), curve.y[at],
+                          curve.error.empty() ? 0 : curve.error[at], scale});
+      }
+    }
+  for (std::size_t s = 0; s < figure.statements.size(); ++s) {
+    const ThesisStatement& statement = figure.statements[s];
+    result.push_back({"statement/" + std::to_string(s), statement.found, statement.error, std::abs(statement.found)});
+  }
+  return result;
+}
+
+constexpr std::string_view expected_text =
+#include "thesis/expected.inc"
+    ;
+constexpr double expected_members = 100'000;
+
+}  // namespace
+
+namespace detail {
+
+std::string number(double value) { return format("%.6g", value); }
+
+ThesisStatement about(std::string where, std::string claim, double said, double within, Estimate found,
+                      std::string why) {
+  const bool agrees = std::abs(found.value - said) <= within + 3 * found.error || (found.value == said);
+  return {std::move(where), std::move(claim), said, found.value, found.error, agrees, std::move(why)};
+}
+ThesisStatement at_most(std::string where, std::string claim, double said, Estimate found, std::string why) {
+  return {std::move(where),
+          std::move(claim) + " (at most)",
+          said,
+          found.value,
+          found.error,
+          found.value <= said * (1 + 1e-12) + 3 * found.error,
+          std::move(why)};
+}
+ThesisStatement at_least(std::string where, std::string claim, double said, Estimate found, std::string why) {
+  return {std::move(where),
+          std::move(claim) + " (at least)",
+          said,
+          found.value,
+          found.error,
+          found.value >= said * (1 - 1e-12) - 3 * found.error,
+          std::move(why)};
+}
+
+}  // namespace detail
+
+Thesis::Thesis(ThesisOptions options) : options_(std::move(options)) {
+  detail::require(options_.members >= 100, "Thesis: members must be at least 100",
+                  static_cast<double>(options_.members));
+}
+
+std::span<const std::string_view> Thesis::numbers() noexcept { return listed; }
+
+ThesisFigure Thesis::figure(std::string_view number) {
+  const auto entry = std::ranges::find(contents, number, &Entry::number);
+  if (entry == contents.end()) {
+    std::string message = "Thesis: number must be one of";
+    for (const Entry& e : contents) message += (e.number == contents[0].number ? " " : ", ") + std::string(e.number);
+    throw std::invalid_argument(message + ", got " + std::string(number));
+  }
+  number_ = number;
+  if (options_.heartbeat) options_.heartbeat(number_, 0);
+  const auto begin = std::chrono::steady_clock::now();
+  ThesisFigure figure = entry->draw(*this);
+  figure.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return figure;
+}
+
+const Ensemble& Thesis::ensemble(const std::string& what, std::uint64_t members, bool velocity_spectrum,
+                                 const std::function<Ensemble(const EnsembleOptions&)>& run) {
+  const std::string key = what + ", " + std::to_string(members);
+  if (const auto kept = ensembles_.find(key); kept != ensembles_.end()) return kept->second;
+  EnsembleOptions options{
+      .members = members, .seed = options_.seed, .threads = options_.threads, .velocity_spectrum = velocity_spectrum};
+  if (options_.heartbeat)
+    options.heartbeat = [&](const EnsembleProgress& progress) {
+      options_.heartbeat(number_ + ": " + what,
+                         static_cast<double>(progress.done) / static_cast<double>(progress.members));
+    };
+  return ensembles_.emplace(key, run(options)).first->second;
+}
+
+std::string thesis_csv(const ThesisFigure& figure) {
+  std::string text = "panel,label,kind,members,x,y,error\n";
+  for (const ThesisPanel& panel : figure.panels)
+    for (const ThesisCurve& curve : panel.curves)
+      for (std::size_t i = 0; i < curve.x.size(); ++i)
+        text += quoted(panel.title) + ',' + quoted(curve.label) + ',' + name(curve.kind) + ',' +
+                std::to_string(curve.members) + ',' + exactly(curve.x[i]) + ',' + exactly(curve.y[i]) + ',' +
+                (curve.error.empty() ? "" : exactly(curve.error[i])) + '\n';
+  return text;
+}
+
+std::string thesis_summary(std::span<const ThesisFigure> figures) {
+  std::ostringstream text;
+  for (const ThesisFigure& figure : figures) {
+    text << (figure.number.starts_with("Table") ? "" : "Figure ") << figure.number << ", "
+         << format("%.2g", figure.seconds) << " s";
+    if (!figure.thesis_cost.empty()) text << " (the thesis: " << figure.thesis_cost << ")";
+    text << '\n';
+    for (const ThesisStatement& s : figure.statements) {
+      text << (s.agrees ? "  agrees  " : "  differs ") << (s.where.empty() ? "" : s.where + ": ") << s.claim << ": "
+           << (s.where.empty() ? "" : "thesis ") << digits(s.said) << ", found " << digits(s.found, s.error)
+           << (s.why.empty() ? "" : "; " + s.why) << '\n';
+    }
+  }
+  return text.str();
+}
+
+std::string thesis_expectations(const ThesisFigure& figure) {
+  std::string text;
+  for (const Number& n : numbers_of(figure))
+    text += figure.number + ',' + n.place + ',' + format("%.9g", n.value) + ',' + format("%.3g", n.error) + '\n';
+  return text;
+}
+
+std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure, std::uint64_t members) {
+  std::map<std::string, std::pair<double, double>, std::less<>> expected;
+  std::istringstream lines{std::string(expected_text)};
+  for (std::string line; std::getline(lines, line);) {
+    std::array<std::string, 4> cells;
+    std::istringstream row(line);
+    for (std::string& cell : cells) std::getline(row, cell, ',');
+    if (cells[0] == figure.number) expected[cells[1]] = {std::stod(cells[2]), std::stod(cells[3])};
+  }
+  std::vector<ThesisCheck> checks;
+  const double trials = 1 + expected_members / static_cast<double>(members);
+  for (const Number& n : numbers_of(figure)) {
+    const auto entry = expected.find(n.place);
+    const std::string what = figure.number + " " + n.place;
+    if (entry == expected.end()) {
+      checks.push_back({what + " (not expected)", n.value, std::nan(""), 0, false});
+      continue;
+    }
+    const auto [value, error] = entry->second;
+    if (error * std::sqrt(trials) > 0.1 * std::abs(value)) continue;
+    const double allowed = 5 * error * std::sqrt(trials) + 1e-6 * n.scale;
+    checks.push_back(
+        {what, n.value, value, allowed,
+         std::abs(n.value - value) <= allowed || n.value == value || (std::isnan(n.value) && std::isnan(value))});
+  }
+  return checks;
+}
+
+}  // namespace stickslip

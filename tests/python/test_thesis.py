@@ -1,0 +1,83 @@
+"""The thesis's figures from Python: pictures, files, the command."""
+
+import numpy as np
+import pytest
+from stickslip import cli
+from stickslip.thesis import Thesis, file_stem, page, plot
+
+
+def test_every_figure_has_a_name_of_its_own():
+    stems = {file_stem(number) for number in Thesis.numbers}
+    assert len(stems) == len(Thesis.numbers) == 26
+    assert {"figure_2_1", "figure_a_2", "table_5_1"} <= stems
+
+
+def test_a_picture_has_the_panels_and_says_what_is_seen():
+    matplotlib = pytest.importorskip("matplotlib")
+    figure = Thesis(members=200).figure("4.5")
+    picture = plot(figure)
+    assert isinstance(picture, matplotlib.figure.Figure)
+    assert [axes.get_ylabel() for axes in picture.axes] == [panel.y for panel in figure.panels]
+    assert picture.axes[1].get_yscale() == "log"
+    said = " ".join(text.get_text() for text in picture.texts).replace("\n", " ")
+    assert figure.caption in said
+
+
+def test_curves_are_arrays_that_cannot_be_written_to():
+    curve = Thesis().figure("2.1").panels[0].curves[0]
+    # (2.24) at omega = 0.25 with B/a = 1.3.
+    assert curve.y[0] == pytest.approx(np.sqrt(1.3**2 - (4 / np.pi) ** 2) / 0.25**2, rel=1e-12)
+    with pytest.raises(ValueError, match="read-only"):
+        curve.y[0] = 1
+
+
+def test_an_unknown_figure_is_refused():
+    with pytest.raises(ValueError, match=r"must be one of 2\.1, .*, A\.2, got 1\.1"):
+        Thesis().figure("1.1")
+
+
+def test_what_the_heartbeat_raises_ends_the_work():
+    def heartbeat(what, share):
+        assert 0 <= share <= 1
+        raise RuntimeError(what)
+
+    with pytest.raises(RuntimeError, match=r"4\.4"):
+        Thesis(members=500, heartbeat=heartbeat).figure("4.4")
+
+
+def test_a_page_shows_every_statement():
+    figure = Thesis().figure("A.2")
+    text = page([figure], ".png")
+    assert "![Figure A.2](figure_a_2.png)" in text
+    for statement in figure.statements:
+        assert statement.claim in text
+    assert text.count("**differs**") == sum(not s.agrees for s in figure.statements) > 0
+
+
+def test_the_command_writes_pictures_numbers_and_a_page(tmp_path, capsys):
+    pytest.importorskip("matplotlib")
+    out = tmp_path / "new" / "folder"
+    assert cli.main(["thesis", "A.2", "Table 5.1", "--members", "200", "--out", str(out)]) == 0
+    assert sorted(file.name for file in out.iterdir()) == [
+        "figure_a_2.csv",
+        "figure_a_2.png",
+        "gallery.md",
+        "table_5_1.csv",
+        "table_5_1.png",
+    ]
+    printed = capsys.readouterr().out
+    assert "differs" in printed and "agrees" in printed and f"wrote 2 figures to {out}" in printed
+    assert (out / "figure_a_2.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_command_checks(capsys):
+    assert cli.main(["thesis", "2.1", "A.2", "--check"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1].endswith("of 2 figures, 0 off")
+    assert len(lines) > 20 and all(line.startswith("holds") for line in lines[:-1])
+
+
+def test_the_command_refuses_a_figure_before_it_begins(tmp_path, capsys):
+    assert cli.main(["thesis", "2.1", "9.9", "--check"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == "" and "got 9.9" in captured.err

@@ -1,0 +1,94 @@
+// The thesis's figures: that they are what they say, the same whoever computes them, and that a wrong one is found out.
+#include <stickslip/thesis.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "catch.hpp"
+
+using namespace stickslip;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+const ThesisCurve& simulated(const ThesisFigure& figure, std::uint64_t members) {
+  for (const ThesisPanel& panel : figure.panels)
+    for (const ThesisCurve& curve : panel.curves)
+      if (curve.kind == ThesisCurve::Kind::simulation && curve.members == members) return curve;
+  throw std::logic_error("no such ensemble");
+}
+
+}  // namespace
+
+TEST_CASE("a figure that the thesis has not is refused, and those it has are named") {
+  Thesis thesis;
+  CHECK_THROWS_WITH(thesis.figure("6.1"), ContainsSubstring("2.1, 2.2") && ContainsSubstring("got 6.1"));
+  CHECK_THROWS_WITH(Thesis({.members = 99}), ContainsSubstring("at least 100") && ContainsSubstring("99"));
+  CHECK(Thesis::numbers().size() == 26);
+}
+
+TEST_CASE("every point of a curve has a place, and an error where it is simulated") {
+  Thesis thesis({.members = 500});
+  for (const char* number : {"2.1", "3.3", "4.6", "5.3", "A.2"})
+    for (const ThesisPanel& panel : thesis.figure(number).panels)
+      for (const ThesisCurve& curve : panel.curves) {
+        INFO(number << " " << curve.label);
+        CHECK(curve.x.size() == curve.y.size());
+        CHECK(std::ranges::all_of(curve.y, [](double y) { return std::isfinite(y); }));
+        if (curve.members > 0) CHECK(curve.error.size() == curve.y.size());
+      }
+}
+
+TEST_CASE("a figure is the same on one thread and on three, and whatever was drawn before") {
+  Thesis one({.members = 300, .threads = 1}), three({.members = 300, .threads = 3});
+  three.figure("4.4");
+  CHECK(thesis_csv(one.figure("4.6")) == thesis_csv(three.figure("4.6")));
+}
+
+TEST_CASE("the block of figures 4.4 to 4.7 moves as fast as an independent program has it") {
+  // 0.59675(21): 40,000 members by another program and generator; at Omega_1 = 20/pi^2, which is the point of x
+  // = 2.026.
+  Thesis thesis({.members = 20'000, .seed = 11});
+  const ThesisFigure figure = thesis.figure("4.7");
+  const ThesisCurve& curve = simulated(figure, 20'000);
+  const auto at = static_cast<std::size_t>(
+      std::ranges::find_if(curve.x, [](double x) { return std::abs(x - 2.0264) < 1e-3; }) - curve.x.begin());
+  REQUIRE(at < curve.x.size());
+  // The seed is fixed; else a false alarm in 1.7 million.
+  CHECK(std::abs(curve.y[at] - 0.59675) <= 5 * std::hypot(curve.error[at], 0.00021));
+}
+
+TEST_CASE("a number that is off is found out, and one that is right is let pass") {
+  Thesis thesis({.members = 2000, .seed = 2});
+  for (const char* number : {"2.1", "4.4", "5.6"}) {
+    ThesisFigure figure = thesis.figure(number);
+    const auto all_hold = [&] {
+      return std::ranges::all_of(thesis_check(figure, 2000), [](const ThesisCheck& c) { return c.holds; });
+    };
+    INFO(number);
+    CHECK(!thesis_check(figure, 2000).empty());
+    CHECK(all_hold());
+    // 4.4's velocities have errors of 1 to 2 %, so that 20 % is ten of them.
+    for (double& y : figure.panels[0].curves[1].y) y *= 1.2;
+    CHECK(!all_hold());
+  }
+}
+
+TEST_CASE("a file of a figure has a line for each point and 17 digits") {
+  Thesis thesis;
+  const ThesisFigure figure = thesis.figure("2.1");
+  const std::string text = thesis_csv(figure);
+  std::size_t points = 0;
+  for (const ThesisPanel& panel : figure.panels)
+    for (const ThesisCurve& curve : panel.curves) points += curve.x.size();
+  CHECK(static_cast<std::size_t>(std::ranges::count(text, '\n')) == points + 1);
+  CHECK(text.starts_with("panel,label,kind,members,x,y,error\n"));
+  const std::size_t begin = text.find("thesis,0,") + 9, end = text.find(',', begin);
+  CHECK(std::stod(text.substr(begin, end - begin)) == figure.panels[0].curves[0].x[0]);
+}
+
+TEST_CASE("what a heartbeat throws ends a figure") {
+  Thesis thesis({.members = 1000, .heartbeat = [](std::string_view, double) { throw std::runtime_error("enough"); }});
+  CHECK_THROWS_WITH(thesis.figure("5.4"), ContainsSubstring("enough"));
+}
