@@ -63,12 +63,14 @@ with style():
         axes.minorticks_off()
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     peaks, residuals, _ = figure.axes
+    peaks.legend(fontsize=8, loc="lower left")
     held = 100 * mu * g / wn**2  # at rest friction holds the spring: no residual beyond
-    residuals.plot(mu, held, ":", color="#0072b2", label="mu g / wn\N{SUPERSCRIPT TWO}")
-    for axes in (peaks, residuals):
-        axes.legend(fontsize=8, loc="lower left")
-    figure.suptitle(
-        f"A floor of period {args.period:g} s in {len(quakes)} records", x=0.01, ha="left"
+    residuals.plot(mu, held, ":", color="#0072b2")
+    residuals.set_ylim(top=1.5 * held.max())
+    residuals.annotate(
+        "mu g / wn\N{SUPERSCRIPT TWO}", (mu[5], 1.3 * held[5]), ha="right", color="#0072b2"
     )
+    title = f"A floor of period {args.period:g} s in {len(quakes)} records"
+    figure.suptitle(title, x=0.01, ha="left", fontsize=10, fontweight="bold")
 args.out.mkdir(parents=True, exist_ok=True)
 print("wrote", save(figure, args.out / "03_isolated_floor.png"))
