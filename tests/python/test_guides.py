@@ -1,5 +1,6 @@
 """What the guides show runs as it stands: Python, commands of the shell, whole C++ programs."""
 
+import math
 import re
 import shlex
 import shutil
@@ -7,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 import stickslip as ss
 
@@ -89,3 +91,92 @@ def test_the_cpp_compiles_and_runs(code, tmp_path):
     answer = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     for expected in re.findall(r"printf\(.*?// (.*)$", code, re.MULTILINE):
         assert expected in answer
+
+
+# ---- the tables, slid again
+
+
+def rows(page, heading):
+    """Cells of the table whose first line begins so."""
+    lines = (DOCS / "guides" / page).read_text(encoding="utf-8").splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith(heading)) + 2
+    end = next(i for i in range(begin, len(lines)) if not lines[i].startswith("|"))
+    return [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in lines[begin:end]]
+
+
+def agree(shown, found):
+    """The figures of a row, each to the digits that are shown; a last digit off by one passes."""
+    assert len(shown) == len(found)
+    for text, value in zip(shown, found):
+        places = len(text.partition(".")[2])
+        assert value == pytest.approx(float(text), abs=1.01 * 10.0**-places)
+
+
+@pytest.fixture(scope="module")
+def quakes(pyslammer_files):
+    return [ss.read_record(file) for file in pyslammer_files]
+
+
+def slide(law, quakes, period=math.inf):
+    """Peaks, residuals [cm] and what is transmitted [g]."""
+    wn = 2 * math.pi / period
+    slider = ss.Slider(law, natural_frequency=wn)
+    responses = [ss.integrate(slider, quake, settle=True) for quake in quakes]
+    peak = np.array([r.peak for r in responses])
+    held = [0 if r.slips else quake.peak_acceleration for r, quake in zip(responses, quakes)]
+    transmitted = np.where(held, held, law.slip_level + wn**2 * peak) / ss.STANDARD_GRAVITY
+    return 100 * peak, 100 * np.array([abs(r.residual) for r in responses]), transmitted
+
+
+def test_the_table_of_blocks(quakes):
+    for mu, *shown in rows("equipment.md", "| mu | peak"):
+        peak, residual, _ = slide(ss.Coulomb(mu=float(mu)), quakes)
+        shown[-1] = shown[-1].split()[0]
+        middle = [np.median(peak), np.percentile(peak, 84), peak.max()]
+        agree(shown, [*middle, np.median(residual), residual.max(), np.sum(peak == 0)])
+
+
+def test_the_table_of_casters(quakes):
+    for mu, trail, width, *shown in rows("equipment.md", "| mu | trail"):
+        law = ss.Caster.from_geometry(
+            mu=float(mu), trail=float(trail) / 100, wheel_width=float(width) / 100
+        )
+        responses = [ss.integrate(law, quake) for quake in quakes]
+        within = [r.peak <= law.reach for r in responses]
+        rolling = [not r.at_rest for r in responses]
+        counts = [sum(within), len(quakes) - sum(within) - sum(rolling), sum(rolling)]
+        agree(shown, [law.slip_level / ss.STANDARD_GRAVITY, 100 * law.reach, *counts])
+        assert not np.logical_and(within, rolling).any()
+
+
+def test_the_table_of_slopes(quakes):
+    *table, medians = rows("slopes.md", "| record |")
+    both = []
+    for (_, pga, *shown), quake in zip(table, quakes, strict=True):
+        found = [
+            100 * ss.integrate(ss.Coulomb(mu=ky, backward=math.inf), motion, settle=True).residual
+            for ky in (0.05, 0.1, 0.2)
+            for motion in (quake, quake.scaled(-1))
+        ]
+        agree([pga, *shown], [quake.peak_acceleration / ss.STANDARD_GRAVITY, *found])
+        both.append(found)
+    means = np.array(both).reshape(-1, 3, 2).mean(axis=2)
+    agree([cell for cell in medians[1:] if cell], np.median(means, axis=0))
+
+
+@pytest.mark.parametrize("heading", ["| mu | peak", "| period"])
+def test_the_tables_of_floors(quakes, heading):
+    for first, *shown in rows("isolation.md", heading):
+        by_mu = heading.startswith("| mu")
+        mu = float(first) if by_mu else 0.06
+        period = 3.0 if by_mu else math.inf if first == "no spring" else float(first)
+        peak, residual, transmitted = slide(ss.Coulomb(mu=mu), quakes, period)
+        (p50, p84), (r50, r84), (t50, t84) = (
+            np.percentile(figure, (50, 84)) for figure in (peak, residual, transmitted)
+        )
+        bound = 100 * mu * ss.STANDARD_GRAVITY * (period / (2 * math.pi)) ** 2
+        if by_mu:
+            agree(shown, [p50, p84, r50, r84, t50, t84])
+        else:
+            found = [p50, p84, peak.max(), r50, r84, residual.max(), bound, t84]
+            agree(*zip(*((text, value) for text, value in zip(shown, found) if text)))
