@@ -1,8 +1,11 @@
 // A seismic code with a time loop of its own: a block stands on the floor of a building, which the code steps itself.
 // The block is advanced by one call per step, and nothing is carried but its state.
+//
+//     time_loop [file]        writes the histories to the file, as comma-separated values
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <numbers>
 #include <stickslip/core.hpp>
 #include <vector>
@@ -25,13 +28,13 @@ class Building {
   double displacement_ = 0, velocity_ = 0;  // of the floor, relative to the ground [m], [m/s]
 };
 
-int main() {
+int main(int argc, char** argv) {
   const double dt = 0.005;  // [s]
   const Slider slider(Coulomb::from_friction(0.3));
   Building building;
   State block;  // at rest
   double floor = 0;
-  std::vector<double> floor_history{floor};
+  std::vector<double> floor_history{floor}, block_history{block.displacement};
 
   for (int i = 1; i <= 2000; ++i) {
     const double t = i * dt;
@@ -40,6 +43,7 @@ int main() {
     advance(slider, Segment{.duration = dt, .start = floor, .end = next}, block);
     floor = next;
     floor_history.push_back(floor);
+    block_history.push_back(block.displacement);
   }
   std::printf("after the earthquake the block is %.4f m from where it stood, %s\n", block.displacement,
               block.mode == Mode::stuck ? "at rest" : "still sliding");
@@ -47,6 +51,15 @@ int main() {
   // The same floor motion, as one whole.
   const Response response = integrate(slider, GroundMotion(floor_history, dt));
   std::printf("on its way it was at most %.4f m away\n", response.peak);
+
+  if (argc > 1) {
+    std::ofstream file(argv[1]);
+    file << "time [s],floor acceleration [m/s^2],block [m]\n";
+    for (std::size_t i = 0; i < floor_history.size(); ++i)
+      file << static_cast<double>(i) * dt << ',' << floor_history[i] << ',' << block_history[i] << '\n';
+    if (!file.flush()) return EXIT_FAILURE;
+  }
+
   const bool sane = response.peak > 0 && std::abs(response.residual - block.displacement) < 1e-12 * response.peak;
   return sane ? EXIT_SUCCESS : EXIT_FAILURE;
 }

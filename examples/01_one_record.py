@@ -1,0 +1,34 @@
+"""How far does a block slide in one earthquake?
+
+    python examples/01_one_record.py [RECORD] [--mu 0.2] [--out DIR]
+
+Without a record of yours it takes Kobe 1995, from the package pyslammer.
+"""
+
+import argparse
+from pathlib import Path
+
+import stickslip as ss
+from stickslip.demo import sample_records
+from stickslip.plotting import save
+
+ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+ask.add_argument("record", nargs="?", help="a file of any format that read_record knows")
+ask.add_argument("--mu", type=float, default=0.2, help="coefficient of friction [-]")
+ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+args = ask.parse_args()
+
+file = args.record or next(f for f in sample_records() if f.name.startswith("Kobe"))
+quake = ss.read_record(file)
+r = ss.integrate(ss.Coulomb(mu=args.mu), quake, settle=True)  # on until it rests
+
+print(
+    f"{quake.name}: {quake.peak_acceleration / ss.STANDARD_GRAVITY:.3f} g, {quake.duration:.1f} s"
+)
+print(f"peak displacement      {100 * r.peak:7.2f} cm")
+print(f"residual displacement  {100 * r.residual:7.2f} cm")
+print(f"slid {r.time_sliding:.2f} s in {r.slips} slips, {100 * r.sliding_distance:.1f} cm of way")
+print(f"energy: {r.energy.input:.4f} m^2/s^2 put in, {r.energy.imbalance:.0e} unaccounted for")
+
+args.out.mkdir(parents=True, exist_ok=True)
+print("wrote", save(r.plot(), args.out / "01_one_record.png"))

@@ -1,0 +1,182 @@
+"""What the guides show runs as it stands: Python, commands of the shell, whole C++ programs."""
+
+import math
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGES = [DOCS / "start.md", DOCS / "conventions.md", *sorted((DOCS / "guides").glob("*.md"))]
+
+
+def blocks(language):
+    """The blocks of all pages, each as a parameter that is named after its page and line."""
+    found = []
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for block in re.finditer(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
+            line = text[: block.start(1)].count("\n") + 1
+            found.append(pytest.param(block[1], id=f"{page.stem}-{line}"))
+    return found
+
+
+@pytest.fixture
+def kobe(tmp_path, monkeypatch, pyslammer_files):
+    """The file of the guides' name, in PEER's format, in the current directory; Kobe itself."""
+    record = ss.read_record(next(f for f in pyslammer_files if f.name.startswith("Kobe")))
+    samples = [f"{n / ss.STANDARD_GRAVITY:.7E}" for n in record.acceleration]
+    header = [
+        "PEER NGA STRONG MOTION DATABASE RECORD",
+        "Kobe, Japan 1995, TAK, 90",
+        "ACCELERATION TIME SERIES IN UNITS OF G",
+        f"NPTS= {len(samples)}, DT= {record.dt:.4f} SEC",
+    ]
+    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
+    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_every_guide_has_code():
+    assert len(PAGES) == 7
+    pages = {param.id.rsplit("-", 1)[0] for kind in ("python", "cpp") for param in blocks(kind)}
+    assert pages == {page.stem for page in PAGES}
+
+
+@pytest.mark.parametrize("code", blocks("python"))
+def test_the_python_runs(code, kobe, capsys):
+    if "plot" in code:
+        pytest.importorskip("matplotlib")
+    exec(compile(code, "guide", "exec"), {"__name__": "guide"})
+    assert "nan" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("block", blocks("sh"))
+def test_the_commands_run(block, kobe):
+    for line in block.splitlines():
+        words = shlex.split(line, comments=True)
+        if not words or words[0] != "stickslip":
+            continue
+        if "--plot" in words:
+            pytest.importorskip("matplotlib")
+        subprocess.run([sys.executable, "-m", *words], check=True, capture_output=True)
+
+
+def test_the_table_of_the_first_page_is_the_one_printed(kobe):
+    command = [sys.executable, "-m", "stickslip", "slide", "kobe.AT2", "--mu", "0.1", "0.2", "0.3"]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    shown = (DOCS / "start.md").read_text(encoding="utf-8").splitlines()
+    figures = [line.split()[-6:] for line in printed.splitlines()[1:]]  # mu and what follows it
+    assert len(figures) == 3
+    assert all(row in [line.split()[-6:] for line in shown] for row in figures)
+
+
+@pytest.mark.parametrize("code", blocks("cpp"))
+def test_the_cpp_compiles_and_runs(code, tmp_path):
+    compiler = shutil.which("c++")
+    if compiler is None:
+        pytest.skip("no c++ here")
+    source, program = tmp_path / "guide.cpp", tmp_path / "guide"
+    source.write_text(code)
+    include = f"-I{DOCS.parent / 'include'}"
+    command = [compiler, "-std=c++20", "-pthread", include, source, "-o", program]
+    subprocess.run(command, check=True)
+    answer = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+    for expected in re.findall(r"printf\(.*?// (.*)$", code, re.MULTILINE):
+        assert expected in answer
+
+
+# ---- the tables, slid again
+
+
+def rows(page, heading):
+    """Cells of the table whose first line begins so."""
+    lines = (DOCS / "guides" / page).read_text(encoding="utf-8").splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith(heading)) + 2
+    end = next(i for i in range(begin, len(lines)) if not lines[i].startswith("|"))
+    return [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in lines[begin:end]]
+
+
+def agree(shown, found):
+    """The figures of a row, each to the digits that are shown; a last digit off by one passes."""
+    assert len(shown) == len(found)
+    for text, value in zip(shown, found):
+        places = len(text.partition(".")[2])
+        assert value == pytest.approx(float(text), abs=1.01 * 10.0**-places)
+
+
+@pytest.fixture(scope="module")
+def quakes(pyslammer_files):
+    return [ss.read_record(file) for file in pyslammer_files]
+
+
+def slide(law, quakes, period=math.inf):
+    """Peaks, residuals [cm] and what is transmitted [g]."""
+    wn = 2 * math.pi / period
+    slider = ss.Slider(law, natural_frequency=wn)
+    responses = [ss.integrate(slider, quake, settle=True) for quake in quakes]
+    peak = np.array([r.peak for r in responses])
+    held = [0 if r.slips else quake.peak_acceleration for r, quake in zip(responses, quakes)]
+    transmitted = np.where(held, held, law.slip_level + wn**2 * peak) / ss.STANDARD_GRAVITY
+    return 100 * peak, 100 * np.array([abs(r.residual) for r in responses]), transmitted
+
+
+def test_the_table_of_blocks(quakes):
+    for mu, *shown in rows("equipment.md", "| mu | peak"):
+        peak, residual, _ = slide(ss.Coulomb(mu=float(mu)), quakes)
+        shown[-1] = shown[-1].split()[0]
+        middle = [np.median(peak), np.percentile(peak, 84), peak.max()]
+        agree(shown, [*middle, np.median(residual), residual.max(), np.sum(peak == 0)])
+
+
+def test_the_table_of_casters(quakes):
+    for mu, trail, width, *shown in rows("equipment.md", "| mu | trail"):
+        law = ss.Caster.from_geometry(
+            mu=float(mu), trail=float(trail) / 100, wheel_width=float(width) / 100
+        )
+        responses = [ss.integrate(law, quake) for quake in quakes]
+        within = [r.peak <= law.reach for r in responses]
+        rolling = [not r.at_rest for r in responses]
+        counts = [sum(within), len(quakes) - sum(within) - sum(rolling), sum(rolling)]
+        agree(shown, [law.slip_level / ss.STANDARD_GRAVITY, 100 * law.reach, *counts])
+        assert not np.logical_and(within, rolling).any()
+
+
+def test_the_table_of_slopes(quakes):
+    *table, medians = rows("slopes.md", "| record |")
+    both = []
+    for (_, pga, *shown), quake in zip(table, quakes, strict=True):
+        found = [
+            100 * ss.integrate(ss.Coulomb(mu=ky, backward=math.inf), motion, settle=True).residual
+            for ky in (0.05, 0.1, 0.2)
+            for motion in (quake, quake.scaled(-1))
+        ]
+        agree([pga, *shown], [quake.peak_acceleration / ss.STANDARD_GRAVITY, *found])
+        both.append(found)
+    means = np.array(both).reshape(-1, 3, 2).mean(axis=2)
+    agree([cell for cell in medians[1:] if cell], np.median(means, axis=0))
+
+
+@pytest.mark.parametrize("heading", ["| mu | peak", "| period"])
+def test_the_tables_of_floors(quakes, heading):
+    for first, *shown in rows("isolation.md", heading):
+        by_mu = heading.startswith("| mu")
+        mu = float(first) if by_mu else 0.06
+        period = 3.0 if by_mu else math.inf if first == "no spring" else float(first)
+        peak, residual, transmitted = slide(ss.Coulomb(mu=mu), quakes, period)
+        (p50, p84), (r50, r84), (t50, t84) = (
+            np.percentile(figure, (50, 84)) for figure in (peak, residual, transmitted)
+        )
+        bound = 100 * mu * ss.STANDARD_GRAVITY * (period / (2 * math.pi)) ** 2
+        if by_mu:
+            agree(shown, [p50, p84, r50, r84, t50, t84])
+        else:
+            found = [p50, p84, peak.max(), r50, r84, residual.max(), bound, t84]
+            agree(*zip(*((text, value) for text, value in zip(shown, found) if text)))
