@@ -20,6 +20,7 @@ struct ThesisCurve {
     theory,      ///< a theory corrected, or one that the thesis did not have
     exact,       ///< an exact answer
     unstable,    ///< an exact answer that no disturbed motion comes back to
+    points,      ///< single exact answers
     simulation,  ///< an ensemble, with standard errors
     limit,       ///< a line to compare with
     region       ///< an outline, whose inside is meant

@@ -10,7 +10,7 @@
 namespace stickslip::python {
 namespace {
 
-constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "simulation", "limit", "region"};
+constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "points", "simulation", "limit", "region"};
 
 template <std::vector<double> ThesisCurve::*part>
 py::array_t<double> numbers(const py::object& self) {
@@ -35,6 +35,8 @@ void bind_figure(py::module_& m) {
     A theory corrected, or one that the thesis did not have.
 'exact', 'unstable'
     An exact answer; one that no disturbed motion comes back to.
+'points'
+    Single exact answers.
 'simulation'
     An ensemble, with standard errors.
 'limit', 'region'

@@ -48,11 +48,13 @@ __all__ = [
 _LINES = {"thesis": "--", "theory": "-.", "exact": "-", "unstable": ":"}
 _WORDS = {
     "thesis": "as in the thesis",
-    "theory": "corrected, or another theory",
+    "theory": "other theory",
     "exact": "exact",
     "unstable": "exact, unstable",
-    "simulation": "simulation, two standard errors",
+    "points": "exact",
+    "simulation": "simulation ± 2 s.e.",
 }
+_MARKS = {"simulation": "o", "points": "D"}
 _MOST_LABELS = 8  # more are told apart by a scale of colours
 
 
@@ -142,7 +144,7 @@ def plot(figure: ThesisFigure) -> Figure:
             _draw(axes, panel)
         _legend_of_kinds(picture, panels)
         picture.text(0.01, 0.01, "\n".join(caption), fontsize=8, color=plotting.GREY, va="bottom")
-        bottom = (0.16 * len(caption) + 0.35) / (4.3 + 0.16 * len(caption))
+        bottom = (0.16 * len(caption) + 0.1) / (4.3 + 0.16 * len(caption))
         picture.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
     return picture
 
@@ -186,8 +188,10 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
     axes.set(title=panel.title, xlabel=panel.x, ylabel=panel.y)
     axes.grid(color=plotting.PALE, lw=0.6)
     axes.set_axisbelow(True)
-    many = len(named) > _MOST_LABELS
-    axes.legend(fontsize=6.5 if many else 7.5, ncols=2 if many else 1, handlelength=2.6)
+    if len(named) > _MOST_LABELS:
+        axes.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1, 0.5))
+    else:
+        axes.legend(fontsize=7.5, handlelength=2.6)
 
 
 def _colours(panel: ThesisPanel) -> dict[str, object]:
@@ -212,8 +216,8 @@ def _legend_of_kinds(picture: Figure, panels: list[ThesisPanel]) -> None:
 
     kinds = {curve.kind for panel in panels for curve in panel.curves}
     handles = [
-        Line2D([], [], color=plotting.INK, marker="o", ls="", ms=2.6, label=words)
-        if kind == "simulation"
+        Line2D([], [], color=plotting.INK, marker=_MARKS[kind], ls="", ms=2.6, label=words)
+        if kind in _MARKS
         else Line2D([], [], color=plotting.INK, ls=_LINES[kind], label=words)
         for kind, words in _WORDS.items()
         if kind in kinds

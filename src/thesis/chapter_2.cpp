@@ -95,7 +95,7 @@ std::vector<OrbitBranch> caster_branches(const Thesis& thesis, const Slider<Cast
 const Slider<Caster> unit_caster(Caster(1.0, 1.0));
 
 std::vector<OrbitBranch> free_caster_branches(const Thesis& thesis, double b) {
-  return caster_branches(thesis, unit_caster, b, {0.45, 0.65, 1.2}, 0.15, 2.0, 12);
+  return caster_branches(thesis, unit_caster, b, {0.2, 0.45, 0.65, 1.2}, 0.15, 3.6, 16);
 }
 
 // The zone in which amplitudes are unstable whatever the force, averaged: an outline.
@@ -185,10 +185,10 @@ ThesisFigure figure_2_3(Thesis& thesis) {
   for (const double a_over_3l : {2.0, 1.0, 0.5}) {
     const double reach = 1 / a_over_3l, omega_unit = std::sqrt(a_over_3l);
     ThesisPanel panel{"$a/3\\ell$ = " + number(a_over_3l) + " 1/s²", "$\\omega$ [rad/s]", "amplitude $A$ [m]"};
-    panel.curves.push_back(unstable_zone(svp, "averaged, unstable", omega_unit, reach, 12));
+    panel.curves.push_back(unstable_zone(svp, "averaged, unstable", omega_unit, reach, 16));
     for (std::size_t i = 0; i < loads.size(); ++i) {
       ThesisPanel unit;
-      add_branches(unit, svp, loads[i], 0.01, 12);
+      add_branches(unit, svp, loads[i], 0.01, 16);
       for (ThesisCurve& curve : unit.curves) {
         for (double& x : curve.x) x *= omega_unit;
         for (double& y : curve.y) y *= reach;
@@ -226,14 +226,14 @@ ThesisFigure figure_2_4(Thesis& thesis) {
   ThesisPanel panel{"Caster", "$\\omega$ [rad/s]", "amplitude $A$ [m]"};
   const SlowlyVaryingParameters svp(unit_caster);
   std::vector<Orbit> folds;
-  for (const double b : {0.4, 0.6, 0.8, 1.0, 1.1, 1.2})
+  for (const double b : {0.4, 0.5, 0.6, 0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.44})
     for (const OrbitBranch& branch : free_caster_branches(thesis, b))
       for (const std::size_t fold : branch.folds) folds.push_back(branch.orbits[fold]);
   std::ranges::sort(folds, {}, &Orbit::amplitude);
   for (const double a_over_3l : {4.0, 2.0, 1.0, 0.5, 0.25}) {
     const double reach = 1 / a_over_3l, omega_unit = std::sqrt(a_over_3l);
     const std::string label = "$a/3\\ell$ = " + number(a_over_3l) + " 1/s²";
-    ThesisCurve boundary{label, Kind::thesis, {}, {}}, exact{label, Kind::simulation, {}, {}};
+    ThesisCurve boundary{label, Kind::thesis, {}, {}}, exact{label, Kind::points, {}, {}};
     exact.even = false;
     for (const double amplitude : geometric(1e-3, 30, 200)) {
       boundary.x.push_back(svp.stability_boundary(amplitude).upper * omega_unit);
@@ -305,7 +305,7 @@ ThesisFigure figure_2_6(Thesis& thesis) {
   panel.curves.push_back(unstable_zone(svp, "averaged, unstable", 1, 1, 12));
   for (const double b : {0.5, 1.0, 1.25, 1.3, 2.0, 4.0}) {
     add_branches(panel, svp, b, 0.02, 12);
-    for (const OrbitBranch& branch : caster_branches(thesis, cart, b, {0.55, 0.85, 1.2}, 0.3, 2.0, 12))
+    for (const OrbitBranch& branch : caster_branches(thesis, cart, b, {0.55, 0.68, 0.85, 1.2}, 0.2, 2.0, 12))
       add_exact(panel, branch, ratio(b), 1, 1);
   }
   panel.x_limits = {0, 2};

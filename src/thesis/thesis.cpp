@@ -38,7 +38,7 @@ constexpr auto listed = [] {
   return result;
 }();
 
-constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "simulation", "limit", "region"};
+constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "points", "simulation", "limit", "region"};
 const char* name(ThesisCurve::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 std::string format(const char* form, double value) {
@@ -72,7 +72,6 @@ std::vector<Number> numbers_of(const ThesisFigure& figure) {
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
     for (std::size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
       const ThesisCurve& curve = figure.panels[p].curves[c];
-      // The 1000 members of the thesis are there to be looked at.
       if (!curve.even || curve.kind == ThesisCurve::Kind::limit || curve.y.empty()) continue;
       double scale = 0;
       for (const double y : curve.y)
