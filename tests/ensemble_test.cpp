@@ -658,7 +658,7 @@ struct Figures {
 
 }  // namespace
 
-TEST_CASE("standard errors are as large as the scatter between ensembles", "[ensemble]") {
+TEST_CASE("standard errors are as large as the scatter between ensembles", "[ensemble][statistics]") {
   // 1000 ensembles: 999 degrees of freedom, 0.86 to 1.153 except in 2 of 1000 times, 11 figures: 1 in 45, somewhat more
   // as they are not quite normal. What is squared about the mean of a block says too little by some 1/members; the
   // kurtosis, no mean of anything but a ratio, is off by a few times that, and by 8 members there is no telling it.
@@ -692,7 +692,7 @@ TEST_CASE("standard errors are as large as the scatter between ensembles", "[ens
   if (members == 64) CHECK((kurtosis.ratio() > low && kurtosis.ratio() < high + 4.0 / 64));
 }
 
-TEST_CASE("bounds of quantiles and exceedances hold as often as they say", "[ensemble]") {
+TEST_CASE("bounds of quantiles and exceedances hold as often as they say", "[ensemble][statistics]") {
   // The truth, from 256,000 other members, is known 60 times better than 64 say. Bounds of 90 % hold with at least that
   // probability: in fewer than 869 of 1000 ensembles once in 1500 times; 8 counts.
   const GaussianExcitation excitation = shaking(60);

@@ -87,7 +87,7 @@ TEST_CASE("the case of figures 4.4 to 4.6 comes out", "[monte_carlo]") {
   }
 }
 
-TEST_CASE("other bands, with and without correction of the interpolation, come out", "[monte_carlo]") {
+TEST_CASE("other bands, with and without correction of the interpolation, come out", "[monte_carlo][statistics]") {
   for (const reference::BandPassRun& run : reference::band_pass_runs) {
     INFO(run.id);
     const GaussianExcitation shaking = excitation(run);

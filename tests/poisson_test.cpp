@@ -300,7 +300,7 @@ TEST_CASE("a stationary start has its variance at once; the thesis's rises to it
   }
 }
 
-TEST_CASE("ground velocity and displacement have the variances of the thesis", "[poisson]") {
+TEST_CASE("ground velocity and displacement have the variances of the thesis", "[poisson][statistics]") {
   const double half_width = 1.0 / 6, rate = 3, sigma = 2.5, duration = 60;
   const PoissonPulses excitation(rate, half_width, sigma, duration);
   const double power = rate * sigma * sigma;

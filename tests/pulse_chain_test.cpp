@@ -145,7 +145,7 @@ TEST_CASE("the displacement variance comes to grow at the growth rate", "[pulse_
   }
 }
 
-TEST_CASE("an independent program's simulations are within the theory's promise", "[pulse_chain]") {
+TEST_CASE("an independent program's simulations are within the theory's promise", "[pulse_chain][statistics]") {
   for (const auto& run : reference::chain_runs)
     for (const bool refined : {false, true}) {
       CAPTURE(run.sigma, run.rate, refined);
@@ -156,7 +156,7 @@ TEST_CASE("an independent program's simulations are within the theory's promise"
     }
 }
 
-TEST_CASE("simulations over the plane are within the theory's promise", "[pulse_chain]") {
+TEST_CASE("simulations over the plane are within the theory's promise", "[pulse_chain][statistics]") {
   // docs/pulse_chain.md: 10 % of the growth rate over the plane, measured with 1e8 pulses a point.
   for (const double sigma : {0.5, 1.0, 3.0, 20.0})
     for (const double rate : {0.1, 1.0}) {
@@ -185,7 +185,7 @@ TEST_CASE("moments from rest on follow an ensemble's", "[pulse_chain]") {
   }
 }
 
-TEST_CASE("other pulses of equal steps, and other symmetric laws of amplitudes", "[pulse_chain]") {
+TEST_CASE("other pulses of equal steps, and other symmetric laws of amplitudes", "[pulse_chain][statistics]") {
   // 10 % again.
   const PulseShape three({0, 1, 2, 3}, {1, -2, 1}), four({0, 1, 2, 3, 4}, {0.5, 1, -1, -0.5});
   check(PoissonPulses(0.3, 1, 1, 400, {.shape = three}), 10'000, 0.1);

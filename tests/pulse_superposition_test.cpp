@@ -147,7 +147,7 @@ TEST_CASE("short times are said to be short", "[pulse_superposition]") {
   CHECK(m.displacement_variance.value[0] == 0);
 }
 
-TEST_CASE("unequal levels and amplitudes of nonzero mean drift", "[pulse_superposition]") {
+TEST_CASE("unequal levels and amplitudes of nonzero mean drift", "[pulse_superposition][statistics]") {
   // Rare pulses: superposition becomes right, and the ensemble says so. Three standard errors, five comparisons of
   // fixed seeds: drawn anew they would fail one time in 75. What overlaps do at lambda Dt = 1e-3 is a part in 200.
   const PoissonPulses plain(1e-3, 1, 3, 4e4);
@@ -229,7 +229,7 @@ TEST_CASE("a caster of great reach is a block", "[pulse_superposition]") {
   }
 }
 
-TEST_CASE("a caster under rare pulses spreads as in an ensemble", "[pulse_superposition]") {
+TEST_CASE("a caster under rare pulses spreads as in an ensemble", "[pulse_superposition][statistics]") {
   // Three standard errors and the part in 100 that overlaps do; two comparisons, which would fail one time in 185.
   const PoissonPulses pulses(2e-3, 1, 1.5, 3e4);
   const Slider caster(Caster(1, 4));

@@ -66,7 +66,7 @@ constexpr std::array<double, 4> time_steps = {0.4, 0.2, 0.1, 0.05};
 
 }  // namespace
 
-TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as dt goes to 0", "[white_noise]") {
+TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as dt goes to 0", "[white_noise][statistics]") {
   std::array<Stationary, 4> found;
   for (std::size_t i = 0; i < 4; ++i) {
     const GaussianExcitation noise = white(time_steps[i], duration);
@@ -133,7 +133,7 @@ TEST_CASE("the process in steps is that of a plain loop", "[white_noise]") {
   CHECK(apart(s.velocity_variance, mean, error) < 3);
 }
 
-TEST_CASE("velocities under white noise are Laplace distributed", "[white_noise]") {
+TEST_CASE("velocities under white noise are Laplace distributed", "[white_noise][statistics]") {
   // Kolmogorov and Smirnov: over 1.95 once in 1000 times. Steps of 0.05 s leave 0.0013 of the velocities at exactly 0,
   // and change a variance by 0.4 %: 0.1 of the statistic each.
   const GaussianExcitation noise = white(0.05, 102.4);
@@ -150,7 +150,7 @@ TEST_CASE("velocities under white noise are Laplace distributed", "[white_noise]
   CHECK(statistic * std::sqrt(members) < 1.95);
 }
 
-TEST_CASE("from rest, displacement and velocity spread as the exact transients say", "[white_noise]") {
+TEST_CASE("from rest, displacement and velocity spread as the exact transients say", "[white_noise][statistics]") {
   const Ensemble coarse = run_ensemble(Coulomb(1), white(0.04, 20.48), options(20'000));
   const Ensemble fine = run_ensemble(Coulomb(1), white(0.02, 20.48), options(20'000));
   const auto at = [](const Estimates& all, std::size_t i) { return Estimate{all.value[i], all.error[i]}; };
@@ -168,7 +168,7 @@ TEST_CASE("from rest, displacement and velocity spread as the exact transients s
   }
 }
 
-TEST_CASE("unequal levels drift by pi S0 (1 / forward - 1 / backward)", "[white_noise]") {
+TEST_CASE("unequal levels drift by pi S0 (1 / forward - 1 / backward)", "[white_noise][statistics]") {
   for (const auto& [forward, backward] : {std::pair{1.0, 2.0}, std::pair{2.0, 1.0}, std::pair{0.8, 1.0}}) {
     const auto drift = [&](double dt) {
       return run_ensemble(Coulomb(forward, backward), white(dt, duration), options(3000)).stationary().velocity_mean;

@@ -98,7 +98,7 @@ TEST_CASE("displacements are those of the moments' differential equations", "[wh
   }
 }
 
-TEST_CASE("E[x v] is the integral of E[v(s) v(t)] over the closed densities", "[white_noise_theory]") {
+TEST_CASE("E[x v] is the integral of E[v(s) v(t)] over the closed densities", "[white_noise_theory][statistics]") {
   for (const double t : {0.1, 3.0}) {
     // s = t sin^2: the roots of s and t - s, in which the integrand is smooth.
     const auto correlation = [&](double s) {
@@ -236,7 +236,7 @@ TEST_CASE("a level each way: what mirrors, and what is known of one side alone",
   CHECK(reflected.density(-1) == 0);
 }
 
-TEST_CASE("ensembles with a level each way spread and drift so", "[white_noise_theory]") {
+TEST_CASE("ensembles with a level each way spread and drift so", "[white_noise_theory][statistics]") {
   // Held loads of step dt are wrong by O(dt), which halving shows, in the same motions. Fixed seed; drawn anew, one of
   // five checks within three standard errors would fail 1 time in 75.
   const Coulomb law(1, 2);

@@ -163,11 +163,10 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
         elif curve.kind == "limit":
             axes.plot(curve.x, curve.y, ":", color=plotting.GREY, lw=1, label=label, zorder=1)
         elif curve.kind == "simulation":
-            error = 2 * curve.error if len(curve.error) else None
             axes.errorbar(
                 curve.x,
                 curve.y,
-                error,
+                2 * curve.error,
                 fmt="o",
                 ms=2.6,
                 lw=0.8,
@@ -175,6 +174,8 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
                 label=label,
                 zorder=3,
             )
+        elif curve.kind == "points":
+            axes.plot(curve.x, curve.y, "D", ms=3, color=colour, label=label, zorder=3)
         else:
             axes.plot(curve.x, curve.y, _LINES[curve.kind], color=colour, label=label, zorder=2)
     if panel.log_x:

@@ -69,7 +69,7 @@ void add_exact(ThesisPanel& panel, const OrbitBranch& branch, const std::string&
 std::vector<OrbitBranch> caster_branches(const Thesis& thesis, const Slider<Caster>& slider, double b,
                                          std::vector<double> starts, double low, double high, double largest) {
   const auto heartbeat = [&] {
-    if (thesis.options().heartbeat) thesis.options().heartbeat("exact orbits, " + ratio(b), 0);
+    if (thesis.options().heartbeat) thesis.options().heartbeat("exact orbits, B/a = " + number(b), 0);
   };
   const ContinuationOptions options{.largest_step = 0.04, .largest_amplitude = largest, .heartbeat = heartbeat};
   std::vector<OrbitBranch> branches;
@@ -152,9 +152,13 @@ ThesisFigure figure_2_2(Thesis& thesis) {
   ThesisPanel panel{"Caster", "$\\omega\\sqrt{3\\ell/a}$", "$A/3\\ell$"};
   const SlowlyVaryingParameters svp(unit_caster);
   panel.curves.push_back(unstable_zone(svp, "averaged, unstable", 1, 1, 12));
+  std::size_t folds = 0;
   for (const double b : {0.5, 1.0, 1.25, 1.3, 2.0, 4.0, 8.0}) {
     add_branches(panel, svp, b, 0.01, 12);
-    for (const OrbitBranch& branch : free_caster_branches(thesis, b)) add_exact(panel, branch, ratio(b), 1, 1);
+    for (const OrbitBranch& branch : free_caster_branches(thesis, b)) {
+      add_exact(panel, branch, ratio(b), 1, 1);
+      if (b == 1.3) folds += branch.folds.size();
+    }
   }
   panel.x_limits = {0, 2};
   panel.y_limits = {0, 8};
@@ -168,6 +172,8 @@ ThesisFigure figure_2_2(Thesis& thesis) {
   figure.statements.push_back(about("before (2.36)", "small motion at B/a = 1.25, ω √(3l/a) = 0.7: A/3l", 0, 0,
                                     {small.front().at_rest() ? small[1].amplitude : small.front().amplitude},
                                     "sticks twice a cycle; stable"));
+  figure.statements.push_back(about("after (2.43)", "folds of the curve for B/a = 1.3, above 4/π", 0, 0,
+                                    {static_cast<double>(folds)}, "exact curves fold twice, up to B/a = 1.44"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }

@@ -31,7 +31,7 @@ Moments linearized(double gamma, bool printed, std::span<const double> times) {
 Moments simulated(Thesis& thesis, double gamma, double end) {
   const double dt = end == 1 ? 0.005 : end == 10 ? 0.02 : 0.04;
   const auto samples = static_cast<std::size_t>(std::lround(end / dt)) + 1;
-  const std::string what = of(gamma) + " to t = " + number(end);
+  const std::string what = "gamma = " + number(gamma) + " to t = " + number(end);
   return thesis
       .ensemble(what, thesis.options().members, false,
                 [&](const EnsembleOptions& options) {
@@ -162,9 +162,21 @@ ThesisFigure figure_3_3(Thesis& thesis) {
                                     std::pow(pi, 5) / 2 * 100, 100,
                                     {linearized(0, false, end).displacement_variance.value[0]},
                                     "(3.47) drops an intercept of 47π²/48 times the growth"));
+  // z of (3.30) on the thesis's own way.
+  const std::vector<double> around = even(20, 60, 401);
+  const Moments way = linearized(0.01, true, around);
+  std::size_t passed = 0;
+  for (double z = 2; z > 1; ++passed) {
+    const double q11 = way.displacement_variance.value[passed], q12 = way.covariance.value[passed],
+                 q22 = way.velocity_variance.value[passed];
+    z = caster(0.01).reach() * std::sqrt(q22 / (2 * (q11 * q22 - q12 * q12)));
+  }
   const theory::TransitionTime transition = theory::transition_time(caster(0.01), 1.0);
-  figure.statements.push_back(about("(3.51)", "transition time for γ = 0.01, a² t/S0", transition.thesis, 0.5,
-                                    {transition.with_intercept}, "with the intercept of (3.47) that (3.51) drops"));
+  figure.statements.push_back(
+      about("(3.51)", "transition time for γ = 0.01, a² t/S0", transition.thesis, 0.1 * transition.thesis,
+            {around[passed - 1]},
+            "when the thesis's own equations come to z = 1; with the intercept that (3.51) drops, " +
+                number(std::round(10 * transition.with_intercept) / 10)));
   figure.statements.push_back(about("after (3.51)", "the transition comes before 5 S0/a² for γ above", 5e-2, 0.005,
                                     {1 / std::sqrt(std::pow(pi, 5) * (5 - pi * pi / 4))}));
   figure.statements.push_back(about("3.4.3", "linearization over simulation, displacement variance, γ = 0.01, t = 100",

@@ -172,11 +172,10 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
     }
     for (const std::uint64_t members : {thesis_members, thesis.options().members}) {
       const std::uint64_t some = std::min(members, thesis.options().members);
-      Points points("simulation, " + number(static_cast<double>(some)) + " members", some);
+      Points points("simulation, " + number(some) + " members", some);
       for (const double p : overlaps) {
         const Estimate e = measure.simulated(simulated(thesis, sigma, p, members).stationary());
-        // Few members at rest most of the time may find no growth.
-        if (e.value > 0) points.add(p, e);
+        points.add(p, e);
       }
       panel.curves.push_back(std::move(points.curve));
     }
@@ -333,8 +332,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
     panel.curves.push_back(curve(name, Kind::thesis, finely, [&](double mu) { return series(event, mu); }));
     panel.curves.push_back(curve(name, Kind::theory, finely, [&](double mu) { return chain(event, mu); }));
     Points simulation(name, thesis.options().members);
-    for (const double mu : points)
-      if (const Estimate e = in_centimetres(simulated(event, mu)); e.value > 0) simulation.add(mu, e);
+    for (const double mu : points) simulation.add(mu, in_centimetres(simulated(event, mu)));
     panel.curves.push_back(std::move(simulation.curve));
     const PoissonPulses pulses = PoissonPulses::event(event);
     panel.curves.push_back(
@@ -361,7 +359,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
   for (const double mu : {0.1, 0.3})
     figure.statements.push_back(
         at_least("5.6", "moderate very near field, μ = " + number(mu) + ": \"tens of centimetres\", in cm", 10,
-                 in_centimetres(simulated(events[2], mu)), "a final rms; peaks are some 1.5 times as large"));
+                 in_centimetres(simulated(events[2], mu)), "of the final rms"));
   const auto ratio = [&](const char* event, double mu) {
     const Estimate e = in_centimetres(simulated(event, mu));
     const double predicted = series(event, mu);

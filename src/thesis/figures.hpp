@@ -88,8 +88,9 @@ inline Estimate root(Estimate e) {
   return {value, value > 0 ? e.error / (2 * value) : 0};
 }
 
-/// "B/a = 1.3", and the like: a number as it is written.
+/// A number as it is written: 1.3; 100,000.
 std::string number(double value);
+std::string number(std::uint64_t count);
 
 /// The thesis gives a number: it agrees where ours rounds to it, which `within` says, or is less than 3 standard errors
 /// from there.

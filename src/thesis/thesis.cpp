@@ -69,18 +69,23 @@ struct Number {
 // Curves at up to nine points, all points of simulations, all statements.
 std::vector<Number> numbers_of(const ThesisFigure& figure) {
   std::vector<Number> result;
+  const auto largest = [](const std::vector<double>& values) {
+    double scale = 0;
+    for (const double value : values)
+      if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+    return scale;
+  };
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
     for (std::size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
       const ThesisCurve& curve = figure.panels[p].curves[c];
       if (!curve.even || curve.kind == ThesisCurve::Kind::limit || curve.y.empty()) continue;
-      double scale = 0;
-      for (const double y : curve.y)
-        if (std::isfinite(y)) scale = std::max(scale, std::abs(y));
+      const double x_scale = largest(curve.x), y_scale = largest(curve.y);
       const std::size_t last = curve.y.size() - 1, parts = curve.members > 0 ? last : std::min<std::size_t>(last, 8);
       for (std::size_t i = 0; i <= parts; ++i) {
         const std::size_t at = parts == 0 ? 0 : i * last / parts;
-        result.push_back({std::to_string(p) + "/" + std::to_string(c) + "/" + std::to_string(at), curve.y[at],
-                          curve.error.empty() ? 0 : curve.error[at], scale});
+        const std::string place = std::to_string(p) + "/" + std::to_string(c) + "/" + std::to_string(at);
+        result.push_back({place + " x", curve.x[at], 0, x_scale});
+        result.push_back({place + " y", curve.y[at], curve.error.empty() ? 0 : curve.error[at], y_scale});
       }
     }
   for (std::size_t s = 0; s < figure.statements.size(); ++s) {
@@ -100,6 +105,12 @@ constexpr double expected_members = 100'000;
 namespace detail {
 
 std::string number(double value) { return format("%.6g", value); }
+
+std::string number(std::uint64_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t place = text.size(); place > 3;) text.insert(place -= 3, 1, ',');
+  return text;
+}
 
 ThesisStatement about(std::string where, std::string claim, double said, double within, Estimate found,
                       std::string why) {
