@@ -6,6 +6,9 @@ module name every type in full.
 
 import re
 
+import stickslip
+from sphinx.util.inspect import signature_from_str
+
 SECTION = re.compile(r"-{3,}$")
 FULL_NAMES = (
     (re.compile(r"typing\.SupportsFloat \| typing\.SupportsIndex"), "float"),
@@ -58,9 +61,17 @@ def constructor(cls):
     return merged([shorten(signature) for signature in found]) if found else None
 
 
+def note_constructors(app):
+    """Gives each class of the compiled module the signature that its __init__'s docstring tells."""
+    for module in (stickslip, stickslip.theory, stickslip.harmonic):
+        for name in module.__all__:
+            cls = getattr(module, name)
+            text = constructor(cls) if isinstance(cls, type) else None
+            if text:
+                cls.__signature__ = signature_from_str(text)
+
+
 def process_signature(app, what, name, obj, options, signature, return_annotation):
-    if what == "class" and signature is None:
-        return constructor(obj), None
     if signature is None:
         return None
     if return_annotation is not None:
@@ -108,6 +119,7 @@ def previous_text(lines):
 
 
 def setup(app):
+    app.connect("builder-inited", note_constructors)
     app.connect("autodoc-process-docstring", process_docstring, priority=100)
     app.connect("autodoc-process-signature", process_signature)
     return {"parallel_read_safe": True, "parallel_write_safe": True, "version": "1"}

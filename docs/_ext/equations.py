@@ -4,7 +4,7 @@ A page carries an equation as
 
     $$ E[x'^2] = ... \tag{5.34, corrected} $$
 
-which a forge shows too. Each number stands once on the whole site. Wherever a page, or a docstring,
+which a forge shows too; a tag may hold two numbers. Each number stands once on the whole site. Wherever a page, or a docstring,
 says (5.34) in its text, that becomes a link.
 """
 
@@ -36,25 +36,23 @@ class NumberEquations(SphinxTransform):
             tags = TAG.findall(node.astext())
             if not tags:
                 continue
-            number = re.match(NUMBER, tags[0])
-            if len(tags) > 1 or not number:
-                logger.warning("a formula has one number, got %s", tags, location=node)
+            numbers = re.findall(NUMBER, tags[0])
+            if len(tags) > 1 or not numbers:
+                logger.warning("a formula has one tag with a number, got %s", tags, location=node)
                 continue
-            target = label(number[0])
-            if domain.equations.get(target, (self.env.docname,))[0] != self.env.docname:
-                logger.warning(
-                    "equation %s stands in %s too", number[0], domain.equations[target][0],
-                    location=node,
-                )
             text = TAG.sub("", node.astext()).strip()
             node.children = [nodes.Text(text)]
-            node.rawsource = text
-            node["label"] = target
+            node["label"] = label(numbers[0])
             node["number"] = tags[0]
             node["docname"] = self.env.docname
-            node["ids"].append(target)
+            for number in numbers:
+                target = label(number)
+                page = domain.equations.get(target, (self.env.docname,))[0]
+                if page != self.env.docname or target in self.document.ids:
+                    logger.warning("equation %s stands in %s too", number, page, location=node)
+                node["ids"].append(target)
+                domain.equations[target] = (self.env.docname, tags[0])
             self.document.note_explicit_target(node)
-            domain.equations[target] = (self.env.docname, tags[0])
 
 
 class LinkEquations(SphinxPostTransform):
