@@ -48,11 +48,10 @@ def merged(signatures):
         if [part.partition(":")[0] for part in other] != [part.partition(":")[0] for part in first]:
             break
         for i, part in enumerate(other):
-            name, _, kind = part.partition(":")
-            kind, equals, default = kind.partition(" =")
-            if kind.strip() and kind.strip() not in first[i]:
-                head, _, tail = first[i].partition(" =")
-                first[i] = f"{head} |{kind}{equals}{tail}"
+            kind = part.partition(":")[2].partition(" =")[0].strip()
+            if kind and kind not in first[i]:
+                head, equals, default = first[i].partition(" =")
+                first[i] = f"{head} | {kind}{equals}{default}"
     return f"({', '.join(first)})"
 
 

@@ -55,9 +55,7 @@ def resolve(app, env, node, contnode):
     if found is None:
         return contnode
     name, entry = found
-    return make_refnode(
-        app.builder, node["refdoc"], entry.docname, entry.node_id, contnode, name
-    )
+    return make_refnode(app.builder, node["refdoc"], entry.docname, entry.node_id, contnode, name)
 
 
 def setup(app):
