@@ -60,6 +60,13 @@ def constructor(cls):
     return merged([shorten(signature) for signature in found]) if found else None
 
 
+def overloaded(obj):
+    """The first form of an overloaded function: arguments and what is returned."""
+    name = re.escape(getattr(obj, "__name__", ""))
+    found = re.search(rf"^1\. {name}(\(.*\)) -> (.*)$", obj.__doc__ or "", re.MULTILINE)
+    return found and (shorten(found[1]), shorten(found[2]))
+
+
 def note_constructors(app):
     """Gives each class of the compiled module the signature that its __init__'s docstring tells."""
     for module in (stickslip, stickslip.theory, stickslip.harmonic):
@@ -73,6 +80,8 @@ def note_constructors(app):
 def process_signature(app, what, name, obj, options, signature, return_annotation):
     if signature is None:
         return None
+    if signature == "(*args, **kwargs)" and overloaded(obj):
+        return overloaded(obj)
     if return_annotation is not None:
         return_annotation = shorten(return_annotation)
     return shorten(signature), return_annotation
@@ -96,8 +105,7 @@ def process_docstring(app, what, name, obj, options, lines):
         if overload and "(" in line:
             in_sections = False
             if overload[1] != "1":
-                short = shorten(overload[2])
-                result += ["", f".. rubric:: ``{short}``", ""]
+                result += ["", f"``{shorten(overload[2])}``", ""]
             continue
         if SECTION.match(line.strip()) and previous.strip():
             in_sections = True

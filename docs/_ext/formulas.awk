@@ -21,7 +21,7 @@ match($0, /^ *\/\/\/( |$)/) {
     command = 0
   }
   if (indented && !command && !verbatim) {
-    print margin "/// @code{.txt}"
+    print margin "/// @code{.unparsed}"
     verbatim = 1
   } else if (!indented)
     leave()

@@ -67,7 +67,7 @@ class Header(SphinxDirective):
         for _, directive, name in sorted(found):
             lines += [f".. {directive}:: {name}"]
             if directive in ("doxygenclass", "doxygenstruct"):
-                lines += ["   :members:"]
+                lines += ["   :members:", "   :undoc-members:"]
             lines += [""]
         return self.parse_text_to_nodes("\n".join(lines))
 
