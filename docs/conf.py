@@ -39,6 +39,7 @@ pygments_style = "friendly"
 # Pages are Markdown that reads on a forge too: $$ ... $$ is a formula, \tag{5.34} its number.
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
+myst_update_mathjax = False  # it would seem to be another configuration at each run
 
 # Python, from the installed package.
 autodoc_member_order = "groupwise"
@@ -52,7 +53,6 @@ breathe_projects = {"stickslip": str(ROOT / "build" / "docs" / "doxygen" / "xml"
 breathe_default_project = "stickslip"
 breathe_domain_by_extension = {"hpp": "cpp"}
 breathe_show_include = False
-cpp_index_common_prefix = ["stickslip::", "stickslip::theory::"]
 cpp_maximum_signature_line_length = 88
 # Nothing is known here of the standard library, and template parameters are nowhere declared.
 nitpick_ignore_regex = [("cpp:.*", ".*")]
@@ -60,7 +60,6 @@ nitpick_ignore_regex = [("cpp:.*", ".*")]
 html_theme = "furo"
 html_title = f"stickslip {release}"
 html_static_path = ["_static"]
-html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
 html_permalinks_icon = "#"
@@ -72,7 +71,7 @@ mathjax_path = "mathjax/tex-svg.js"
 mathjax3_config = {
     "tex": {"tags": "none"},
     "svg": {"displayAlign": "center"},
-    "options": {"enableMenu": False},
+    "options": {"enableMenu": False, "processHtmlClass": "math"},
 }
 
 
@@ -85,4 +84,5 @@ def copy_mathjax(app, error):
 
 
 def setup(app):
+    app.add_css_file("site.css")
     app.connect("build-finished", copy_mathjax)

@@ -164,3 +164,15 @@ def test_every_public_name_stands_in_the_reference(site):
         if name not in ("__version__", "harmonic", "theory")
     ]
     assert not [name for name in names if name not in reference]
+
+
+def test_every_public_header_stands_in_the_reference():
+    said = {
+        name
+        for page in (DOCS / "reference" / "cpp").glob("*.rst")
+        for name in re.findall(r"^\.\. header:: stickslip/(.*)$", page.read_text(), re.MULTILINE)
+    }
+    folder = ROOT / "include" / "stickslip"
+    headers = {file.relative_to(folder).as_posix() for file in folder.rglob("*.hpp")}
+    # two that include all others, and two of which users need nothing
+    assert said == headers - {"core.hpp", "stickslip.hpp", "recorder.hpp", "flow/dual.hpp"}
