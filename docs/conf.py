@@ -28,6 +28,7 @@ extensions = [
     "docstrings",
     "names",
     "headers",
+    "tables",
 ]
 exclude_patterns = ["_ext"]
 nitpicky = True
