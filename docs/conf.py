@@ -37,8 +37,9 @@ smartquotes_action = "D"  # dashes alone: x'' is a second derivative, not a quot
 highlight_language = "none"
 pygments_style = "friendly"
 
-# Pages are Markdown that reads on a forge too: $$ ... $$ is a formula, \tag{5.34} its number.
+# Pages are Markdown that reads on a forge too: ```math is a formula, \tag{5.34} its number.
 myst_enable_extensions = ["dollarmath"]
+myst_fence_as_directive = ["math"]
 myst_heading_anchors = 3
 myst_update_mathjax = False  # it would seem to be another configuration at each run
 

@@ -2,7 +2,9 @@ r"""Numbered equations: \tag{5.34} in a formula is its number and its target; (5
 
 A page carries an equation as
 
-    $$ E[x'^2] = ... \tag{5.34, corrected} $$
+    ```math
+    E[x'^2] = ... \tag{5.34, corrected}
+    ```
 
 which a forge shows too; a tag may hold two numbers. Each number stands once on the whole site.
 Wherever a page, or a docstring, says (5.34) in its text, that becomes a link.
