@@ -45,6 +45,22 @@ def record_a():
     return array
 
 
+@pytest.fixture
+def kobe(tmp_path, monkeypatch, record_a):
+    """A file of the documentation's name, in PEER's format, in the current directory."""
+    samples = [f"{n / 9.80665:.7E}" for n in record_a]
+    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
+    header = [
+        "PEER NGA STRONG MOTION DATABASE RECORD",
+        "Record A, made for tests",
+        "ACCELERATION TIME SERIES IN UNITS OF G",
+        f"NPTS= {len(samples)}, DT= .1000 SEC",
+    ]
+    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
 @pytest.fixture(scope="session")
 def pyslammer_files():
     """The 18 records that the package pyslammer carries, found without the slow import of it."""

@@ -6,36 +6,14 @@ import shlex
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-
-README = Path(__file__).parents[2] / "README.md"
-
-
-def blocks(language):
-    return re.findall(rf"```{language}\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
-
-
-@pytest.fixture
-def kobe(tmp_path, monkeypatch, record_a):
-    """A file of the README's name, in PEER's format, in the current directory."""
-    samples = [f"{n / 9.80665:.7E}" for n in record_a]
-    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
-    header = [
-        "PEER NGA STRONG MOTION DATABASE RECORD",
-        "Record A, made for tests",
-        "ACCELERATION TIME SERIES IN UNITS OF G",
-        f"NPTS= {len(samples)}, DT= .1000 SEC",
-    ]
-    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+from pages import README, blocks, run
 
 
 def test_the_python_runs(kobe, capsys):
-    code, _, _ = blocks("python")
-    exec(compile(code, str(README), "exec"), {})
+    code, _, _ = blocks(README, "python")
+    run(README, code, {})
     lines = capsys.readouterr().out.splitlines()
     assert re.fullmatch(r"peak \d+\.\d cm, residual -?\d+\.\d cm, \d+ slips", lines[0])
     assert len(lines) == 5
@@ -43,9 +21,9 @@ def test_the_python_runs(kobe, capsys):
 
 def test_the_ensembles_run(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    _, code, _ = blocks("python")
+    _, code, _ = blocks(README, "python")
     names = {}
-    exec(compile(code, str(README), "exec"), names)
+    run(README, code, names)
     quantile, exceedance, growth = capsys.readouterr().out.splitlines()
     assert quantile.startswith("<Interval: 0.6")
     assert exceedance.startswith("<Interval: 0.1")
@@ -55,8 +33,8 @@ def test_the_ensembles_run(tmp_path, monkeypatch, capsys):
 
 
 def test_the_theories_run(capsys):
-    *_, code = blocks("python")
-    exec(compile(code, str(README), "exec"), {})
+    *_, code = blocks(README, "python")
+    run(README, code, {})
     averaged, exact, _, growth, rms, *table = capsys.readouterr().out.splitlines()
     assert len(averaged.split()) == 2  # a small one, unstable, and a large one
     assert float(exact.rstrip("]").split()[-1]) == pytest.approx(3.3288206151, rel=1e-9)
@@ -68,7 +46,7 @@ def test_the_theories_run(capsys):
 def test_the_command_lines_run(kobe):
     commands = [
         line
-        for block in blocks("sh")
+        for block in blocks(README, "sh")
         for line in block.splitlines()
         if line.startswith("stickslip ")
     ]
@@ -85,7 +63,7 @@ def test_the_cpp_compiles_and_answers(tmp_path):
     compiler = shutil.which("c++")
     if compiler is None:
         pytest.skip("no c++ here")
-    (code,) = blocks("cpp")
+    (code,) = blocks(README, "cpp")
     source, program = tmp_path / "readme.cpp", tmp_path / "readme"
     source.write_text(code)
     include = f"-I{README.parent / 'include'}"
