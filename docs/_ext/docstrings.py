@@ -19,6 +19,7 @@ FULL_NAMES = (
     (re.compile(r"Annotated\[(\w+), [^\]]*\]"), r"\1"),
     (re.compile(r"\b(NDArray)\[\w+\]"), "ndarray"),
     (re.compile(r"NoneType"), "None"),
+    (re.compile(r"\bint \| int\b"), "int"),
 )
 OVERLOAD = re.compile(r"(\d+)\. (\w+\(.*)$")
 
@@ -118,6 +119,10 @@ def process_docstring(app, what, name, obj, options, lines):
         result.append(line if literal or ">>>" in line else escape(line))
         after_blank = not line.strip()
         previous = line
+    if what in ("attribute", "property"):
+        result.insert(
+            0, ""
+        )  # what stands before a colon on the first line would be taken for a type
     lines[:] = result
 
 

@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
 
+from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
 
 CLASSES = {"class": "doxygenclass", "struct": "doxygenstruct", "concept": "doxygenconcept"}
@@ -72,7 +73,16 @@ class Header(SphinxDirective):
         return self.parse_text_to_nodes("\n".join(lines))
 
 
+def join_paragraphs(app, doctree):
+    """Breathe makes a paragraph within the paragraph of what follows a code span before a list."""
+    for inner in list(doctree.findall(nodes.paragraph)):
+        if isinstance(inner.parent, nodes.paragraph):
+            space = "" if inner.astext()[:1] in ".,:;)" else " "
+            inner.replace_self([nodes.Text(space), *inner.children])
+
+
 def setup(app):
     app.add_directive("header", Header)
+    app.connect("doctree-read", join_paragraphs)
     app.connect("env-before-read-docs", lambda *_: declarations.cache_clear())
     return {"parallel_read_safe": True, "parallel_write_safe": True, "version": "1"}

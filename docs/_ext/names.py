@@ -3,6 +3,7 @@
 import re
 
 from docutils import nodes
+from sphinx import addnodes
 from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.nodes import make_refnode
 
@@ -21,6 +22,14 @@ def find(env, name):
         if entry is not None and entry.objtype != "module":
             return f"{module}.{match[1]}", entry
     return None
+
+
+def keep_words(app, doctree):
+    """In the types of docstrings words are no classes: `array_like, shape (N,)`."""
+    for node in list(doctree.findall(addnodes.pending_xref)):
+        is_class = node.get("refdomain") == "py" and node.get("reftype") == "class"
+        if is_class and node["reftarget"].rpartition(".")[2][:1].islower():
+            node.replace_self(node.children)
 
 
 class LinkNames(SphinxPostTransform):
@@ -60,5 +69,6 @@ def resolve(app, env, node, contnode):
 
 def setup(app):
     app.add_post_transform(LinkNames)
+    app.connect("doctree-read", keep_words)
     app.connect("missing-reference", resolve)
     return {"parallel_read_safe": True, "parallel_write_safe": True, "version": "1"}
