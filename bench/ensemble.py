@@ -197,7 +197,7 @@ class Run:
 
 
 def compiled_figures(path: Path | None, rounds: int) -> dict | None:
-    found = [path] if path else sorted(Path(__file__).parents[1].glob("build/*/bench/ensemble"))
+    found = [path] if path else sorted(Path(__file__).parents[1].glob("build/**/bench/ensemble"))
     if not found:
         return None
     command = [found[0], "--json", "--rounds", str(rounds)]
@@ -254,7 +254,7 @@ def main() -> None:
     if compiled:
         print(f"C++: {compiled['compiler']} {compiled['flags']}, commit {compiled['commit']}")
     elif not args.peers:
-        print("C++: left out, for no build/*/bench/ensemble is there and no --cpp is given")
+        print("C++: left out, for no build/**/bench/ensemble is there and no --cpp is given")
     print(
         f"{MEMBERS} members of {SAMPLES} samples (heyoka: {RECORDS}), dt = {DT} s; pulses:"
         f" {PULSES_TIMES} times\nns of processor time, over {args.rounds} rounds; ratio to"

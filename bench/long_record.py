@@ -116,7 +116,7 @@ Works = dict[str, tuple[Callable[[], object], int]]
 
 
 def compiled_figures(path: Path | None, rounds: int) -> dict | None:
-    found = [path] if path else sorted(Path(__file__).parents[1].glob("build/*/bench/long_record"))
+    found = [path] if path else sorted(Path(__file__).parents[1].glob("build/**/bench/long_record"))
     if not found:
         return None
     command = [found[0], "--json", "--rounds", str(rounds)]
@@ -281,7 +281,7 @@ def main() -> None:
     if compiled:
         print(f"C++: {compiled['compiler']} {compiled['flags']}, commit {compiled['commit']}")
     else:
-        print("C++: left out, for no build/*/bench/long_record is there and no --cpp is given")
+        print("C++: left out, for no build/**/bench/long_record is there and no --cpp is given")
     print(
         f"{N} samples, dt = {DT} s, standard deviation {DEVIATION} m/s^2, slip level {SLIP_LEVEL}"
         f" m/s^2\nns of processor time per sample, over {args.rounds} rounds; ratio to stickslip;"

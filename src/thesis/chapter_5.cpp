@@ -188,7 +188,8 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
     for (const double p : overlaps) {
       if (p > most) continue;
       const Estimate e = measure.simulated(simulated(thesis, sigma, p, thesis.options().members).stationary());
-      if (e.error > 0.05 * e.value) continue;  // or it would be the simulation's error
+      // Else it would be the simulation's error: what 100,000 members don't bring down to 5 %.
+      if (e.error * std::sqrt(static_cast<double>(thesis.options().members) / 1e5) > 0.05 * e.value) continue;
       const double off = std::abs(measure.predicted(predict(p)) / e.value - 1);
       if (off > result.value) result = {off, e.error / e.value};
     }
