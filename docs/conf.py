@@ -67,7 +67,8 @@ html_show_sourcelink = False
 html_permalinks_icon = "#"
 
 # Formulas are set by MathJax, from a Python package: nothing is loaded from outside. As SVG, which
-# needs no font files: browsers refuse those to pages that are opened from a disk.
+# needs no font files: browsers refuse those to pages that are opened from a disk. MathML made at
+# build time needs no script, but where no mathematical font is installed it reads badly.
 mathjax_package = Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent
 mathjax_path = "mathjax/tex-svg.js"
 mathjax3_config = {
