@@ -39,7 +39,7 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
 
 The displacement and the ground acceleration are measured along the slope, and the normal load is taken as constant,
 m g cos(slope): no acceleration across the slope. Levels g (mu cos(slope) - sin(slope)) forward and
-g (mu cos(slope) + sin(slope)) backward; thesis (5.62).
+g (mu cos(slope) + sin(slope)) backward.
 
 Parameters
 ----------

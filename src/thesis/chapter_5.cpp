@@ -190,8 +190,8 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
       const Estimate e = measure.simulated(simulated(thesis, sigma, p, thesis.options().members).stationary());
       // Else it would be the simulation's error: what 100,000 members don't bring down to 5 %.
       if (e.error * std::sqrt(static_cast<double>(thesis.options().members) / 1e5) > 0.05 * e.value) continue;
-      const double off = std::abs(measure.predicted(predict(p)) / e.value - 1);
-      if (off > result.value) result = {off, e.error / e.value};
+      const double over = measure.predicted(predict(p)) / e.value, off = std::abs(over - 1);
+      if (off > result.value) result = {off, over * e.error / e.value};
     }
     return result;
   };
@@ -375,10 +375,10 @@ ThesisFigure figure_5_7(Thesis& thesis) {
     for (const double mu : points) {
       const Estimate e = in_centimetres(simulated(event, mu));
       if (e.value < 1) continue;
-      const double off = std::abs(chain(event, mu) / e.value - 1);
+      const double over = chain(event, mu) / e.value, off = std::abs(over - 1);
       if (off > worst) {
         worst = off;
-        error = e.error / e.value;
+        error = over * e.error / e.value;
       }
     }
   figure.statements.push_back(at_most("", "said here: the chain's largest error above 1 cm", 0.10, {worst, error}));

@@ -43,7 +43,7 @@ class Coulomb {
 
   /// A block on an inclined plane; downhill is forward. x and the ground acceleration n are measured along the slope,
   /// and the normal load is taken as constant, m g cos(slope): no acceleration across the slope.
-  /// Levels: g (mu cos(slope) -+ sin(slope)), forward and backward; thesis (5.62).
+  /// Levels: g (mu cos(slope) -+ sin(slope)), forward and backward.
   /// @param mu       coefficient of friction, finite, at least tan(slope)
   /// @param degrees  the slope [degrees], from 0 to less than 90
   /// @throws std::invalid_argument also where the block would slide under its own weight

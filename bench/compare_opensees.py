@@ -1,7 +1,7 @@
 """A block held at rest by an elastic stick, as OpenSees has it, beside the rigid one.
 
     pip install openseespy
-    python docs/programs/compare_opensees.py [--period 3] [--mu 0.1 0.2]
+    python bench/compare_opensees.py [--period 3] [--mu 0.1 0.2]
 
 The stick is a spring that yields at mu g: `ElasticPP` in a `zeroLength` element, with Newmark's
 average acceleration, undamped. Differences from `integrate` at the end of 18 records, where the
