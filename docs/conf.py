@@ -30,7 +30,7 @@ extensions = [
     "headers",
     "tables",
 ]
-exclude_patterns = ["_ext"]
+exclude_patterns = ["_ext", "thesis"]  # gallery.md includes the latter
 nitpicky = True
 default_role = "literal"
 smartquotes_action = "D"  # dashes alone: x'' is a second derivative, not a quotation

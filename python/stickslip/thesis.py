@@ -91,9 +91,9 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
         lines += [
             f"## {_name(figure)}",
             "",
-            f"![{_name(figure)}]({stem}{suffix})",
+            f"![{_name(figure)}](./{stem}{suffix})",
             "",
-            f"{figure.caption} [Numbers]({stem}.csv). Took {figure.seconds:.2g} s{cost}.",
+            f"{figure.caption} [Numbers](./{stem}.csv). Took {figure.seconds:.2g} s{cost}.",
             "",
         ]
         if figure.statements:

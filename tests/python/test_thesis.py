@@ -48,7 +48,7 @@ def test_what_the_heartbeat_raises_ends_the_work():
 def test_a_page_shows_every_statement():
     figure = Thesis().figure("A.2")
     text = page([figure], ".png")
-    assert "![Figure A.2](figure_a_2.png)" in text
+    assert "![Figure A.2](./figure_a_2.png)" in text
     for statement in figure.statements:
         assert statement.claim in text
     assert text.count("**differs**") == sum(not s.agrees for s in figure.statements) > 0
