@@ -375,7 +375,8 @@ TEST_CASE("the linear system of an ensemble is the one that was predicted", "[st
   }
 }
 
-TEST_CASE("linearization is right of the velocity, and wrong of the displacement", "[stationary_linearization][statistics]") {
+TEST_CASE("linearization is right of the velocity, and wrong of the displacement",
+          "[stationary_linearization][statistics]") {
   // Thesis 4.5, figures 4.4, 4.6: velocities within 10 %, and a displacement variance that grows where none is
   // predicted. What is asserted is off by twenty standard errors and more: no seed would fail it.
   const double band = 20 / (pi * pi);

@@ -66,7 +66,8 @@ constexpr std::array<double, 4> time_steps = {0.4, 0.2, 0.1, 0.05};
 
 }  // namespace
 
-TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as dt goes to 0", "[white_noise][statistics]") {
+TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as dt goes to 0",
+          "[white_noise][statistics]") {
   std::array<Stationary, 4> found;
   for (std::size_t i = 0; i < 4; ++i) {
     const GaussianExcitation noise = white(time_steps[i], duration);
