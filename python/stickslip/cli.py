@@ -142,7 +142,9 @@ def _add_slider(parser: argparse.ArgumentParser) -> None:
     """What `_slider` reads, but for --mu."""
     add = parser.add_argument
     add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
-    add("--reach", type=float, metavar="M", help="caster: where the level falls off [m]")
+    add("--reach", type=float, metavar="M", help="caster: where the level, mu g, falls off [m]")
+    add("--trail", type=float, metavar="M", help="caster: pivot to wheel axis [m], for --reach")
+    add("--wheel-width", type=float, metavar="M", help="caster: of its wheels [m], with --trail")
     add("--period", type=float, metavar="S", help="period of the mass on its spring [s]")
     add("--slope", type=float, metavar="DEGREES", help="inclined plane; downhill is forward")
 
@@ -182,14 +184,23 @@ def _slide(args: argparse.Namespace) -> str:
 
 def _slider(args: argparse.Namespace, mu: float) -> Slider:
     """The slider of the command line for one coefficient of friction."""
-    if args.law != "caster" and args.reach is not None:
-        raise ValueError(f"--reach goes with --law caster, got --law {args.law}")
+    lengths = {"--reach": args.reach, "--trail": args.trail, "--wheel-width": args.wheel_width}
+    given = [option for option, length in lengths.items() if length is not None]
+    if args.law != "caster" and given:
+        raise ValueError(f"{given[0]} goes with --law caster, got --law {args.law}")
     if args.law == "caster":
-        if args.reach is None:
-            raise ValueError("--law caster needs --reach in metres, got none")
+        if given not in (["--reach"], ["--trail", "--wheel-width"]):
+            raise ValueError(
+                "--law caster needs --reach, or --trail and --wheel-width, in metres, got "
+                + (" and ".join(given) or "none")
+            )
         if args.slope is not None:
             raise ValueError(f"--slope goes with --law coulomb or one-way, got --law {args.law}")
-        law = Caster(mu=mu, reach=args.reach)
+        law = (
+            Caster(mu=mu, reach=args.reach)
+            if given == ["--reach"]
+            else Caster.from_geometry(mu=mu, trail=args.trail, wheel_width=args.wheel_width)
+        )
     else:
         law = Coulomb(mu=mu) if args.slope is None else Coulomb.on_slope(mu=mu, degrees=args.slope)
         if args.law == "one-way":
@@ -221,7 +232,7 @@ def _row(args: argparse.Namespace, file: Path, mu: float, response: Response) ->
         "mu": mu,
         "slip_level_forward_m_s2": forward,
         "slip_level_backward_m_s2": None if math.isinf(backward) else backward,
-        "reach_m": args.reach,
+        "reach_m": getattr(slider.law, "reach", None),
         "slope_degrees": args.slope,
         "period_s": args.period,
         "peak_m": response.peak,

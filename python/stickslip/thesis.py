@@ -97,10 +97,10 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
             "",
         ]
         if figure.statements:
-            lines += ["| | the thesis | found | | |", "|---|---|---|---|---|"]
+            lines += ["| | the thesis | found | |", "|---|---|---|---|"]
             lines += [
-                f"| {f'{s.where}: ' if s.where else ''}{s.claim} | {s.said:.4g} | {_found(s)} "
-                f"| {'agrees' if s.agrees else '**differs**'} | {s.why} |"
+                f"| {_claim(s)} | {s.said:.4g} | {_found(s)} "
+                f"| {'agrees' if s.agrees else '**differs**'} |"
                 for s in figure.statements
             ]
             lines.append("")
@@ -109,6 +109,11 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
 
 def _name(figure: ThesisFigure) -> str:
     return figure.number if figure.number.startswith("Table") else f"Figure {figure.number}"
+
+
+def _claim(statement: ThesisStatement) -> str:
+    where = f"{statement.where}: " if statement.where else ""
+    return where + statement.claim + (f". *{statement.why}*" if statement.why else "")
 
 
 def _found(statement: ThesisStatement) -> str:

@@ -242,6 +242,12 @@ ThesisFigure figure_4_5(Thesis& thesis) {
       about("(4.63)", "2πS_X′X′(0) over the growth rate of the displacement variance", 1, 0.1,
             {zero.value / growth.value,
              std::hypot(zero.error / zero.value, growth.error / growth.value) * zero.value / growth.value}));
+  // The window's transform is sinh(z) / z, z^2 = beta^2 - (omega T / 2)^2: the first side lobe is the first of |sin z /
+  // z|.
+  const double side_lobe = std::sin(4.493409457909064) / 4.493409457909064, main_lobe = std::sinh(8.0) / 8;
+  figure.statements.push_back(at_most("after (4.62)", "first side lobe of the window, β = 8 [dB of the amplitude]", -70,
+                                      {20 * std::log10(-side_lobe / main_lobe)},
+                                      "-70 dB takes β = 9.7; and of the density it is as many dB, not 140"));
   return figure;
 }
 

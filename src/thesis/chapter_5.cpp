@@ -228,6 +228,9 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
   }
   figure.statements.push_back(
       at_most("", "said here: the pulse chain's largest error of the growth rate", 0.10, worst(measures[1], chain, 2)));
+  if (sigma < 1)
+    figure.statements.push_back(at_most("5.5", "share of the pulses that exceed the slip level by themselves", 0.003,
+                                        {std::erfc(1 / (sigma * std::numbers::sqrt2))}));
   return figure;
 }
 
@@ -298,6 +301,19 @@ ThesisFigure table_5_1(Thesis& thesis) {
     says("σ_ẋ_g [cm/s]", row.ground_velocity, row.velocity_digit, 100 * std::sqrt(pulses.ground_velocity_variance()));
     says("σ_x_g(t_d) [cm]", row.ground_displacement, row.displacement_digit,
          100 * std::sqrt(pulses.ground_displacement_variance(pulses.duration())));
+
+    double sum = 0, squares = 0;
+    const std::uint64_t motions = std::min<std::uint64_t>(thesis.options().members, 2000);
+    for (std::uint64_t member = 0; member < motions; ++member) {
+      const double peak =
+          pulses.sample(thesis.options().seed, member).peak_acceleration() / std::sqrt(pulses.variance());
+      sum += peak;
+      squares += peak * peak;
+    }
+    const auto n = static_cast<double>(motions);
+    figure.statements.push_back(at_most("5.6", name + ": peak acceleration in rms values, usually 3 to 4: mean", 4,
+                                        {sum / n, std::sqrt((squares / n - sum * sum / n / n) / (n - 1))},
+                                        "the more, the more pulses there are"));
   }
   figure.panels.push_back(std::move(panel));
   return figure;

@@ -45,6 +45,10 @@ def results(capsys, *arguments):
 CASES = {
     "block": (["--mu", 0.1], ss.Coulomb(mu=0.1)),
     "caster": (["--mu", 0.1, "--law", "caster", "--reach", 0.9], ss.Caster(mu=0.1, reach=0.9)),
+    "caster of a geometry": (
+        ["--mu", 0.5, "--law", "caster", "--trail", 0.9, "--wheel-width", 2],
+        ss.Caster.from_geometry(mu=0.5, trail=0.9, wheel_width=2.0),
+    ),
     "one-way": (["--mu", 0.1, "--law", "one-way"], ss.Coulomb(mu=0.1, backward=math.inf)),
     "slope": (["--mu", 0.3, "--slope", 10], ss.Coulomb.on_slope(mu=0.3, degrees=10)),
     "slope one-way": (
@@ -115,6 +119,10 @@ REFUSED = {
     "reach without caster": (
         ["RECORD", "--mu", 0.1, "--reach", 1],
         "--law caster, got --law coulomb",
+    ),
+    "trail without width": (
+        ["RECORD", "--mu", 0.1, "--law", "caster", "--trail", 0.04],
+        "--trail and --wheel-width, in metres, got --trail",
     ),
     "caster on a slope": (
         ["RECORD", "--mu", 0.1, "--law", "caster", "--reach", 1, "--slope", 5],
