@@ -1,10 +1,15 @@
 // The thesis's figures as numbers: CSV files and the summary, without Python.
 #include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <stdexcept>
 #include <stickslip/thesis.hpp>
 #include <string>
 #include <string_view>
@@ -20,8 +25,18 @@ constexpr const char* usage =
 
 std::string file_name(const std::string& number) {
   std::string name = number.starts_with("Table") ? number : "figure " + number;
-  std::ranges::transform(name, name.begin(), [](char c) { return c == ' ' || c == '.' ? '_' : c == 'T' ? 't' : c; });
+  std::ranges::transform(name, name.begin(), [](unsigned char c) {
+    return static_cast<char>(c == ' ' || c == '.' ? '_' : std::tolower(c));
+  });
   return name + ".csv";
+}
+
+std::uint64_t count(const std::string& option, const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw std::invalid_argument(option + " must be a whole number, got " + text);
+  return value;
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -29,7 +44,7 @@ int run(const std::vector<std::string>& arguments) {
   std::vector<std::string> numbers;
   std::filesystem::path out = "thesis";
   bool check = false, expectations = false;
-  std::uint64_t members = 0, seed = 0;
+  std::optional<std::uint64_t> members, seed;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     const auto value = [&]() -> const std::string& {
@@ -37,9 +52,9 @@ int run(const std::vector<std::string>& arguments) {
       return arguments[++i];
     };
     if (argument == "--members") {
-      members = std::stoull(value());
+      members = count(argument, value());
     } else if (argument == "--seed") {
-      seed = std::stoull(value());
+      seed = count(argument, value());
     } else if (argument == "--out") {
       out = value();
     } else if (argument == "--check") {
@@ -53,13 +68,10 @@ int run(const std::vector<std::string>& arguments) {
       numbers.push_back(argument);
     }
   }
+  for (const std::string& number : numbers)
+    if (std::ranges::find(Thesis::numbers(), number) == Thesis::numbers().end()) Thesis().figure(number);  // refuses it
   if (numbers.empty()) numbers.assign(Thesis::numbers().begin(), Thesis::numbers().end());
-  ThesisOptions options{.members = members > 0 ? members
-                                   : check     ? 2000
-                                               : 100'000,
-                        .seed = seed > 0 ? seed
-                                : check  ? 2u
-                                         : 1u};
+  ThesisOptions options{.members = members.value_or(check ? 2000 : 100'000), .seed = seed.value_or(check ? 2 : 1)};
   std::string told;
   options.heartbeat = [&](std::string_view what, double) {
     if (what != told) std::fprintf(stderr, "%.*s\n", static_cast<int>(what.size()), what.data());
