@@ -2,11 +2,18 @@
 
 import importlib.util
 import os
+import signal
 from decimal import Decimal, localcontext
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    # So has a shell that runs the tests in the background set it, also for the programs that they
+    # start: those that send Ctrl-C would wait for ever.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def sine_and_cosine(x):
