@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     # So has a shell that runs the tests in the background set it, also for the programs that they
     # start: those that send Ctrl-C would wait for ever.
