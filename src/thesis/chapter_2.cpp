@@ -1,5 +1,6 @@
 // Harmonic ground motion: figures 2.1 to 2.6.
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <stickslip/friction/caster.hpp>

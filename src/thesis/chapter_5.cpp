@@ -274,7 +274,7 @@ Estimate in_centimetres(Estimate e) { return {100 * e.value, 100 * e.error}; }
 ThesisFigure table_5_1(Thesis& thesis) {
   ThesisFigure figure{"Table 5.1",
                       "The four events, as rms displacement of the ground (of a frictionless mass) by time. Solid: "
-                      "(5.49), and its exact form from rest; points: simulations.",
+                      "(5.49); points: simulations.",
                       ""};
   ThesisPanel panel{"Ground", "$t$ [s]", "$\\sigma_{x_g}$ [cm]"};
   for (std::size_t i = 0; i < table.size(); ++i) {

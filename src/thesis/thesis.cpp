@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -162,7 +161,7 @@ ThesisFigure Thesis::figure(std::string_view number) {
 
 const Ensemble& Thesis::ensemble(const std::string& what, std::uint64_t members, bool velocity_spectrum,
                                  const std::function<Ensemble(const EnsembleOptions&)>& run) {
-  const std::string key = what + ", " + std::to_string(members);
+  const std::string key = what + ", " + std::to_string(members) + (velocity_spectrum ? ", spectrum" : "");
   if (const auto kept = ensembles_.find(key); kept != ensembles_.end()) return kept->second;
   EnsembleOptions options{
       .members = members, .seed = options_.seed, .threads = options_.threads, .velocity_spectrum = velocity_spectrum};
