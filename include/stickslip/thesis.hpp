@@ -33,6 +33,9 @@ struct ThesisCurve {
   bool even = true;             ///< whether x is the same in every run, so that y can be compared point by point
 };
 
+/// The kind as it is written in files: "thesis", "theory", ...
+const char* name_of(ThesisCurve::Kind kind) noexcept;
+
 /// One pair of axes.
 struct ThesisPanel {
   std::string title;

@@ -3,14 +3,10 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include <array>
-
 #include "bindings.hpp"
 
 namespace stickslip::python {
 namespace {
-
-constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "points", "simulation", "limit", "region"};
 
 template <std::vector<double> ThesisCurve::*part>
 py::array_t<double> numbers(const py::object& self) {
@@ -26,7 +22,7 @@ void bind_figure(py::module_& m) {
       .def_readonly("label", &ThesisCurve::label,
                     "What is drawn, in TeX between dollar signs; curves of one label belong together.")
       .def_property_readonly(
-          "kind", [](const ThesisCurve& curve) { return kinds[static_cast<std::size_t>(curve.kind)]; },
+          "kind", [](const ThesisCurve& curve) { return name_of(curve.kind); },
           R"(What it is, str:
 
 'thesis'
@@ -47,8 +43,8 @@ void bind_figure(py::module_& m) {
                              "Standard errors of y, shape (N,); empty where there are none.")
       .def_readonly("members", &ThesisCurve::members, "Of the ensemble, int; 0 where there is none.")
       .def("__repr__", [](const ThesisCurve& curve) {
-        return "<ThesisCurve '" + curve.label + "', " + kinds[static_cast<std::size_t>(curve.kind)] + ", " +
-               std::to_string(curve.x.size()) + " points>";
+        return "<ThesisCurve '" + curve.label + "', " + name_of(curve.kind) + ", " + std::to_string(curve.x.size()) +
+               " points>";
       });
 
   py::class_<ThesisPanel>(m, "ThesisPanel", "One pair of axes of a figure.")

@@ -37,9 +37,6 @@ constexpr auto listed = [] {
   return result;
 }();
 
-constexpr std::array kinds{"thesis", "theory", "exact", "unstable", "points", "simulation", "limit", "region"};
-const char* name(ThesisCurve::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
-
 std::string format(const char* form, double value) {
   char text[40];
   std::snprintf(text, sizeof text, form, value);
@@ -137,6 +134,11 @@ ThesisStatement at_least(std::string where, std::string claim, double said, Esti
 
 }  // namespace detail
 
+const char* name_of(ThesisCurve::Kind kind) noexcept {
+  constexpr std::array names{"thesis", "theory", "exact", "unstable", "points", "simulation", "limit", "region"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 Thesis::Thesis(ThesisOptions options) : options_(std::move(options)) {
   detail::require(options_.members >= 100, "Thesis: members must be at least 100",
                   static_cast<double>(options_.members));
@@ -178,7 +180,7 @@ std::string thesis_csv(const ThesisFigure& figure) {
   for (const ThesisPanel& panel : figure.panels)
     for (const ThesisCurve& curve : panel.curves)
       for (std::size_t i = 0; i < curve.x.size(); ++i)
-        text += quoted(panel.title) + ',' + quoted(curve.label) + ',' + name(curve.kind) + ',' +
+        text += quoted(panel.title) + ',' + quoted(curve.label) + ',' + name_of(curve.kind) + ',' +
                 std::to_string(curve.members) + ',' + exactly(curve.x[i]) + ',' + exactly(curve.y[i]) + ',' +
                 (curve.error.empty() ? "" : exactly(curve.error[i])) + '\n';
   return text;
