@@ -78,7 +78,7 @@ class GroundMotion {
   std::span<const double> acceleration() const noexcept { return acceleration_; }
 
   /// Time of sample i [s].
-  double time(std::size_t i) const noexcept { return times_.empty() ? static_cast<double>(i) * dt_ : times_[i]; }
+  double time(std::size_t i) const noexcept { return Pieces(*this).time(i); }
 
   /// Time between samples [s], or NaN where the times are uneven.
   double dt() const noexcept { return dt_; }
@@ -97,11 +97,27 @@ class GroundMotion {
     return peak;
   }
 
+  /// The pieces as a loop wants them: what is the same for all is looked up once. Refers to the motion.
+  class Pieces {
+   public:
+    explicit Pieces(const GroundMotion& motion) noexcept
+        : starts_(motion.acceleration_.data()),
+          ends_(starts_ + (motion.interpolation_ == Interpolation::linear ? 1 : 0)),
+          times_(motion.times_.empty() ? nullptr : motion.times_.data()),
+          dt_(motion.dt_) {}
+
+    double time(std::size_t i) const noexcept { return times_ == nullptr ? static_cast<double>(i) * dt_ : times_[i]; }
+    Segment segment(std::size_t i) const noexcept {
+      return {times_ == nullptr ? dt_ : times_[i + 1] - times_[i], starts_[i], ends_[i]};
+    }
+
+   private:
+    const double *starts_, *ends_, *times_;
+    double dt_;
+  };
+
   /// The i-th piece, between samples i and i + 1.
-  Segment segment(std::size_t i) const noexcept {
-    return {times_.empty() ? dt_ : times_[i + 1] - times_[i], acceleration_[i],
-            acceleration_[interpolation_ == Interpolation::linear ? i + 1 : i]};
-  }
+  Segment segment(std::size_t i) const noexcept { return Pieces(*this).segment(i); }
 
   /// The same motion with every acceleration multiplied by `factor` (finite; -1 mirrors it).
   GroundMotion scaled(double factor) const {

@@ -41,12 +41,16 @@ using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLe
 template <FrictionLaw Law, class Flows>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
                           RecorderFor<GroundMotion, Law>& recorder, const HistorySpans& histories) {
+  const GroundMotion::Pieces pieces(motion);
+  const std::size_t count = motion.segments();
   State moving = state;
-  for (std::size_t i = 0; i < motion.segments(); ++i) {
-    if ((i + 1) % RecorderFor<GroundMotion, Law>::work_a_beat == 0) recorder.heartbeat();
-    recorder.begin_segment(motion.time(i));
-    detail::advance(law, flows, motion.segment(i), moving, recorder);
-    histories.keep(i + 1, moving);
+  for (std::size_t i = 0; i < count;) {
+    for (const std::size_t beat = std::min(i + RecorderFor<GroundMotion, Law>::work_a_beat, count); i < beat; ++i) {
+      recorder.begin_segment(pieces.time(i));
+      detail::advance(law, flows, pieces.segment(i), moving, recorder);
+      histories.keep(i + 1, moving);
+    }
+    if (i < count) recorder.heartbeat();
   }
   state = moving;
 }

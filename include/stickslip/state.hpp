@@ -9,7 +9,7 @@ namespace stickslip {
 enum class Direction : std::int8_t { backward = -1, forward = +1 };
 
 /// +1 forward, -1 backward.
-constexpr double sign(Direction direction) noexcept { return static_cast<double>(direction); }
+constexpr double sign(Direction direction) noexcept { return direction == Direction::forward ? 1.0 : -1.0; }
 
 /// Stuck, or sliding in a direction.
 enum class Mode : std::int8_t { backward = -1, stuck = 0, forward = +1 };

@@ -23,7 +23,7 @@ struct Start {
   double acceleration;  ///< [m/s^2]; exactly 0 on breaking away
   double gain;          ///< of the load until the end of the flow's duration, linear in time [m/s^2]
 
-  double gain_within(double t, double duration) const noexcept { return t == duration ? gain : gain * (t / duration); }
+  double gain_within(double t, double duration) const noexcept { return t < duration ? gain * (t / duration) : gain; }
 
   /// Work of the load within a time in which it comes from `load` to `load + gained` [m^2/s^2].
   template <class Flow>

@@ -1,6 +1,7 @@
 // Constant friction with a spring: the displacement is a sine, a cosine and a line in time.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -61,7 +62,7 @@ class Harmonic {
   Basis compute(double t) const noexcept {
     const double w2 = w_ * w_, z = w2 * t * t;
     if (z < 2) {
-      const double f3 = inverse_factorials(z, 3), f4 = inverse_factorials(z, 4);
+      const double f3 = inverse_factorials<3>(z), f4 = inverse_factorials<4>(z);
       const double c1 = 1 - z * f3, half = 0.5 - z * f4;
       return {1 - z * half, t * c1, t * t * half, c1, t * half, t * t * f3, t * t * f4};
     }
@@ -69,12 +70,24 @@ class Harmonic {
     return {1 - w2 * b2, b1, b2, b1 / t, b2 / t, (1 - b1 / t) / w2, (0.5 - b2 / (t * t)) / w2};
   }
 
-  // 1/n! - z/(n+2)! + z^2/(n+4)! - ..., below round-off after eleven terms for z < 2.
-  static double inverse_factorials(double z, int n) noexcept {
-    double sum = 1;
-    for (int k = 20; k >= 0; k -= 2) sum = 1 - z * sum / ((n + k + 1) * (n + k + 2));
-    for (int k = 2; k <= n; ++k) sum /= k;
-    return sum;
+  // 1/n! - z/(n+2)! + z^2/(n+4)! - ..., below round-off after eleven terms for z < 2; in two sums, as an addition must
+  // wait for the one before it.
+  template <int n>
+  static double inverse_factorials(double z) noexcept {
+    static constexpr auto terms = [] {
+      std::array<double, 12> c{};
+      double factorial = 1;
+      for (int k = 2; k <= n; ++k) factorial *= k;
+      for (int i = 0, k = n; i < 12; ++i, k += 2, factorial *= (k - 1.0) * k) c[i] = (i % 2 == 0 ? 1 : -1) / factorial;
+      return c;
+    }();
+    const double zz = z * z;
+    double even = terms[10], odd = terms[11];
+    for (int i = 8; i >= 0; i -= 2) {
+      even = even * zz + terms[i];
+      odd = odd * zz + terms[i + 1];
+    }
+    return even + z * odd;
   }
 
   double w_;
