@@ -53,16 +53,19 @@ concept Series = requires(S s, const S& c, int k) {
   { c[k] } -> std::convertible_to<double>;
 };
 
-/// Sum of a_i b_(k-i) over i = first..k; in two parts, as an addition must wait for the one before it.
+/// Sum of a_i b_(k-i) over i = first..k, k >= first. The coefficients found last, which are at both ends, come last,
+/// and the others go in two parts: an addition must wait for what it adds.
 template <class A, class B>
 double convolve(const A& a, const B& b, int first, int k) noexcept {
+  if (k == first) return a[k] * b[0];
   double even = 0, odd = 0;
-  int i = first;
-  for (; i < k; i += 2) {
+  int i = first + 1;
+  for (; i + 1 < k; i += 2) {
     even += a[i] * b[k - i];
     odd += a[i + 1] * b[k - i - 1];
   }
-  return i == k ? even + a[k] * b[0] + odd : even + odd;
+  if (i < k) even += a[i] * b[k - i];
+  return (even + odd + a[k] * b[0]) + a[first] * b[k - first];
 }
 
 /// The independent function of time: its coefficients are set from outside.
@@ -121,7 +124,7 @@ struct Quotient {
   void update(int k) noexcept {
     a.update(k);
     b.update(k);
-    c[k] = (a[k] - convolve(b, c, 1, k)) / b[0];
+    c[k] = (k == 0 ? a[0] : a[k] - convolve(b, c, 1, k)) / b[0];
   }
   double operator[](int k) const noexcept { return c[k]; }
 };

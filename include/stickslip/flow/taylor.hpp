@@ -188,12 +188,10 @@ class TaylorFlow {
   /// As `ClosedForm::first_stop`, within the horizon.
   double first_stop() const noexcept {
     // Roots at the start are taken out by leaving out leading zeros.
-    double w[series::highest_order];
     int leading = 0;
-    while (leading < order_ && d_[leading + 1] == 0) ++leading;
-    if (leading == order_ || d_[leading + 1] < 0) return 0;
-    for (int k = leading; k < order_; ++k) w[k - leading] = (k + 1) * d_[k + 1];
-    const double root = FirstRoot(w, order_ - 1 - leading).find();
+    while (leading < order_ && speed_[leading] == 0) ++leading;
+    if (leading == order_ || speed_[leading] < 0) return 0;
+    const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
     return root < never ? root * horizon_ : never;
   }
 
@@ -209,7 +207,7 @@ class TaylorFlow {
     const double h = horizon_;
     series::Coefficients x, stiffness, y[2];
     x[0] = displacement_;
-    for (int k = 1; k <= order; ++k) x[k] = k <= order_ ? sign(direction_) * d_[k] : 0;
+    for (int k = 1; k <= order; ++k) x[k] = k <= order_ ? sign(direction_) * distance_[k - 1] : 0;
     auto slope = series::slope_of(slider_.law().level(series::variable(x), direction_));
     for (const int i : {0, 1}) y[i][i] = 1, y[i][1 - i] = 0;
     for (int k = 0; k + 2 <= order; ++k) {
@@ -232,8 +230,8 @@ class TaylorFlow {
   double work_of_gain(double t) const noexcept {
     const double s = t / horizon_;
     auto gain = gain_.coefficients(horizon_ * s);
-    double way[series::highest_order + 1], power = 1, work = 0;  // way[k]: k d_k s^k
-    for (int k = 1; k <= order_; ++k) way[k] = k * (power *= s) * d_[k];
+    double way[series::highest_order + 1], power = 1, work = 0;
+    for (int k = 1; k <= order_; ++k) way[k] = (power *= s) * speed_[k - 1];
     for (int i = 1; i <= order_; ++i) {
       double sum = 0;
       for (int k = 1; k <= order_; ++k) sum += way[k] * reciprocal_sums[i + k];
@@ -243,15 +241,24 @@ class TaylorFlow {
   }
 
  private:
+  // Even and odd powers apart, as an addition must wait for what it adds.
   Progress at_part(double s) const noexcept {
-    double distance = 0, speed = 0, acceleration = 0, mean = 0;
-    for (int k = order_; k >= 0; --k) {
-      acceleration = acceleration * s + speed;
-      speed = speed * s + distance;
-      distance = distance * s + d_[k];
-      mean = mean * s + d_[k] * series::reciprocal[k + 1];
+    struct Sums {
+      double distance = 0, speed = 0, acceleration = 0, mean = 0;
+    } even, odd;
+    const double z = s * s;
+    for (int k = (order_ - 1) & ~1; k >= 0; k -= 2) {
+      even.distance = even.distance * z + distance_[k];
+      odd.distance = odd.distance * z + distance_[k + 1];
+      even.speed = even.speed * z + speed_[k];
+      odd.speed = odd.speed * z + speed_[k + 1];
+      even.acceleration = even.acceleration * z + acceleration_[k];
+      odd.acceleration = odd.acceleration * z + acceleration_[k + 1];
+      even.mean = even.mean * z + distance_[k] * series::reciprocal[k + 2];
+      odd.mean = odd.mean * z + distance_[k + 1] * series::reciprocal[k + 3];
     }
-    return {distance, speed / horizon_, 2 * acceleration / (horizon_ * horizon_), mean};
+    return {s * (even.distance + s * odd.distance), (even.speed + s * odd.speed) / horizon_,
+            (even.acceleration + s * odd.acceleration) / (horizon_ * horizon_), s * (even.mean + s * odd.mean)};
   }
 
   // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
@@ -260,34 +267,43 @@ class TaylorFlow {
     series::Coefficients x;
     auto level = as_series(slider_.law().level(series::Variable{&x}, direction_));
     x[0] = displacement_;
-    d_[0] = 0;
-    d_[1] = start_.speed * h;
-    x[1] = s * d_[1];
+    speed_[0] = distance_[0] = start_.speed * h;
+    x[1] = s * distance_[0];
     level.update(0);
 
     const double largest_level = std::max(std::abs(level[0]), vanishing);
-    fastest_ = d_[1];
+    fastest_ = speed_[0];
     auto gain = gain_.coefficients(h);
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
       double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
-        net = gain(k) - stiffness * d_[k] - level[k];
+        net = gain(k) - stiffness * distance_[k - 1] - level[k];
       }
-      d_[k + 2] = h * h * net * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
-      x[k + 2] = s * d_[k + 2];
-      order_ = k + 2;
-      const double term = (k + 2) * std::abs(d_[k + 2]), previous = (k + 1) * std::abs(d_[k + 1]);
+      const double twice = series::reciprocal[k + 1] * series::reciprocal[k + 2];  // integrated
+      acceleration_[k] = h * h * net;
+      speed_[k + 1] = acceleration_[k] * series::reciprocal[k + 1];
+      distance_[k + 1] = acceleration_[k] * twice;
+      x[k + 2] = acceleration_[k] * (s * twice);
+      const double term = std::abs(speed_[k + 1]), previous = std::abs(speed_[k]);
       fastest_ = std::max(fastest_, term);
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
+      end_series(k + 2);
       // On breaking away x is a cubic, and two of three coefficients of the level are zero.
       const double recent_level = std::max({std::abs(level[k]), std::abs(level[k - 1]), std::abs(level[k - 2])});
       // From rest x may also come back to its start at the horizon, where nothing would then be noticed.
       if (recent_level <= largest_level && (start_.speed != 0 || balanced(0.6)) && balanced(1)) return 1;
     }
-    const double last = std::max(order_ * std::abs(d_[order_]), (order_ - 1) * std::abs(d_[order_ - 1])) / fastest_;
+    end_series(series::highest_order);
+    const double last = std::max(std::abs(speed_[order_ - 1]), std::abs(speed_[order_ - 2])) / fastest_;
     const double outgrown = std::max(last / round_off, std::abs(level[order_ - 2]) / largest_level);
     return std::clamp(std::pow(outgrown, -1.0 / (order_ - 2)), 0x1p-20, 0.75);
+  }
+
+  // `order` is the highest of the distance. Sums in pairs find zeros beyond.
+  void end_series(int order) noexcept {
+    order_ = order;
+    distance_[order] = speed_[order] = acceleration_[order] = acceleration_[order - 1] = 0;
   }
 
   // Whether the equation of motion holds at a part of the horizon, to the round-off of its terms and of the series.
@@ -334,7 +350,10 @@ class TaylorFlow {
   double horizon_;
   double fastest_ = 0;  // the largest term of the speed, for time in units of the horizon [m]
   int order_ = 0;
-  double d_[series::highest_order + 1];
+  // Coefficients, for time in units of the horizon: of the distance over the time, of the speed and of the
+  // acceleration.
+  double distance_[series::highest_order + 1], speed_[series::highest_order + 1],
+      acceleration_[series::highest_order + 1];
   Progress end_{};  // at the horizon
 };
 
