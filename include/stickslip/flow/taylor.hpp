@@ -31,13 +31,19 @@ class FirstRoot {
 
   /// In (0, 1]; `never` where there is none.
   double find() const noexcept {
-    double lowest = w_[0], last = w_[0], steepest = degree_ > 0 ? std::min(w_[1], 0.0) : 0;
-    for (int k = 1; k <= degree_; ++k) {
-      lowest += std::min(w_[k], 0.0);
-      steepest += k * std::max(w_[k], 0.0);
+    double fall = 0;
+    for (int k = 1; k <= degree_; ++k) fall += std::min(w_[k], 0.0);
+    if (w_[0] + fall > 0) return never;
+
+    // Closer bounds of the value and the slope, by Horner's rule with t at its worst, 0 or 1, at each step.
+    double lowest = 0, steepest = 0, last = 0, order = degree_;
+    for (int k = degree_; k >= 1; --k, --order) {
+      lowest = w_[k] + std::min(lowest, 0.0);
+      steepest = order * w_[k] + std::max(steepest, 0.0);
       last += w_[k];
     }
-    if (lowest > 0) return never;
+    last += w_[0];
+    if (w_[0] + std::min(lowest, 0.0) > 0) return never;
     if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it falls all the way
 
     Bernstein b;
@@ -241,24 +247,29 @@ class TaylorFlow {
   }
 
  private:
-  // Even and odd powers apart, as an addition must wait for what it adds.
+  // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and
+  // as it was given.
   Progress at_part(double s) const noexcept {
     struct Sums {
       double distance = 0, speed = 0, acceleration = 0, mean = 0;
     } even, odd;
     const double z = s * s;
-    for (int k = (order_ - 1) & ~1; k >= 0; k -= 2) {
-      even.distance = even.distance * z + distance_[k];
-      odd.distance = odd.distance * z + distance_[k + 1];
-      even.speed = even.speed * z + speed_[k];
-      odd.speed = odd.speed * z + speed_[k + 1];
-      even.acceleration = even.acceleration * z + acceleration_[k];
-      odd.acceleration = odd.acceleration * z + acceleration_[k + 1];
-      even.mean = even.mean * z + distance_[k] * series::reciprocal[k + 2];
-      odd.mean = odd.mean * z + distance_[k + 1] * series::reciprocal[k + 3];
+    for (int k = (order_ + 1) & ~1;; k -= 2) {
+      odd.distance = odd.distance * z + distance_[k - 1];
+      odd.speed = odd.speed * z + speed_[k - 1];
+      odd.acceleration = odd.acceleration * z + acceleration_[k - 1];
+      odd.mean = odd.mean * z + distance_[k - 1] * series::reciprocal[k + 1];
+      if (k == 2) break;
+      even.distance = even.distance * z + distance_[k - 2];
+      even.speed = even.speed * z + speed_[k - 2];
+      even.acceleration = even.acceleration * z + acceleration_[k - 2];
+      even.mean = even.mean * z + distance_[k - 2] * series::reciprocal[k];
     }
-    return {s * (even.distance + s * odd.distance), (even.speed + s * odd.speed) / horizon_,
-            (even.acceleration + s * odd.acceleration) / (horizon_ * horizon_), s * (even.mean + s * odd.mean)};
+    const auto gained = [s, z](double of_odd, double of_even) { return s * of_odd + z * of_even; };
+    return {s * (distance_[0] + gained(odd.distance, even.distance)),
+            start_.speed + gained(odd.speed, even.speed) / horizon_,
+            start_.acceleration + gained(odd.acceleration, even.acceleration) / (horizon_ * horizon_),
+            s * (distance_[0] / 2 + gained(odd.mean, even.mean))};
   }
 
   // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
@@ -273,6 +284,7 @@ class TaylorFlow {
 
     const double largest_level = std::max(std::abs(level[0]), vanishing);
     fastest_ = speed_[0];
+    double term = speed_[0];
     auto gain = gain_.coefficients(h);
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
       double net = start_.acceleration;
@@ -280,12 +292,11 @@ class TaylorFlow {
         level.update(k);
         net = gain(k) - stiffness * distance_[k - 1] - level[k];
       }
-      const double twice = series::reciprocal[k + 1] * series::reciprocal[k + 2];  // integrated
       acceleration_[k] = h * h * net;
       speed_[k + 1] = acceleration_[k] * series::reciprocal[k + 1];
-      distance_[k + 1] = acceleration_[k] * twice;
-      x[k + 2] = acceleration_[k] * (s * twice);
-      const double term = std::abs(speed_[k + 1]), previous = std::abs(speed_[k]);
+      distance_[k + 1] = speed_[k + 1] * series::reciprocal[k + 2];
+      x[k + 2] = s * distance_[k + 1];
+      const double previous = std::exchange(term, std::abs(speed_[k + 1]));
       fastest_ = std::max(fastest_, term);
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
       end_series(k + 2);
