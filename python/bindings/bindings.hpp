@@ -96,6 +96,11 @@ py::array_t<T> array_of(std::vector<T> values) {
   return array;
 }
 
+/// An array of its own with a copy of the values.
+inline py::array_t<double> to_array(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
 /// A one-dimensional array of real numbers as a vector; `name` is for the message where it is not one.
 inline std::vector<double> to_vector(const py::object& values, const std::string& name) {
   if (py::hasattr(values, "mask")) throw std::invalid_argument(name + " must not be masked; fill the gaps first");

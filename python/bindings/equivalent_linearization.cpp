@@ -23,7 +23,7 @@ T named(const std::pair<const char*, T> (&all)[n], const std::string& name, cons
 }
 
 template <class T, std::size_t n>
-const char* name_of(const std::pair<const char*, T> (&all)[n], T value) {
+const char* which_of(const std::pair<const char*, T> (&all)[n], T value) {
   for (const auto& [name, known] : all)
     if (value == known) return name;
   return "";
@@ -94,10 +94,10 @@ W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik
            }),
            py::arg("force") = "gaussian", py::kw_only(), py::arg("start") = "rest", py::arg("tolerance") = 1e-10)
       .def_property_readonly(
-          "force", [](const EquivalentLinearization& self) { return name_of(forces, self.options().force); },
+          "force", [](const EquivalentLinearization& self) { return which_of(forces, self.options().force); },
           "What stands for friction.")
       .def_property_readonly(
-          "start", [](const EquivalentLinearization& self) { return name_of(starts, self.options().start); },
+          "start", [](const EquivalentLinearization& self) { return which_of(starts, self.options().start); },
           "Where the covariance starts.")
       .def_property_readonly(
           "tolerance", [](const EquivalentLinearization& self) { return self.options().tolerance; },
@@ -164,8 +164,8 @@ Raises
 ValueError
     A value out of its range, levels that differ.)")
       .def("__repr__", [](const EquivalentLinearization& self) {
-        return "EquivalentLinearization(force='" + std::string(name_of(forces, self.options().force)) + "', start='" +
-               name_of(starts, self.options().start) + "', tolerance=" + detail::shortest(self.options().tolerance) +
+        return "EquivalentLinearization(force='" + std::string(which_of(forces, self.options().force)) + "', start='" +
+               which_of(starts, self.options().start) + "', tolerance=" + detail::shortest(self.options().tolerance) +
                ")";
       });
 

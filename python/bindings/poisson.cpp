@@ -48,10 +48,6 @@ py::tuple shape_of(const py::object& self) {
   return py::make_tuple(view(shape.times(), self), view(shape.values(), self));
 }
 
-py::array_t<double> to_array(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 std::string repr(const py::object& self) {
   const auto& excitation = self.cast<const PoissonPulses&>();
   const PoissonOptions& options = excitation.options();

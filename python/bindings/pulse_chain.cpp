@@ -12,13 +12,14 @@ const Slider<Coulomb>& coulomb_of(const AnySlider& slider) {
   throw std::invalid_argument("PulseChain: covers Coulomb friction; PulseSuperposition covers other laws");
 }
 
-Moments predict(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses, const py::object& times) {
+Moments chain_moments(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses,
+                      const py::object& times) {
   const std::vector<double> at = to_vector(times, "PulseChain: times");
   const py::gil_scoped_release released;
   return self.predict(coulomb_of(slider), pulses, at, &check_for_interrupt);
 }
 
-double final_rms(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses) {
+double chain_rms(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses) {
   const py::gil_scoped_release released;
   return self.final_rms(coulomb_of(slider), pulses, &check_for_interrupt);
 }
@@ -49,7 +50,7 @@ Covers equal slip levels without a spring; pulses of two to four equal steps, tw
 of a common unit and which leave no net velocity; symmetric laws of amplitudes.)")
       .def(py::init<bool>(), py::kw_only(), py::arg("refined") = false)
       .def_property_readonly("refined", &PulseChain::refined, "Whether there are two slots to a step of the pulse.")
-      .def("predict", &predict, py::arg("slider"), py::arg("pulses"), py::arg("times"),
+      .def("predict", &chain_moments, py::arg("slider"), py::arg("pulses"), py::arg("times"),
            R"(Moments by time, from rest on.
 
 Parameters
@@ -76,7 +77,7 @@ ConvergenceError
 Notes
 -----
 Takes 2 to 100 ms, refined 0.1 to 5 s.)")
-      .def("final_rms", &final_rms, py::arg("slider"), py::arg("pulses"),
+      .def("final_rms", &chain_rms, py::arg("slider"), py::arg("pulses"),
            R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis figure 5.7.
 
 Parameters

@@ -24,14 +24,14 @@ std::string overlap_of(const PulseSuperposition& theory) {
   return {};
 }
 
-Moments predict(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses,
-                const py::object& times) {
+Moments superposition_moments(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses,
+                              const py::object& times) {
   const std::vector<double> at = to_vector(times, "PulseSuperposition: times");
   const py::gil_scoped_release released;
   return std::visit([&](const auto& s) { return self.predict(s, pulses, at, &check_for_interrupt); }, slider);
 }
 
-double final_rms(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses) {
+double superposition_rms(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses) {
   const py::gil_scoped_release released;
   return std::visit([&](const auto& s) { return self.final_rms(s, pulses, &check_for_interrupt); }, slider);
 }
@@ -72,7 +72,7 @@ References
 Thesis 5.3 with the errata to (5.52); Y. K. Lin, Probabilistic Theory of Structural Dynamics (1967), 87-94.)")
       .def(py::init(&theory_of), py::arg("overlap") = "renewal")
       .def_property_readonly("overlap", &overlap_of, "'none', 'thesis' or 'renewal'.")
-      .def("predict", &predict, py::arg("slider"), py::arg("pulses"), py::arg("times"),
+      .def("predict", &superposition_moments, py::arg("slider"), py::arg("pulses"), py::arg("times"),
            R"(Moments by time.
 
 Parameters
@@ -98,7 +98,7 @@ ValueError
 Notes
 -----
 Integrals over the amplitudes to 1e-12 for Coulomb friction, 60 us. A caster takes 0.1 to 1 s.)")
-      .def("final_rms", &final_rms, py::arg("slider"), py::arg("pulses"),
+      .def("final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
            R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis 5.6 and figure 5.7.
 
 Parameters

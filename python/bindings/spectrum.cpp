@@ -23,10 +23,6 @@ class PythonDensity : public HeldFunction {
   }
 };
 
-py::array_t<double> to_array(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 struct Described {
   const char* kind;
   py::dict parameters;
