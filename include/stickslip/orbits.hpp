@@ -188,8 +188,11 @@ class OrbitFinder {
       }
       if (!better || now.size() == 0) break;
     }
-    if (now.size() <= close_enough) return place;
-    return std::nullopt;
+    if (now.size() > close_enough) return std::nullopt;
+    // What rests there is left with some round-off of a velocity, and would be seen to stop once more.
+    if (later.mode == Mode::stuck && std::abs(place.state.velocity) <= close_enough * omega_ * scale)
+      place.state = State::at(place.state.displacement, 0);
+    return place;
   }
 
   /// All there is to know of the orbit through a place.
@@ -461,8 +464,9 @@ class OrbitFinder {
     if (!place) return;
     const Orbit orbit = describe(*place);
     const auto same = [&](const Orbit& other) {
-      return std::abs(other.amplitude - orbit.amplitude) <= 1e-7 * orbit.amplitude &&
-             std::abs(std::remainder(other.phase - orbit.phase, 2 * std::numbers::pi)) <= 1e-6;
+      const double apart = std::max(std::abs(other.state.displacement - orbit.state.displacement),
+                                    std::abs(other.state.velocity - orbit.state.velocity) / omega_);
+      return apart <= 1e-6 * orbit.amplitude;
     };
     if (orbit.amplitude > 0 && std::ranges::none_of(found, same)) found.push_back(orbit);
   } catch (const ConvergenceError&) {  // Newton's method has gone astray
