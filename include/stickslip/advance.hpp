@@ -158,7 +158,7 @@ void with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
 /// @param observer  sees slips and events; optional
 /// @throws ConvergenceError if a law has no finite power series where it is needed: Caster only under accelerations or
 ///         springs beyond all measure, Coulomb never
-/// Constant friction is exact to round-off, other laws to near round-off. Takes 6 to 20 ns without a spring.
+/// Constant friction is exact to round-off, other laws to near round-off. Takes 12 to 30 ns without a spring.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),

@@ -768,7 +768,7 @@ class BranchFollower {
 /// @return orbits in order of amplitude
 /// @throws std::invalid_argument  a value out of its range; levels that differ by direction (the slider drifts)
 /// Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us
-/// without a spring, 35 us with one and 2 ms where it stops; a caster 15 to 200 ms, longer in proportion where a stiff
+/// without a spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff
 /// spring swings many times a period. Reference: J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous
 /// friction, Trans. ASME 53 (1931).
 template <FrictionLaw Law>

@@ -210,7 +210,7 @@ ConvergenceError
 Notes
 -----
 Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us without a
-spring, 35 us with one and 2 ms where it stops; a caster 15 to 200 ms, longer in proportion where a stiff spring swings
+spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff spring swings
 many times a period. The interpreter is not held meanwhile.
 
 References
