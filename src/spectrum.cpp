@@ -22,6 +22,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;  // clang before 17 does not know
 
 void require_positive(const char* name, double value, const char* unit) {
   detail::require(std::isfinite(value) && value > 0, "Spectrum: " + std::string(name) + " must be positive and finite",
