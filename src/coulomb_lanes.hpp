@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "lane_queue.hpp"
+#include "stickslip/response.hpp"
 
 namespace stickslip::detail {
 
@@ -14,12 +16,33 @@ struct CoulombLanes {
   double duration;  ///< of each segment [s]
 };
 
+/// An event of one of the blocks; its velocity is 0.
+struct LaneEvent {
+  double time;            ///< since the segment began [s]
+  double displacement;    ///< x [m]
+  std::uint32_t segment;  ///< as the account counts them
+  EventKind kind;
+};
+
+/// What a whole response tells beside the states.
+struct LaneAccount {
+  static constexpr std::size_t most_events = 4;  ///< of a block in a segment
+
+  std::uint32_t segment;      ///< the one at hand
+  LaneEvent** next;           ///< where each block's next event goes, moved on; there is room for `most_events`
+  const double* work_before;  ///< of the ground on each block, before the segment [m^2/s^2]
+  double* work_after;         ///< and after it, set
+  std::uint64_t indistinct;   ///< the bit of a block is set where two events coincide, or one and the end of its
+                              ///< segment, or where squares leave the range of doubles: `advance` knows what is right
+};
+
 /// Moves each block over its segment of ground acceleration, from start[i] to end[i] [m/s^2]: thesis (4.51) to (4.53),
 /// in closed form, with up to two stops and breakaways. The formulas are those of flow/polynomial.hpp and advance.hpp,
 /// for many at a time: those blocks which may have an event are set apart by a test that errs on the safe side, and
 /// done together.
-/// @param members  at most `most_lanes`
+/// @param members  at most `most_lanes`; a multiple of `row_padding` where there is an account
+/// @param account  or null
 void advance_lanes(const CoulombLanes& slider, std::size_t members, const double* start, const double* end,
-                   const LaneStates& states);
+                   const LaneStates& states, LaneAccount* account = nullptr);
 
 }  // namespace stickslip::detail

@@ -117,7 +117,7 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
       left -= stop;
-      load = s * (law.level(state.displacement, direction) + end.acceleration);
+      load = ground_load + s * gain - flows.pull(state.displacement);
     }
   }
 }

@@ -106,7 +106,10 @@ class GroundMotion {
           times_(motion.times_.empty() ? nullptr : motion.times_.data()),
           dt_(motion.dt_) {}
 
-    double time(std::size_t i) const noexcept { return times_ == nullptr ? static_cast<double>(i) * dt_ : times_[i]; }
+    double time(std::size_t i) const noexcept {
+      return times_ == nullptr ? static_cast<double>(static_cast<std::ptrdiff_t>(i)) * dt_
+                               : times_[i];  // signed: faster
+    }
     Segment segment(std::size_t i) const noexcept {
       return {times_ == nullptr ? dt_ : times_[i + 1] - times_[i], starts_[i], ends_[i]};
     }

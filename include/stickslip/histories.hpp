@@ -5,12 +5,15 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
-#include "stickslip/advance.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground_motion.hpp"
+#include "stickslip/pieces.hpp"
+#include "stickslip/recorder.hpp"
+#include "stickslip/run.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/state.hpp"
 
@@ -21,17 +24,6 @@ struct Histories {
   std::vector<double> displacement;  ///< x [m]
   std::vector<double> velocity;      ///< x' [m/s]
 };
-
-namespace detail {
-
-/// Coulomb friction without a spring forgets where it came from when it sticks: two motions of it that are stuck at the
-/// same sample are the same from there on, but for a constant in x. So a long record is cut in pieces, which start from
-/// rest and are computed side by side, in vector lanes; then each is done again from its true beginning, until both
-/// are stuck.
-/// @pre more samples than 64 pieces have to be worth it; all steps alike
-Histories histories_by_pieces(const Coulomb& law, const GroundMotion& motion, const std::function<void()>& heartbeat);
-
-}  // namespace detail
 
 /// What `integrate` gives as displacement and velocity at the samples, from rest at x = 0, without events, peak and
 /// energy:
@@ -46,33 +38,26 @@ Histories histories_by_pieces(const Coulomb& law, const GroundMotion& motion, co
 template <FrictionLaw Law>
 Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
                     const std::function<void()>& heartbeat = {}) {
-  constexpr std::size_t worth_pieces = 8192, segments_a_beat = 4096;
-  Histories result;
+  Histories result{std::vector<double>(motion.samples()), std::vector<double>(motion.samples())};
+  const detail::HistorySpans spans{result.displacement, result.velocity};
+  State state;
+  detail::NoRecorder none(heartbeat);
   const auto whole = [&] {
-    result.displacement.resize(motion.samples());
-    result.velocity.resize(motion.samples());
-    State state;
-    detail::with_flows(slider, motion.dt(), [&](const auto& flows) {
-      for (std::size_t i = 0; i < motion.segments(); ++i) {
-        if (heartbeat && (i + 1) % segments_a_beat == 0) heartbeat();
-        const NoObserver observer;
-        detail::advance(slider.law(), flows, motion.segment(i), state, observer);
-        result.displacement[i + 1] = state.displacement;
-        result.velocity[i + 1] = state.velocity;
-      }
-    });
+    detail::with_flows(slider, motion,
+                       [&](const auto& flows) { detail::run(slider.law(), flows, motion, state, none, spans); });
   };
   if constexpr (std::same_as<Law, Coulomb>) {
-    if (slider.stiffness() == 0 && std::isfinite(motion.dt()) && motion.samples() >= worth_pieces)
-      result = detail::histories_by_pieces(slider.law(), motion, heartbeat);
+    if (detail::worth_pieces(slider, motion))
+      detail::run_by_pieces(slider.law(), motion, state, none, spans);
     else
       whole();
   } else {
     whole();
   }
+  bool finite = true;
   for (const auto* values : {&result.displacement, &result.velocity})
-    for (const double value : *values)
-      if (!std::isfinite(value)) throw std::overflow_error("histories: the motion leaves the range of doubles");
+    for (const double value : *values) finite &= std::abs(value) <= std::numeric_limits<double>::max();
+  if (!finite) throw std::overflow_error("histories: the motion leaves the range of doubles");
   return result;
 }
 

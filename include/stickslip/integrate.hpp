@@ -41,6 +41,55 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
       shortest(slider.law().level(state.displacement, direction_of(state.mode))) + " m/s^2 there; use settle = false");
 }
 
+/// `integrate`, where `run(state, recorder, histories)` moves the slider through the motion.
+template <FrictionLaw Law, Motion M, class Run>
+Response integrate_by(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
+                      Run&& run) {
+  require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement, "m");
+  require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
+  State state = State::at(options.displacement, options.velocity);
+  if (state.mode != Mode::stuck)
+    require(std::isfinite(slider.law().level(state.displacement, direction_of(state.mode))),
+            "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
+
+  Response response = std::move(storage);
+  response.displacement.resize(motion.samples());
+  response.velocity.resize(motion.samples());
+  const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
+  const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
+
+  response.displacement[0] = state.displacement;
+  response.velocity[0] = state.velocity;
+  response.energy.initial = kinetic() + elastic();
+  const std::size_t most_events = 1'000'000 + 8 * pieces(motion);  // without a spring one has five at most
+  RecorderFor<M, Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat,
+                               std::move(response.events));
+  recorder.begin_segment(motion.time(0));
+  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
+  double end = motion.time(motion.segments());
+  const HistorySpans histories{response.displacement, response.velocity};
+  run(state, recorder, histories);
+  if (options.settle) {
+    double time = end;
+    settle(slider, state, [&](double duration) {
+      recorder.begin_segment(time);
+      advance(slider, Segment{duration, 0, 0}, state, recorder);
+      time += duration;
+    });
+    end = std::max(end, recorder.last_event());
+  }
+  recorder.finish(end, state, response);
+
+  response.residual = state.displacement;
+  response.energy.kinetic = kinetic();
+  response.energy.elastic = elastic();
+  response.state = state;
+  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
+    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
+                              shortest(response.peak) + " m), velocity or energy");
+  return response;
+}
+
 }  // namespace detail
 
 /// Slides through a whole motion of the ground:
@@ -65,51 +114,12 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
 template <FrictionLaw Law, Motion M>
 Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                    Response storage = {}) {
-  detail::require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement,
-                  "m");
-  detail::require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
-  State state = State::at(options.displacement, options.velocity);
-  if (state.mode != Mode::stuck)
-    detail::require(std::isfinite(slider.law().level(state.displacement, direction_of(state.mode))),
-                    "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
-
-  Response response = std::move(storage);
-  response.displacement.resize(motion.samples());
-  response.velocity.resize(motion.samples());
-  const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
-  const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
-
-  response.displacement[0] = state.displacement;
-  response.velocity[0] = state.velocity;
-  response.energy.initial = kinetic() + elastic();
-  const std::size_t most_events = 1'000'000 + 8 * detail::pieces(motion);  // without a spring one has five at most
-  detail::RecorderFor<M, Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat,
-                                       std::move(response.events));
-  recorder.begin_segment(motion.time(0));
-  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
-  double end = motion.time(motion.segments());
-  const detail::HistorySpans histories{response.displacement, response.velocity};
-  detail::with_flows(slider, motion,
-                     [&](const auto& flows) { detail::run(slider.law(), flows, motion, state, recorder, histories); });
-  if (options.settle) {
-    double time = end;
-    detail::settle(slider, state, [&](double duration) {
-      recorder.begin_segment(time);
-      advance(slider, Segment{duration, 0, 0}, state, recorder);
-      time += duration;
-    });
-    end = std::max(end, recorder.last_event());
-  }
-  recorder.finish(end, state, response);
-
-  response.residual = state.displacement;
-  response.energy.kinetic = kinetic();
-  response.energy.elastic = elastic();
-  response.state = state;
-  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
-    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
-                              detail::shortest(response.peak) + " m), velocity or energy");
-  return response;
+  return detail::integrate_by(slider, motion, options, std::move(storage),
+                              [&](State& state, auto& recorder, const detail::HistorySpans& histories) {
+                                detail::with_flows(slider, motion, [&](const auto& flows) {
+                                  detail::run(slider.law(), flows, motion, state, recorder, histories);
+                                });
+                              });
 }
 
 template <FrictionLaw Law, Motion M>

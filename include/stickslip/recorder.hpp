@@ -1,4 +1,4 @@
-// Keeps the account of a motion while it is computed.
+// Keeps the account of a motion while it is computed, or none.
 #pragma once
 
 #include <algorithm>
@@ -68,6 +68,33 @@ class Recorder {
     slip_distance_ = 0;
   }
 
+  /// Many at once, from a rest on: as `slide` and `event` would tell of them one by one, but for the work of the
+  /// ground.
+  /// @param event  the k-th of `count`, in order
+  template <class Generate>
+  void events(std::size_t count, Generate&& event) requires ConstantLevelLaw<Law> {
+    if (events_.size() + count > most_events_) refuse_more(0);
+    events_.resize(events_.size() + count);
+    Event* const added = events_.data() + (events_.size() - count);
+    double x = slip_from_, time = 0, forward = 0, backward = 0, time_sliding = 0, peak = peak_;
+    double slides = 0;  // 0 or 1: without a jump, which would be a gamble
+    for (std::size_t k = 0; k < count; ++k) {
+      const Event e = added[k] = event(k);
+      forward += std::max(e.displacement - x, 0.0);
+      backward += std::max(x - e.displacement, 0.0);
+      time_sliding += slides * (e.time - time);
+      peak = std::max(peak, std::abs(e.displacement));
+      slides = static_cast<double>(e.kind != EventKind::arrest);
+      x = e.displacement;
+      time = e.time;
+    }
+    sliding_distance_ += forward + backward;
+    dissipated_ += law_.work(0, forward, Direction::forward) + law_.work(0, backward, Direction::backward);
+    time_sliding_ += time_sliding;
+    peak_ = peak;
+    slip_from_ = x;
+  }
+
   /// Time of the last event [s]; minus infinity before the first.
   double last_event() const noexcept {
     return events_.empty() ? -std::numeric_limits<double>::infinity() : events_.back().time;
@@ -105,6 +132,24 @@ class Recorder {
   std::vector<Event> events_;
   std::size_t most_events_;
   std::uint32_t beats_ = 0;
+  const std::function<void()>& heartbeat_;
+};
+
+/// In the place of a recorder, where nothing is asked but the motion.
+class NoRecorder {
+ public:
+  static constexpr std::uint32_t work_a_beat = 4096;  // segments
+
+  explicit NoRecorder(const std::function<void()>& heartbeat) : heartbeat_(heartbeat) {}
+
+  void begin_segment(double) const noexcept {}
+  void heartbeat() const {
+    if (heartbeat_) heartbeat_();
+  }
+  void slide(Direction, double, double, double, double) const noexcept {}
+  void event(EventKind, double, const State&) const noexcept {}
+
+ private:
   const std::function<void()>& heartbeat_;
 };
 

@@ -38,14 +38,15 @@ template <Motion M, FrictionLaw Law>
 using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
 
 /// Slides through all segments, one by one.
-template <FrictionLaw Law, class Flows>
+/// @tparam Recorder  a RecorderFor the motion and law, or NoRecorder
+template <FrictionLaw Law, class Flows, class Recorder>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          RecorderFor<GroundMotion, Law>& recorder, const HistorySpans& histories) {
+                          Recorder& recorder, const HistorySpans& histories) {
   const GroundMotion::Pieces pieces(motion);
   const std::size_t count = motion.segments();
   State moving = state;
   for (std::size_t i = 0; i < count;) {
-    for (const std::size_t beat = std::min(i + RecorderFor<GroundMotion, Law>::work_a_beat, count); i < beat; ++i) {
+    for (const std::size_t beat = std::min(i + Recorder::work_a_beat, count); i < beat; ++i) {
       recorder.begin_segment(pieces.time(i));
       detail::advance(law, flows, pieces.segment(i), moving, recorder);
       histories.keep(i + 1, moving);

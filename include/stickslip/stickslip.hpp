@@ -9,6 +9,7 @@
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/histories.hpp"
 #include "stickslip/moments.hpp"
+#include "stickslip/pieces.hpp"
 #include "stickslip/random.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/spectrum.hpp"

@@ -1,0 +1,173 @@
+#include "stickslip/pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "coulomb_lanes.hpp"
+#include "stickslip/advance.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+constexpr std::size_t pieces = most_lanes;
+constexpr std::size_t most_lines = 63, longest = most_lines * row_padding;  // segments of a piece: what is kept of them
+                                                                            // all stays near the processor
+
+/// Pieces of a record, all of one length, one after the other in time.
+/// @tparam Recording  a Recorder or NoRecorder
+template <class Recording>
+class SideBySide {
+  static constexpr std::size_t most_events = LaneAccount::most_events * longest;  // of a piece
+  static constexpr bool recorded = std::same_as<Recording, Recorder<Coulomb>>;
+
+ public:
+  SideBySide(const Coulomb& law, const GroundMotion& motion, const HistorySpans& histories, Recording& recorder)
+      : law_(law), motion_(motion), ground_(motion), histories_(histories), recorder_(recorder) {
+    if constexpr (recorded) {
+      events_ = std::make_unique_for_overwrite<LaneEvent[]>(pieces * most_events);
+      work_ = std::make_unique_for_overwrite<double[]>((longest + 1) * pieces);
+      std::fill_n(work_.get(), pieces, 0.0);
+    }
+  }
+
+  /// The histories of all pieces, each from rest at x = 0: eight segments at a time: sample k of piece p is column p of
+  /// row k.
+  void start(std::size_t begin, std::size_t length) {
+    length_ = length;
+    const double* const ground = motion_.acceleration().data() + begin;
+    const bool linear = motion_.interpolation() == Interpolation::linear;
+    const CoulombLanes lanes{law_.forward(), law_.backward(), motion_.dt()};
+    double* const x = histories_.displacement.data() + begin;
+    double* const v = histories_.velocity.data() + begin;
+    std::fill_n(displacement_, pieces, 0.0);
+    std::fill_n(velocity_, pieces, 0.0);
+    account_.indistinct = 0;
+    for (std::size_t p = 0; p < pieces; ++p) {
+      loads_[row_padding * pieces + p] = ground[p * length_];
+      if constexpr (recorded) next_[p] = &events_[p * most_events];
+    }
+    for (std::size_t k = 0; k < length_; k += row_padding) {
+      std::copy_n(&loads_[row_padding * pieces], pieces, loads_);
+      for (std::size_t p = 0; p < pieces; p += row_padding)
+        transpose(&ground[p * length_ + k + 1], length_, row_padding, &loads_[pieces + p], pieces);
+      for (std::size_t i = 0; i < row_padding; ++i) {
+        const double *const from = &loads_[i * pieces], *const to = linear ? from + pieces : from;
+        const LaneStates states{displacement_, velocity_, peak_};
+        if constexpr (recorded) {
+          account_.segment = static_cast<std::uint32_t>(k + i);
+          account_.work_before = &work_[(k + i) * pieces];
+          account_.work_after = &work_[(k + i + 1) * pieces];
+          advance_lanes(lanes, pieces, from, to, states, &account_);
+        } else {
+          advance_lanes(lanes, pieces, from, to, states);
+        }
+        std::copy_n(displacement_, pieces, &xs_[i * pieces]);
+        std::copy_n(velocity_, pieces, &vs_[i * pieces]);
+      }
+      for (std::size_t p = 0; p < pieces; p += row_padding) {
+        transpose(&xs_[p], pieces, row_padding, &x[p * length_ + k + 1], length_);
+        transpose(&vs_[p], pieces, row_padding, &v[p * length_ + k + 1], length_);
+      }
+    }
+  }
+
+  /// One piece from the state that it truly begins in: segment by segment, until it sticks together with its motion
+  /// from rest, and on with that.
+  void join(std::size_t piece, std::size_t begin, State& state) {
+    double* const x = histories_.displacement.data() + begin;
+    double* const v = histories_.velocity.data() + begin;
+    const bool clear = (account_.indistinct >> piece & 1) == 0;
+    bool met = clear && state.mode == Mode::stuck;
+    double from_rest = 0;  // where the motion from rest is
+    std::size_t i = 0;
+    for (; i < length_ && !met; ++i) {
+      from_rest = x[i + 1];
+      met = clear && v[i + 1] == 0;
+      step(begin + i, state);
+      met = met && state.mode == Mode::stuck;
+    }
+    if (!met) return;
+    const auto moved = [from_rest, to = state.displacement](double displacement) {
+      return (displacement - from_rest) + to;  // exactly there, where both are stuck
+    };
+    for (std::size_t k = i; k < length_; ++k) x[k + 1] = moved(x[k + 1]);
+    if constexpr (recorded) record(piece, begin, i, moved);
+    state = State::at(x[length_], v[length_]);
+  }
+
+  void step(std::size_t segment, State& state) {
+    recorder_.begin_segment(ground_.time(segment));
+    advance(law_, Polynomial{}, ground_.segment(segment), state, recorder_);
+    histories_.keep(segment + 1, state);
+  }
+
+ private:
+  // Tells the recorder of a piece from one of its segments on, at the beginning of which it is stuck.
+  template <class Moved>
+  void record(std::size_t piece, std::size_t begin, std::size_t segment, const Moved& moved) {
+    const LaneEvent *event = &events_[piece * most_events], *const end = next_[piece];
+    while (event != end && event->segment < segment) ++event;
+    const auto at = [&](const LaneEvent& e) { return ground_.time(begin + e.segment) + e.time; };
+    recorder_.events(static_cast<std::size_t>(end - event), [&](std::size_t k) {
+      return Event{at(event[k]), moved(event[k].displacement), 0, event[k].kind};
+    });
+    const double work = work_[length_ * pieces + piece] - work_[segment * pieces + piece];
+    if (event == end || end[-1].kind == EventKind::arrest) {
+      recorder_.slide(Direction::forward, 0, 0, 0, work);
+    } else {
+      const double from = moved(end[-1].displacement), to = histories_.displacement[begin + length_];
+      recorder_.slide(to < from ? Direction::backward : Direction::forward, from, std::abs(to - from),
+                      ground_.time(begin + length_) - at(end[-1]), work);
+    }
+  }
+
+  const Coulomb& law_;
+  const GroundMotion& motion_;
+  GroundMotion::Pieces ground_;
+  std::size_t length_ = 0;
+  HistorySpans histories_;
+  Recording& recorder_;
+  alignas(64) double displacement_[pieces], velocity_[pieces];
+  double peak_[pieces] = {};  // of no interest
+  double loads_[(row_padding + 1) * pieces], xs_[row_padding * pieces], vs_[row_padding * pieces];
+  std::unique_ptr<double[]> work_{};       // of the ground, at each sample of each piece
+  std::unique_ptr<LaneEvent[]> events_{};  // of all pieces,
+  LaneEvent* next_[pieces] = {};           // up to these
+  LaneAccount account_{.next = next_};
+};
+
+template <class Recording>
+void run(const Coulomb& law, const GroundMotion& motion, State& state, Recording& recorder,
+         const HistorySpans& histories) {
+  constexpr std::size_t most = pieces * longest;
+  const std::size_t segments = motion.segments();
+  SideBySide<Recording> side_by_side(law, motion, histories, recorder);
+  std::size_t i = 0;
+  for (std::size_t rounds = (segments + most - 1) / most; rounds > 0; --rounds) {
+    // An odd number of cache lines: else the same samples of all pieces would share few places in the cache.
+    const std::size_t lines = std::min(most_lines, (segments - i) / (pieces * rounds * row_padding));
+    const std::size_t length = (lines % 2 == 0 ? lines - 1 : lines) * row_padding;
+    recorder.heartbeat();
+    side_by_side.start(i, length);
+    for (std::size_t p = 0; p < pieces; ++p, i += length) side_by_side.join(p, i, state);
+  }
+  for (; i < segments; ++i) side_by_side.step(i, state);
+}
+
+}  // namespace
+
+void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state, Recorder<Coulomb>& recorder,
+                   const HistorySpans& histories) {
+  run(law, motion, state, recorder, histories);
+}
+
+void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state, NoRecorder& none,
+                   const HistorySpans& histories) {
+  run(law, motion, state, none, histories);
+}
+
+}  // namespace stickslip::detail
