@@ -234,6 +234,14 @@ void check(const Input& input) {
                        1e-12 * response.peak);
   advance_loop(Slider(Coulomb(slip_level)), n, x, v);
   bench::require_below("advance" + title + ": x from integrate's", largest_difference(x, response.displacement), 0);
+  const Response by_pieces = integrate_by_pieces(Coulomb(slip_level), motion);
+  bench::require_below("pieces" + title + ": x from integrate's",
+                       largest_difference(by_pieces.displacement, response.displacement), 1e-12 * response.peak);
+  bench::require_below("pieces" + title + ": energy that does not add up", std::abs(by_pieces.energy.imbalance()),
+                       1e-12 * by_pieces.energy.dissipated);
+  bench::require_below(
+      "pieces" + title + ": events from integrate's",
+      std::abs(static_cast<double>(by_pieces.events.size()) - static_cast<double>(response.events.size())), 0);
   bench::require_below("histories" + title + ": x from integrate's",
                        largest_difference(histories(Coulomb(slip_level), motion).displacement, response.displacement),
                        1e-12 * response.peak);
@@ -267,6 +275,11 @@ std::vector<bench::Timing> time(const Input& input, int rounds) {
   });
   bench.add("integrate: Coulomb, memory used again", [&motion, response = Response()]() mutable {
     response = integrate(Coulomb(slip_level), motion, {}, std::move(response));
+    bench::keep(response);
+  });
+  bench.add("integrate_by_pieces: Coulomb", [&] { bench::keep(integrate_by_pieces(Coulomb(slip_level), motion)); });
+  bench.add("integrate_by_pieces: Coulomb, memory used again", [&motion, response = Response()]() mutable {
+    response = integrate_by_pieces(Coulomb(slip_level), motion, {}, std::move(response));
     bench::keep(response);
   });
   bench.add("histories: Coulomb", [&] { bench::keep(histories(Coulomb(slip_level), motion)); });

@@ -15,6 +15,7 @@ import sys
 import warnings
 from collections.abc import Callable
 from functools import partial
+from itertools import product
 from pathlib import Path
 from types import ModuleType
 
@@ -108,6 +109,7 @@ SCIPY_SAMPLES, HEYOKA_SAMPLES, PYSLAMMER_SAMPLES, REFERENCE_SAMPLES = 501, 5001,
 ACCOUNT = "numba, with events and energies"
 BARE_STEP = "heyoka, a bare step of 0.1 s"
 SAME_SAMPLES = "stickslip, the samples heyoka had"
+IN_CPP = "integrate_by_pieces", "integrate"
 AGAIN = ", memory used again"
 HISTORIES = "stickslip.histories: x and v alone"
 QUICK = ("stickslip", HISTORIES, "numba", ACCOUNT)
@@ -235,12 +237,12 @@ def print_table(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | Non
             found = "" if found is None else f"{found:11.1e}"
             print(f"    {row:38} {timing} {timing.ratio(rows['stickslip']):9.3g} {found}".rstrip())
         if cpp:
-            for more in ("", AGAIN):
-                row = cpp["rows"].get(f"integrate: {slider}{more}")
+            for how, more in product(IN_CPP, ("", AGAIN)):
+                row = cpp["rows"].get(f"{how}: {slider}{more}")
                 if row:
                     spread = f"{100 * row['spread']:6.0f}%{' ' if row['spread'] <= 0.1 else '!'}"
                     ratio = row["median"] / rows["stickslip"].median
-                    title = f"stickslip in C++{more}"
+                    title = f"C++ {how}{more}"
                     print(f"    {title:38} {row['median']:9.1f} {spread} {ratio:9.3g}")
     if not all(t.reliable for rows in timings.values() for t in rows.values()):
         print(UNRELIABLE)
@@ -254,9 +256,9 @@ def print_bars(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | None
         same = timings["Coulomb"][HISTORIES].ratio(plain)
         print(bar("Coulomb, x and v alone as numba's, through Python / numba", same, 1))
         if cpp:
-            for more in ("", AGAIN):
-                in_cpp = cpp["rows"][f"integrate: Coulomb{more}"]["median"]
-                print(bar(f"Coulomb in C++{more} / numba", in_cpp / plain.median, 0.9))
+            for how, more in product(IN_CPP, ("", AGAIN)):
+                in_cpp = cpp["rows"][f"{how}: Coulomb{more}"]["median"]
+                print(bar(f"Coulomb, C++ {how}{more} / numba", in_cpp / plain.median, 0.9))
         with_spring = ours["Coulomb, spring"].median / plain.median
         print(bar("Coulomb with spring through Python / numba without", with_spring, 3))
     for slider in ("Caster", "Caster, spring"):
