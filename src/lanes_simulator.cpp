@@ -10,6 +10,7 @@
 #include "coulomb_lanes.hpp"
 #include "pulse_lanes.hpp"
 #include "stickslip/ensemble.hpp"
+#include "transpose.hpp"
 #include "viscous_lanes.hpp"
 
 namespace stickslip::detail {
@@ -80,7 +81,7 @@ class LanesSimulator final : public Simulator {
         excitation_.sample(seed_, first_member + i + k, {&records_[k * samples], samples}, workspace_);
       if (some < row_padding)
         std::fill(records_.begin() + static_cast<std::ptrdiff_t>(some * samples), records_.end(), 0.0);
-      transpose(records_.data(), samples, samples, &ground_[i], width);
+      transpose(records_.data(), row_padding, samples, samples, &ground_[i], width);
     }
   }
 

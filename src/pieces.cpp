@@ -9,6 +9,7 @@
 
 #include "coulomb_lanes.hpp"
 #include "stickslip/advance.hpp"
+#include "transpose.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -52,8 +53,7 @@ class SideBySide {
     }
     for (std::size_t k = 0; k < length_; k += row_padding) {
       std::copy_n(&loads_[row_padding * pieces], pieces, loads_);
-      for (std::size_t p = 0; p < pieces; p += row_padding)
-        transpose(&ground[p * length_ + k + 1], length_, row_padding, &loads_[pieces + p], pieces);
+      transpose(&ground[k + 1], pieces, row_padding, length_, &loads_[pieces], pieces);
       for (std::size_t i = 0; i < row_padding; ++i) {
         const double *const from = &loads_[i * pieces], *const to = linear ? from + pieces : from;
         const LaneStates states{displacement_, velocity_, peak_};
@@ -68,10 +68,8 @@ class SideBySide {
         std::copy_n(displacement_, pieces, &xs_[i * pieces]);
         std::copy_n(velocity_, pieces, &vs_[i * pieces]);
       }
-      for (std::size_t p = 0; p < pieces; p += row_padding) {
-        transpose(&xs_[p], pieces, row_padding, &x[p * length_ + k + 1], length_);
-        transpose(&vs_[p], pieces, row_padding, &v[p * length_ + k + 1], length_);
-      }
+      transpose(xs_, row_padding, pieces, pieces, &x[k + 1], length_);
+      transpose(vs_, row_padding, pieces, pieces, &v[k + 1], length_);
     }
   }
 

@@ -8,13 +8,6 @@ namespace stickslip::detail {
 /// Rows are padded to a multiple of this many members, so that any instruction set can take whole vectors.
 inline constexpr std::size_t row_padding = 8;
 
-/// Eight rows, `from_stride` apart and `length` long, become `length` rows of eight, `to_stride` apart.
-inline void transpose(const double* __restrict from, std::size_t from_stride, std::size_t length, double* __restrict to,
-                      std::size_t to_stride) {
-  for (std::size_t i = 0; i < length; ++i)
-    for (std::size_t k = 0; k < row_padding; ++k) to[i * to_stride + k] = from[k * from_stride + i];
-}
-
 /// What the central part of the motion adds up for each member of a block (padded like the rows).
 struct CentralSums {
   double* velocity;         ///< of x'
