@@ -107,8 +107,8 @@ class GroundMotion {
           dt_(motion.dt_) {}
 
     double time(std::size_t i) const noexcept {
-      return times_ == nullptr ? static_cast<double>(static_cast<std::ptrdiff_t>(i)) * dt_
-                               : times_[i];  // signed: faster
+      const auto steps = static_cast<std::ptrdiff_t>(i);  // signed numbers are doubles at once, others take a jump
+      return times_ == nullptr ? static_cast<double>(steps) * dt_ : times_[i];
     }
     Segment segment(std::size_t i) const noexcept {
       return {times_ == nullptr ? dt_ : times_[i + 1] - times_[i], starts_[i], ends_[i]};

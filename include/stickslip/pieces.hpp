@@ -39,8 +39,9 @@ inline bool worth_pieces(const Slider<Coulomb>& slider, const GroundMotion& moti
 /// cut in pieces that move side by side, in vector lanes (AVX-512, AVX2, SSE4, NEON, as the processor has). All else
 /// is left to `integrate`. Needs the library; `integrate` is of the header-only core.
 ///
-/// Arguments, answers and errors are those of `integrate`; the last bits may differ, and with them the kinds of events
-/// that coincide but for rounding (an arrest and a breakaway for a reversal).
+/// Arguments, answers, errors and accuracy are those of `integrate`. The last bits may differ, and with them what they
+/// decide: whether a velocity that only touches zero stops there. Some 10 to 20 ns a sample with AVX2, where
+/// `integrate` takes 15 to 36, and 4 MB of memory meanwhile.
 template <FrictionLaw Law, Motion M>
 Response integrate_by_pieces(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                              Response storage = {}) {

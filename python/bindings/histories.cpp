@@ -47,10 +47,8 @@ OverflowError
 
 Notes
 -----
-As accurate as `integrate`, of which the last bits may differ. A long record of even steps is cut in 64 pieces which,
-with Coulomb friction and no spring, move side by side from rest; each is then done again from where the one before has
-come to, until both are stuck at the same sample and so move alike: about twice as fast as `integrate`. The interpreter
-is not held meanwhile.)");
+As accurate as `integrate`, of which the last bits may differ; a long record goes in pieces side by side where it does
+there. The interpreter is not held meanwhile.)");
 }
 
 }  // namespace stickslip::python

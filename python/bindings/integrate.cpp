@@ -85,7 +85,11 @@ Constant friction is solved in closed form between events: exact to round-off, 1
 sample, 24 to 55 with a spring. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
 motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
 power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
-adds 0.1 to 0.2 us. The interpreter is not held meanwhile.)");
+adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
+
+A long record of even steps is cut in pieces which, with Coulomb friction and no spring, move side by side from rest, in
+vector lanes; each is then done again from where the one before has come to, until both are stuck and so move alike.
+Nothing is lost by it but the last bits, and what they decide: whether a velocity that only touches zero stops there.)");
   m.def("integrate", &integrate_viscous, py::arg("slider"), py::arg("motion"), py::kw_only(),
         py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("settle") = false,
         R"(The same for the linear system, x'' + zeta x' + wn^2 x = -n(t), thesis (4.2), (5.2).
