@@ -110,7 +110,7 @@ ACCOUNT = "numba, with events and energies"
 BARE_STEP = "heyoka, a bare step of 0.1 s"
 SAME_SAMPLES = "stickslip, the samples heyoka had"
 IN_CPP = "integrate_by_pieces", "integrate"
-AGAIN = ", memory used again"
+PLAIN_LOOPS = {"": "plain loop", ", memory used again": "plain loop, arrays at hand"}
 HISTORIES = "stickslip.histories: x and v alone"
 QUICK = ("stickslip", HISTORIES, "numba", ACCOUNT)
 
@@ -237,7 +237,7 @@ def print_table(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | Non
             found = "" if found is None else f"{found:11.1e}"
             print(f"    {row:38} {timing} {timing.ratio(rows['stickslip']):9.3g} {found}".rstrip())
         if cpp:
-            for how, more in product(IN_CPP, ("", AGAIN)):
+            for how, more in product(IN_CPP, PLAIN_LOOPS):
                 row = cpp["rows"].get(f"{how}: {slider}{more}")
                 if row:
                     spread = f"{100 * row['spread']:6.0f}%{' ' if row['spread'] <= 0.1 else '!'}"
@@ -256,9 +256,11 @@ def print_bars(run: Run, timings: dict[str, dict[str, Timing]], cpp: dict | None
         same = timings["Coulomb"][HISTORIES].ratio(plain)
         print(bar("Coulomb, x and v alone as numba's, through Python / numba", same, 1))
         if cpp:
-            for how, more in product(IN_CPP, ("", AGAIN)):
+            for how, (more, loop) in product(IN_CPP, PLAIN_LOOPS.items()):
                 in_cpp = cpp["rows"][f"{how}: Coulomb{more}"]["median"]
                 print(bar(f"Coulomb, C++ {how}{more} / numba", in_cpp / plain.median, 0.9))
+                ratio = in_cpp / cpp["rows"][loop]["median"]
+                print(bar(f"Coulomb, C++ {how}{more} / {loop}", ratio, 1))
         with_spring = ours["Coulomb, spring"].median / plain.median
         print(bar("Coulomb with spring through Python / numba without", with_spring, 3))
     for slider in ("Caster", "Caster, spring"):

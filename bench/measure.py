@@ -107,4 +107,4 @@ def bar(claim: str, value: float, limit: float, at_least: bool = False) -> str:
     """One line: what was asked for, what was measured, and whether that will do."""
     met = value >= limit if at_least else value <= limit
     sign = ">=" if at_least else "<="
-    return f"  {claim:66} {value:8.3g} {sign} {limit:<4g} {'met' if met else 'NOT met'}"
+    return f"  {claim:78} {value:8.3g} {sign} {limit:<4g} {'met' if met else 'NOT met'}"
