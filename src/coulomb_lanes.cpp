@@ -187,16 +187,17 @@ class Account {
   std::size_t count_ = 0;
 };
 
-template <bool accounts>
+template <bool peaks, bool accounts>
 HWY_INLINE void advance(const CoulombLanes& slider, std::size_t members, const double* HWY_RESTRICT start,
-                        const double* HWY_RESTRICT end, const LaneStates& states, LaneAccount* account) {
+                        const double* HWY_RESTRICT end, const LaneStates& from, const LaneStates& to,
+                        LaneAccount* account) {
   const Real h = slider.duration, forward = slider.forward, backward = slider.backward;
   const double half = slider.duration / 2, sixth = slider.duration / 6;
 
   // Without an event: on with the same friction, or stuck throughout. The others are marked, one bit each.
   std::uint64_t eventful = 0;
   for (std::size_t i = 0; i < members; i += Real::size) {
-    const Real x = Real::load(states.displacement + i), v = Real::load(states.velocity + i);
+    const Real x = Real::load(from.displacement + i), v = Real::load(from.velocity + i);
     const Real n0 = Real::load(start + i), n1 = Real::load(end + i);
     const Real level = select(v < 0, -backward, forward);
     const Real g0 = n0 + level, g1 = n1 + level;  // decelerations
@@ -206,9 +207,9 @@ HWY_INLINE void advance(const CoulombLanes& slider, std::size_t members, const d
     const Bool held = (v == 0) & (max(n0, n1) <= backward) & (min(n0, n1) >= -forward);
     const Real mean = nfma(sixth, (g0 + g0) + g1, v);  // velocity
     const Real there = select(slides, fma(h, mean, x), x);
-    there.store(states.displacement + i);
-    select(slides, last, v).store(states.velocity + i);
-    max(Real::load(states.peak + i), abs(there)).store(states.peak + i);
+    there.store(to.displacement + i);
+    select(slides, last, v).store(to.velocity + i);
+    if constexpr (peaks) max(Real::load(from.peak + i), abs(there)).store(to.peak + i);
     if constexpr (accounts) {
       const Real work = h * nfma(n0 + n1, mean * 0.5, (n1 - n0) * (v - last) * (1.0 / 12));
       (Real::load(account->work_before + i) + where(slides, work)).store(account->work_after + i);
@@ -217,7 +218,7 @@ HWY_INLINE void advance(const CoulombLanes& slider, std::size_t members, const d
   }
 
   if (eventful == 0) return;
-  LaneQueue queue(eventful, start, end, states);
+  LaneQueue queue(eventful, start, end, to);
   const double rate = 1 / slider.duration;
   for (std::size_t k = 0; k < queue.count; k += Real::size) {
     Real x = Real::load(queue.displacement + k), v = Real::load(queue.velocity + k);
@@ -230,16 +231,20 @@ HWY_INLINE void advance(const CoulombLanes& slider, std::size_t members, const d
     blocks.peak.store(queue.peak + k);
     if constexpr (accounts) taken.write(queue.lane + k, std::min(Real::size, queue.count - k), *account);
   }
-  queue.put_back(states);
+  queue.put_back(to);
 }
 
 void AdvanceCoulomb(const CoulombLanes& slider, std::size_t members, const double* HWY_RESTRICT start,
                     const double* HWY_RESTRICT end, const LaneStates& states) {
-  advance<false>(slider, members, start, end, states, nullptr);
+  advance<true, false>(slider, members, start, end, states, states, nullptr);
 }
-void AdvanceCoulombWithAccount(const CoulombLanes& slider, std::size_t members, const double* HWY_RESTRICT start,
-                               const double* HWY_RESTRICT end, const LaneStates& states, LaneAccount& account) {
-  advance<true>(slider, members, start, end, states, &account);
+void AdvanceRow(const CoulombLanes& slider, const double* HWY_RESTRICT start, const double* HWY_RESTRICT end,
+                const LaneStates& row, const LaneStates& next_row) {
+  advance<false, false>(slider, most_lanes, start, end, row, next_row, nullptr);
+}
+void AdvanceRowWithAccount(const CoulombLanes& slider, const double* HWY_RESTRICT start, const double* HWY_RESTRICT end,
+                           const LaneStates& row, const LaneStates& next_row, LaneAccount& account) {
+  advance<false, true>(slider, most_lanes, start, end, row, next_row, &account);
 }
 
 }  // namespace stickslip::detail::HWY_NAMESPACE
@@ -249,14 +254,20 @@ HWY_AFTER_NAMESPACE();
 namespace stickslip::detail {
 
 HWY_EXPORT(AdvanceCoulomb);
-HWY_EXPORT(AdvanceCoulombWithAccount);
+HWY_EXPORT(AdvanceRow);
+HWY_EXPORT(AdvanceRowWithAccount);
 
 void advance_lanes(const CoulombLanes& slider, std::size_t members, const double* start, const double* end,
-                   const LaneStates& states, LaneAccount* account) {
+                   const LaneStates& states) {
+  HWY_DYNAMIC_DISPATCH(AdvanceCoulomb)(slider, members, start, end, states);
+}
+
+void advance_lanes(const CoulombLanes& slider, const double* start, const double* end, const LaneStates& row,
+                   const LaneStates& next_row, LaneAccount* account) {
   if (account == nullptr)
-    HWY_DYNAMIC_DISPATCH(AdvanceCoulomb)(slider, members, start, end, states);
+    HWY_DYNAMIC_DISPATCH(AdvanceRow)(slider, start, end, row, next_row);
   else
-    HWY_DYNAMIC_DISPATCH(AdvanceCoulombWithAccount)(slider, members, start, end, states, *account);
+    HWY_DYNAMIC_DISPATCH(AdvanceRowWithAccount)(slider, start, end, row, next_row, *account);
 }
 
 }  // namespace stickslip::detail

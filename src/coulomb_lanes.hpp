@@ -40,9 +40,13 @@ struct LaneAccount {
 /// in closed form, with up to two stops and breakaways. The formulas are those of flow/polynomial.hpp and advance.hpp,
 /// for many at a time: those blocks which may have an event are set apart by a test that errs on the safe side, and
 /// done together.
-/// @param members  at most `most_lanes`; a multiple of `row_padding` where there is an account
-/// @param account  or null
+/// @param members  at most `most_lanes`
 void advance_lanes(const CoulombLanes& slider, std::size_t members, const double* start, const double* end,
-                   const LaneStates& states, LaneAccount* account = nullptr);
+                   const LaneStates& states);
+
+/// The same for rows of `most_lanes`, from the states of one to those of the next, whose peaks are not looked at.
+/// @param account  or null
+void advance_lanes(const CoulombLanes& slider, const double* start, const double* end, const LaneStates& row,
+                   const LaneStates& next_row, LaneAccount* account);
 
 }  // namespace stickslip::detail

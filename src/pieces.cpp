@@ -15,21 +15,25 @@ namespace stickslip::detail {
 namespace {
 
 constexpr std::size_t pieces = most_lanes;
-constexpr std::size_t most_lines = 63, longest = most_lines * row_padding;  // segments of a piece: what is kept of them
-                                                                            // all stays near the processor
+// Segments of a piece, at most: what is kept of all pieces then stays near the processor.
+constexpr std::size_t most_lines = 127, longest = most_lines * row_padding;
 
 /// Pieces of a record, all of one length, one after the other in time.
 /// @tparam Recording  a Recorder or NoRecorder
 template <class Recording>
 class SideBySide {
-  static constexpr std::size_t most_events = LaneAccount::most_events * longest;  // of a piece
   static constexpr bool recorded = std::same_as<Recording, Recorder<Coulomb>>;
 
  public:
   SideBySide(const Coulomb& law, const GroundMotion& motion, const HistorySpans& histories, Recording& recorder)
-      : law_(law), motion_(motion), ground_(motion), histories_(histories), recorder_(recorder) {
+      : law_(law),
+        motion_(motion),
+        ground_(motion),
+        histories_(histories),
+        recorder_(recorder),
+        most_events_(LaneAccount::most_events * std::min(longest, motion.segments() / pieces)) {
     if constexpr (recorded) {
-      events_ = std::make_unique_for_overwrite<LaneEvent[]>(pieces * most_events);
+      events_ = std::make_unique_for_overwrite<LaneEvent[]>(pieces * most_events_);
       work_ = std::make_unique_for_overwrite<double[]>((longest + 1) * pieces);
       std::fill_n(work_.get(), pieces, 0.0);
     }
@@ -44,32 +48,28 @@ class SideBySide {
     const CoulombLanes lanes{law_.forward(), law_.backward(), motion_.dt()};
     double* const x = histories_.displacement.data() + begin;
     double* const v = histories_.velocity.data() + begin;
-    std::fill_n(displacement_, pieces, 0.0);
-    std::fill_n(velocity_, pieces, 0.0);
+    constexpr std::size_t last = row_padding * pieces;  // the ninth row, which is the first of the next eight segments
+    std::fill_n(&xs_[last], pieces, 0.0);
+    std::fill_n(&vs_[last], pieces, 0.0);
     account_.indistinct = 0;
     for (std::size_t p = 0; p < pieces; ++p) {
-      loads_[row_padding * pieces + p] = ground[p * length_];
-      if constexpr (recorded) next_[p] = &events_[p * most_events];
+      loads_[last + p] = ground[p * length_];
+      if constexpr (recorded) next_[p] = &events_[p * most_events_];
     }
     for (std::size_t k = 0; k < length_; k += row_padding) {
-      std::copy_n(&loads_[row_padding * pieces], pieces, loads_);
+      for (double* const rows : {loads_, xs_, vs_}) std::copy_n(rows + last, pieces, rows);
       transpose(&ground[k + 1], pieces, row_padding, length_, &loads_[pieces], pieces);
       for (std::size_t i = 0; i < row_padding; ++i) {
         const double *const from = &loads_[i * pieces], *const to = linear ? from + pieces : from;
-        const LaneStates states{displacement_, velocity_, peak_};
         if constexpr (recorded) {
           account_.segment = static_cast<std::uint32_t>(k + i);
           account_.work_before = &work_[(k + i) * pieces];
           account_.work_after = &work_[(k + i + 1) * pieces];
-          advance_lanes(lanes, pieces, from, to, states, &account_);
-        } else {
-          advance_lanes(lanes, pieces, from, to, states);
         }
-        std::copy_n(displacement_, pieces, &xs_[i * pieces]);
-        std::copy_n(velocity_, pieces, &vs_[i * pieces]);
+        advance_lanes(lanes, from, to, row(i), row(i + 1), recorded ? &account_ : nullptr);
       }
-      transpose(xs_, row_padding, pieces, pieces, &x[k + 1], length_);
-      transpose(vs_, row_padding, pieces, pieces, &v[k + 1], length_);
+      transpose(&xs_[pieces], row_padding, pieces, pieces, &x[k + 1], length_);
+      transpose(&vs_[pieces], row_padding, pieces, pieces, &v[k + 1], length_);
     }
   }
 
@@ -104,10 +104,12 @@ class SideBySide {
   }
 
  private:
+  LaneStates row(std::size_t i) { return {&xs_[i * pieces], &vs_[i * pieces], peaks_}; }
+
   // Tells the recorder of a piece from one of its segments on, at the beginning of which it is stuck.
   template <class Moved>
   void record(std::size_t piece, std::size_t begin, std::size_t segment, const Moved& moved) {
-    const LaneEvent *event = &events_[piece * most_events], *const end = next_[piece];
+    const LaneEvent *event = &events_[piece * most_events_], *const end = next_[piece];
     while (event != end && event->segment < segment) ++event;
     const auto at = [&](const LaneEvent& e) { return ground_.time(begin + e.segment) + e.time; };
     recorder_.events(static_cast<std::size_t>(end - event), [&](std::size_t k) {
@@ -129,9 +131,11 @@ class SideBySide {
   std::size_t length_ = 0;
   HistorySpans histories_;
   Recording& recorder_;
-  alignas(64) double displacement_[pieces], velocity_[pieces];
-  double peak_[pieces] = {};  // of no interest
-  double loads_[(row_padding + 1) * pieces], xs_[row_padding * pieces], vs_[row_padding * pieces];
+  std::size_t most_events_;  // of a piece
+  // Nine samples of all pieces, of ground acceleration, x and v.
+  alignas(64) double loads_[(row_padding + 1) * pieces], xs_[(row_padding + 1) * pieces],
+      vs_[(row_padding + 1) * pieces];
+  double peaks_[pieces] = {};              // looked at by nobody
   std::unique_ptr<double[]> work_{};       // of the ground, at each sample of each piece
   std::unique_ptr<LaneEvent[]> events_{};  // of all pieces,
   LaneEvent* next_[pieces] = {};           // up to these

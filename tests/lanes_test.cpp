@@ -109,14 +109,14 @@ double compare(const Case& c, std::size_t segments, Hard& hard) {
       v[lane] = state[lane].velocity;
       peak[lane] = std::abs(peak[lane]);
     }
-    const auto with_x = x, with_v = v, with_peak = peak;
+    auto with_x = x, with_v = v;
     detail::advance_lanes(lanes, most_lanes, start.data(), end.data(), {x.data(), v.data(), peak.data()});
-    const auto alone_x = std::exchange(x, with_x), alone_v = std::exchange(v, with_v);
-    peak = with_peak;
     for (std::size_t lane = 0; lane < most_lanes; ++lane) next[lane] = events[lane].data();
     LaneAccount account{static_cast<std::uint32_t>(i), next.data(), no_work.data(), work.data(), 0};
-    detail::advance_lanes(lanes, most_lanes, start.data(), end.data(), {x.data(), v.data(), peak.data()}, &account);
-    if (x != alone_x || v != alone_v) worst = infinity;  // who looks on changes nothing
+    auto told_x = with_x, told_v = with_v, told_peak = peak;
+    detail::advance_lanes(lanes, start.data(), end.data(), {with_x.data(), with_v.data(), told_peak.data()},
+                          {told_x.data(), told_v.data(), told_peak.data()}, &account);
+    if (told_x != x || told_v != v) worst = infinity;  // who looks on changes nothing
     for (std::size_t lane = 0; lane < most_lanes; ++lane) {
       const State before = state[lane];
       Watch watch{.peak = std::abs(before.displacement)};

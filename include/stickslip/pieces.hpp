@@ -41,7 +41,7 @@ inline bool worth_pieces(const Slider<Coulomb>& slider, const GroundMotion& moti
 ///
 /// Arguments, answers, errors and accuracy are those of `integrate`. The last bits may differ, and with them what they
 /// decide: whether a velocity that only touches zero stops there. Some 10 to 20 ns a sample with AVX2, where
-/// `integrate` takes 15 to 36, and 4 MB of memory meanwhile.
+/// `integrate` takes 15 to 36, and up to 7 MB of memory meanwhile.
 template <FrictionLaw Law, Motion M>
 Response integrate_by_pieces(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                              Response storage = {}) {
