@@ -76,13 +76,22 @@ class FirstRoot {
     return root < never ? root : search(b, left + width / 2, width / 2);
   }
 
+  // Newton's method, from where a parabola through the start would be zero; even and odd powers go apart, as an
+  // addition must wait for what it adds.
   double polish(double low, double high) const noexcept {
-    for (double t = low + (high - low) / 2;;) {
-      double value = w_[degree_], slope = 0;
-      for (int k = degree_ - 1; k >= 0; --k) {
-        slope = slope * t + value;
-        value = value * t + w_[k];
+    const double guess = degree_ < 2 ? 1 : first_root(w_[0], w_[1], 2 * w_[2]);
+    for (double t = guess > low && guess < high ? guess : low + (high - low) / 2;;) {
+      const double z = t * t;
+      double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // slopes by z
+      for (int k = degree_ & ~1; k >= 0; k -= 2) {
+        even_slope = even_slope * z + even;
+        even = even * z + w_[k];
       }
+      for (int k = (degree_ - 1) | 1; k >= 1; k -= 2) {
+        odd_slope = odd_slope * z + odd;
+        odd = odd * z + w_[k];
+      }
+      const double value = even + t * odd, slope = 2 * t * (even_slope + t * odd_slope) + odd;
       (value > 0 ? low : high) = t;
       double next = t - value / slope;
       if (std::abs(next - t) <= 0x1p-52 * t) return t;
