@@ -33,8 +33,8 @@ struct Histories {
 /// @param heartbeat  called at least every second or so; may throw to end the work; optional
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
 /// @throws ConvergenceError     a law without power series
-/// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 8 to 16 ns a
-/// sample at even steps, new arrays included, where `integrate` takes 15 to 36 (AVX2).
+/// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 9 to 14 ns a
+/// sample at even steps, new arrays included, where `integrate` takes 20 to 42 (AVX2).
 template <FrictionLaw Law>
 Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
                     const std::function<void()>& heartbeat = {}) {

@@ -107,7 +107,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
 /// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
 ///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic
 ///                                motion (a spring that swings that often within the pieces of the motion)
-/// Constant friction: exact to round-off, 1e-13 of the scale of x; 15 to 36 ns a sample, 23 to 56 with a spring. Other
+/// Constant friction: exact to round-off, 1e-13 of the scale of x; 20 to 42 ns a sample, 30 to 61 with a spring. Other
 /// laws: Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic motion constant friction without a
 /// spring is in closed form, all else in power series: 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us
 /// for other laws; each sample adds 0.1 to 0.2 us.

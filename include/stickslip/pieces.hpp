@@ -40,8 +40,8 @@ inline bool worth_pieces(const Slider<Coulomb>& slider, const GroundMotion& moti
 /// is left to `integrate`. Needs the library; `integrate` is of the header-only core.
 ///
 /// Arguments, answers, errors and accuracy are those of `integrate`. The last bits may differ, and with them what they
-/// decide: whether a velocity that only touches zero stops there. Some 10 to 20 ns a sample with AVX2, where
-/// `integrate` takes 15 to 36, and up to 7 MB of memory meanwhile.
+/// decide: whether a velocity that only touches zero stops there. Some 12 to 30 ns a sample with AVX2, where
+/// `integrate` takes 20 to 42, and up to 7 MB of memory meanwhile.
 template <FrictionLaw Law, Motion M>
 Response integrate_by_pieces(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                              Response storage = {}) {

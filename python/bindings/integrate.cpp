@@ -81,8 +81,8 @@ ConvergenceError
 
 Notes
 -----
-Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 15 to 33 ns a
-sample, 24 to 55 with a spring. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
+Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 13 to 25 ns a
+sample, 28 to 57 with a spring. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
 motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
 power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
 adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
