@@ -31,15 +31,15 @@ class SideBySide {
         ground_(motion),
         histories_(histories),
         recorder_(recorder),
-        most_events_(LaneAccount::most_events * std::min(longest, motion.segments() / pieces)) {
+        most_(std::min(longest, motion.segments() / pieces)) {
     if constexpr (recorded) {
-      events_ = std::make_unique_for_overwrite<LaneEvent[]>(pieces * most_events_);
-      work_ = std::make_unique_for_overwrite<double[]>((longest + 1) * pieces);
+      events_ = std::make_unique_for_overwrite<LaneEvent[]>(LaneAccount::most_events * most_ * pieces);
+      work_ = std::make_unique_for_overwrite<double[]>((most_ + 1) * pieces);
       std::fill_n(work_.get(), pieces, 0.0);
     }
   }
 
-  /// The histories of all pieces, each from rest at x = 0: eight segments at a time: sample k of piece p is column p of
+  /// The histories of all pieces, each from rest at x = 0. Eight segments at a time: sample k of piece p is column p of
   /// row k.
   void start(std::size_t begin, std::size_t length) {
     length_ = length;
@@ -54,7 +54,7 @@ class SideBySide {
     account_.indistinct = 0;
     for (std::size_t p = 0; p < pieces; ++p) {
       loads_[last + p] = ground[p * length_];
-      if constexpr (recorded) next_[p] = &events_[p * most_events_];
+      if constexpr (recorded) next_[p] = events_of(p);
     }
     for (std::size_t k = 0; k < length_; k += row_padding) {
       for (double* const rows : {loads_, xs_, vs_}) std::copy_n(rows + last, pieces, rows);
@@ -104,12 +104,13 @@ class SideBySide {
   }
 
  private:
+  LaneEvent* events_of(std::size_t piece) { return &events_[LaneAccount::most_events * most_ * piece]; }
   LaneStates row(std::size_t i) { return {&xs_[i * pieces], &vs_[i * pieces], peaks_}; }
 
   // Tells the recorder of a piece from one of its segments on, at the beginning of which it is stuck.
   template <class Moved>
   void record(std::size_t piece, std::size_t begin, std::size_t segment, const Moved& moved) {
-    const LaneEvent *event = &events_[piece * most_events_], *const end = next_[piece];
+    const LaneEvent *event = events_of(piece), *const end = next_[piece];
     while (event != end && event->segment < segment) ++event;
     const auto at = [&](const LaneEvent& e) { return ground_.time(begin + e.segment) + e.time; };
     recorder_.events(static_cast<std::size_t>(end - event), [&](std::size_t k) {
@@ -131,7 +132,7 @@ class SideBySide {
   std::size_t length_ = 0;
   HistorySpans histories_;
   Recording& recorder_;
-  std::size_t most_events_;  // of a piece
+  std::size_t most_;  // segments of a piece
   // Nine samples of all pieces, of ground acceleration, x and v.
   alignas(64) double loads_[(row_padding + 1) * pieces], xs_[(row_padding + 1) * pieces],
       vs_[(row_padding + 1) * pieces];

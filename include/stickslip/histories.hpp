@@ -42,18 +42,13 @@ Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
   const detail::HistorySpans spans{result.displacement, result.velocity};
   State state;
   detail::NoRecorder none(heartbeat);
-  const auto whole = [&] {
-    detail::with_flows(slider, motion,
-                       [&](const auto& flows) { detail::run(slider.law(), flows, motion, state, none, spans); });
+  const auto run = [&] {
+    if constexpr (std::same_as<Law, Coulomb>) {
+      if (detail::worth_pieces(slider, motion)) return detail::run_by_pieces(slider.law(), motion, state, none, spans);
+    }
+    detail::run(slider, motion, state, none, spans);
   };
-  if constexpr (std::same_as<Law, Coulomb>) {
-    if (detail::worth_pieces(slider, motion))
-      detail::run_by_pieces(slider.law(), motion, state, none, spans);
-    else
-      whole();
-  } else {
-    whole();
-  }
+  run();
   bool finite = true;
   for (const auto* values : {&result.displacement, &result.velocity})
     for (const double value : *values) finite &= std::abs(value) <= std::numeric_limits<double>::max();

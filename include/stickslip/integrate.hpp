@@ -116,9 +116,7 @@ Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOp
                    Response storage = {}) {
   return detail::integrate_by(slider, motion, options, std::move(storage),
                               [&](State& state, auto& recorder, const detail::HistorySpans& histories) {
-                                detail::with_flows(slider, motion, [&](const auto& flows) {
-                                  detail::run(slider.law(), flows, motion, state, recorder, histories);
-                                });
+                                detail::run(slider, motion, state, recorder, histories);
                               });
 }
 

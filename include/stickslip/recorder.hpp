@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/advance.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/response.hpp"
@@ -136,7 +137,7 @@ class Recorder {
 };
 
 /// In the place of a recorder, where nothing is asked but the motion.
-class NoRecorder {
+class NoRecorder : public NoObserver {
  public:
   static constexpr std::uint32_t work_a_beat = 4096;  // segments
 
@@ -146,8 +147,6 @@ class NoRecorder {
   void heartbeat() const {
     if (heartbeat_) heartbeat_();
   }
-  void slide(Direction, double, double, double, double) const noexcept {}
-  void event(EventKind, double, const State&) const noexcept {}
 
  private:
   const std::function<void()>& heartbeat_;

@@ -38,15 +38,15 @@ template <Motion M, FrictionLaw Law>
 using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
 
 /// Slides through all segments, one by one.
-/// @tparam Recorder  a RecorderFor the motion and law, or NoRecorder
-template <FrictionLaw Law, class Flows, class Recorder>
+/// @tparam Recording  a RecorderFor the motion and law, or NoRecorder
+template <FrictionLaw Law, class Flows, class Recording>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          Recorder& recorder, const HistorySpans& histories) {
+                          Recording& recorder, const HistorySpans& histories) {
   const GroundMotion::Pieces pieces(motion);
   const std::size_t count = motion.segments();
   State moving = state;
   for (std::size_t i = 0; i < count;) {
-    for (const std::size_t beat = std::min(i + Recorder::work_a_beat, count); i < beat; ++i) {
+    for (const std::size_t beat = std::min(i + Recording::work_a_beat, count); i < beat; ++i) {
       recorder.begin_segment(pieces.time(i));
       detail::advance(law, flows, pieces.segment(i), moving, recorder);
       histories.keep(i + 1, moving);
@@ -95,6 +95,12 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
     }
     histories.keep(i + 1, state);
   }
+}
+
+/// The same with the flows that fit the slider.
+template <FrictionLaw Law, Motion M, class Recording>
+void run(const Slider<Law>& slider, const M& motion, State& state, Recording& recorder, const HistorySpans& histories) {
+  with_flows(slider, motion, [&](const auto& flows) { run(slider.law(), flows, motion, state, recorder, histories); });
 }
 
 }  // namespace detail
