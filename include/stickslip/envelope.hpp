@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// What a stationary acceleration is multiplied by to become an earthquake: it builds up, stays strong, decays.

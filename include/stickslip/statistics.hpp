@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// A figure and its standard error, in the same unit.
