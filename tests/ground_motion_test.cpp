@@ -94,3 +94,14 @@ TEST_CASE("held values may share a time: a piece of no length does nothing", "[g
   CHECK(one.displacement[1] == one.displacement[2]);
   CHECK(one.events.size() == other.events.size());
 }
+
+TEST_CASE("past the last sample times continue with the last step", "[ground_motion]") {
+  const GroundMotion even({1, 2, 3}, 0.1);
+  CHECK(even.last_step() == 0.1);
+  CHECK(even.time(7) == 7 * 0.1);
+  const GroundMotion uneven({1, 2, 3}, {1, 2, 2.5});
+  CHECK(uneven.last_step() == 0.5);
+  CHECK(uneven.time(2) == 2.5);
+  CHECK(uneven.time(5) == 4);
+  CHECK(GroundMotion({1, 2, 3, 4}, {0, 1, 2, 2}, Interpolation::constant).last_step() == 1);
+}

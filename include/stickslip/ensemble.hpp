@@ -321,19 +321,13 @@ class MemberSimulator final : public Simulator {
     }
     void event(EventKind, double, const State&) {
       beat();
-      if (++events_ > most_events_) refuse_more();
+      if (++events_ > most_events_) refuse_more_events(most_events_);
     }
 
    private:
     void beat() {
       if (++beats_ % Recorder<Law>::work_a_beat == 0) block_.beat();
     }
-    [[gnu::noinline]] void refuse_more() const {
-      throw ConvergenceError("more than " + std::to_string(most_events_) +
-                             " events: the spring is too stiff, or the slip level too low, for pieces of motion this "
-                             "long");
-    }
-
     const Block& block_;
     std::size_t most_events_, events_ = 0;
     std::uint32_t beats_ = 0;
@@ -351,7 +345,7 @@ class MemberSimulator final : public Simulator {
   void slide(const Flows& flows, const GroundMotion& motion, std::size_t member, Block& block) {
     const std::size_t width = block.width();
     State state;
-    PeakObserver observer(block, 1'000'000 + 8 * (motion.segments() + block.times().count));
+    PeakObserver observer(block, max_events(motion.segments() + block.times().count));
     go_through(
         motion, block, [&](const Segment& segment) { go(flows, segment, state, observer); },
         [&](std::size_t time) {

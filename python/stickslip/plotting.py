@@ -238,7 +238,7 @@ def plot_responses(
         raise ValueError("plot_responses: at least one response is needed, got none")
     if any(
         not np.array_equal(r.motion.acceleration, responses[0].motion.acceleration)
-        or not np.array_equal(r.time, responses[0].time)
+        or not np.array_equal(r.motion.time, responses[0].motion.time)
         for r in responses[1:]
     ):
         raise ValueError("plot_responses: all responses must be of the same ground motion")
@@ -541,7 +541,7 @@ def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _draw_ground(axes: Axes, response: Response) -> None:
     motion, end = response.motion, response.events["time"][-1]
-    t = np.append(response.time, [response.time[-1], end])
+    t = np.append(motion.time, [motion.time[-1], max(end, motion.time[-1])])
     n = np.append(motion.acceleration, [0, 0]) / STANDARD_GRAVITY
     axes.plot(
         t,
