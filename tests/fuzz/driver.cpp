@@ -24,6 +24,7 @@
 
 namespace {
 
+using namespace std::string_view_literals;
 using Random = std::mt19937_64;
 
 constexpr std::size_t longest = std::size_t{1} << 18;  // bytes of an input
@@ -69,7 +70,7 @@ void mutate(std::string& input, const std::vector<std::string>& seeds, Random& r
                                                                     "0,5",
                                                                     "9007199254740993",
                                                                     "18446744073709551616"});
-  static constexpr std::string_view alphabet("0123456789.,;-+eEdD \n\r\t#|()[]=*xN\0\x80\xC0\xED\xFF", 43);
+  static constexpr std::string_view alphabet = "0123456789.,;-+eEdD \n\r\t#|()[]=*xN\0\x80\xC0\xED\xFF"sv;
   const auto any_byte = [&] {
     return random() % 4 == 0 ? static_cast<char>(random()) : alphabet[below(random, alphabet.size())];
   };
