@@ -38,12 +38,6 @@ std::size_t mostly_small(Random& random, std::size_t limit) {
   return below(random, 1 + below(random, 1 + below(random, limit)));
 }
 
-std::string random_bytes(Random& random) {
-  std::string bytes(mostly_small(random, 4096), '\0');
-  for (char& byte : bytes) byte = static_cast<char>(random());
-  return bytes;
-}
-
 bool in_number(char c) { return std::string_view("0123456789+-.eE").find(c) != std::string_view::npos; }
 
 void mutate(std::string& input, const std::vector<std::string>& seeds, Random& random) {
@@ -189,6 +183,12 @@ bool passes() {
     std::fprintf(stderr, "finding: an exception escapes\n");
   }
   return false;
+}
+
+std::string random_bytes(Random& random) {
+  std::string bytes(mostly_small(random, 4096), '\0');
+  for (char& byte : bytes) byte = static_cast<char>(random());
+  return bytes;
 }
 
 template <class T>
