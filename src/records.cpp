@@ -593,23 +593,21 @@ class Resolution {
   std::vector<int> decades_{};  // of the first digit of each time
 };
 
-/// The smallest step with which times that are each right within a margin can be even (mirrored: the largest).
+/// The smallest step with which even times can lie between two bounds each.
 ///
-/// It is the steepest line from the upper end of a time's margin to the lower end of a later one's. A line that is not
-/// steep enough is replaced by the one that exceeds it most, until none does.
-double smallest_step(const std::vector<double>& times, const std::vector<double>& margins, double sign) {
-  const auto lower = [&](std::size_t i) { return sign * (times[i] - times[0]) - margins[i]; };
-  const auto upper = [&](std::size_t i) { return sign * (times[i] - times[0]) + margins[i]; };
-  const auto steps = [](std::size_t count) { return static_cast<double>(count); };
-  const std::size_t last = times.size() - 1;
-  for (double step = (lower(last) - upper(0)) / steps(last);;) {
-    double steeper = step, most = 0, lowest = upper(0);
+/// It is the steepest line from an upper bound to a later lower one. A line that is not steep enough is replaced by the
+/// one that exceeds it most, until none does.
+double smallest_step(const std::vector<double>& lower, const std::vector<double>& upper) {
+  const std::size_t last = lower.size() - 1;
+  for (double step = (lower[last] - upper[0]) / static_cast<double>(last);;) {
+    double steeper = step, most = 0, lowest = upper[0];
     for (std::size_t i = 1, from = 0; i <= last; ++i) {
-      if (const double excess = lower(i) - steps(i) * step - lowest; excess > most) {
+      const double line = static_cast<double>(i) * step;
+      if (const double excess = lower[i] - line - lowest; excess > most) {
         most = excess;
-        steeper = (lower(i) - upper(from)) / steps(i - from);
+        steeper = (lower[i] - upper[from]) / static_cast<double>(i - from);
       }
-      if (const double top = upper(i) - steps(i) * step; top < lowest) {
+      if (const double top = upper[i] - line; top < lowest) {
         lowest = top;
         from = i;
       }
@@ -621,19 +619,24 @@ double smallest_step(const std::vector<double>& times, const std::vector<double>
 
 /// The step of times that are even as far as they are printed: the shortest decimal that fits them all.
 std::optional<double> even_step(const std::vector<double>& times, const std::vector<double>& units) {
-  const double length = times.back() - times.front(), mean = length / static_cast<double>(times.size() - 1);
+  const std::size_t count = times.size();
+  const double length = times.back() - times.front(), mean = length / static_cast<double>(count - 1);
   const double coarsest = *std::ranges::max_element(units);
+  const double farthest = std::max(std::abs(times.front()), std::abs(times.back()));
+  const double sums =
+      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if added up
   if (!std::isfinite(length)) return std::nullopt;
   // Rounding explains uneven steps only where a missing sample could not hide in it, and in more than a handful. A
   // tenth more than a print's rounding is for times computed in single precision.
   for (const double rounding : {0., 0.55}) {
     if (rounding > 0 && (mean < 2 * coarsest || length < 100 * coarsest)) break;
-    std::vector<double> margins(times.size());
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const double sums = static_cast<double>(2 * (i + 1)) * std::numeric_limits<double>::epsilon();  // if added up
-      margins[i] = rounding * units[i] + sums * std::max(std::abs(times[0]), std::abs(times[i]));
+    std::vector<double> lower(count), upper(count), minus_lower(count), minus_upper(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double margin = rounding * units[i] + sums;
+      minus_lower[i] = -(lower[i] = times[i] - times[0] - margin);
+      minus_upper[i] = -(upper[i] = times[i] - times[0] + margin);
     }
-    const double smallest = smallest_step(times, margins, 1), largest = -smallest_step(times, margins, -1);
+    const double smallest = smallest_step(lower, upper), largest = -smallest_step(minus_upper, minus_lower);
     if (!(smallest <= largest)) continue;
     const double middle = smallest / 2 + largest / 2;
     for (double power = 1; std::abs(middle) * power < 1e15; power *= 10)
@@ -740,8 +743,15 @@ const Format& recognize(const Lines& lines) {
 // ---- the file
 
 bool is_utf8(std::string_view text) {
-  for (std::size_t length = 1; length > 0 && !text.empty(); text.remove_prefix(length)) length = sequence(text);
-  return text.empty();
+  const auto is_long = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  for (auto next = std::ranges::find_if(text, is_long); next != text.end();
+       next = std::ranges::find_if(text, is_long)) {
+    text.remove_prefix(static_cast<std::size_t>(next - text.begin()));
+    const std::size_t length = sequence(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
 }
 
 std::string latin1_to_utf8(std::string_view text) {
