@@ -1,6 +1,7 @@
 """Records from files: formats, units, and what is wrong with a file."""
 
 import codecs
+import os
 
 import numpy as np
 import pytest
@@ -200,6 +201,10 @@ def test_a_file_that_is_not_there_is_an_error_of_the_system(tmp_path):
     assert caught.value.filename == str(tmp_path / "missing.AT2")
     with pytest.raises(IsADirectoryError):
         ss.read_record(tmp_path)
+    nameless = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.AT2")
+    with pytest.raises(FileNotFoundError) as caught:
+        ss.read_record(nameless)
+    assert caught.value.filename == nameless
 
 
 @pytest.mark.parametrize("file", [3, None, 2.5, ["record.txt"]])
