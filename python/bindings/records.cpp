@@ -63,6 +63,18 @@ ValueError
 Notes
 -----
 About 1 ms for 10,000 samples.)");
+  m.def("acceleration_unit", &acceleration_unit, py::arg("name"),
+        R"(How many m/s^2 one unit of acceleration is: `acceleration_unit("gal")` is 0.01.
+
+Parameters
+----------
+name : str
+    A unit as `read_record` takes it.
+
+Raises
+------
+ValueError
+    Unknown unit; lists the known ones.)");
 }
 
 }  // namespace stickslip::python

@@ -958,6 +958,7 @@ def continuation(
 def histories(
     slider: Slider | Coulomb | Caster, motion: GroundMotion
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def acceleration_unit(name: str) -> float: ...
 def read_record(
     file: str | bytes | PathLike[str] | PathLike[bytes],
     *,

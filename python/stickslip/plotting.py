@@ -27,6 +27,7 @@ except ImportError as error:
 
 from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response, ViscousSlider
 from ._files import replacing
+from ._text import printable
 from .comparison import Comparison
 
 __all__ = [
@@ -328,7 +329,7 @@ def plot_friction_sweep(
         for line in np.delete(lines, lifted, axis=0):
             axes.plot(mu, line, color="#c4c4c4", linewidth=0.8)
         for i, colour in zip(lifted, COLOURS):
-            axes.plot(mu, lines[i], color=colour, linewidth=1.5, label=names[i])
+            axes.plot(mu, lines[i], color=colour, linewidth=1.5, label=printable(names[i]))
         median = np.median(lines, axis=0)
         axes.plot(mu, median, color=INK, linewidth=3, label=f"median of {len(names)} records")
         axes.set(xscale="log", yscale="log", xlim=(mu[0], mu[-1]))
@@ -342,7 +343,8 @@ def plot_friction_sweep(
         axes.set_xlabel("coefficient of friction [\N{MINUS SIGN}]")
         axes.set_ylabel("peak relative displacement [cm]")
         axes.set_title(f"How far a block slides in {len(names)} earthquake records")
-        axes.legend(loc="lower left", fontsize=8)
+        for text in axes.legend(loc="lower left", fontsize=8).get_texts():
+            text.set_parse_math(False)  # a dollar in the name of a file is one
     return figure
 
 
@@ -620,8 +622,9 @@ def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
 
 
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
-    name = textwrap.fill(title or motion.name or "ground motion", 75)
-    axes.set_title(name, pad=18 if below else None)
+    name = title or printable(motion.name) or "ground motion"
+    # Math in a caller's title is meant, a dollar in the name of a file is one.
+    axes.set_title(textwrap.fill(name, 75), pad=18 if below else None, parse_math=bool(title))
     axes.annotate(
         below,
         (0, 1),
