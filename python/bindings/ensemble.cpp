@@ -1,10 +1,12 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "bindings.hpp"
@@ -214,10 +216,11 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_of(const Ensemble& e
 
 // ---- the run
 
-/// A source of ground motions that is written in Python; called by threads that do not hold the interpreter.
+/// A source of ground motions that is written in Python; called by threads that do not hold the interpreter. Once the
+/// run has `ended` it is not asked any more.
 class PythonExcitation {
  public:
-  explicit PythonExcitation(const py::object& object) : sample_(method(object)) {
+  PythonExcitation(const py::object& object, const std::atomic<bool>& ended) : sample_(method(object)), ended_(ended) {
     duration_ = attribute(object, "duration").cast<double>();
     detail::require(std::isfinite(duration_) && duration_ > 0,
                     "run_ensemble: the excitation's duration must be positive and finite", duration_, "s");
@@ -230,6 +233,8 @@ class PythonExcitation {
   }
 
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
+    const std::scoped_lock turn(one_at_a_time_);  // before the interpreter's, which whoever is within may let go of
+    if (ended_) throw detail::Block::Stopped{};
     const py::gil_scoped_acquire held;
     const py::object made = sample_(py::arg("seed") = seed, py::arg("member") = member);
     if (!py::isinstance<GroundMotion>(made))
@@ -263,16 +268,18 @@ class PythonExcitation {
   static py::object method(const py::object& object) { return attribute(object, "sample"); }
 
   py::object sample_;
+  const std::atomic<bool>& ended_;
+  mutable std::mutex one_at_a_time_;
   double duration_ = 0, dt_ = 0;
   std::string configuration_;
 };
 
 /// Calls with the excitation as what it is.
 template <class F>
-auto with_excitation(const py::object& excitation, F&& f) {
+auto with_excitation(const py::object& excitation, const std::atomic<bool>& ended, F&& f) {
   if (py::isinstance<GaussianExcitation>(excitation)) return f(excitation.cast<const GaussianExcitation&>());
   if (py::isinstance<PoissonPulses>(excitation)) return f(excitation.cast<const PoissonPulses&>());
-  return f(PythonExcitation(excitation));
+  return f(PythonExcitation(excitation, ended));
 }
 
 template <class E>
@@ -290,6 +297,7 @@ Ensemble run(const S& slider, const py::object& excitation, std::uint64_t member
              std::uint64_t seed, unsigned threads, double dt, bool settle, bool velocity_spectrum,
              const Ensemble* start, const py::object& heartbeat, const py::object& interrupted) {
   EnsembleOptions options{members, first_member, seed, threads, dt, settle, velocity_spectrum};
+  std::atomic<bool> ended = false;
   options.heartbeat = [&](const EnsembleProgress& progress) {
     const py::gil_scoped_acquire held;
     // What is there so far is copied only for who asks, and only while it stands still.
@@ -304,11 +312,12 @@ Ensemble run(const S& slider, const py::object& excitation, std::uint64_t member
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!heartbeat.is_none()) heartbeat(progress.done, progress.members, so_far);
     } catch (const py::error_already_set&) {
+      ended = true;
       if (!interrupted.is_none()) interrupted(so_far);
       throw;
     }
   };
-  return with_excitation(excitation, [&](const auto& source) {
+  return with_excitation(excitation, ended, [&](const auto& source) {
     const py::gil_scoped_release released;
     return run_members(slider, source, options, start);
   });
