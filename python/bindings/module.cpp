@@ -32,4 +32,8 @@ PYBIND11_MODULE(_core, m) {
   bind_pulse_chain(m);
   bind_thesis(m);
   bind_build_info(m);
+  m.def(
+      "to_vector", [](const py::object& values, const std::string& name) { return to_array(to_vector(values, name)); },
+      py::arg("values"), py::arg("name"),
+      "Real numbers in a row, as all functions take them; `name` is for the message where they are none.");
 }

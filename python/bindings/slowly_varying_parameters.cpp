@@ -20,11 +20,12 @@ struct SlowlyVaryingParameters : theory::SlowlyVaryingParameters {
   AnySlider slider;
 };
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+constexpr const char* amplitudes = "SlowlyVaryingParameters: amplitude";
 
 /// Two numbers by amplitude: a tuple of floats for a float, of arrays of the same shape for an array.
 template <class F>
-py::tuple branches(const Numbers& amplitude, const F& f) {
+py::tuple branches(const py::object& given, const F& f) {
+  const Numbers amplitude = to_numbers(given, amplitudes);
   if (amplitude.ndim() == 0) {
     const Branches b = f(*amplitude.data());
     return py::make_tuple(b.lower, b.upper);
@@ -46,8 +47,8 @@ py::tuple branches(const Numbers& amplitude, const F& f) {
 }
 
 template <double (theory::SlowlyVaryingParameters::*f)(double) const>
-py::object by_amplitude(const SlowlyVaryingParameters& self, const Numbers& amplitude) {
-  return py::vectorize([&self](double a) { return (self.*f)(a); })(amplitude);
+py::object by_amplitude(const SlowlyVaryingParameters& self, const py::object& amplitude) {
+  return of_each(amplitude, amplitudes, [&self](double a) { return (self.*f)(a); });
 }
 
 }  // namespace
@@ -207,7 +208,7 @@ Notes
 All of them, amplitudes to round-off; 1 to 10 us.)")
       .def(
           "frequency",
-          [](const SlowlyVaryingParameters& self, double B, const Numbers& amplitude) {
+          [](const SlowlyVaryingParameters& self, double B, const py::object& amplitude) {
             return branches(amplitude, [&](double a) { return self.frequency(B, a); });
           },
           py::arg("B"), py::arg("amplitude"),
@@ -234,7 +235,7 @@ ValueError
     A value out of its range.)")
       .def(
           "stability_boundary",
-          [](const SlowlyVaryingParameters& self, const Numbers& amplitude) {
+          [](const SlowlyVaryingParameters& self, const py::object& amplitude) {
             return branches(amplitude, [&](double a) { return self.stability_boundary(a); });
           },
           py::arg("amplitude"),

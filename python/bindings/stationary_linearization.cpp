@@ -39,8 +39,9 @@ The linear system x'' + zeta x' + wn^2 x = -n(t) and its response; what `Station
       .def_readonly("natural_frequency", &StationaryPrediction::natural_frequency, "wn [rad/s]; 0 without a spring.")
       .def(
           "velocity_spectrum",
-          [](const StationaryPrediction& self, const py::array_t<double>& omega) {
-            return py::vectorize([&self](double w) { return self.velocity_spectrum(w); })(omega);
+          [](const StationaryPrediction& self, const py::object& omega) {
+            return of_each(omega, "StationaryPrediction: omega",
+                           [&self](double w) { return self.velocity_spectrum(w); });
           },
           py::arg("omega"),
           R"(Two-sided spectral density of the stationary velocity; its integral over the whole line is velocity_std**2.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import theory
+from . import _core, theory
 from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses
 from .ensemble import run_ensemble
 
@@ -271,8 +271,8 @@ def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:
         time = np.linspace(end / 6, end, 6)
         time = time if own is None else np.maximum(np.rint(time / own), 1) * own
     else:
-        time = np.asarray(times, float)
-    if time.ndim != 1 or len(time) == 0 or not np.isfinite(time).all():
+        time = _core.to_vector(times, "compare: times")
+    if len(time) == 0 or not np.isfinite(time).all():
         raise ValueError(f"compare: times must be a row of finite numbers, got {times!r}")
     if not (np.diff(time, prepend=0) > 0).all() or time[-1] > end * (1 + 1e-12):
         raise ValueError(
