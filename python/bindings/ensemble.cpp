@@ -9,7 +9,7 @@
 #include <mutex>
 #include <utility>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "stickslip/ensemble.hpp"
 
 namespace stickslip::python {
@@ -361,12 +361,12 @@ that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
 }  // namespace
 
 void bind_ensemble(py::module_& m) {
-  py::class_<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
+  value_class<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
       .def_readonly("value", &Estimate::value, "The figure.")
       .def_readonly("error", &Estimate::error, "Its standard error, from the scatter between members.")
       .def("__repr__", [](const Estimate& e) { return "<Estimate: " + with_error(e) + ">"; });
 
-  py::class_<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
+  value_class<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
       .def_readonly("value", &Interval::value, "The figure.")
       .def_readonly("low", &Interval::low, "Lower bound.")
       .def_readonly("high", &Interval::high, "Upper bound; infinite where the members are too few to bound it.")
@@ -374,8 +374,8 @@ void bind_ensemble(py::module_& m) {
         return "<Interval: " + digits(i.value) + ", from " + digits(i.low) + " to " + digits(i.high) + ">";
       });
 
-  py::class_<Stationary>(m, "Stationary",
-                         R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
+  value_class<Stationary>(m, "Stationary",
+                          R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
 
 The errors are those of the scatter between members.)")
       .def_readonly("begin", &Stationary::begin, "From when on it was averaged [s].")
@@ -395,8 +395,8 @@ Of D(t) = Var[x(begin + t) - x(begin)]: (D(T) - D(T/2)) / (T/2), with T from beg
                with_error(s.velocity_variance) + " m^2/s^2, growth_rate " + with_error(s.growth_rate) + " m^2/s>";
       });
 
-  py::class_<VelocitySpectrum>(m, "VelocitySpectrum",
-                               R"(Spectral density of the velocity in the central half of the motions, two-sided.
+  value_class<VelocitySpectrum>(m, "VelocitySpectrum",
+                                R"(Spectral density of the velocity in the central half of the motions, two-sided.
 
 Kaiser-Bessel window, thesis (4.62), beta = 8, with a mean square of one; dt / (2 pi M) |DFT|^2 of the M windowed
 samples. The integral over the whole line is the mean square velocity.)")
@@ -417,7 +417,8 @@ Every figure comes with its standard error, from the scatter between members. Al
 means (Pebay 2008), and merge in an order that the members' numbers fix: the same members give the same bits on any
 number of threads and in any parts that end on whole blocks.
 
-Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for.)")
+Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for. Ensembles with the same
+members and figures are equal; they can be copied and pickled, but not hashed, for `merge` changes them.)")
       .def_property_readonly("members", &Ensemble::members, "How many members it holds.")
       .def_property_readonly("member_ranges", &ranges_of,
                              "Which members: (first, one past the last) of each unbroken row of them.")
@@ -575,6 +576,8 @@ OSError
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def("__repr__", &repr)
+      .def(
+          "__eq__", [](const Ensemble& a, const Ensemble& b) { return a == b; }, py::is_operator())
       .def(py::pickle(&state_of, &ensemble_of));
 
   add_runs<AnySlider>(m);

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -53,9 +53,12 @@ py::object by_amplitude(const SlowlyVaryingParameters& self, const py::object& a
 
 }  // namespace
 
+template <>
+inline constexpr auto parts<SlowlyVaryingParameters> = std::tuple(&SlowlyVaryingParameters::slider);
+
 void bind_slowly_varying_parameters(py::module_& m) {
-  py::class_<HarmonicSolution>(m, "HarmonicSolution",
-                               R"(A periodic motion x = amplitude cos(omega t + phase) under B cos(omega t).)")
+  value_class<HarmonicSolution>(m, "HarmonicSolution",
+                                R"(A periodic motion x = amplitude cos(omega t + phase) under B cos(omega t).)")
       .def_readonly("amplitude", &HarmonicSolution::amplitude, "A [m].")
       .def_readonly("phase", &HarmonicSolution::phase, "phi [rad], from -pi to pi; nan where the amplitude is 0.")
       .def_readonly("stable", &HarmonicSolution::stable, "Whether it is come back to after a small disturbance.")
@@ -64,7 +67,7 @@ void bind_slowly_varying_parameters(py::module_& m) {
                detail::shortest(s.phase) + " rad, " + (s.stable ? "stable" : "unstable") + ">";
       });
 
-  py::class_<SlowlyVaryingParameters>(
+  value_class<SlowlyVaryingParameters>(
       m, "SlowlyVaryingParameters",
       R"(Harmonic response by the method of slowly varying parameters, thesis 2.2 and 2.3.
 
@@ -370,12 +373,8 @@ ConvergenceError
 Notes
 -----
 Some milliseconds where several are stable.)")
-      .def("__repr__",
-           [](const SlowlyVaryingParameters& self) {
-             return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
-           })
-      .def("__reduce__", [](const py::object& self) {
-        return py::make_tuple(py::type::of(self), py::make_tuple(self.attr("slider")));
+      .def("__repr__", [](const SlowlyVaryingParameters& self) {
+        return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
       });
 }
 

@@ -1,6 +1,6 @@
 #include "stickslip/theory/white_noise.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "white_level.hpp"
 
 namespace stickslip::python {
@@ -23,7 +23,7 @@ WhiteNoise of_slider(const AnySlider& slider, const AnyLevel& s0) {
 }  // namespace
 
 void bind_white_noise(py::module_& m) {
-  py::class_<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
+  value_class<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
 
 The velocity is a diffusion towards rest: dv = -a sgn(v) dt + sqrt(2 D) dW, D = pi S0, dx = v dt, thesis (3.48), (3.49);
 with a level of its own each way where the two differ. For other laws, and with a spring, nothing exact is known.

@@ -26,6 +26,8 @@ _FINEST = 512  # times of the statistics at least, for the stationary averages
 class Comparison:
     """What `compare` returns: an ensemble, and what each theory predicts of it.
 
+    Comparisons with equal attributes are equal; they can be copied and pickled, but not hashed.
+
     Attributes
     ----------
     time : ndarray, shape (T,)
@@ -50,6 +52,16 @@ class Comparison:
         self.theories = theories
         self.refused = refused
         self._at = np.rint(time / ensemble.time[1]).astype(int)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Comparison):
+            return NotImplemented
+        return (
+            np.array_equal(self.time, other.time)
+            and self.ensemble == other.ensemble
+            and self.theories == other.theories
+            and self.refused == other.refused
+        )
 
     def simulated(self, figure: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """A figure of the ensemble at `time`, and its standard error.
