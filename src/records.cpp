@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
@@ -601,11 +602,19 @@ const Format& recognize(const Lines& lines) {
 // ---- the file
 
 bool is_utf8(std::string_view text) {
+  constexpr std::uint32_t smallest[] = {0, 0x80, 0x800, 0x10000};  // by the number of bytes that follow
   for (std::size_t i = 0; i < text.size();) {
     const auto lead = static_cast<unsigned char>(text[i++]);
-    if (lead >= 0x80 && (lead < 0xC2 || lead > 0xF4)) return false;
-    for (int more = lead < 0x80 ? 0 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3; more > 0; --more)
-      if (i == text.size() || (static_cast<unsigned char>(text[i++]) & 0xC0) != 0x80) return false;
+    if (lead < 0x80) continue;
+    if (lead < 0xC0 || lead >= 0xF8) return false;
+    const int following = lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
+    std::uint32_t code = lead & (0x3Fu >> following);
+    for (int k = 0; k < following; ++k) {
+      if (i == text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
+      code = code << 6 | (static_cast<unsigned char>(text[i++]) & 0x3Fu);
+    }
+    const bool surrogate = code >= 0xD800 && code < 0xE000;
+    if (code < smallest[following] || surrogate || code > 0x10FFFF) return false;
   }
   return true;
 }
@@ -619,6 +628,9 @@ std::string latin1_to_utf8(std::string_view text) {
   }
   return result;
 }
+
+/// The text itself if it is UTF-8, else its bytes taken for Latin-1.
+std::string to_utf8(std::string text) { return is_utf8(text) ? text : latin1_to_utf8(text); }
 
 std::string load(const fs::path& file) {
   const auto fail = [&file](std::errc code) {
@@ -644,7 +656,7 @@ std::string decoded(std::string text) {
                                 " (a binary file, or UTF-16)");
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   if (text.ends_with('\x1A')) text.pop_back();
-  return is_utf8(text) ? text : latin1_to_utf8(text);
+  return to_utf8(std::move(text));
 }
 
 Lines split(std::string_view text) {
@@ -729,12 +741,12 @@ GroundMotion read_record(const fs::path& file, const RecordOptions& options) {
     Component component = choose(recognize(lines).read(lines), options.component);
     const double factor = scale(component.units, options.units);
     for (double& n : component.acceleration) n *= factor;
-    std::string name = component.title.empty() ? file.stem().string() : std::move(component.title);
+    std::string name = component.title.empty() ? to_utf8(file.stem().string()) : std::move(component.title);
     if (component.times.empty())
       return {std::move(component.acceleration), component.dt, Interpolation::linear, std::move(name)};
     return {std::move(component.acceleration), std::move(component.times), Interpolation::linear, std::move(name)};
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("read_record: " + file.string() + ": " + error.what());
+    throw std::invalid_argument("read_record: " + to_utf8(file.string()) + ": " + error.what());
   }
 }
 

@@ -11,8 +11,9 @@ void bind_records(py::module_& m) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const std::filesystem::filesystem_error& e) {
-      const py::object os_error =
-          py::reinterpret_borrow<py::object>(PyExc_OSError)(e.code().value(), e.code().message(), e.path1().string());
+      const py::object os_error =  // its file as Python names files whose bytes are no text
+          py::reinterpret_borrow<py::object>(PyExc_OSError)(e.code().value(), e.code().message(),
+                                                            py::str(py::cast(e.path1())));
       PyErr_SetObject(py::type::handle_of(os_error).ptr(), os_error.ptr());
     }
   });
