@@ -127,6 +127,8 @@ TEST_CASE("parts of an ensemble merge into the bits of the whole", "[ensemble]")
   backward.merge(run(64, 0));
   backward.merge(run(832, 64));
   CHECK(same_bits(backward, whole));
+  CHECK(backward == whole);
+  CHECK(run(936, 0) != whole);
   CHECK(backward.members() == 1000);
 }
 

@@ -38,6 +38,20 @@ TEST_CASE("a scaled motion is the same but for the factor", "[ground_motion]") {
   CHECK(motion.acceleration()[1] == -3);
 }
 
+TEST_CASE("motions are equal where all of them is the same", "[ground_motion]") {
+  const std::vector<double> samples{1, -3, 2};
+  const std::vector<GroundMotion> motions{{samples, 0.5},
+                                          {samples, 0.25},
+                                          {samples, 0.5, Interpolation::constant},
+                                          {samples, 0.5, Interpolation::linear, "name"},
+                                          {samples, {0, 0.5, 1}},
+                                          {samples, {0, 0.5, 2}},
+                                          {{1, -3, 4}, 0.5}};
+  for (const GroundMotion& a : motions)
+    for (const GroundMotion& b : motions) CHECK((a == b) == (&a == &b));
+  CHECK(motions[4] == GroundMotion(samples, {0, 0.5, 1}));
+}
+
 TEST_CASE("a motion needs two samples", "[ground_motion][errors]") {
   CHECK_THROWS_WITH(GroundMotion({}, 0.01), "GroundMotion: needs at least two samples, got 0");
   CHECK_THROWS_WITH(GroundMotion({1}, 0.01), "GroundMotion: needs at least two samples, got 1");

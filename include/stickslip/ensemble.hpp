@@ -78,6 +78,7 @@ struct EnsembleTimes {
   /// Stationary averages are taken over the central half, thesis 4.4: `central` times from `begin` on.
   std::size_t begin() const noexcept { return count / 4; }
   std::size_t central() const noexcept { return count / 2; }
+  friend bool operator==(const EnsembleTimes&, const EnsembleTimes&) = default;
 };
 
 /// Averages over the central half of the motion, from `begin` to `end` [s], thesis 4.4, with standard errors from the
@@ -119,6 +120,7 @@ class Ensemble {
   /// Of each member of a block.
   struct Kept {
     std::vector<double> peak, residual;  ///< [m]
+    friend bool operator==(const Kept&, const Kept&) = default;
   };
 
   /// All that an ensemble holds, to be put into a file and read back.
@@ -130,6 +132,7 @@ class Ensemble {
     std::map<std::uint64_t, std::size_t> cut;  ///< blocks that are not whole, and how many members they have
     std::map<std::uint64_t, Kept> kept;        ///< by the block's number; empty once there are more than `most_kept`
     detail::Sketch peaks;                      ///< then this counts them
+    friend bool operator==(const Parts&, const Parts&) = default;
   };
 
   /// Of more members than these no single peak and residual is kept; peaks are then counted in bins 0.1 % wide.
@@ -142,6 +145,9 @@ class Ensemble {
   /// @throws std::invalid_argument where the parts do not fit together
   explicit Ensemble(Parts parts);
   const Parts& parts() const noexcept { return parts_; }
+
+  /// Whether they are of one configuration and hold the same members with the same figures.
+  friend bool operator==(const Ensemble&, const Ensemble&) = default;
 
   const Configuration& configuration() const noexcept { return parts_.configuration; }
   std::uint64_t members() const;

@@ -137,6 +137,13 @@ class GroundMotion {
     return result;
   }
 
+  /// Whether samples, times, interpolation and name are the same; even times differ from a list of them.
+  friend bool operator==(const GroundMotion& a, const GroundMotion& b) {
+    const bool same_dt = a.dt_ == b.dt_ || (std::isnan(a.dt_) && std::isnan(b.dt_));
+    return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ &&
+           a.interpolation_ == b.interpolation_ && a.name_ == b.name_;
+  }
+
  private:
   void check_samples() {
     if (samples() < 2)

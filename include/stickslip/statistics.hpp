@@ -91,6 +91,8 @@ class Tally {
   /// Becomes the tally of both. Which is the left one decides the last bits.
   void merge(const Tally& right);
 
+  friend bool operator==(const Tally&, const Tally&) = default;
+
  private:
   double* tail() noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
   const double* tail() const noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
@@ -125,6 +127,8 @@ class TallyTree {
 
   const std::map<Place, Tally>& nodes() const noexcept { return nodes_; }
 
+  friend bool operator==(const TallyTree&, const TallyTree&) = default;
+
  private:
   std::map<Place, Tally> nodes_;
 };
@@ -148,6 +152,8 @@ class Sketch {
   /// Counts by bin: bin i holds the values about ((1 + accuracy) / (1 - accuracy))^i, the lowest one the zeros.
   std::map<std::int32_t, std::uint64_t> bins() const { return bins_; }
   static Sketch from_bins(std::map<std::int32_t, std::uint64_t> bins);
+
+  friend bool operator==(const Sketch&, const Sketch&) = default;
 
  private:
   std::map<std::int32_t, std::uint64_t> bins_;

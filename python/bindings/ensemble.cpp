@@ -1,13 +1,15 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "stickslip/ensemble.hpp"
 
 namespace stickslip::python {
@@ -214,10 +216,11 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_of(const Ensemble& e
 
 // ---- the run
 
-/// A source of ground motions that is written in Python; called by threads that do not hold the interpreter.
+/// A source of ground motions that is written in Python; called by threads that do not hold the interpreter. Once the
+/// run has `ended` it is not asked any more.
 class PythonExcitation {
  public:
-  explicit PythonExcitation(const py::object& object) : sample_(method(object)) {
+  PythonExcitation(const py::object& object, const std::atomic<bool>& ended) : sample_(method(object)), ended_(ended) {
     duration_ = attribute(object, "duration").cast<double>();
     detail::require(std::isfinite(duration_) && duration_ > 0,
                     "run_ensemble: the excitation's duration must be positive and finite", duration_, "s");
@@ -230,6 +233,8 @@ class PythonExcitation {
   }
 
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
+    const std::scoped_lock turn(one_at_a_time_);  // before the interpreter's, which whoever is within may let go of
+    if (ended_) throw detail::Block::Stopped{};
     const py::gil_scoped_acquire held;
     const py::object made = sample_(py::arg("seed") = seed, py::arg("member") = member);
     if (!py::isinstance<GroundMotion>(made))
@@ -263,16 +268,18 @@ class PythonExcitation {
   static py::object method(const py::object& object) { return attribute(object, "sample"); }
 
   py::object sample_;
+  const std::atomic<bool>& ended_;
+  mutable std::mutex one_at_a_time_;
   double duration_ = 0, dt_ = 0;
   std::string configuration_;
 };
 
 /// Calls with the excitation as what it is.
 template <class F>
-auto with_excitation(const py::object& excitation, F&& f) {
+auto with_excitation(const py::object& excitation, const std::atomic<bool>& ended, F&& f) {
   if (py::isinstance<GaussianExcitation>(excitation)) return f(excitation.cast<const GaussianExcitation&>());
   if (py::isinstance<PoissonPulses>(excitation)) return f(excitation.cast<const PoissonPulses&>());
-  return f(PythonExcitation(excitation));
+  return f(PythonExcitation(excitation, ended));
 }
 
 template <class E>
@@ -290,6 +297,7 @@ Ensemble run(const S& slider, const py::object& excitation, std::uint64_t member
              std::uint64_t seed, unsigned threads, double dt, bool settle, bool velocity_spectrum,
              const Ensemble* start, const py::object& heartbeat, const py::object& interrupted) {
   EnsembleOptions options{members, first_member, seed, threads, dt, settle, velocity_spectrum};
+  std::atomic<bool> ended = false;
   options.heartbeat = [&](const EnsembleProgress& progress) {
     const py::gil_scoped_acquire held;
     // What is there so far is copied only for who asks, and only while it stands still.
@@ -304,11 +312,12 @@ Ensemble run(const S& slider, const py::object& excitation, std::uint64_t member
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!heartbeat.is_none()) heartbeat(progress.done, progress.members, so_far);
     } catch (const py::error_already_set&) {
+      ended = true;
       if (!interrupted.is_none()) interrupted(so_far);
       throw;
     }
   };
-  return with_excitation(excitation, [&](const auto& source) {
+  return with_excitation(excitation, ended, [&](const auto& source) {
     const py::gil_scoped_release released;
     return run_members(slider, source, options, start);
   });
@@ -352,12 +361,12 @@ that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
 }  // namespace
 
 void bind_ensemble(py::module_& m) {
-  py::class_<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
+  value_class<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
       .def_readonly("value", &Estimate::value, "The figure.")
       .def_readonly("error", &Estimate::error, "Its standard error, from the scatter between members.")
       .def("__repr__", [](const Estimate& e) { return "<Estimate: " + with_error(e) + ">"; });
 
-  py::class_<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
+  value_class<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
       .def_readonly("value", &Interval::value, "The figure.")
       .def_readonly("low", &Interval::low, "Lower bound.")
       .def_readonly("high", &Interval::high, "Upper bound; infinite where the members are too few to bound it.")
@@ -365,8 +374,8 @@ void bind_ensemble(py::module_& m) {
         return "<Interval: " + digits(i.value) + ", from " + digits(i.low) + " to " + digits(i.high) + ">";
       });
 
-  py::class_<Stationary>(m, "Stationary",
-                         R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
+  value_class<Stationary>(m, "Stationary",
+                          R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
 
 The errors are those of the scatter between members.)")
       .def_readonly("begin", &Stationary::begin, "From when on it was averaged [s].")
@@ -386,8 +395,8 @@ Of D(t) = Var[x(begin + t) - x(begin)]: (D(T) - D(T/2)) / (T/2), with T from beg
                with_error(s.velocity_variance) + " m^2/s^2, growth_rate " + with_error(s.growth_rate) + " m^2/s>";
       });
 
-  py::class_<VelocitySpectrum>(m, "VelocitySpectrum",
-                               R"(Spectral density of the velocity in the central half of the motions, two-sided.
+  value_class<VelocitySpectrum>(m, "VelocitySpectrum",
+                                R"(Spectral density of the velocity in the central half of the motions, two-sided.
 
 Kaiser-Bessel window, thesis (4.62), beta = 8, with a mean square of one; dt / (2 pi M) |DFT|^2 of the M windowed
 samples. The integral over the whole line is the mean square velocity.)")
@@ -408,7 +417,8 @@ Every figure comes with its standard error, from the scatter between members. Al
 means (Pebay 2008), and merge in an order that the members' numbers fix: the same members give the same bits on any
 number of threads and in any parts that end on whole blocks.
 
-Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for.)")
+Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for. Ensembles with the same
+members and figures are equal; they can be copied and pickled, but not hashed, for `merge` changes them.)")
       .def_property_readonly("members", &Ensemble::members, "How many members it holds.")
       .def_property_readonly("member_ranges", &ranges_of,
                              "Which members: (first, one past the last) of each unbroken row of them.")
@@ -566,6 +576,8 @@ OSError
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def("__repr__", &repr)
+      .def(
+          "__eq__", [](const Ensemble& a, const Ensemble& b) { return a == b; }, py::is_operator())
       .def(py::pickle(&state_of, &ensemble_of));
 
   add_runs<AnySlider>(m);

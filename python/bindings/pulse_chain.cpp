@@ -1,6 +1,6 @@
 #include "stickslip/theory/pulse_chain.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -27,7 +27,7 @@ double chain_rms(const PulseChain& self, const AnySlider& slider, const PoissonP
 }  // namespace
 
 void bind_pulse_chain(py::module_& m) {
-  py::class_<PulseChain>(m, "PulseChain", R"(Poisson pulses that arrive in step: the pulse theory for Coulomb friction.
+  value_class<PulseChain>(m, "PulseChain", R"(Poisson pulses that arrive in step: the pulse theory for Coulomb friction.
 
 Pulses may begin at the nodes of a lattice alone, as many as Poisson's law gives to each: ground acceleration is then
 constant over slots, and velocity and the last few batches are a Markov chain, which is solved on a grid, from rest on.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -89,8 +89,11 @@ auto number() {
 
 }  // namespace
 
+template <>
+inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recording::slider, &Recording::motion);
+
 void bind_response(py::module_& m) {
-  py::class_<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
+  value_class<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
 
 initial + input = dissipated + kinetic + elastic, to round-off.)")
       .def_readonly("initial", &Energy::initial, "Kinetic and elastic energy at the start.")
@@ -105,7 +108,7 @@ initial + input = dissipated + kinetic + elastic, to round-off.)")
                ", elastic=" + detail::shortest(e.elastic) + ")";
       });
 
-  py::class_<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
+  value_class<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
 
 Displacement and velocity are relative to the ground. The arrays are read-only; displacement and velocity are not
 copied.)")

@@ -79,6 +79,9 @@ class EnsembleError(RuntimeError):
         self.members = members
         self.partial = partial
 
+    def __reduce__(self) -> tuple[type[EnsembleError], tuple[str, range, Ensemble]]:
+        return type(self), (str(self), self.members, self.partial)
+
 
 def run_ensemble(
     slider: _AnySlider,

@@ -1,5 +1,6 @@
 """Ensembles: the statistics of single members, the same bits in whatever way, and files."""
 
+import contextlib
 import json
 import math
 import os
@@ -7,6 +8,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import threading
 import time
 import zipfile
 from itertools import pairwise
@@ -297,6 +299,52 @@ def test_a_source_in_python_is_asked_for_every_member_once():
     assert e.configuration["excitation"] == {"of": "tests"}
     theirs = ss.run_ensemble(BLOCK, SHAKING, members=130, seed=9)
     assert e.peak == pytest.approx(theirs.peak, rel=1e-12)
+
+
+def test_a_source_in_python_is_asked_by_one_thread_at_a_time():
+    class Alone(Delayed):
+        def __init__(self):
+            super().__init__(1e-4)  # a sleep lets go of the interpreter
+            self.turn, self.overlaps = threading.Lock(), 0
+
+        def sample(self, *, seed, member):
+            if not self.turn.acquire(blocking=False):
+                self.overlaps += 1
+                return super().sample(seed=seed, member=member)
+            with contextlib.ExitStack() as stack:
+                stack.callback(self.turn.release)
+                return super().sample(seed=seed, member=member)
+
+    source = Alone()
+    e = ss.run_ensemble(BLOCK, source, members=640, seed=9, threads=4)
+    assert source.overlaps == 0
+    assert same_bits(e, ss.run_ensemble(BLOCK, Delayed(), members=640, seed=9, threads=1))
+
+
+def test_a_run_within_a_source_does_not_wait_for_itself():
+    class Nested(Delayed):
+        def sample(self, *, seed, member):
+            ss.run_ensemble(BLOCK, Delayed(), members=2, seed=member, threads=2)
+            return super().sample(seed=seed, member=member)
+
+    e = ss.run_ensemble(BLOCK, Nested(), members=200, seed=9, threads=4)
+    assert same_bits(e, ss.run_ensemble(BLOCK, Delayed(), members=200, seed=9))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
+def test_after_ctrl_c_no_thread_waits_for_its_turn_with_a_source():
+    class Interrupted(Delayed):
+        def sample(self, *, seed, member):
+            asked.append(member)
+            if len(asked) == 1:
+                os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(1.0)
+            return super().sample(seed=seed, member=member)
+
+    asked = []
+    with pytest.raises(KeyboardInterrupt):
+        ss.run_ensemble(BLOCK, Interrupted(), members=16 * 64, seed=9, threads=16)
+    assert len(asked) <= 2
 
 
 def test_what_a_source_raises_comes_through():
@@ -591,6 +639,7 @@ def test_the_bar_is_in_place_on_a_terminal_and_lines_elsewhere(capsys, monkeypat
 
 SCRIPT = """
 import sys
+import threading
 import time
 import stickslip as ss
 sys.path.insert(0, {folder!r})
