@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "real_records.hpp"
 #include "stickslip/units.hpp"
 
 using namespace stickslip;
@@ -180,18 +181,6 @@ std::vector<double> even_times(std::size_t count, double dt, double start = 0) {
   std::vector<double> times(count);
   for (std::size_t i = 0; i < count; ++i) times[i] = start + static_cast<double>(i) * dt;
   return times;
-}
-
-/// The real records, where they are.
-std::optional<fs::path> real_record(const std::string& name) {
-  fs::path folder;
-  if (const char* given = std::getenv("STICKSLIP_RECORDS")) folder = given;
-#ifdef STICKSLIP_SHARED_RECORDS
-  if (folder.empty()) folder = STICKSLIP_SHARED_RECORDS;
-#endif
-  if (!folder.empty() && fs::exists(folder / name)) return folder / name;
-  WARN("skipped, no " << name << ": set STICKSLIP_RECORDS to the folder of real records");
-  return std::nullopt;
 }
 
 }  // namespace
@@ -520,7 +509,7 @@ TEST_CASE("a damaged file is read or refused, and never more", "[records]") {
 }
 
 TEST_CASE("the peaks of a real GeoNet file are those its header states", "[records][real]") {
-  const auto file = real_record("geonet/20161113_110259_WTMC_20.V2A");
+  const auto file = test::real_record("geonet/20161113_110259_WTMC_20.V2A");
   if (!file) return;
   struct Stated {
     const char* component;
@@ -539,7 +528,7 @@ TEST_CASE("the peaks of a real GeoNet file are those its header states", "[recor
 }
 
 TEST_CASE("the peak of a real SMC file is the one its header states", "[records][real]") {
-  const auto file = real_record("smc/0111a.smc");
+  const auto file = test::real_record("smc/0111a.smc");
   if (!file) return;
   const GroundMotion motion = read_record(*file);
   CHECK(motion.samples() == 6001);
@@ -549,7 +538,7 @@ TEST_CASE("the peak of a real SMC file is the one its header states", "[records]
 }
 
 TEST_CASE("the peak of a real COSMOS file is the one its header states", "[records][real]") {
-  const auto file = real_record("cosmos/akbmr_bnz.v2c");
+  const auto file = test::real_record("cosmos/akbmr_bnz.v2c");
   if (!file) return;
   const GroundMotion motion = read_record(*file, {.units = "", .component = "BNZ"});
   CHECK(motion.samples() == 42000);
