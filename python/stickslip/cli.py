@@ -6,8 +6,8 @@ does so for random earthquakes, and ``stickslip thesis`` draws the thesis's figu
 subcommand is a function that adds its arguments and one that runs them.
 
 Exit codes: 0, also for a slider that never comes to rest, which its row says; 1 where ``stickslip
-thesis --check`` finds a number off; 2 where the input was refused, with one line on stderr and
-nothing on stdout; 130 after Ctrl-C.
+thesis --check`` finds a number off, or a checkpoint cannot be written at last; 2 where the input
+was refused, with one line on stderr and nothing on stdout; 130 after Ctrl-C.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from . import (
     integrate,
     read_record,
 )
-from ._files import replacing
+from ._files import check_writable, replacing
 
 __all__ = ["main"]
 
@@ -321,18 +321,27 @@ def _ensemble(args: argparse.Namespace) -> str:
             raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
     if not 0 < args.confidence < 1:
         raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
-    from .ensemble import run_ensemble  # NumPy: only who needs it waits for it
+    from .ensemble import EnsembleError, run_ensemble  # NumPy: only who needs it waits for it
 
-    ensemble = run_ensemble(
-        _slider(args, args.mu),
-        _excitation(args),
-        members=args.members,
-        seed=args.seed,
-        threads=args.threads,
-        settle=args.settle,
-        progress=sys.stderr is not None and sys.stderr.isatty(),
-        checkpoint=args.checkpoint,
-    )
+    if args.plot:
+        check_writable(args.plot)
+    try:
+        ensemble = run_ensemble(
+            _slider(args, args.mu),
+            _excitation(args),
+            members=args.members,
+            seed=args.seed,
+            threads=args.threads,
+            settle=args.settle,
+            progress=sys.stderr is not None and sys.stderr.isatty(),
+            checkpoint=args.checkpoint,
+        )
+    except EnsembleError as error:  # the checkpoint could not be written
+        ensemble = error.partial
+        if ensemble.members < 2:
+            raise ValueError(str(error)) from error
+        print(f"stickslip: {error}", file=sys.stderr)
+        args.code, args.checkpoint = 1, None
     result = _statistics(args, ensemble)
     written = [str(file) for file in (args.checkpoint, args.plot) if file]
     if args.plot:
@@ -520,8 +529,8 @@ def _thesis(args: argparse.Namespace) -> str:
             figures.append(figure)
             if folder:
                 stem = folder / thesis.file_stem(number)
-                with replacing(stem.with_suffix(".csv")) as part:
-                    part.write_text(figure.csv(), encoding="utf-8")
+                with replacing(stem.with_suffix(".csv")) as stream:
+                    stream.write(figure.csv().encode())
                 plotting.save(thesis.plot(figure), stem.with_suffix(f".{args.format}"))
             if args.check:
                 lines += [_checked(check) for check in figure.check(members)]
@@ -530,8 +539,8 @@ def _thesis(args: argparse.Namespace) -> str:
             print("\r\33[K", end="", file=sys.stderr, flush=True)
     summary = thesis.thesis_summary(figures)
     if folder:
-        with replacing(folder / "gallery.md") as part:
-            part.write_text(thesis.page(figures, f".{args.format}"), encoding="utf-8")
+        with replacing(folder / "gallery.md") as stream:
+            stream.write(thesis.page(figures, f".{args.format}").encode())
     if not args.check:
         return f"{summary}wrote {len(figures)} figures to {folder}"
     off = sum(line.startswith("off") for line in lines)
