@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "real_records.hpp"
 #include "record_files.hpp"
 #include "stickslip/units.hpp"
 
@@ -84,16 +85,6 @@ constexpr double g = standard_gravity;
 
 const std::vector<double> peer_samples = {-0.1 * g, 0.2 * g, 0.5 * g, -0.25 * g, 0.001 * g};
 
-/// The real records, where they are.
-std::optional<fs::path> real_record(const std::string& name) {
-  fs::path folder;
-  if (const char* given = std::getenv("STICKSLIP_RECORDS")) folder = given;
-#ifdef STICKSLIP_SHARED_RECORDS
-  if (folder.empty()) folder = STICKSLIP_SHARED_RECORDS;
-#endif
-  if (!folder.empty() && fs::exists(folder / name)) return folder / name;
-  WARN("skipped, no " << name << ": set STICKSLIP_RECORDS to the folder of real records");
-  return std::nullopt;
 }
 
 }  // namespace
@@ -568,7 +559,7 @@ TEST_CASE("a damaged file is read or refused, and never more", "[records]") {
 }
 
 TEST_CASE("the peaks of a real GeoNet file are those its header states", "[records][real]") {
-  const auto file = real_record("geonet/20161113_110259_WTMC_20.V2A");
+  const auto file = test::real_record("geonet/20161113_110259_WTMC_20.V2A");
   if (!file) return;
   struct Stated {
     const char* component;
@@ -587,7 +578,7 @@ TEST_CASE("the peaks of a real GeoNet file are those its header states", "[recor
 }
 
 TEST_CASE("the peak of a real SMC file is the one its header states", "[records][real]") {
-  const auto file = real_record("smc/0111a.smc");
+  const auto file = test::real_record("smc/0111a.smc");
   if (!file) return;
   const GroundMotion motion = read_record(*file);
   CHECK(motion.samples() == 6001);
@@ -597,7 +588,7 @@ TEST_CASE("the peak of a real SMC file is the one its header states", "[records]
 }
 
 TEST_CASE("the peak of a real COSMOS file is the one its header states", "[records][real]") {
-  const auto file = real_record("cosmos/akbmr_bnz.v2c");
+  const auto file = test::real_record("cosmos/akbmr_bnz.v2c");
   if (!file) return;
   const GroundMotion motion = read_record(*file, {.units = "", .component = "BNZ"});
   CHECK(motion.samples() == 42000);

@@ -138,11 +138,15 @@ class Ensemble {
   /// Of more members than these no single peak and residual is kept; peaks are then counted in bins 0.1 % wide.
   static constexpr std::uint64_t most_kept = std::uint64_t{1} << 24;
 
+  /// Times of the statistics there may be.
+  static constexpr std::size_t max_times = std::size_t{1} << 24;
+
   /// Members are simulated and summed in blocks of this many, which the parts of an ensemble may not cut: 64, and fewer
   /// for motions of more than 16,384 times, so that a block's memory stays bounded.
   static std::size_t block(std::size_t times);
 
-  /// @throws std::invalid_argument where the parts do not fit together
+  /// @throws std::invalid_argument where the parts do not fit together, or no members can have left them: what is not
+  ///         finite, a negative peak or sum of squares
   explicit Ensemble(Parts parts);
   const Parts& parts() const noexcept { return parts_; }
 
@@ -494,7 +498,8 @@ Ensemble run_ensemble(const S& slider, const E& excitation, const EnsembleOption
 ///                    goes on from what was kept ends with the same bits
 /// @return statistics over the members `first_member` to `first_member + members - 1`, and those of `start`
 /// @throws std::invalid_argument  an option out of its range (names it); a `start` of another configuration
-/// @throws std::overflow_error    a member leaves the range of doubles
+/// @throws std::overflow_error    displacements or velocities beyond 1e34 [m, m/s], whose statistics could leave the
+///                                range of doubles; says which member or block
 /// @throws ConvergenceError       a member does not settle, or its law has no power series; says which member
 /// What `heartbeat` throws ends the work; what it was shown before is whole and can be gone on from.
 ///

@@ -52,11 +52,20 @@ std::string with_error(const Estimate& estimate) {
 
 // ---- what an ensemble holds, as arrays
 
+/// What is of another type is refused: converted, it would not be what was saved.
+template <class T>
+py::array_t<T, py::array::c_style> table(const py::dict& state, const char* name, py::ssize_t dimensions) {
+  const py::object value = state[name];
+  if (!py::isinstance<py::array_t<T, 0>>(value) || value.cast<py::array>().ndim() != dimensions)
+    throw std::invalid_argument(std::string("Ensemble: ") + name + " must be an array of " +
+                                std::to_string(dimensions) + " dimensions and type " +
+                                py::str(py::dtype::of<T>()).cast<std::string>());
+  return py::array_t<T, py::array::c_style>::ensure(value);
+}
+
 template <class T>
 std::vector<T> column(const py::dict& state, const char* name) {
-  const auto values = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(state[name]);
-  if (!values || values.ndim() != 1)
-    throw std::invalid_argument(std::string("Ensemble: ") + name + " must be a row of numbers");
+  const auto values = table<T>(state, name, 1);
   return {values.data(), values.data() + values.size()};
 }
 
@@ -119,25 +128,23 @@ Ensemble ensemble_of(const py::dict& state) {
   parts.configuration = state["configuration"].cast<Ensemble::Configuration>();
   parts.times = {state["dt"].cast<double>(), state["times"].cast<std::size_t>()};
   parts.velocity_spectrum = state["velocity_spectrum"].cast<bool>();
-  expect(std::isfinite(parts.times.dt) && parts.times.dt > 0, "dt must be positive");
-  expect(parts.times.count >= 2 && parts.times.count <= (std::size_t{1} << 24), "times must be 2 to 2^24");
-  const std::uint64_t block = Ensemble::block(parts.times.count);
+  expect(parts.times.count <= Ensemble::max_times, "there are too many times");
 
   const auto level = column<std::uint64_t>(state, "level"), number = column<std::uint64_t>(state, "number"),
              count = column<std::uint64_t>(state, "count");
-  const auto sums = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(state["sums"]);
+  const auto sums = table<double>(state, "sums", 2);
   const std::size_t frequencies = parts.velocity_spectrum ? parts.times.central() / 2 + 1 : 0;
-  expect(sums && sums.ndim() == 2, "sums must be a table");
   const auto rows = static_cast<std::size_t>(sums.shape(0)), width = static_cast<std::size_t>(sums.shape(1));
   expect(level.size() == rows && number.size() == rows && count.size() == rows,
          "level, number, count and sums must go together");
+  // Before any room is made for them.
+  expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies),
+         "sums must have one column for each sum");
   for (std::size_t i = 0; i < rows; ++i) {
     constexpr unsigned most = 61;  // blocks have eight members at least
     expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "a part is at no possible place");
     const detail::TallyTree::Place place{static_cast<unsigned>(level[i]), number[i]};
     detail::Tally tally(parts.times.count, frequencies);
-    expect(width == tally.sums().size(), "sums must have one column for each sum");
-    expect(count[i] > 0 && count[i] <= block << std::min(level[i], std::uint64_t{57}), "a part has too many members");
     expect(!parts.tallies.overlaps(place), "two parts hold the same members");
     tally.count = count[i];
     std::copy_n(sums.data() + i * width, width, tally.sums().data());
@@ -147,8 +154,7 @@ Ensemble ensemble_of(const py::dict& state) {
   const auto cut_block = column<std::uint64_t>(state, "cut_block"), cut_size = column<std::uint64_t>(state, "cut_size");
   expect(cut_block.size() == cut_size.size(), "cut_block and cut_size must go together");
   for (std::size_t i = 0; i < cut_block.size(); ++i) {
-    expect(cut_size[i] > 0 && cut_size[i] < block, "a cut block must be smaller than a whole one");
-    parts.cut.emplace(cut_block[i], cut_size[i]);
+    expect(parts.cut.emplace(cut_block[i], cut_size[i]).second, "a block is cut twice");
   }
 
   const auto kept_block = column<std::uint64_t>(state, "kept_block"),
@@ -158,7 +164,7 @@ Ensemble ensemble_of(const py::dict& state) {
          "kept_block and kept_size, peak and residual must go together");
   std::size_t from = 0;
   for (std::size_t i = 0; i < kept_block.size(); ++i) {
-    expect(kept_size[i] <= block && kept_size[i] <= peak.size() - from, "a block has more members than peaks");
+    expect(kept_size[i] <= peak.size() - from, "a block has more members than peaks");
     const auto begin = static_cast<std::ptrdiff_t>(from), end = static_cast<std::ptrdiff_t>(from += kept_size[i]);
     parts.kept.emplace_hint(
         parts.kept.end(), kept_block[i],
@@ -538,12 +544,13 @@ Parts that begin on a multiple of `block` may be merged in any order: the bits a
 Parameters
 ----------
 file : path-like
-    A NumPy archive (.npz), without pickled objects; the name is taken as it is.
+    A NumPy archive (.npz), without pickled objects; the name is taken as it is. A symbolic link is followed; a file
+    that is there already keeps its mode, and its owner where that is permitted.
 
 Raises
 ------
 OSError
-    The folder is missing or cannot be written.
+    The folder is missing or cannot be written; the file is read-only (which does not stop root), or is no regular file.
 
 Notes
 -----
@@ -564,9 +571,10 @@ Ensemble
 Raises
 ------
 ValueError
-    The file is truncated or damaged (every byte of it is checked by CRC-32), or is something else.
+    The file is truncated or damaged (every byte of it is checked by CRC-32), or is something else; it holds what no
+    members can have left, as a negative peak. Takes no more memory than a few times the file's size.
 OSError
-    There is no such file, or it cannot be read.)")
+    There is no such file, it cannot be read, or is no regular file.)")
       .def(
           "plot",
           [](const py::object& self, const py::kwargs& options) {

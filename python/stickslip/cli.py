@@ -6,9 +6,9 @@
 the thesis. Each subcommand is one function that adds its arguments and one that runs it.
 
 Exit codes: 0 on success, also for a slider that never comes to rest, which its row says; 1 where
-part of the work failed and the rest is printed: a record that cannot be read or slid or a picture
-that cannot be written, each with one line on stderr, or a number that is off in ``stickslip thesis
---check``; 2 where nothing is printed on stdout: bad options, an input error (with ``slide``, only
+part of the work failed and the rest is printed: a record that cannot be read or slid, a picture or
+checkpoint that cannot be written, each with one line on stderr, or a number that is off in
+``stickslip thesis --check``; 2 where nothing is printed on stdout: bad options, an input error (with ``slide``, only
 under ``--strict``) or not enough memory, with one line on stderr, after the usage where the options
 do not parse; 130 after Ctrl-C.
 
@@ -48,7 +48,7 @@ from . import (
     read_record,
 )
 from ._core import acceleration_unit
-from ._files import replacing
+from ._files import check_writable, replacing
 from ._text import printable
 
 __all__ = ["main"]
@@ -218,10 +218,7 @@ def _check_outputs(outputs: Iterable[tuple[str, Path]], records: Iterable[Path] 
     """Raises where a file cannot be made or would replace a record or another output."""
     taken = {_identity(record): f"the record {record}" for record in records}
     for option, file in outputs:
-        if not os.path.isdir(file.parent):
-            raise FileNotFoundError(errno.ENOENT, "no such folder", str(file.parent))
-        if os.path.isdir(file):
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(file))
+        check_writable(file)
         owner = f"the file of {option}, {file}"
         if taken.setdefault(_identity(file), owner) is not owner:
             raise ValueError(f"{option} {file} would overwrite {taken[_identity(file)]}")
@@ -553,18 +550,25 @@ def _ensemble(args: argparse.Namespace) -> str:
             raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
     if not 0 < args.confidence < 1:
         raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
-    from .ensemble import run_ensemble  # NumPy: only who needs it waits for it
+    from .ensemble import EnsembleError, run_ensemble  # NumPy: only who needs it waits for it
 
-    ensemble = run_ensemble(
-        _slider(args, args.mu),
-        _excitation(args),
-        members=args.members,
-        seed=args.seed,
-        threads=args.threads,
-        settle=args.settle,
-        progress=sys.stderr is not None and sys.stderr.isatty(),
-        checkpoint=args.checkpoint,
-    )
+    try:
+        ensemble = run_ensemble(
+            _slider(args, args.mu),
+            _excitation(args),
+            members=args.members,
+            seed=args.seed,
+            threads=args.threads,
+            settle=args.settle,
+            progress=sys.stderr is not None and sys.stderr.isatty(),
+            checkpoint=args.checkpoint,
+        )
+    except EnsembleError as error:  # the checkpoint could not be written
+        ensemble = error.partial
+        if ensemble.members < 2:
+            raise ValueError(str(error)) from error
+        _complain(str(error))
+        args.code, args.checkpoint = 1, None
     result = _statistics(args, ensemble)
     written = [str(args.checkpoint)] if args.checkpoint else []
     if args.plot:
@@ -771,8 +775,8 @@ def _thesis(args: argparse.Namespace) -> str:
             figures.append(figure)
             if folder:
                 stem = folder / thesis.file_stem(number)
-                with replacing(stem.with_suffix(".csv")) as part:
-                    part.write_text(figure.csv(), encoding="utf-8")
+                with replacing(stem.with_suffix(".csv")) as stream:
+                    stream.write(figure.csv().encode())
                 plotting.save(thesis.plot(figure), stem.with_suffix(f".{args.format}"))
             if args.check:
                 lines += [_checked(check) for check in figure.check(members)]
@@ -781,8 +785,8 @@ def _thesis(args: argparse.Namespace) -> str:
             print("\r\33[K", end="", file=sys.stderr, flush=True)
     summary = thesis.thesis_summary(figures)
     if folder:
-        with replacing(folder / "gallery.md") as part:
-            part.write_text(thesis.page(figures, f".{args.format}"), encoding="utf-8")
+        with replacing(folder / "gallery.md") as stream:
+            stream.write(thesis.page(figures, f".{args.format}").encode())
     if not args.check:
         return f"{summary}wrote {len(figures)} figures to {printable(str(folder))}"
     off = sum(line.startswith("off") for line in lines)

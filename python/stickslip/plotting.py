@@ -87,6 +87,8 @@ class _Picture(Figure):
 def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
     """Writes a figure, whole or not at all.
 
+    A symbolic link is followed; a file that is there already keeps its mode.
+
     Parameters
     ----------
     figure : matplotlib.figure.Figure
@@ -102,12 +104,12 @@ def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
     ValueError
         Another suffix.
     OSError
-        The folder is missing or cannot be written.
+        The folder is missing or cannot be written; the file is read-only, or no regular file.
     """
     path = Path(file)
     content = _render(figure, check_suffix(path))
-    with replacing(path) as part:
-        part.write_bytes(content)
+    with replacing(path) as stream:
+        stream.write(content)
     return path
 
 

@@ -8,13 +8,13 @@ import shlex
 import signal
 import subprocess
 import sys
-import time
 import warnings
 import weakref
 
 import numpy as np
 import pytest
 import stickslip as ss
+from sources import waiting_for
 from stickslip.cli import main
 
 G = ss.STANDARD_GRAVITY
@@ -839,15 +839,55 @@ def test_ctrl_c_before_a_checkpoint_promises_none(capsys, tmp_path, monkeypatch)
     assert answer == (130, "", "stickslip: interrupted\n")
 
 
+def test_pulses_whose_statistics_overflow_are_refused_in_one_line(capsys):
+    pulses = ("--rate", 1, "--half-width", 0.5, "--sigma", 1e90, "--duration", 20, "--mu", 0.1)
+    code, out, err = run_ensemble(capsys, *pulses, "--members", 100)
+    assert (code, out) == (2, "")
+    assert err.startswith("stickslip: run_ensemble: displacement [m] and velocity [m/s] must not")
+    assert err.count("\n") == 1
+
+
+def test_a_checkpoint_that_cannot_be_written_in_the_end_costs_no_result(
+    capsys, tmp_path, monkeypatch
+):
+    def refuse(descriptor):
+        raise OSError(28, "No space left on device")
+
+    _, result, _ = run_ensemble(capsys, *QUAKE)
+    monkeypatch.setattr(os, "fsync", refuse)
+    code, out, err = run_ensemble(capsys, *QUAKE, "--checkpoint", tmp_path / "run.npz")
+    assert (code, out) == (1, result)
+    assert err.startswith("stickslip: run_ensemble: cannot write checkpoint ")
+    assert "No space left on device" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_cannot_be_written_is_refused_before_the_run(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("stickslip._core.run_ensemble", lambda *_, **__: pytest.fail("ran"))
+    for option in ("--plot", "--checkpoint"):
+        folder = tmp_path / f"{option}.png"
+        folder.mkdir()
+        code, out, err = run_ensemble(capsys, *QUAKE, option, folder)
+        assert (code, out) == (2, "")
+        assert err == f"stickslip: {folder}: must be a regular file, got a folder\n"
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_ctrl_c_leaves_a_checkpoint_and_no_traceback(tmp_path):
     kept = tmp_path / "run.npz"
-    options = ["--event", "great near field", "--mu", "0.1", "--members", "100000000"]
-    command = [sys.executable, "-m", "stickslip", "ensemble", *options, "--checkpoint", str(kept)]
+    often = """
+import functools, runpy, stickslip.ensemble as module
+module.run_ensemble = functools.partial(module.run_ensemble, checkpoint_every=0)
+runpy.run_module("stickslip", run_name="__main__", alter_sys=True)"""
+    options = ["--event", "great near field", "--mu", "0.1", "--members", "1000000000"]
+    command = [sys.executable, "-c", often, "ensemble", *options, "--checkpoint", str(kept)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
-        time.sleep(1)
-        child.send_signal(signal.SIGINT)
-        out, err = child.communicate(timeout=5)
+        try:
+            waiting_for(lambda: kept.exists() and ss.Ensemble.load(kept).members, child)
+            child.send_signal(signal.SIGINT)
+            out, err = child.communicate(timeout=60)
+        finally:
+            child.kill()
     assert (child.returncode, out) == (130, b"")
     assert err.decode() == f"stickslip: interrupted; {kept} has what was done\n"
     assert ss.Ensemble.load(kept).members > 0

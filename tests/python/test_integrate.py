@@ -308,7 +308,7 @@ import stickslip as ss
 law, still = ss.Caster(slip_level=1.0, reach=1.0), ss.GroundMotion([0, 0], dt=10)
 print(ss.integrate(law, still, displacement=760.0, velocity=-2.0).residual)"""
     command = [sys.executable, "-c", script]
-    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=30).stdout
+    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60).stdout
     assert float(output) == pytest.approx(740.0, rel=1e-11)
 
 

@@ -1,6 +1,7 @@
 """Pictures: what is drawn is what happened."""
 
 import math
+import os
 import re
 import sys
 import xml.etree.ElementTree
@@ -275,12 +276,10 @@ def test_a_picture_is_saved_whole_or_not_at_all(tmp_path, monkeypatch):
     file = tmp_path / "a.png"
     file.write_bytes(b"what was there")
 
-    def fill_the_disk(self, content):
-        with self.open("wb") as stream:
-            stream.write(content[:10])
-        raise OSError(28, "No space left on device", str(self))
+    def fill_the_disk(descriptor):
+        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(type(file), "write_bytes", fill_the_disk)
+    monkeypatch.setattr(os, "fsync", fill_the_disk)
     with pytest.raises(OSError, match="No space left"):
         plotting.save(figure, file)
     assert file.read_bytes() == b"what was there"

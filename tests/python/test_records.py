@@ -262,7 +262,7 @@ def test_a_file_name_may_be_any_bytes(tmp_path):
         assert motion.name in repr(motion)
         assert pickle.loads(pickle.dumps(motion)) == motion
         file.write_bytes(b"0,1\n1,2\n")
-        with pytest.raises(ValueError, match="[.]csv: the file states no units") as caught:
+        with pytest.raises(ValueError, match=r"[.]csv: the file states no units") as caught:
             ss.read_record(name)
         assert type(caught.value) is ValueError
     file.unlink()
