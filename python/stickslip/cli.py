@@ -8,9 +8,9 @@ the thesis. Each subcommand is one function that adds its arguments and one that
 Exit codes: 0 on success, also for a slider that never comes to rest, which its row says; 1 where
 part of the work failed and the rest is printed: a record that cannot be read or slid, a picture or
 checkpoint that cannot be written, each with one line on stderr, or a number that is off in
-``stickslip thesis --check``; 2 where nothing is printed on stdout: bad options, an input error (with ``slide``, only
-under ``--strict``) or not enough memory, with one line on stderr, after the usage where the options
-do not parse; 130 after Ctrl-C.
+``stickslip thesis --check``; 2 where nothing is printed on stdout: bad options, an input error
+(with ``slide``, only under ``--strict``) or not enough memory, with one line on stderr, after the
+usage where the options do not parse; 130 after Ctrl-C.
 
 JSON output has no infinity: null is an infinite value (a slip level, a reach, a bound) or an option
 that was not given.

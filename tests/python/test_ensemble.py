@@ -782,8 +782,6 @@ def test_the_bar_is_in_place_on_a_terminal_and_lines_elsewhere(capsys, monkeypat
 
 SCRIPT = """
 import sys
-import threading
-import time
 import stickslip as ss
 sys.path.insert(0, {folder!r})
 from sources import BAND, BLOCK, SHAKING, Delayed
