@@ -169,7 +169,8 @@ class IndependentSlider {
       for (int k = terms_; k > first; --k) rest += std::abs(c_[k]);
       for (int k = terms_; k > 1; --k) slopes += Real(k) * std::abs(c_[k]);
       Real part = 0;
-      if (terms_ == 2 || vanishes_up_to(terms_, std::abs(c_[first]) + rest)) {
+      if (terms_ == 2 || (vanishes_up_to(terms_, c_, std::abs(c_[first]) + rest) &&
+                          vanishes_up_to(terms_, level_, std::abs(level_[0]) + std::abs(level_[1])))) {
         const bool keeps_sign = std::abs(c_[first]) > rest;
         if (keeps_sign && s * c_[first] <= 0) throw std::logic_error("the independent slider goes backward");
         least_speed_ = std::abs(c_[0]) - rest;
@@ -192,9 +193,9 @@ class IndependentSlider {
   }
 
   // On breaking away at x = 0 five of six coefficients are zero.
-  bool vanishes_up_to(int last, Real biggest) const {
+  static bool vanishes_up_to(int last, const Series& c, Real biggest) {
     Real recent = 0;
-    for (int k = std::max(last - 6, 0); k <= last; ++k) recent = std::max(recent, std::abs(c_[k]));
+    for (int k = std::max(last - 6, 0); k <= last; ++k) recent = std::max(recent, std::abs(c[k]));
     return recent <= 0x1p-66L * biggest;
   }
 
@@ -226,7 +227,8 @@ class IndependentSlider {
       const Real gain = k == 1 ? rate_ * h_ : 0, pull = w_ * w_ * h_ * c_[k - 1] * one_over[k];
       c_[k + 1] = h_ * (gain - s * friction - pull) * one_over[k + 1];
       biggest = std::max(biggest, std::abs(c_[k + 1]));
-      if (k >= 8 && vanishes_up_to(k + 1, biggest)) terms_ = k + 1;
+      if (k >= 8 && vanishes_up_to(k + 1, c_, biggest) && (!caster || vanishes_up_to(k, level_, level_[0])))
+        terms_ = k + 1;
     }
     if (caster)
       level_[terms_] = 0;  // beyond what matters
@@ -277,7 +279,6 @@ class IndependentSlider {
     const Real lost_below = least * ((1 + duration_) * (1 + duration_) + a + fastest);
     const Real x_rounding = round_off * (std::abs(x) + fastest * h_) + lost_below;
     const Real v_rounding = round_off * (fastest + a * duration_) + lost_below + w_ * x_rounding;
-    const Real before = x_error;
     v_error += v_rounding + reach_error * x_error * time;
     x_error += time * v_error + x_rounding;
     if (w_ > 0 && reach_error == 0) x_error = std::min(x_error, v_error / w_);
@@ -296,7 +297,7 @@ class IndependentSlider {
     input += h_ * work;
     dissipated += friction;
     path += distance;
-    const Real lost = (x_error - std::min(before, x_error)) + x_rounding;
+    const Real lost = time * v_error + x_rounding;
     path_error += lost;
     input_error += a * lost + round_off * a * distance;
     dissipated_error += (level_[0] + a) * lost + reach_error * x_error * distance + round_off * a * distance;

@@ -190,7 +190,8 @@ class Check {
       p_.settle = false;
       return overflows();
     }
-    p_.settle = p_.settle && settles_soon(p_, independent) && !extreme({1, 0, 0});
+    p_.settle =
+        p_.settle && settles_soon(p_, independent) && !extreme({1, 0, 0}, static_cast<double>(std::abs(independent.v)));
     const Response response = whole(slider_, motion_, options_of(p_));
     same_as_own_loop(response);
     account(response, independent);
@@ -211,6 +212,7 @@ class Check {
   void run_long() {
     const IndependentSlider independent = compare_samples();
     if (!(independent.largest < 1e290L)) return;
+    p_.settle = p_.settle && settles_soon(p_, independent);
     const Response one = integrate(slider_, motion_, options_of(p_)),
                    other = integrate_by_pieces(slider_, motion_, options_of(p_));
     check_events(p_, one, motion_.time(0));
@@ -250,11 +252,12 @@ class Check {
     watcher_.begin(i);
     const double swings = p_.natural_frequency * segment.duration;
     if (swings > (p_.caster ? 100 : 1e4)) throw Skip();
-    watcher_.most_slides = (p_.caster ? 2000 : 20) + static_cast<std::size_t>(2 * swings);
+    watcher_.most_slides = (p_.caster ? 20'000 : 20) + static_cast<std::size_t>(2 * swings);
+    const double speed = std::abs(state.velocity);
     try {
       advance(slider_, segment, state, watcher_);
     } catch (const ConvergenceError& error) {
-      if (!extreme(segment)) fail(p_, error.what());
+      if (!extreme(segment, speed)) fail(p_, error.what());
       throw Skip();
     }
     if (std::isfinite(state.displacement) && !(state.velocity * static_cast<double>(state.mode) >= 0))
@@ -263,9 +266,10 @@ class Check {
   }
 
   /// Where a power series of a caster may overflow.
-  bool extreme(const Segment& s) const {
+  bool extreme(const Segment& s, double speed) const {
     const double load = std::max({p_.forward, std::abs(s.start), std::abs(s.end)});
-    return p_.caster && std::max(p_.natural_frequency * s.duration, load * s.duration * s.duration / p_.reach) > 1e9;
+    return p_.caster && std::max({p_.natural_frequency * s.duration, load * s.duration * s.duration / p_.reach,
+                                  speed * s.duration / p_.reach}) > 1e9;
   }
 
   void at_sample(const IndependentSlider& s) { bounds_.push_back({s.x, s.v, s.x_error, s.v_error}); }
