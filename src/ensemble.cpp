@@ -4,11 +4,13 @@
 #include <gsl/gsl_sf_bessel.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <chrono>
 #include <complex>
 #include <condition_variable>
 #include <exception>
+#include <initializer_list>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -176,6 +178,24 @@ class Threads {
   std::vector<std::thread> threads_;
 };
 
+// Throws where motions are so large that their statistics could overflow.
+void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
+  const auto refuse = [](const std::string& got) {
+    throw std::overflow_error("run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
+                              shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
+  };
+  for (std::size_t i = 0; i < kept.peak.size(); ++i)
+    for (const double x : {kept.peak[i], std::abs(kept.residual[i])})
+      if (!(x <= Tally::max_motion))
+        refuse("a displacement of " + shortest(x) + " m in member " + std::to_string(first + i));
+  const auto time = tally.out_of_range();
+  if (!time) return;
+  const std::string members = "members " + std::to_string(first) + " to " + std::to_string(first + tally.count - 1);
+  if (*time < times.count)
+    refuse("more for " + members + " at " + shortest(static_cast<double>(*time) * times.dt) + " s");
+  throw std::overflow_error("run_ensemble: velocity spectrum or growth rate overflows for " + members);
+}
+
 // What two configurations differ in, in words; empty if in nothing.
 std::string differences(const Ensemble::Configuration& a, const Ensemble::Configuration& b) {
   std::string text;
@@ -201,7 +221,7 @@ EnsembleTimes ensemble_times(double dt, double sample_dt, double duration) {
             "run_ensemble: dt must be a multiple of the excitation's " + shortest(sample_dt) + " s", dt, "s");
     dt = samples * sample_dt;
   }
-  constexpr double most = 1 << 24;
+  constexpr double most = Ensemble::max_times;
   const double steps = std::floor(duration / dt * (1 + 1e-12));
   require(steps < most,
           "run_ensemble: dt must leave at most " + shortest(most) + " times in " + shortest(duration) + " s", dt, "s");
@@ -285,10 +305,7 @@ Ensemble run_ensemble(const Ensemble::Configuration& configuration, const Ensemb
         Ensemble::Kept kept;
         kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
         kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
-        for (std::size_t i = 0; i < members; ++i)
-          if (!std::isfinite(kept.peak[i]) || !std::isfinite(kept.residual[i]))
-            throw std::overflow_error("run_ensemble: member " + std::to_string(number * block_size + i) +
-                                      " leaves the range of doubles");
+        check_range(kept, tally, times, number * block_size);
         const std::scoped_lock lock(mutex);
         ensemble.insert(number, std::move(tally), std::move(kept));
         done += members;
@@ -351,24 +368,66 @@ std::size_t Ensemble::block(std::size_t times) {
 }
 
 Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
-  const std::size_t frequencies = parts_.velocity_spectrum ? parts_.times.central() / 2 + 1 : 0;
-  for (const auto& [place, tally] : parts_.tallies.nodes())
-    if (tally.times() != parts_.times.count || tally.frequencies() != frequencies || tally.count == 0)
-      throw std::invalid_argument(
-          "Ensemble: a part has " + std::to_string(tally.times()) + " times, " + std::to_string(tally.frequencies()) +
-          " frequencies and " + std::to_string(tally.count) + " members, the whole " +
-          std::to_string(parts_.times.count) + " times and " + std::to_string(frequencies) + " frequencies");
-  std::uint64_t kept = parts_.peaks.count();
-  for (const auto& [block, values] : parts_.kept) {
-    kept += values.peak.size();
-    if (values.residual.size() != values.peak.size())
-      throw std::invalid_argument("Ensemble: block " + std::to_string(block) + " has " +
-                                  std::to_string(values.peak.size()) + " peaks and " +
-                                  std::to_string(values.residual.size()) + " residuals");
+  const auto expect = [](bool holds, const std::string& what) {
+    if (!holds) throw std::invalid_argument("Ensemble: " + what);
+  };
+  const EnsembleTimes& times = parts_.times;
+  expect(std::isfinite(times.dt) && times.dt > 0,
+         "dt must be positive and finite, got " + detail::shortest(times.dt) + " s");
+  expect(times.count >= 2 && times.count <= max_times,
+         "times must be 2 to " + std::to_string(max_times) + ", got " + std::to_string(times.count));
+  for (const auto& [name, text] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"dt", detail::shortest(times.dt)},
+           {"times", std::to_string(times.count)},
+           {"velocity_spectrum", parts_.velocity_spectrum ? "true" : "false"}})
+    expect(std::ranges::find(parts_.configuration, std::pair(name, text)) != parts_.configuration.end(),
+           "the configuration must say that " + name + " is " + text);
+
+  const std::uint64_t size = block(times.count);
+  const auto members_in = [&](std::uint64_t number) {
+    const auto cut = parts_.cut.find(number);
+    return cut == parts_.cut.end() ? size : cut->second;
+  };
+  const std::size_t frequencies = parts_.velocity_spectrum ? times.central() / 2 + 1 : 0;
+  const auto bits = static_cast<unsigned>(64 - std::countr_zero(size));  // in the number of a block
+  std::size_t cuts = 0;
+  for (const auto& [place, tally] : parts_.tallies.nodes()) {
+    expect(place.level < bits && place.number < std::uint64_t{1} << (bits - place.level),
+           "part " + std::to_string(place.number) + " of 2^" + std::to_string(place.level) + " blocks is at no place");
+    expect(tally.times() == times.count && tally.frequencies() == frequencies,
+           "a part has " + std::to_string(tally.times()) + " times and " + std::to_string(tally.frequencies()) +
+               " frequencies, the whole " + std::to_string(times.count) + " times and " + std::to_string(frequencies) +
+               " frequencies");
+    const std::uint64_t begin = place.number << place.level, end = (place.number + 1) << place.level;
+    std::uint64_t members = size << place.level;
+    for (auto cut = parts_.cut.lower_bound(begin); cut != parts_.cut.end() && cut->first < end; ++cut, ++cuts) {
+      expect(cut->second > 0 && cut->second < size, "a block that was cut must have 1 to " + std::to_string(size - 1) +
+                                                        " members, got " + std::to_string(cut->second));
+      members -= size - cut->second;
+    }
+    expect(tally.count == members, "the part from block " + std::to_string(begin) + " on must have " +
+                                       std::to_string(members) + " members, got " + std::to_string(tally.count));
+    expect(tally.is_possible(), "the part from block " + std::to_string(begin) + " on has sums that no members have");
   }
-  if (kept != members())
-    throw std::invalid_argument("Ensemble: the parts hold " + std::to_string(members()) + " members and " +
-                                std::to_string(kept) + " peaks");
+  expect(cuts == parts_.cut.size(), "a block that was cut is not there");
+
+  std::uint64_t kept = parts_.peaks.count();
+  expect(kept == 0 || parts_.kept.empty(), "peaks must be kept or counted, got both");
+  for (const auto& [number, values] : parts_.kept) {
+    kept += values.peak.size();
+    expect(parts_.tallies.overlaps({0, number}) && values.peak.size() == members_in(number) &&
+               values.residual.size() == members_in(number),
+           "block " + std::to_string(number) + " has " + std::to_string(values.peak.size()) + " peaks and " +
+               std::to_string(values.residual.size()) + " residuals, which do not belong to its members");
+    for (std::size_t i = 0; i < values.peak.size(); ++i) {
+      detail::require(std::isfinite(values.peak[i]) && values.peak[i] >= 0,
+                      "Ensemble: a peak must be finite and at least 0", values.peak[i], "m");
+      detail::require(std::isfinite(values.residual[i]), "Ensemble: a residual must be finite", values.residual[i],
+                      "m");
+    }
+  }
+  expect(kept == members(),
+         "the parts hold " + std::to_string(members()) + " members and " + std::to_string(kept) + " peaks");
 }
 
 std::uint64_t Ensemble::members() const { return parts_.tallies.count(); }
@@ -514,13 +573,16 @@ Stationary Ensemble::stationary() const {
 
   // m4 / m2^2: its error from those of m4 and m2 and their covariance.
   const double m2 = average(Tally::vv) / n, m4 = average(Tally::vvvv) / n;
-  if (m2 > 0) {
-    const double by_fourth = 1 / (m2 * m2), by_square = -2 * m4 / (m2 * m2 * m2);
-    const double variance =
-        by_fourth * by_fourth * total.scatter(detail::velocity_fourth, detail::velocity_fourth) +
-        2 * by_fourth * by_square * total.scatter(detail::velocity_fourth, detail::velocity_square) +
-        by_square * by_square * total.scatter(detail::velocity_square, detail::velocity_square);
-    result.velocity_kurtosis = {m4 / (m2 * m2), std::sqrt(std::max(0.0, variance) / (n - 1) / n)};
+  if (m4 > 0) {
+    // Relative to m4 and m2, one after the other, so that no product of them overflows.
+    const auto relative = [&](std::size_t a, double of_a, std::size_t b, double of_b) {
+      return total.scatter(a, b) / of_a / of_b;
+    };
+    const double variance = relative(detail::velocity_fourth, m4, detail::velocity_fourth, m4) -
+                            4 * relative(detail::velocity_fourth, m4, detail::velocity_square, m2) +
+                            4 * relative(detail::velocity_square, m2, detail::velocity_square, m2);
+    const double kurtosis = m4 / m2 / m2;
+    result.velocity_kurtosis = {kurtosis, kurtosis * std::sqrt(std::max(0.0, variance) / (n - 1) / n)};
   } else {
     result.velocity_kurtosis = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   }

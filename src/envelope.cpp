@@ -29,7 +29,7 @@ Envelope Envelope::from_table(std::vector<double> time, std::vector<double> fact
 double Envelope::operator()(double t) const noexcept {
   if (!time_.empty()) return detail::interpolated(time_, factor_, t);
   if (t < 0) return 0;
-  if (t < build_up_) return (t / build_up_) * (t / build_up_);
+  if (!(t >= build_up_)) return (t / build_up_) * (t / build_up_);  // NaN of NaN
   const double decaying = t - build_up_ - strong_;
   return decaying > 0 ? std::exp(-decay_rate_ * decaying) : 1;
 }

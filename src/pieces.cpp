@@ -98,7 +98,7 @@ class SideBySide {
   }
 
   void step(std::size_t segment, State& state) {
-    recorder_.begin_segment(ground_.time(segment));
+    recorder_.begin_segment(ground_.time(segment), ground_.time(segment + 1));
     advance(law_, Polynomial{}, ground_.segment(segment), state, recorder_);
     histories_.keep(segment + 1, state);
   }
@@ -112,7 +112,10 @@ class SideBySide {
   void record(std::size_t piece, std::size_t begin, std::size_t segment, const Moved& moved) {
     const LaneEvent *event = events_of(piece), *const end = next_[piece];
     while (event != end && event->segment < segment) ++event;
-    const auto at = [&](const LaneEvent& e) { return ground_.time(begin + e.segment) + e.time; };
+    const auto at = [&](const LaneEvent& e) {
+      const std::size_t i = begin + e.segment;
+      return std::min(ground_.time(i) + e.time, ground_.time(i + 1));
+    };
     recorder_.events(static_cast<std::size_t>(end - event), [&](std::size_t k) {
       return Event{at(event[k]), moved(event[k].displacement), 0, event[k].kind};
     });

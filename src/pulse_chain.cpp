@@ -36,12 +36,12 @@ double lattice_spacing(double sigma, double parts) {
   return sigma > 2 ? 1 : 1 / std::ceil(std::max(parts / sigma, 0.5 / (sigma * sigma)));
 }
 
-/// What is the same for all slots of a kind: where a slot leads from each node of the grid, spread over four nodes, the
-/// way on it and the integral of v^2.
+/// What is the same for all slots of a kind: where a slot leads from each node of the grid, spread over four nodes,
+/// and the displacement and the integral of v^2 by the middle of the slot and by its end.
 struct Passage {
   std::uint32_t first;
   std::array<double, 4> share;
-  double way, square;
+  std::array<double, 2> displacement, square;
 };
 
 /// Lagrange's weights of the nodes at x[0..3] for the value at `at`.
@@ -53,6 +53,17 @@ std::array<double, 4> lagrange(const double* x, double at) {
       if (j != i) w[i] *= (at - x[j]) / (x[i] - x[j]);
   }
   return w;
+}
+
+/// Calls use(x, weight) for the points of a panel: Gauss-Legendre, four points.
+template <class Use>
+void panel(double from, double to, Use use) {
+  constexpr std::array<double, 4> nodes = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
+                                           0.93056815579702629};
+  constexpr std::array<double, 4> weights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                             0.17392742256872693};
+  const double length = to - from;
+  for (std::size_t i = 0; i < 4; ++i) use(from + length * nodes[i], length * weights[i]);
 }
 
 // ---- amplitudes on a lattice
@@ -137,102 +148,145 @@ double strength_of(const Arrivals& arrivals) { return arrivals.sigma * std::sqrt
 
 // ---- what pairs of pulses do
 
-/// Both moments of two pulses, the second one `offset` later: X^2 and int v^2.
-std::array<double, 2> pair(const Steps& steps, double b1, double b2, double offset) {
+/// X^2 and int v^2.
+using Moment = std::array<double, 2>;
+
+/// How long two pulses have an effect, in steps: one that leaves no net velocity leaves at most what friction stops
+/// within another length of it, after which a second one finds all at rest.
+int reach_of(const Steps& steps) { return 4 * static_cast<int>(steps.values.size()); }
+
+/// Both moments of two pulses, the second one `offset` later, after each half of a step.
+void pair(const Steps& steps, double b1, double b2, double offset, std::span<Moment> found) {
   detail::Ride ride;
   const auto count = static_cast<int>(steps.values.size());
   const double whole = std::floor(offset), part = offset - whole;
   const auto value = [&](int i) {
     return i >= 0 && i < count ? steps.unit * steps.values[static_cast<std::size_t>(i)] : 0;
   };
-  const int shift = static_cast<int>(whole), last = count + shift + 1;
-  for (int i = 0; i < last; ++i) {
+  const int shift = static_cast<int>(whole);
+  const int ended = 2 * (count + shift + 1);
+  found.front() = {};
+  for (int half = 0; static_cast<std::size_t>(half) + 1 < found.size(); ++half) {
+    Moment& moment = found[static_cast<std::size_t>(half) + 1];
+    moment = {ride.state.displacement * ride.state.displacement, ride.velocity_square};
+    if (half >= ended && ride.state.velocity == 0) continue;
     // Within step i of the first pulse the second one goes from its step i - shift - 1 to the next.
-    const double n = b1 * value(i);
-    if (part > 0) detail::hold(unit_block, n + b2 * value(i - shift - 1), part, ride, detail::NoKnot{});
-    detail::hold(unit_block, n + b2 * value(i - shift), 1 - part, ride, detail::NoKnot{});
+    const int i = half / 2;
+    const double change = std::clamp(part - 0.5 * (half % 2), 0.0, 0.5), n = b1 * value(i);
+    if (change > 0) detail::hold(unit_block, n + b2 * value(i - shift - 1), change, ride, detail::NoKnot{});
+    if (change < 0.5) detail::hold(unit_block, n + b2 * value(i - shift), 0.5 - change, ride, detail::NoKnot{});
+    moment = {ride.state.displacement * ride.state.displacement, ride.velocity_square};
   }
-  detail::coast(unit_block, ride);
-  return {ride.state.displacement * ride.state.displacement, ride.velocity_square};
 }
 
 /// What pairs do, by lattices of amplitudes: the chain's and one twice as fine, whose every second node is the chain's.
 class Pairs {
  public:
   Pairs(const Steps& steps, Weights coarse, Weights fine)
-      : steps_(steps), coarse_(std::move(coarse)), fine_(std::move(fine)) {
-    for (int i = -fine_.reach; i <= fine_.reach; ++i) add(single_, i, 0, fine_[i], i % 2 == 0 ? coarse_[i / 2] : 0, 0);
+      : steps_(steps),
+        coarse_(std::move(coarse)),
+        fine_(std::move(fine)),
+        single_(static_cast<std::size_t>(2 * reach_of(steps) + 1)) {
+    add_later(single_, 0, 1, 1);
   }
 
-  /// At the chain's lattice of amplitudes, `slots` to a step; or, for none of it, by the limit of both.
-  PairTable table(int slots, bool limit) const {
-    // A pulse that leaves no net velocity leaves at most what friction stops within another length of it.
+  /// At the chain's lattice of amplitudes, `slots` to a step; or, for none of it, by the limit of both. Of pulses that
+  /// began within 0, 1/2, 1, ... steps, the last ones of all.
+  std::vector<PairTable> table(int slots, bool limit) {
+    std::vector<Sums> integral(single_.size()), lattice(single_.size());
     const int count = static_cast<int>(steps_.values.size()), most = 2 * count;
-    constexpr std::array<double, 4> nodes = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
-                                             0.93056815579702629};
-    constexpr std::array<double, 4> weights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                               0.17392742256872693};
-    Sums integral{}, lattice{};
     for (double from = 0; from < most;) {
       const double length = from < count ? 0.5 : 1;
-      for (std::size_t i = 0; i < 4; ++i) add_pairs(integral, from + length * nodes[i], length * weights[i], true);
+      panel(from, from + length, [&](double offset, double weight) { add_pairs(integral, offset, weight, true); });
       from += length;
     }
     for (int k = 0; k < most * slots; ++k)
       add_pairs(lattice, static_cast<double>(k) / slots, (k == 0 ? 0.5 : 1.0) / slots, limit);
-    const auto coefficients = [&](std::size_t i) {
-      return detail::PairCoefficients{single_.limit(i), integral.limit(i),
-                                      limit ? lattice.limit(i) : lattice.coarse[i]};
-    };
-    return {coefficients(0), coefficients(1)};
+    std::vector<PairTable> tables(single_.size());
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      const auto coefficients = [&](std::size_t i) {
+        return detail::PairCoefficients{single_[k].limit(i), integral[k].limit(i),
+                                        limit ? lattice[k].limit(i) : lattice[k].coarse[i]};
+      };
+      tables[k] = {coefficients(0), coefficients(1)};
+    }
+    return tables;
   }
 
  private:
   /// Of X^2 and int v^2.
   struct Sums {
-    std::array<double, 2> coarse, fine;
+    Moment coarse{}, fine{};
     /// Kinks make both err by O(spacing^2).
     double limit(std::size_t i) const { return (4 * fine[i] - coarse[i]) / 3; }
   };
 
-  void add(Sums& sums, int i, int j, double fine, double coarse, double offset) const {
-    const auto both = pair(steps_, i * fine_.spacing, j * fine_.spacing, offset);
-    for (std::size_t k = 0; k < 2; ++k) {
-      sums.fine[k] += fine * both[k];
-      sums.coarse[k] += coarse * both[k];
-    }
+  void add(std::vector<Sums>& sums, int i, int j, double fine, double coarse, double offset) {
+    pair(steps_, i * fine_.spacing, j * fine_.spacing, offset, both_);
+    for (std::size_t k = 0; k < both_.size(); ++k)
+      for (std::size_t m = 0; m < 2; ++m) {
+        sums[k].fine[m] += fine * both_[k][m];
+        sums[k].coarse[m] += coarse * both_[k][m];
+      }
   }
 
-  /// Adds the mean over both amplitudes less that of two pulses far apart.
-  void add_pairs(Sums& sums, double offset, double weight, bool fine) const {
-    Sums mean{};
+  /// Adds what a second pulse does `offset` later, by itself.
+  void add_later(std::vector<Sums>& sums, double offset, double weight, int step) {
+    for (int j = -fine_.reach; j <= fine_.reach; j += step)
+      add(sums, 0, j, weight * fine_[j], j % 2 == 0 ? weight * coarse_[j / 2] : 0, offset);
+  }
+
+  /// Adds the mean over both amplitudes less that of each by itself.
+  void add_pairs(std::vector<Sums>& sums, double offset, double weight, bool fine) {
     const int step = fine ? 1 : 2;
     const double least = 1 / fine_.spacing;  // the sum of two amplitudes below which nothing moves
     for (int i = -fine_.reach; i <= fine_.reach; i += step)
       for (int j = 0; j <= fine_.reach; j += step) {  // and the mirror image
         if (std::abs(i) + j <= least) continue;
-        const double twice = j == 0 ? 1 : 2;
+        const double twice = (j == 0 ? 1 : 2) * weight;
         const bool even = i % 2 == 0 && j % 2 == 0;
-        add(mean, i, j, twice * fine_[i] * fine_[j], even ? twice * coarse_[i / 2] * coarse_[j / 2] : 0, offset);
+        add(sums, i, j, twice * fine_[i] * fine_[j], even ? twice * coarse_[i / 2] * coarse_[j / 2] : 0, offset);
       }
-    for (std::size_t k = 0; k < 2; ++k) {
-      sums.fine[k] += weight * (mean.fine[k] - 2 * single_.fine[k]);
-      sums.coarse[k] += weight * (mean.coarse[k] - 2 * single_.coarse[k]);
-    }
+    add_later(sums, 0, -weight, step);
+    add_later(sums, offset, -weight, step);
   }
 
   const Steps& steps_;
   Weights coarse_, fine_;
-  Sums single_{};
+  std::vector<Sums> single_;
+  std::vector<Moment> both_{single_.size()};
 };
 
 // ---- the chain
 
+/// How a function of time rises within a slot.
+struct Rise {
+  double slope = 0;  ///< at the start
+  double half = 0;   ///< by the middle
+  double whole = 0;  ///< by the end
+
+  void add(double weight, const Rise& other) {
+    slope += weight * other.slope;
+    half += weight * other.half;
+    whole += weight * other.whole;
+  }
+};
+
+struct Slot {
+  Rise displacement{};  ///< E[x^2]
+  Rise velocity{};      ///< the integral of E[v^2]
+  double rest = 0;      ///< chance to be at rest at the end
+
+  void add(double weight, const Slot& other) {
+    displacement.add(weight, other.displacement);
+    velocity.add(weight, other.velocity);
+    rest += weight * other.rest;
+  }
+};
+
 struct Solution {
-  std::vector<double> square;    ///< E[x^2] after each slot, from 0
-  std::vector<double> velocity;  ///< integral of E[v^2] until then
-  double growth, variance;       ///< of x^2 per unit of time, of v, once stationary
-  double rest;                   ///< chance to be at rest then
+  std::vector<Slot> slots{};  ///< from rest on, the last one stationary
+  double growth, variance;    ///< of x^2 per unit of time, of v, once stationary
 };
 
 class Chain {
@@ -295,15 +349,21 @@ class Chain {
   Passage passage(double v, double n, double still) const {
     detail::Ride ride;
     ride.state.velocity = v;
-    detail::hold(unit_block, n, 1.0 / slots_, ride, detail::NoKnot{});
+    Passage passage{};
+    for (std::size_t half = 0; half < 2; ++half) {
+      detail::hold(unit_block, n, 0.5 / slots_, ride, detail::NoKnot{});
+      passage.displacement[half] = ride.state.displacement;
+      passage.square[half] = ride.velocity_square;
+    }
     const double at = std::clamp(ride.state.velocity + still, grid_.front(), grid_.back());
     const auto last = static_cast<std::ptrdiff_t>(size()) - 1, middle = last / 2;
     std::ptrdiff_t cell = std::upper_bound(grid_.begin(), grid_.end(), at) - grid_.begin() - 1;
     std::ptrdiff_t low = 0, high = last - 3;
     if (!drifting_) (at < 0 ? high : low) = at < 0 ? middle - 3 : middle;  // the law of v has a kink and a mass at 0
     const std::ptrdiff_t first = std::clamp(cell - 1, low, high);
-    return {static_cast<std::uint32_t>(first), lagrange(grid_.data() + first, at), ride.state.displacement,
-            ride.velocity_square};
+    passage.first = static_cast<std::uint32_t>(first);
+    passage.share = lagrange(grid_.data() + first, at);
+    return passage;
   }
 
   /// Kinds of slots: on the grid of velocities by the ground acceleration alone; on that of what the velocity will be
@@ -396,6 +456,13 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
     chances[tuple] = chance;
   }
 
+  // Velocity that the past batches have still to give, which the grid of u has in it.
+  std::vector<double> coming(tuples);
+  if (drifting_)
+    for (std::size_t tuple = 0; tuple < tuples; ++tuple)
+      for (std::size_t i = past, left = tuple; i > 0; --i, left /= width)
+        coming[tuple] += still_[i] * (static_cast<int>(left % width) - batch_.reach) * batch_.spacing;
+
   // The integer n of a slot, without the newest and the oldest batch.
   std::vector<std::ptrdiff_t> middle(heads);
   for (std::size_t head = 0; head < heads; ++head) {
@@ -407,16 +474,22 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
   }
 
   std::vector<Passage> computed;
-  Solution solution;
-  solution.square = {0};
-  solution.velocity = {0};
+  Solution solution{};
   double growth = 0, variance = 0;
   int steady = 0;
   for (int slot = 0; steady < 2; ++slot) {
     if (slot == most_slots)
       throw ConvergenceError("PulseChain: not stationary after " + std::to_string(most_slots) + " slots");
     if (heartbeat) heartbeat();
-    double square = 0, velocity = 0, total = 0;
+    Slot sums;
+    double total = 0;
+    Slot& found = solution.slots.emplace_back();
+    for (std::size_t tuple = 0; tuple < tuples; ++tuple)
+      for (std::size_t i = 0; i < nodes; ++i) {
+        const double v = grid_[i] - coming[tuple];
+        found.displacement.slope += 2 * v * mean[tuple * nodes + i];
+        found.velocity.slope += v * v * law[tuple * nodes + i];
+      }
     // Newest batches below 0 are the mirror images of those above.
     for (std::size_t k = static_cast<std::size_t>(reach); k < width; ++k) {
       const double chance = batch_.w[k], twice = k == static_cast<std::size_t>(reach) ? 1 : 2;
@@ -425,7 +498,7 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
         double* const to_mean = next_mean.data() + (k * heads + head) * nodes;
         std::fill_n(to_law, nodes, 0);
         std::fill_n(to_mean, nodes, 0);
-        double way_square = 0, way_mean = 0, integral = 0;
+        Slot part;
         for (std::size_t oldest = 0; oldest < width; ++oldest) {
           const std::size_t tuple = head * width + oldest;
           if (chances[tuple] * std::abs(chance) < least_) continue;
@@ -444,14 +517,17 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
           }
           for (std::size_t i = 0; i < nodes; ++i) {
             const Passage& p = passages[i];
-            const double a = from_law[i], moved = p.way * a, b = from_mean[i] + moved;
+            const double a = from_law[i], m = from_mean[i];
+            const auto [halfway, x] = p.displacement;
+            const double b = m + x * a;
             for (std::size_t j = 0; j < 4; ++j) {
               to_law[p.first + j] += p.share[j] * a;
               to_mean[p.first + j] += p.share[j] * b;
             }
-            way_square += p.way * moved;
-            way_mean += p.way * from_mean[i];
-            integral += p.square * a;
+            part.displacement.half += halfway * (halfway * a + 2 * m);
+            part.displacement.whole += x * (b + m);
+            part.velocity.half += p.square[0] * a;
+            part.velocity.whole += p.square[1] * a;
           }
         }
         for (std::size_t i = 0; i < nodes; ++i) {
@@ -459,8 +535,7 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
           to_mean[i] *= chance;
           total += twice * to_law[i];
         }
-        square += twice * chance * (way_square + 2 * way_mean);
-        velocity += twice * chance * integral;
+        sums.add(twice * chance, part);
       }
     }
     const std::size_t all = tuples * nodes, half = static_cast<std::size_t>(reach) * heads * nodes;
@@ -472,10 +547,10 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
     mean.swap(next_mean);
     for (double& l : law) l /= total;  // but for what was left out it is 1
     for (double& l : mean) l /= total;
-    square /= total;
-    velocity /= total;
-    solution.square.push_back(solution.square.back() + square);
-    solution.velocity.push_back(solution.velocity.back() + velocity);
+    found.add(1 / total, sums);
+    if (!drifting_)
+      for (std::size_t tuple = 0; tuple < tuples; ++tuple) found.rest += law[tuple * nodes + nodes / 2];
+    const double square = found.displacement.whole, velocity = found.velocity.whole;
     const bool still = std::abs(square - growth) <= tolerance_ * std::abs(square) &&
                        std::abs(velocity - variance) <= tolerance_ * velocity;
     steady = still && slot > static_cast<int>(past) ? steady + 1 : 0;
@@ -484,9 +559,6 @@ Solution Chain::solve(const std::function<void()>& heartbeat) const {
   }
   solution.growth = growth * slots_;
   solution.variance = variance * slots_;
-  solution.rest = 0;
-  if (!drifting_)
-    for (std::size_t tuple = 0; tuple < tuples; ++tuple) solution.rest += law[tuple * nodes + nodes / 2];
   return solution;
 }
 
@@ -500,17 +572,129 @@ constexpr double most_arrivals = 50;
 Solution frictionless(const Steps& steps, const Arrivals& arrivals, std::size_t slots) {
   const Slider<Coulomb> free(Coulomb(0));
   const double each = arrivals.rate * arrivals.sigma * arrivals.sigma;
-  Solution solution{{0}, {0}, 0, 0, 0};
+  Solution solution{};
   detail::Ride ride;
-  for (std::size_t i = 0; i + 1 < slots; ++i) {
-    if (i < steps.values.size()) detail::hold(free, steps.unit * steps.values[i], 1, ride, detail::NoKnot{});
-    solution.growth = each * ride.state.displacement * ride.state.displacement;
-    solution.variance = each * ride.velocity_square;
-    solution.square.push_back(solution.square.back() + solution.growth);
-    solution.velocity.push_back(solution.velocity.back() + solution.variance);
+  Slot sum;
+  for (std::size_t i = 0; i < slots; ++i) {
+    if (i < steps.values.size()) {
+      const double x = ride.state.displacement, v = ride.state.velocity, before = ride.velocity_square;
+      Slot slot{{2 * x * v, 0, 0}, {v * v, 0, 0}};
+      for (double Rise::*const end : {&Rise::half, &Rise::whole}) {
+        detail::hold(free, steps.unit * steps.values[i], 0.5, ride, detail::NoKnot{});
+        slot.displacement.*end = ride.state.displacement * ride.state.displacement - x * x;
+        slot.velocity.*end = ride.velocity_square - before;
+      }
+      sum.add(each, slot);
+    }
+    solution.slots.push_back(sum);
   }
+  solution.growth = sum.displacement.whole;
+  solution.variance = sum.velocity.whole;
   return solution;
 }
+
+/// A sum over slots as a function of time, by polynomials of the fourth degree.
+class Curve {
+ public:
+  /// @param length  of a slot
+  /// @param power   of time in the first slot, where all that moves began at rest under a held load
+  Curve(double length, const std::vector<Slot>& slots, Rise Slot::*part, std::size_t power) : length_(length) {
+    double value = 0, integral = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const Rise& rise = slots[i].*part;
+      const double slope = length * rise.slope;
+      const double bend = length * (slots[std::min(i + 1, slots.size() - 1)].*part).slope - slope;
+      const double whole = rise.whole - slope, half = rise.half - slope / 2;
+      const double fourth = 16 * half - 8 * whole + 2 * bend;
+      Piece& piece = pieces_.emplace_back();
+      piece.c = {value, slope, 3 * whole - bend + fourth, bend - 2 * whole - 2 * fourth, fourth};
+      if (i == 0) {
+        piece.c = {};
+        piece.c[power] = rise.whole;
+      }
+      piece.before = integral;
+      value += rise.whole;
+      integral += length * piece.integral(1);
+    }
+  }
+
+  double operator()(double t) const {
+    const auto [piece, u, more] = at(t);
+    return piece.value(u) + more * piece.rise();
+  }
+
+  /// From 0 to t.
+  double integral(double t) const {
+    const auto [piece, u, more] = at(t);
+    return piece.before +
+           length_ * (piece.integral(u) + more * (piece.integral(1) + (u + (more - 1) / 2) * piece.rise()));
+  }
+
+ private:
+  struct Piece {
+    std::array<double, 5> c{};
+    double before = 0;  ///< integral up to its start
+
+    double value(double u) const { return c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4]))); }
+    double integral(double u) const {
+      return u * (c[0] + u * (c[1] / 2 + u * (c[2] / 3 + u * (c[3] / 4 + u * c[4] / 5))));
+    }
+    double rise() const { return c[1] + c[2] + c[3] + c[4]; }
+  };
+  struct Place {
+    const Piece& piece;
+    double u, more;  ///< place within it, and how often it was repeated: beyond the last slot all goes on as there
+  };
+
+  Place at(double t) const {
+    const double place = std::max(t, 0.0) / length_, whole = std::floor(place);
+    const double more = std::max(whole - static_cast<double>(pieces_.size() - 1), 0.0);
+    return {pieces_[static_cast<std::size_t>(whole - more)], place - whole, more};
+  }
+
+  double length_;
+  std::vector<Piece> pieces_{};
+};
+
+/// What puts pairs right in the growth of E[x^2] and in E[v^2]: factors by time,
+///     1 - p (c2(m) - c2) / (c1 + c2(m) p) P0,
+/// the coefficients those of pulses that began within it, P0 the chance to be at rest by then.
+class Correction {
+ public:
+  Correction() = default;
+
+  Correction(const std::vector<PairTable>& pairs, double rate, const std::vector<Slot>& chain, int slots) {
+    factors_.clear();
+    const auto rest = [&](std::size_t end) { return end == 0 ? 1 : chain[std::min(end, chain.size()) - 1].rest; };
+    for (std::size_t half = 0; half < pairs.size(); ++half) {
+      const std::size_t end = half * static_cast<std::size_t>(slots);
+      const bool last = half + 1 == pairs.size();
+      const double chance = last ? chain.back().rest : (rest(end / 2) + rest((end + 1) / 2)) / 2;
+      const auto factor = [&](const detail::PairCoefficients& c) {
+        // At the very start no second pulse has begun, but for those that the lattice has begin at once.
+        const double pair = half == 0 ? 0 : c.pair;
+        return 1 - rate * (c.lattice - pair) / (c.single + c.lattice * rate) * chance;
+      };
+      const PairTable& table = pairs[std::max(half, std::size_t{1})];
+      factors_.push_back({factor(table.growth), factor(table.velocity)});
+    }
+  }
+
+  /// When the factors have become constant.
+  double settled() const { return 0.5 * static_cast<double>(factors_.size() - 1); }
+  const Moment& late() const { return factors_.back(); }
+
+  Moment operator()(double t) const {
+    if (t >= settled()) return late();
+    const auto k = static_cast<std::size_t>(2 * t);
+    const double u = 2 * t - static_cast<double>(k);
+    const Moment &from = factors_[k], &to = factors_[k + 1];
+    return {from[0] + u * (to[0] - from[0]), from[1] + u * (to[1] - from[1])};
+  }
+
+ private:
+  std::vector<Moment> factors_{{1, 1}};
+};
 
 Steps steps_of(const PulseShape& shape, int slots) {
   const auto times = shape.times();
@@ -608,56 +792,39 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
 
   const Chain chain(steps, arrivals, slots, drifting);
   Solution solution = chain.solve(heartbeat);
-  double growth = solution.growth, variance = solution.variance;
-  if (!drifting) {
-    // Q = Q_m - p^2 (c2(m) - c2) D P0, D = Q_m / (c1 p + c2(m) p^2)
-    const PairTable pairs = chain.pairs().table(slots, false);
-    const double p = arrivals.rate;
-    const auto correct = [&](double& q, const detail::PairCoefficients& c) {
-      q *= 1 - p * (c.lattice - c.pair) / (c.single + c.lattice * p) * solution.rest;
-    };
-    correct(growth, pairs.growth);
-    correct(variance, pairs.velocity);
-  }
+  Correction correction;
+  if (!drifting) correction = {chain.pairs().table(slots, false), arrivals.rate, solution.slots, slots};
   if (sigma > strongest) {
-    const Solution free = frictionless(steps, arrivals, solution.square.size());
-    const auto fade = [&](double& q, double without) { q = without - (without - q) * (strongest / sigma); };
-    for (std::size_t i = 0; i < solution.square.size(); ++i) {
-      fade(solution.square[i], free.square[i]);
-      fade(solution.velocity[i], free.velocity[i]);
+    const Solution free = frictionless(steps, arrivals, solution.slots.size());
+    const double part = strongest / sigma;
+    for (std::size_t i = 0; i < solution.slots.size(); ++i) {
+      Slot faded;
+      faded.add(part, solution.slots[i]);
+      faded.add(1 - part, free.slots[i]);
+      solution.slots[i] = faded;
     }
-    fade(solution.growth, free.growth);
-    fade(solution.variance, free.variance);
-    growth = solution.growth;
-    variance = solution.variance;
+    solution.growth = part * solution.growth + (1 - part) * free.growth;
+    solution.variance = part * solution.variance + (1 - part) * free.variance;
   }
   const double acceleration = pulses.sigma() * largest / arrivals.sigma;  // the slip level, unless it is too small
   const double v_unit = std::pow(acceleration * step, 2), x_unit = v_unit * step * step;
 
   // Of a lattice with a random phase, pulses begin at t = phase, phase + h, ...: means over the slot before t.
-  const double h = 1.0 / slots, last = static_cast<double>(solution.square.size() - 1) * h;
-  const auto at = [&](const std::vector<double>& sums, double rate, double t) {  // and its integral from 0
-    if (t <= 0) return std::pair{0.0, 0.0};
-    double integral = 0;
-    const auto whole = static_cast<std::size_t>(std::min(t, last) / h);
-    for (std::size_t i = 0; i < whole; ++i) integral += (sums[i] + sums[i + 1]) / 2 * h;
-    const double left = t - static_cast<double>(whole) * h;
-    const double slope = whole + 1 < sums.size() ? (sums[whole + 1] - sums[whole]) / h : rate;
-    return std::pair{sums[whole] + slope * left, integral + (sums[whole] + slope * left / 2) * left};
-  };
-  const double growth_ratio = solution.growth > 0 ? growth / solution.growth : 1;
-  const double variance_ratio = solution.variance > 0 ? variance / solution.variance : 1;
+  const double h = 1.0 / slots;
+  const Curve square(h, solution.slots, &Slot::displacement, 4), velocity(h, solution.slots, &Slot::velocity, 3);
+  const auto growth = [&](double t) { return (square(t) - square(t - h)) / h; };
+  const auto sum = [&](double t) { return (square.integral(t) - square.integral(t - h)) / h; };  // of growth
   for (std::size_t i = 0; i < count; ++i) {
-    const double t = times[i] / step;
-    const auto [x, x_sum] = at(solution.square, solution.growth, t);
-    const auto [x_before, x_sum_before] = at(solution.square, solution.growth, t - h);
-    const double v = at(solution.velocity, solution.variance, t).first;
-    const double v_before = at(solution.velocity, solution.variance, t - h).first;
-    moments.displacement_variance.value[i] = x_unit * growth_ratio * (x_sum - x_sum_before) / h;
-    moments.covariance.value[i] = x_unit / step * growth_ratio * (x - x_before) / (2 * h);
-    moments.velocity_variance.value[i] = v_unit * variance_ratio * (v - v_before) / h;
+    const double t = times[i] / step, early = std::min(t, correction.settled());
+    double x = correction.late()[0] * (sum(t) - sum(early));
+    for (double from = 0; from < early; from += 0.5)
+      panel(from, std::min(from + 0.5, early), [&](double at, double w) { x += w * correction(at)[0] * growth(at); });
+    const auto [of_growth, of_variance] = correction(t);
+    moments.displacement_variance.value[i] = x_unit * x;
+    moments.covariance.value[i] = x_unit / step * of_growth * growth(t) / 2;
+    moments.velocity_variance.value[i] = v_unit * of_variance * (velocity(t) - velocity(t - h)) / h;
   }
-  moments.growth_rate = {x_unit / step * growth, 0};
+  moments.growth_rate = {x_unit / step * correction.late()[0] * solution.growth, 0};
 
   const std::string ratio = "sigma / slip level = " + shortest(std::round(sigma * 1e4) / 1e4);
   if (!refined_ && sigma < 0.3)
@@ -667,6 +834,13 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
   if (refined_ && sigma < 0.2) remark(moments, ratio + ": nothing was tried below 0.2.");
   if (arrivals.rate > 4)
     remark(moments, shortest(arrivals.rate) + " pulses to a step of the pulse: nothing was tried above 4.");
+  const double length = options.shape.length() * pulses.half_width();
+  if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < length; });
+      n > 0 && (sigma < 0.5 || arrivals.rate > 2))
+    remark(moments,
+           std::to_string(n) + " of the times are below " + shortest(length) +
+               " s, the length of a pulse: with sigma / slip level below 0.5 or more than two pulses to a step "
+               "simulations differ there by up to a factor of 2.4.");
   if (options.stationary_start)
     remark(moments, "From rest as if no pulse had arrived before time zero: a stationary start is not followed.");
   if (options.shape.values().size() != 2 || options.quantile)
@@ -690,7 +864,8 @@ PairTable pair_coefficients(double sigma, int slots) {
   const int reach = static_cast<int>(std::ceil(6 * sigma / spacing));
   const Steps steps{{1, -1}, 1};
   return Pairs(steps, gaussian(sigma, spacing, reach, 1), gaussian(sigma, spacing / 2, 2 * reach, 1))
-      .table(slots, true);
+      .table(slots, true)
+      .back();
 }
 
 }  // namespace stickslip::detail

@@ -55,12 +55,70 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-/// Every run of blanks as one.
-std::string squeeze(std::string_view text) {
+/// Bytes of the UTF-8 sequence at the front of `text`, or 0.
+std::size_t sequence(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xC0 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF8 ? 4
+                                           : 0;
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+  return length > 0 && length <= text.size() && std::ranges::all_of(text.substr(1, length - 1), continues) ? length : 0;
+}
+
+/// Whether a sequence is a character: no overlong form, no surrogate, nothing above U+10FFFF.
+bool is_character(std::string_view sequence) {
+  const auto bytes = [sequence](std::size_t count) {
+    unsigned value = 0;
+    for (const char c : sequence.substr(0, count)) value = value << 8 | static_cast<unsigned char>(c);
+    return value;
+  };
+  switch (sequence.size()) {
+    case 1:
+      return true;
+    case 2:
+      return bytes(1) >= 0xC2;
+    case 3:
+      return bytes(2) >= 0xE0A0 && bytes(2) / 0x20 != 0xEDA0 / 0x20;
+    case 4:
+      return bytes(2) >= 0xF090 && bytes(2) < 0xF490;
+    default:
+      return false;
+  }
+}
+
+/// Text from outside as valid UTF-8 of at most `longest` bytes, with blanks for control characters.
+std::string printable(std::string_view text, std::size_t longest) {
   std::string result;
-  for (const char c : trim(text))
-    if (!is_blank(c) || !is_blank(result.back())) result += is_blank(c) ? ' ' : c;
+  while (!text.empty()) {
+    const std::size_t length = sequence(text);
+    std::string_view shown = text.substr(0, length);
+    if (!is_character(shown)) shown = "\xEF\xBF\xBD";  // U+FFFD, the replacement character
+    if ((shown >= "\0" && shown < " ") || shown == "\x7F" || (shown >= "\xC2\x80" && shown < "\xC2\xA0")) shown = " ";
+    if (result.size() + shown.size() > longest) return result + "...";
+    result += shown;
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
   return result;
+}
+
+/// A name in a file, every run of blanks as one.
+std::string squeeze(std::string_view text) {
+  constexpr std::size_t longest = 256;  // each channel of a file repeats the names of event and station
+  std::string result;
+  for (const char c : printable(trim(text), longest))
+    if (c != ' ' || !(result.empty() || result.back() == ' ')) result += c;
+  if (result.ends_with(' ')) result.pop_back();
+  return result;
+}
+
+/// Without the blanks and the one comma or semicolon at the front.
+std::string_view after_separator(std::string_view text) {
+  text = trim(text);
+  if (text.starts_with(',') || text.starts_with(';')) text = trim(text.substr(1));
+  return text;
 }
 
 /// Where `key` starts in `text`, in upper or lower case, or npos.
@@ -79,17 +137,8 @@ std::string_view after(std::string_view text, std::string_view key) {
   return at == std::string_view::npos ? std::string_view() : text.substr(at + key.size());
 }
 
-/// The beginning of a text, fit for a message.
-std::string quote(std::string_view text) {
-  constexpr std::size_t longest = 48;
-  text = trim(text);
-  std::size_t end = std::min(longest, text.size());
-  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // cut no UTF-8 in two
-  std::string result(text.substr(0, end));
-  std::ranges::replace_if(
-      result, [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
-  return "'" + result + (end < text.size() ? "...'" : "'");
-}
+/// The beginning of a text, for a message.
+std::string quote(std::string_view text) { return "'" + printable(trim(text), 48) + "'"; }
 
 std::string joined(std::initializer_list<std::string> parts) {
   std::string result;
@@ -104,35 +153,68 @@ std::string joined(std::initializer_list<std::string> parts) {
 
 // ---- numbers
 
-/// Takes the finite number at the front of `text`, as C or Fortran print it (+.5, 1.0D-03).
-std::optional<double> take_number(std::string_view& text) {
-  const char* first = text.data();
-  const char* const last = first + text.size();
-  if (text.size() > 1 && first[0] == '+' && first[1] != '-') ++first;  // from_chars takes no plus
-  double value = 0;
-  auto [end, error] = std::from_chars(first, last, value);
-  if (error == std::errc() && end != last && lower(*end) == 'd') {
-    std::string token(first, std::min(last, end + 6));
-    token[static_cast<std::size_t>(end - first)] = 'e';
-    const auto whole = std::from_chars(token.data(), token.data() + token.size(), value);
-    end = first + (whole.ptr - token.data());
-    error = whole.ec;
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_sign(char c) { return c == '+' || c == '-'; }
+
+/// The number at the front of a text, as C or Fortran print it: +.5, 1.0D-03.
+///
+/// Fortran leaves out the letter of a large exponent: 1.234-100 is 1.234E-100, while 1.234-100.5 are two numbers.
+struct Numeral {
+  explicit Numeral(std::string_view text) {
+    const auto is = [text](std::size_t at, auto... kinds) { return at < text.size() && (kinds(text[at]) || ...); };
+    const auto digits = [&](std::size_t at) {
+      while (is(at, is_digit)) ++at;
+      return at;
+    };
+    const auto is_point = [](char c) { return c == '.'; };
+    const auto is_letter = [](char c) { return lower(c) == 'e' || lower(c) == 'd'; };
+
+    const std::size_t start = is(0, is_sign) ? 1 : 0, whole = digits(start);
+    const bool point = is(whole, is_point);
+    mantissa = point ? digits(whole + 1) : whole;
+    if (mantissa == start + (point ? 1 : 0)) return;
+    exponent = end = mantissa;
+
+    const bool letter = is(mantissa, is_letter);
+    const std::size_t first = mantissa + (letter ? 1 : 0), figures = first + (is(first, is_sign) ? 1 : 0);
+    const std::size_t last = digits(figures);
+    if (last == figures || !(letter || (point && figures > first && !is(last, is_point, is_letter)))) return;
+    exponent = first;
+    end = last;
   }
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+
+  std::size_t mantissa = 0;  ///< where it ends
+  std::size_t exponent = 0;  ///< where its sign or first digit is; `mantissa` if there is neither it nor a letter
+  std::size_t end = 0;       ///< 0 if the text starts with no number
+};
+
+/// Takes the finite number at the front of `text`.
+std::optional<double> take_number(std::string_view& text) {
+  const Numeral numeral(text);
+  std::string_view token = text.substr(0, numeral.end);
+  std::string standard;
+  if (numeral.end > numeral.mantissa && lower(token[numeral.mantissa]) != 'e') {
+    standard.append(token.substr(0, numeral.mantissa)).append("e").append(token.substr(numeral.exponent));
+    token = standard;
+  }
+  if (token.starts_with('+')) token.remove_prefix(1);  // from_chars takes no plus
+  double value = 0;
+  if (std::from_chars(token.data(), token.data() + token.size(), value).ec != std::errc()) return std::nullopt;
+  text.remove_prefix(numeral.end);
   return value;
 }
 
 /// Appends the numbers of a line, and returns where one fails, or nothing.
 ///
-/// A minus sign may part two numbers. Columns of `width` characters are resorted to where numbers run together
+/// A sign may part two numbers. Columns of `width` characters are resorted to where numbers run together
 /// without one: a file's own word on its columns is less sure than its blanks.
 std::string_view append_numbers(std::vector<double>& values, std::string_view line, std::size_t width) {
   const std::size_t count = values.size();
   for (std::string_view rest = trim(line); !rest.empty(); rest = trim(rest)) {
     const std::string_view here = rest;
     const std::optional<double> value = take_number(rest);
-    if (!value || !(rest.empty() || is_blank(rest[0]) || rest[0] == '-' || rest[0] == '+')) {
+    if (!value || !(rest.empty() || is_blank(rest[0]) || is_sign(rest[0]))) {
       if (width == 0) return here;
       values.resize(count);
       for (std::size_t column = 0; column < line.size(); column += width) {
@@ -149,16 +231,21 @@ std::string_view append_numbers(std::vector<double>& values, std::string_view li
   return {};
 }
 
-/// The numbers among the words of a line.
-std::vector<double> numbers_among_words(std::string_view line) {
-  std::vector<double> values;
-  while (!line.empty()) {
-    if (const std::optional<double> value = take_number(line))
-      values.push_back(*value);
-    else
-      line.remove_prefix(1);
+/// The number after a label, as in `DT= .01`, or nothing; `rest` becomes what follows it.
+std::optional<double> labeled_number(std::string_view line, std::string_view label, std::string_view& rest) {
+  const auto in_word = [](char c) { return is_digit(c) || (lower(c) >= 'a' && lower(c) <= 'z'); };
+  std::size_t at = 0;
+  for (std::size_t skip; (skip = find(line.substr(at), label)) != std::string_view::npos;) {
+    at += skip;
+    const bool starts = at == 0 || !in_word(line[at - 1]);
+    at += label.size();
+    if (!starts || (at < line.size() && in_word(line[at]))) continue;
+    rest = trim(line.substr(at));
+    if (rest.starts_with('=') || rest.starts_with(':')) rest = trim(rest.substr(1));
+    const std::optional<double> value = take_number(rest);
+    return rest.starts_with('.') || (!rest.empty() && is_sign(rest[0])) ? std::nullopt : value;
   }
-  return values;
+  return std::nullopt;
 }
 
 std::size_t as_count(double value, std::size_t line, std::string_view what) {
@@ -239,15 +326,32 @@ std::string stated_units(std::string_view line) {
 
 bool is_peer(const Lines& lines) { return lines.size() > 3 && has(lines[3], "NPTS") && has(lines[3], "DT"); }
 
+bool is_second(std::string_view unit) {
+  constexpr std::string_view names[] = {"s", "sec", "secs", "second", "seconds"};
+  return std::ranges::any_of(names, [unit](std::string_view name) { return same(unit, name); });
+}
+
 std::vector<Component> read_peer(const Lines& lines) {
   if (!has(lines[2], "ACCELERATION"))
-    refuse_line(2, "a PEER file of acceleration (AT2) is needed, this one holds " + quote(lines[2]));
-  const std::vector<double> stated = numbers_among_words(lines[3]);
-  if (stated.size() < 2)
-    refuse_line(3, "expected 'NPTS= 4096, DT= .0100 SEC' or '4096 .0100 NPTS, DT', got " + quote(lines[3]));
-  const std::size_t samples = as_count(stated[0], 3, "samples");
+    refuse_line(2, "expected a PEER file of acceleration (AT2), got " + quote(lines[2]));
+  std::string_view line = lines[3], rest;
+  std::optional<double> count = labeled_number(line, "NPTS", rest), dt = labeled_number(line, "DT", rest);
+  if (count && dt) {
+    rest = trim(rest);
+    const std::string_view unit = rest.substr(0, rest.find_first_of(" \t,;."));
+    if (!unit.empty() && !is_second(unit)) refuse_line(3, "the time step must be in seconds, got " + quote(unit));
+  } else if (!count && !dt) {
+    rest = trim(line);
+    count = take_number(rest);
+    rest = after_separator(rest);
+    dt = take_number(rest);
+    if (!same(after_separator(rest).substr(0, 4), "NPTS")) dt.reset();
+  }
+  if (!count || !dt)
+    refuse_line(3, "expected 'NPTS= 4096, DT= .0100 SEC' or '4096 .0100 NPTS, DT', got " + quote(line));
+  const std::size_t samples = as_count(*count, 3, "samples");
 
-  Component component{.title = squeeze(lines[1]), .units = stated_units(lines[2]), .dt = stated[1]};
+  Component component{.title = squeeze(lines[1]), .units = stated_units(lines[2]), .dt = *dt};
   Reader reader(lines);
   reader.block(4, "header");
   component.acceleration = reader.numbers(samples, "samples");
@@ -262,8 +366,7 @@ bool is_cosmos(const Lines& lines) { return has(lines[0], "(Format v"); }
 /// Columns of a Fortran format as `Format=(8F10.5)`, or 0.
 std::size_t stated_width(std::string_view line) {
   std::string_view rest = after(after(line, "Format="), "(");
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  while (!rest.empty() && digit(rest[0])) rest.remove_prefix(1);
+  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
   std::size_t width = 0;
   if (!rest.empty()) std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
   return width;
@@ -342,8 +445,9 @@ std::vector<Component> read_geonet(const Lines& lines) {
     const Lines text = reader.block(16, "heading of 16 lines");
     const std::size_t heading = reader.last() - 15;
     if (!is_geonet(text)) refuse_line(heading, "expected the heading of another component, got " + quote(text[0]));
-    if (const auto unit = numbers_among_words(after(text[10], "in units of")); !unit.empty() && unit[0] != 1)
-      refuse_line(heading + 10, "readings in units of 1.00 mm/s/s are needed, got " + quote(text[10]));
+    if (std::string_view unit = trim(after(text[10], "in units of")); !unit.empty())
+      if (take_number(unit) != 1 || !trim(unit).starts_with("mm/s/s"))
+        refuse_line(heading + 10, "readings in units of 1.00 mm/s/s are needed, got " + quote(text[10]));
 
     const std::vector<double> integer = reader.numbers(40, "integers", width);
     const std::vector<double> real = reader.numbers(60, "reals", width);
@@ -397,11 +501,10 @@ std::vector<Component> read_smc(const Lines& lines) {
 /// Whether a line starts with a number, be it NaN or infinite.
 bool is_row(std::string_view line) {
   line = trim(line);
-  if (line.starts_with('+')) line.remove_prefix(1);
-  double value = 0;
-  const char* const last = line.data() + line.size();
-  const auto [end, error] = std::from_chars(line.data(), last, value);
-  return error != std::errc::invalid_argument && (end == last || is_separator(*end));
+  const std::string_view token = line.substr(0, line.find_first_of(" \t,;"));
+  const std::string_view word = token.substr(!token.empty() && is_sign(token[0]) ? 1 : 0);
+  return !token.empty() && (Numeral(token).end == token.size() || same(word.substr(0, 3), "nan") || same(word, "inf") ||
+                            same(word, "infinity"));
 }
 
 std::size_t first_row(const Lines& lines) {
@@ -421,11 +524,6 @@ std::vector<std::string_view> bracketed(std::string_view line) {
     open = close;
   }
   return texts;
-}
-
-bool is_second(std::string_view unit) {
-  constexpr std::string_view names[] = {"s", "sec", "secs", "second", "seconds"};
-  return std::ranges::any_of(names, [unit](std::string_view name) { return same(unit, name); });
 }
 
 /// Reads units and title from the lines before the rows: units from the lowest line that has them, the title from the
@@ -453,67 +551,100 @@ void read_table_header(const Lines& lines, std::size_t rows, Component& componen
   }
 }
 
-/// How finely times are printed.
-class PrintedPlaces {
+/// How finely times are printed: to so many places, as by %.2f, or to so many digits, as by %.3e and %g.
+///
+/// Zeros at the end may be left out: the most places and the most digits count.
+class Resolution {
  public:
   void add(std::string_view token) {
-    const std::size_t mantissa = std::min(token.find_first_of("eEdD"), token.size());
-    const std::size_t dot = std::min(token.find('.'), mantissa);
-    int places = static_cast<int>(mantissa - dot) - (dot < mantissa ? 1 : 0);
-    if (mantissa < token.size()) {
-      std::string_view power = token.substr(mantissa + 1);
-      if (power.starts_with('+')) power.remove_prefix(1);
-      int exponent = 0;
-      std::from_chars(power.data(), power.data() + power.size(), exponent);
-      places -= exponent;
-      fewest_scientific_ = std::min(fewest_scientific_, places);
-    }
-    most_ = std::max(most_, places);
+    const Numeral numeral(token);
+    const std::string_view mantissa = token.substr(0, numeral.mantissa);
+    std::string_view power = token.substr(numeral.exponent);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    int exponent = 0;
+    std::from_chars(power.data(), power.data() + power.size(), exponent);
+
+    const auto position = [](std::size_t at) { return static_cast<int>(at); };
+    const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+    const int places = position(mantissa.size() - std::min(point + 1, mantissa.size()));
+    most_places_ = std::max(most_places_, places - exponent);
+    const std::size_t first = mantissa.find_first_of("123456789");
+    if (first == std::string_view::npos) return decades_.push_back(std::numeric_limits<int>::min() / 2);
+    const int before = position(point) - position(first);  // digits before the point; negative: zeros after it
+    decades_.push_back((before > 0 ? before - 1 : before) + exponent);
+    most_digits_ = std::max(most_digits_, (before > 0 ? before : before + 1) + places);
   }
 
-  /// One unit of the last place [s]. Plain numbers may drop zeros at their end, so the most places count; scientific
-  /// ones are as fine as the coarsest.
-  double unit() const { return std::pow(10., -std::min(most_, fewest_scientific_)); }
+  /// One unit of the last place of each time [s].
+  std::vector<double> units() const {
+    std::vector<double> units;
+    units.reserve(decades_.size());
+    for (int previous = 0; const int decade : decades_) {
+      const int exponent = std::max(-most_places_, decade + 1 - most_digits_);
+      units.push_back(!units.empty() && exponent == previous ? units.back() : std::pow(10., exponent));
+      previous = exponent;
+    }
+    return units;
+  }
 
  private:
-  int most_ = 0;
-  int fewest_scientific_ = 400;
+  int most_places_ = std::numeric_limits<int>::min() / 2;
+  int most_digits_ = 0;
+  std::vector<int> decades_{};  // of the first digit of each time
 };
 
-/// The step of times that are even within their rounding: the shortest decimal that fits them all.
-std::optional<double> even_step(const std::vector<double>& times, double printed) {
-  const auto steps = static_cast<double>(times.size() - 1);
-  const double length = times.back() - times.front(), mean = length / steps;
-  const double largest = std::max(std::abs(times.front()), std::abs(times.back()));
-  const double sums = steps * std::numeric_limits<double>::epsilon() * largest;  // of times added up step by step
-
-  const auto spread = [&](double dt) {
-    double low = 0, high = 0;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const double off = times[i] - times[0] - static_cast<double>(i) * dt;
-      low = std::min(low, off);
-      high = std::max(high, off);
+/// The smallest step with which even times can lie between two bounds each.
+///
+/// It is the steepest line from an upper bound to a later lower one. A line that is not steep enough is replaced by the
+/// one that exceeds it most, until none does.
+double smallest_step(const std::vector<double>& lower, const std::vector<double>& upper) {
+  const std::size_t last = lower.size() - 1;
+  for (double step = (lower[last] - upper[0]) / static_cast<double>(last);;) {
+    double steeper = step, most = 0, lowest = upper[0];
+    for (std::size_t i = 1, from = 0; i <= last; ++i) {
+      const double line = static_cast<double>(i) * step;
+      if (const double excess = lower[i] - line - lowest; excess > most) {
+        most = excess;
+        steeper = (lower[i] - upper[from]) / static_cast<double>(i - from);
+      }
+      if (const double top = upper[i] - line; top < lowest) {
+        lowest = top;
+        from = i;
+      }
     }
-    return high - low;
-  };
-  const auto shortest = [&](double tolerance) {
-    std::optional<double> best;
-    const double range = tolerance / steps;  // the ends are rounded too
-    for (double power = 1; !best && 2 * range * power < 100 && std::abs(mean) * power < 1e15; power *= 10) {
-      double least = tolerance;
-      for (double k = std::ceil((mean - range) * power); k <= (mean + range) * power; ++k)
-        if (const double s = spread(k / power); s <= least) {
-          least = s;
-          best = k / power;
-        }
-    }
-    return best;
-  };
+    if (!(steeper > step)) return step;
+    step = steeper;
+  }
+}
 
-  if (const auto exact = shortest(std::max(1e-3 * printed, 4 * sums))) return exact;
-  // Rounding explains uneven steps only where a missing sample could not hide in it, and in more than a handful.
-  if (mean < 2 * printed || length < 100 * printed) return std::nullopt;
-  return shortest(1.1 * printed + sums);  // a tenth more than the print's rounding, to search in steps of a tenth
+/// The step of times that are even as far as they are printed: the shortest decimal that fits them all.
+std::optional<double> even_step(const std::vector<double>& times, const std::vector<double>& units) {
+  const std::size_t count = times.size();
+  const double length = times.back() - times.front(), mean = length / static_cast<double>(count - 1);
+  const double coarsest = *std::ranges::max_element(units);
+  const double farthest = std::max(std::abs(times.front()), std::abs(times.back()));
+  const double sums =
+      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if added up
+  if (!std::isfinite(length)) return std::nullopt;
+  // Rounding explains uneven steps only where a missing sample could not hide in it, and in more than a handful. A
+  // tenth more than a print's rounding is for times computed in single precision.
+  for (const double rounding : {0., 0.55}) {
+    if (rounding > 0 && (mean < 2 * coarsest || length < 100 * coarsest)) break;
+    std::vector<double> lower(count), upper(count), minus_lower(count), minus_upper(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double margin = rounding * units[i] + sums;
+      minus_lower[i] = -(lower[i] = times[i] - times[0] - margin);
+      minus_upper[i] = -(upper[i] = times[i] - times[0] + margin);
+    }
+    const double smallest = smallest_step(lower, upper), largest = -smallest_step(minus_upper, minus_lower);
+    if (!(smallest <= largest)) continue;
+    const double middle = smallest / 2 + largest / 2;
+    for (double power = 1; std::abs(middle) * power < 1e15; power *= 10)
+      if (const double dt = std::round(middle * power) / power; smallest <= dt && dt <= largest)
+        return dt + 0.;  // no -0
+    return middle;
+  }
+  return std::nullopt;
 }
 
 std::size_t count_columns(std::string_view row) {
@@ -530,14 +661,26 @@ std::size_t count_columns(std::string_view row) {
   return columns;
 }
 
+/// Whether a line before the first row looks like a row whose time cannot be read, as `****, 0.1`.
+bool is_row_without_time(std::string_view line) {
+  line = trim(line);
+  const std::size_t end = std::min(line.find_first_of(" \t,;"), line.size());
+  const auto is_mark = [](char c) { return c == '*' || c == '.' || is_sign(c) || is_digit(c); };
+  if (line.empty() || !std::ranges::all_of(line.substr(0, end), is_mark)) return false;
+  std::string_view second = after_separator(line.substr(end));
+  return take_number(second) && second.empty();
+}
+
 std::string known_formats();
 
 std::vector<Component> read_table(const Lines& lines) {
   Component component;
   const std::size_t rows = first_row(lines);
+  for (std::size_t i = 0; i < rows; ++i)
+    if (is_row_without_time(lines[i])) refuse_line(i, "expected two finite numbers, got " + quote(lines[i]));
   read_table_header(lines, rows, component);
 
-  PrintedPlaces places;
+  Resolution resolution;
   for (std::size_t i = rows; i < lines.size(); ++i) {
     const std::string_view row = trim(lines[i]);
     if (row.empty()) continue;
@@ -545,8 +688,7 @@ std::vector<Component> read_table(const Lines& lines) {
     const std::optional<double> time = take_number(rest);
     const std::string_view token = row.substr(0, row.size() - rest.size());
     const std::string_view separated = rest;
-    rest = trim(rest);
-    if (!rest.empty() && (rest[0] == ',' || rest[0] == ';')) rest = trim(rest.substr(1));
+    rest = after_separator(rest);
     const bool parted = rest.size() < separated.size();
     const std::string_view second = rest;
     const std::optional<double> acceleration = take_number(rest);
@@ -556,12 +698,12 @@ std::vector<Component> read_table(const Lines& lines) {
                            quote(row) + (i == rows ? "; known formats are: " + known_formats() : ""));
       refuse_line(i, "expected two finite numbers, got " + quote(time && parted && !second.empty() ? second : row));
     }
-    places.add(token);
+    resolution.add(token);
     component.times.push_back(*time);
     component.acceleration.push_back(*acceleration);
   }
   if (component.times.size() < 2) refuse_line(rows, "at least two rows of numbers are needed, got 1");
-  if (const std::optional<double> dt = even_step(component.times, places.unit())) {
+  if (const std::optional<double> dt = even_step(component.times, resolution.units())) {
     component.dt = *dt;
     component.times.clear();
   }
@@ -601,11 +743,13 @@ const Format& recognize(const Lines& lines) {
 // ---- the file
 
 bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    if (lead >= 0x80 && (lead < 0xC2 || lead > 0xF4)) return false;
-    for (int more = lead < 0x80 ? 0 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3; more > 0; --more)
-      if (i == text.size() || (static_cast<unsigned char>(text[i++]) & 0xC0) != 0x80) return false;
+  const auto is_long = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  for (auto next = std::ranges::find_if(text, is_long); next != text.end();
+       next = std::ranges::find_if(text, is_long)) {
+    text.remove_prefix(static_cast<std::size_t>(next - text.begin()));
+    const std::size_t length = sequence(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
   }
   return true;
 }
@@ -678,11 +822,13 @@ Component choose(std::vector<Component> components, const std::string& wanted) {
     }
   }
   if (matches == 1) return std::move(components[index]);
+  constexpr std::size_t longest = 12;
   std::string known;
-  for (std::size_t i = 0; i < components.size(); ++i)
-    known +=
-        (i == 0 ? "" : ", ") + std::to_string(i + 1) + (components[i].name.empty() ? "" : " ") + components[i].name;
-  throw std::invalid_argument("one component must be meant, by name or number, of " + known + "; got " + quote(wanted));
+  for (std::size_t i = 0; i < std::min(longest, components.size()); ++i)
+    known += (i == 0 ? "" : ", ") + std::to_string(i + 1) + (components[i].name.empty() ? "" : " ") +
+             printable(components[i].name, 24);
+  if (components.size() > longest) known += " and so on to " + std::to_string(components.size());
+  throw std::invalid_argument("select one component by name or number, available: " + known + "; got " + quote(wanted));
 }
 
 /// m/s^2 per unit of the file.
@@ -703,9 +849,11 @@ double acceleration_unit(std::string_view name) {
       {"mm/s^2", 0.001},       {"ft/s^2", 0.3048}, {"in/s^2", 0.0254},
   };
   // Every way to write a unit is brought to the one in the table.
+  constexpr std::size_t longest = 32;  // the names below with room to spare
   std::string unit;
   for (const char c : name)
-    if (!is_blank(c)) unit += lower(c);
+    if (!is_blank(c) && unit.size() <= longest) unit += lower(c);
+  if (unit.size() > longest) unit.clear();
   for (const auto& [variant, plain] : {std::pair<std::string_view, std::string_view>{"\xC2\xB2", "2"},  // superscript 2
                                        {"sec", "s"},
                                        {"**", "^"},
@@ -729,12 +877,12 @@ GroundMotion read_record(const fs::path& file, const RecordOptions& options) {
     Component component = choose(recognize(lines).read(lines), options.component);
     const double factor = scale(component.units, options.units);
     for (double& n : component.acceleration) n *= factor;
-    std::string name = component.title.empty() ? file.stem().string() : std::move(component.title);
+    std::string name = component.title.empty() ? printable(file.stem().string(), 256) : std::move(component.title);
     if (component.times.empty())
       return {std::move(component.acceleration), component.dt, Interpolation::linear, std::move(name)};
     return {std::move(component.acceleration), std::move(component.times), Interpolation::linear, std::move(name)};
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("read_record: " + file.string() + ": " + error.what());
+    throw std::invalid_argument("read_record: " + printable(file.string(), 4096) + ": " + error.what());
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "row_moments.hpp"
@@ -35,6 +37,56 @@ void Tally::merge(const Tally& right) {
       scatter(a, b) += right.scatter(a, b) + weight * difference[a] * difference[b];
   }
   count += right.count;
+}
+
+namespace {
+
+// Of a union the mean square lies between those of its parts: merging takes none out of its bound.
+bool is_bounded(double mean, double squares, double members, double largest) {
+  return mean * mean + squares / members <= largest * largest;  // not so for NaN
+}
+
+}  // namespace
+
+std::optional<std::size_t> Tally::out_of_range() const {
+  const auto n = static_cast<double>(count);
+  for (std::size_t i = 0; i < times_; ++i)
+    if (!is_bounded(moment(x)[i], moment(xx)[i], n, max_motion) ||
+        !is_bounded(moment(v)[i], moment(vv)[i], n, max_motion))
+      return i;
+  for (std::size_t k = 0; k < frequencies_; ++k)
+    if (!is_bounded(density_mean()[k], density_scatter()[k], n, max_feature)) return times_;
+  for (std::size_t a = 0; a < features; ++a)
+    if (!is_bounded(mean(a), scatter(a, a), n, max_feature)) return times_;
+  return std::nullopt;
+}
+
+bool Tally::is_possible() const {
+  const auto n = static_cast<double>(count);
+  constexpr double slack = 2;  // for round-off on the bounds of `out_of_range`
+  const auto is_at_most = [](std::span<const double> values, double largest) {
+    return std::ranges::all_of(values, [largest](double value) { return std::abs(value) <= largest; });
+  };
+  const auto is_positive = [](std::span<const double> values) {
+    // Merged fourth powers can round to less than 0 where they underflow.
+    return std::ranges::all_of(values, [](double value) { return value >= -std::numeric_limits<double>::min(); });
+  };
+  for (std::size_t m = x; m < moments; ++m) {
+    const std::span<const double> values = moment(static_cast<Moment>(m));
+    const double largest = m <= v    ? slack * max_motion
+                           : m <= vv ? slack * slack * max_motion * max_motion * n
+                                     : max_feature * n;
+    if (!is_at_most(values, largest)) return false;
+    if ((m == xx || m == vv || m >= xxxx) && !is_positive(values)) return false;
+  }
+  const double largest_scatter = slack * slack * max_feature * max_feature * n;
+  if (!is_at_most(density_mean(), slack * max_feature) || !is_positive(density_mean()) ||
+      !is_at_most(density_scatter(), largest_scatter) || !is_positive(density_scatter()))
+    return false;
+  for (std::size_t a = 0; a < features; ++a)
+    if (!(scatter(a, a) >= 0)) return false;
+  return is_at_most({tail(), features}, slack * max_feature) &&
+         is_at_most({tail() + features, features * features}, largest_scatter);
 }
 
 void TallyTree::insert(Place place, Tally tally) {
@@ -115,7 +167,17 @@ std::uint64_t Sketch::above(double level) const {
 
 Sketch Sketch::from_bins(std::map<std::int32_t, std::uint64_t> bins) {
   Sketch sketch;
-  for (const auto& [bin, count] : bins) sketch.count_ += count;
+  const std::int32_t lowest = bin_of(std::numeric_limits<double>::denorm_min()),
+                     highest = bin_of(std::numeric_limits<double>::max());
+  for (const auto& [bin, count] : bins) {
+    if (bin != zeros && (bin < lowest || bin > highest))
+      throw std::invalid_argument("Sketch: a bin must be " + std::to_string(lowest) + " to " + std::to_string(highest) +
+                                  ", got " + std::to_string(bin));
+    if (count == 0 || count > UINT64_MAX - sketch.count_)
+      throw std::invalid_argument("Sketch: counts must be positive and add up to less than 2^64, got " +
+                                  std::to_string(count));
+    sketch.count_ += count;
+  }
   sketch.bins_ = std::move(bins);
   return sketch;
 }

@@ -1,5 +1,7 @@
 // One segment at a time, for codes that have a time loop of their own; and the roughest input there is.
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "catch.hpp"
@@ -7,6 +9,7 @@
 
 using namespace stickslip;
 using namespace test;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -250,4 +253,81 @@ TEST_CASE("nothing rough makes a slider hang, vanish, gain energy or lose its or
     rough("Disguised " + levels, Slider(Disguised{level}, frequency));
     if (i % 5 == 0) rough("Bump " + levels + detail::shortest(reach), Slider(Bump{level, reach}, frequency));
   }
+}
+
+TEST_CASE("a segment or a state that is not finite is refused, and changes nothing", "[advance][errors]") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](const auto& slider) {
+    for (const double bad : {nan, infinity, -infinity}) {
+      for (const Segment& segment : {Segment{0.1, 0.2, bad}, Segment{0.1, bad, 0.2}, Segment{bad, 0.2, 0.2}}) {
+        State state;
+        CHECK_THROWS_AS(advance(slider, segment, state), std::invalid_argument);
+        CHECK((state.displacement == 0 && state.velocity == 0 && state.mode == Mode::stuck));
+        state = State::at(1, -2);
+        CHECK_THROWS_AS(advance(slider, segment, state), std::invalid_argument);
+        CHECK((state.displacement == 1 && state.velocity == -2 && state.mode == Mode::backward));
+      }
+      State state{bad, 0, Mode::stuck};
+      CHECK_THROWS_AS(advance(slider, Segment{1, 0, 0}, state), std::invalid_argument);
+      state = {0, bad, Mode::forward};
+      CHECK_THROWS_AS(advance(slider, Segment{1, 0, 0}, state), std::invalid_argument);
+    }
+  };
+  for (const double frequency : {0.0, 1.3}) {
+    refused(Slider(Coulomb(1), frequency));
+    refused(Slider(Coulomb(1, infinity), frequency));
+    refused(Slider(Caster(1, 0.5), frequency));
+  }
+  State state;
+  CHECK_THROWS_WITH(advance(Slider(Coulomb(1)), Segment{0.1, 0.2, nan}, state),
+                    ContainsSubstring("must be finite") && ContainsSubstring("end nan m/s^2"));
+  CHECK_THROWS_AS(advance(Slider(Coulomb(1)), HarmonicSegment{1, 2, nan, 0}, state), std::invalid_argument);
+}
+
+TEST_CASE("a time loop that meets a NaN ends in an error", "[advance][errors]") {
+  const double n[] = {0.5, 0.2, std::numeric_limits<double>::quiet_NaN(), 2};
+  for (const double frequency : {0.0, 1.3}) {
+    const Slider slider(Coulomb(1), frequency);
+    State state;
+    advance(slider, Segment{0.1, n[0], n[1]}, state);
+    CHECK_THROWS_AS(advance(slider, Segment{0.1, n[1], n[2]}, state), std::invalid_argument);
+  }
+}
+
+TEST_CASE("a motion beyond the range of doubles is an error, also one segment at a time", "[advance][range]") {
+  State state;
+  CHECK_THROWS_WITH(advance(Slider(Coulomb(1)), Segment{1e200, 1e200, 1e200}, state),
+                    ContainsSubstring("range of doubles"));
+}
+
+TEST_CASE("events that no clock can tell apart end in an error", "[advance][errors]") {
+  State state = State::at(1, 0);
+  CHECK_THROWS_AS(advance(Slider(Coulomb(0), 1e20), Segment{1e5, 0, 0}, state), ConvergenceError);
+}
+
+TEST_CASE("the shortest of all segments ends", "[advance][range]") {
+  State state = State::at(0, 6.69e77);
+  CHECK_THROWS_AS(advance(Slider(Caster(0.1, 0x1p-552)), Segment{0x1p-1074, 0.1, 0.1}, state), ConvergenceError);
+}
+
+TEST_CASE("a slip too short for a double is none", "[advance][range]") {
+  // The load is above the level by less than round-off, and falls: the time to the stop underflows to zero. Then it
+  // goes the other way: p = -1000 t for 0.1 s, and back to zero.
+  const GroundMotion ramps({-5e-324, 100, 0}, 0.1);
+  const auto through = [&](const auto& slider, const GroundMotion& motion, State state) {
+    for (std::size_t i = 0; i < motion.segments(); ++i) advance(slider, motion.segment(i), state);
+    return state.displacement;
+  };
+  const double h = 0.1;
+  const auto ramp = [](double t) { return t - std::sin(t); };  // x'' + x = t
+  CHECK(std::abs(through(Slider(Coulomb(0), 1), ramps, {}) - (-1000 * ramp(2 * h) + 2000 * ramp(h))) <= 1e-12);
+  for (const double last : {through(Slider(Coulomb(0)), ramps, {}), through(Slider(Caster(0, 1)), ramps, {})})
+    CHECK(std::abs(last + 100 * h * h) <= 1e-14);
+
+  // The spring's pull of 6.7e-17 m/s^2 breaks it away. From t = 0 on the load is 0.433 (1 - t) and the level 0.1, to
+  // which the spring adds less than 1e-16.
+  const double n = 0.43326133328732264;
+  const GroundMotion jump({0.1, -n, 0}, std::vector<double>{0, 1e-300, 1});
+  CHECK(std::abs(through(Slider(Coulomb(0.1), 1e-8), jump, State::at(0.669, 0)) - (0.669 + (n - 0.1) / 2 - n / 6)) <=
+        1e-15);
 }

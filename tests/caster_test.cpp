@@ -1,4 +1,5 @@
 // The caster: a wheel whose slip level falls off as sech(x / reach).
+#include <limits>
 #include <numbers>
 
 #include "catch.hpp"
@@ -229,4 +230,10 @@ TEST_CASE("Caster names what it refuses", "[caster][errors]") {
   CHECK_THROWS_WITH(Caster::from_geometry_thesis(1, 1, infinity),
                     "Caster: wheel_width must be positive and finite, got inf m");
   CHECK_THROWS_AS(Caster(1, 0), std::invalid_argument);
+}
+
+TEST_CASE("the work of a caster of enormous reach is that of Coulomb friction", "[caster][range]") {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (const double level : {1.0, 9.8})
+    CHECK(std::abs(Caster(level, largest).work(0.1, 3, Direction::forward) - level * 3) <= 1e-14 * level);
 }

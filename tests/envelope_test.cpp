@@ -29,6 +29,12 @@ TEST_CASE("phases may be missing", "[envelope]") {
   CHECK(Envelope(0, 0, 2)(1) == std::exp(-2.0));
 }
 
+TEST_CASE("at no time an envelope has no factor", "[envelope][errors]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Envelope& e : {Envelope(2, 2, 1), Envelope(0, 0, 0), Envelope(0, infinity, 1)}) CHECK(std::isnan(e(nan)));
+  CHECK(std::isnan(Envelope::from_table({0, 1}, {1, 1})(nan)));
+}
+
 TEST_CASE("a table is straight between its points and zero outside", "[envelope]") {
   const Envelope envelope = Envelope::from_table({1, 2, 4}, {0.5, 2, 0});
   CHECK(envelope(0.999) == 0);

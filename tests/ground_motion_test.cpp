@@ -38,6 +38,20 @@ TEST_CASE("a scaled motion is the same but for the factor", "[ground_motion]") {
   CHECK(motion.acceleration()[1] == -3);
 }
 
+TEST_CASE("motions are equal where all of them is the same", "[ground_motion]") {
+  const std::vector<double> samples{1, -3, 2};
+  const std::vector<GroundMotion> motions{{samples, 0.5},
+                                          {samples, 0.25},
+                                          {samples, 0.5, Interpolation::constant},
+                                          {samples, 0.5, Interpolation::linear, "name"},
+                                          {samples, {0, 0.5, 1}},
+                                          {samples, {0, 0.5, 2}},
+                                          {{1, -3, 4}, 0.5}};
+  for (const GroundMotion& a : motions)
+    for (const GroundMotion& b : motions) CHECK((a == b) == (&a == &b));
+  CHECK(motions[4] == GroundMotion(samples, {0, 0.5, 1}));
+}
+
 TEST_CASE("a motion needs two samples", "[ground_motion][errors]") {
   CHECK_THROWS_WITH(GroundMotion({}, 0.01), "GroundMotion: needs at least two samples, got 0");
   CHECK_THROWS_WITH(GroundMotion({1}, 0.01), "GroundMotion: needs at least two samples, got 1");
@@ -93,4 +107,15 @@ TEST_CASE("held values may share a time: a piece of no length does nothing", "[g
   CHECK(one.residual == other.residual);
   CHECK(one.displacement[1] == one.displacement[2]);
   CHECK(one.events.size() == other.events.size());
+}
+
+TEST_CASE("past the last sample times continue with the last step", "[ground_motion]") {
+  const GroundMotion even({1, 2, 3}, 0.1);
+  CHECK(even.last_step() == 0.1);
+  CHECK(even.time(7) == 7 * 0.1);
+  const GroundMotion uneven({1, 2, 3}, {1, 2, 2.5});
+  CHECK(uneven.last_step() == 0.5);
+  CHECK(uneven.time(2) == 2.5);
+  CHECK(uneven.time(5) == 4);
+  CHECK(GroundMotion({1, 2, 3, 4}, {0, 1, 2, 2}, Interpolation::constant).last_step() == 1);
 }

@@ -91,3 +91,16 @@ TEST_CASE("a heartbeat can end the work", "[histories]") {
   CHECK_THROWS_AS(histories(Coulomb(1), shaking(1000000, 2), [] { throw Enough(); }), Enough);
   CHECK_THROWS_AS(histories(Slider(Coulomb(1), 1.0), shaking(10000, 2), [] { throw Enough(); }), Enough);
 }
+
+TEST_CASE("histories of the smallest motions are those of integrate", "[histories][range]") {
+  for (const double scale : {1e-150, 1e-165, 1e-290})
+    for (const auto interpolation : {Interpolation::linear, Interpolation::constant}) {
+      const GroundMotion motion = shaking(10'000, 1, 0, interpolation).scaled(scale);
+      const Response response = integrate(Coulomb(0.5 * scale), motion);
+      const Histories result = histories(Coulomb(0.5 * scale), motion);
+      double most = 0;
+      for (std::size_t i = 0; i < motion.samples(); ++i)
+        most = std::max(most, std::abs(result.displacement[i] - response.displacement[i]));
+      CHECK(most <= 1e-12 * response.peak);
+    }
+}

@@ -198,16 +198,59 @@ TEST_CASE("left alone, a block stops after v^2 / 2a", "[integrate][settle]") {
   CHECK(rest.events[0].time == 3);
 }
 
-TEST_CASE("settling leaves the histories as they were", "[integrate][settle]") {
+TEST_CASE("while it settles the samples continue, up to the first at or after rest", "[integrate][settle]") {
   const GroundMotion motion = record_a();
   const Response plain = integrate(Coulomb(1), motion), settled = integrate(Coulomb(1), motion, from(0, 0, true));
-  CHECK(settled.displacement == plain.displacement);
-  CHECK(settled.velocity == plain.velocity);
-  const double v = plain.state.velocity;
-  CHECK(std::abs(settled.residual - (plain.residual + v * std::abs(v) / 2)) <= 1e-15);
+  const std::size_t n = motion.samples();
+  const double x = plain.state.displacement, v = plain.state.velocity, h = motion.dt();
+  CHECK(plain.displacement.size() == n);
+  CHECK(std::equal(plain.displacement.begin(), plain.displacement.end(), settled.displacement.begin()));
+  CHECK(std::equal(plain.velocity.begin(), plain.velocity.end(), settled.velocity.begin()));
+  CHECK(std::abs(settled.residual - (x + v * std::abs(v) / 2)) <= 1e-15);
   CHECK(settled.state.mode == Mode::stuck);
   CHECK(settled.events.size() == plain.events.size() + 1);
   CHECK(grammatical(settled));
+
+  REQUIRE(settled.displacement.size() == n + static_cast<std::size_t>(std::ceil(std::abs(v) / h)));
+  REQUIRE(settled.velocity.size() == settled.displacement.size());
+  CHECK_FALSE(settled.truncated);
+  CHECK(settled.displacement.back() == settled.residual);
+  CHECK(settled.velocity.back() == 0);
+  for (std::size_t i = n; i + 1 < settled.displacement.size(); ++i) {
+    const double t = h * static_cast<double>(i - n + 1), a = std::copysign(1, v);
+    CHECK(std::abs(settled.velocity[i] - (v - a * t)) <= 1e-15);
+    CHECK(std::abs(settled.displacement[i] - (x + v * t - a * t * t / 2)) <= 1e-15);
+  }
+}
+
+TEST_CASE("samples after the end follow the last step of the motion", "[integrate][settle]") {
+  const GroundMotion even({0, 6, 6, 6}, 0.1), uneven({0, 6, 6, 6}, {0, 0.1, 0.2, 0.3});
+  const GroundMotion held({0, 6, 6, 0, 0}, {0, 0.1, 0.2, 0.3, 0.3}, Interpolation::constant);
+  for (const GroundMotion* motion : {&even, &uneven, &held}) {
+    const Response r = integrate(Coulomb(0.05 * standard_gravity), *motion, from(0, 0, true));
+    const double rest = r.events.back().time;
+    const std::size_t last = r.displacement.size() - 1;
+    CHECK(motion->time(last) >= rest);
+    CHECK(motion->time(last - 1) < rest);
+    CHECK(std::abs(motion->time(last) - motion->time(last - 1) - 0.1) <= 1e-15);
+    CHECK(r.displacement.back() == r.residual);
+    CHECK_FALSE(r.truncated);
+  }
+}
+
+TEST_CASE("samples end at ten times the length of the motion, and the response says so", "[integrate][settle]") {
+  const Response r = integrate(Coulomb(0.01), held(0, 1), from(0, 3, true));  // rests after 300 s
+  CHECK(r.truncated);
+  CHECK(r.displacement.size() == 20);
+  CHECK(r.velocity.back() == Approx(3 - 0.01 * 19));
+  CHECK(r.residual == Approx(450));
+  CHECK(r.events.back().time == Approx(300));
+  const Response whole = integrate(Coulomb(0.2), held(0, 1), from(0, 3, true));  // after 15 s
+  CHECK_FALSE(whole.truncated);
+  CHECK(whole.displacement.size() == 16);
+  CHECK_FALSE(
+      integrate(Coulomb(0.01), held(0, 1), from(0, 3, false), integrate(Coulomb(0.01), held(0, 1), from(0, 3, true)))
+          .truncated);
 }
 
 TEST_CASE("what can not settle says so", "[integrate][settle][errors]") {
@@ -341,4 +384,33 @@ TEST_CASE("a million samples a nanosecond apart are a millisecond", "[integrate]
   CHECK(std::abs(r.state.velocity - 2e-3) <= 1.1e-10 * 2e-3);
   CHECK(r.events.size() == 2);
   CHECK(std::abs(r.time_sliding - 1e-3) <= 1.1e-10 * 1e-3);
+}
+
+TEST_CASE("events are in order of time also where segments meet", "[integrate]") {
+  // A velocity that comes to zero at the end of a segment: i dt + dt is one rounding above (i + 1) dt.
+  for (const std::vector<double>& tail : {std::vector<double>{-2, 0, -2, 0}, std::vector<double>{-2, 0, 0}}) {
+    std::vector<double> n(11, 0.0);
+    n.insert(n.end(), tail.begin(), tail.end());
+    const GroundMotion motion(n, 0.1, Interpolation::constant);
+    const Response r = integrate(Coulomb(1), motion);
+    CHECK(grammatical(r));
+    REQUIRE(r.events.size() == tail.size());
+    CHECK(r.events[1].kind == EventKind::arrest);
+    CHECK(r.events[1].time == motion.time(13));
+    CHECK(r.events.back().time == motion.time(motion.segments()));
+  }
+}
+
+TEST_CASE("an event loop whose slips underflow still counts, and ends", "[integrate][range]") {
+  const GroundMotion ramps({-5e-324, 100, 0}, 0.1);
+  const auto went_back = [](const Response& r) {
+    CHECK(grammatical(r));
+    REQUIRE(r.events.size() == 3);
+    CHECK(r.events[1].kind == EventKind::reversal);
+    CHECK(r.events[1].time == 0);
+    CHECK(r.residual < -0.99);
+  };
+  went_back(integrate(Slider(Coulomb(0), 1), ramps));
+  went_back(integrate(Coulomb(0), ramps));
+  went_back(integrate(Caster(0, 1), ramps));
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "real_records.hpp"
 #include "record_files.hpp"
 #include "stickslip/units.hpp"
 
@@ -84,16 +85,6 @@ constexpr double g = standard_gravity;
 
 const std::vector<double> peer_samples = {-0.1 * g, 0.2 * g, 0.5 * g, -0.25 * g, 0.001 * g};
 
-/// The real records, where they are.
-std::optional<fs::path> real_record(const std::string& name) {
-  fs::path folder;
-  if (const char* given = std::getenv("STICKSLIP_RECORDS")) folder = given;
-#ifdef STICKSLIP_SHARED_RECORDS
-  if (folder.empty()) folder = STICKSLIP_SHARED_RECORDS;
-#endif
-  if (!folder.empty() && fs::exists(folder / name)) return folder / name;
-  WARN("skipped, no " << name << ": set STICKSLIP_RECORDS to the folder of real records");
-  return std::nullopt;
 }
 
 }  // namespace
@@ -129,6 +120,23 @@ TEST_CASE("a PEER file is read in both forms of its fourth line", "[records]") {
   }
 }
 
+TEST_CASE("a PEER header is read by its labels", "[records]") {
+  for (const char* line : {"File 3 NPTS= 5, DT= .01", "DT= .01, NPTS= 5", "NPTS : 5  DT : .01 s",
+                           "npts 5 dt .01 seconds", "WIDTH= 7, NPTS= 5, DT= 1.0D-02 SEC, FILE 4", "5, .01, NPTS, DT"}) {
+    INFO(line);
+    CHECK(read(peer(line)).dt() == 0.01);
+    CHECK(read(peer(line)).samples() == 5);
+  }
+  for (const char* line : {"NPTS= 5, DT=", "NPTS= 5, DT= x", "NPTS= , DT= .01", "5 .01 units of NPTS, DT", "NPTS, DT",
+                           "NPTS= 5, DT= .01.5", "NPTS= 5, DT= .01-2.5", "NPTS= 5, DT= NaN", "NPTS= 5, DT= *****",
+                           "5 NPTS, .01 DT", "NPTS= 5, WIDTH= .01"}) {
+    INFO(line);
+    says(refusal(peer(line)), {"line 4", "expected 'NPTS= 4096, DT= .0100 SEC'", line});
+  }
+  says(refusal(peer("NPTS= 5, DT= 10 MSEC")), {"line 4", "seconds", "'MSEC'"});
+  says(refusal(peer("NPTS= 5, DT= 0x1p-7")), {"line 4", "seconds", "'x1p-7'"});
+}
+
 TEST_CASE("the old database states filters after the units", "[records]") {
   const std::string old = replaced(peer("  5  .0100 NPTS, DT"), "TIME SERIES IN UNITS OF G",
                                    "TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz");
@@ -140,6 +148,32 @@ TEST_CASE("columns that run together are parted at the sign", "[records]") {
   CHECK(motion.acceleration()[0] == Approx(-0.0123 * g));
   CHECK(motion.acceleration()[1] == Approx(-0.00456 * g));
   says(refusal(peer("2 .01 NPTS, DT", "0.123E-010.456E-02\n")), {"line 5", "0.123E-010.456E-02"});
+}
+
+TEST_CASE("numbers are read as Fortran and C print them", "[records]") {
+  const auto values = [](const std::string& line, int count) {
+    return samples(read(replaced(peer(std::to_string(count) + " .01 NPTS, DT", line + "\n"), "OF G", "OF CM/S2")));
+  };
+  // Fortran leaves out the letter of an exponent of three digits; C does not, and neither prints a real without a
+  // point.
+  CHECK(values("1.234-100 -.5+003 1.234+02", 3) == std::vector<double>{1.234e-100 * .01, -.5e3 * .01, 123.4 * .01});
+  CHECK(values("1.234D-05 1.234d+5 1.5E3 1.e0", 4) ==
+        std::vector<double>{1.234e-5 * .01, 123400 * .01, 1500 * .01, 1 * .01});
+  CHECK(values("-1.5-3.2+4.25 1.5-100.5", 5) ==
+        std::vector<double>{-1.5 * .01, -3.2 * .01, 4.25 * .01, 1.5 * .01, -100.5 * .01});
+  CHECK(values("0.123E-01-0.456E-02-0.5-100", 3) == std::vector<double>{.0123 * .01, -.00456 * .01, -.5e-100 * .01});
+  CHECK(values("1-2", 2) == std::vector<double>{.01, -2 * .01});  // whole numbers have no exponent
+  for (const char* word : {"1.5D", "1.5E+", ".", "+", "1.5.2", "1,5", "0x1p-3", "1.5D-", "1e-400", "*****", "1.5*****"})
+    says(refusal(peer("3 .01 NPTS, DT", "1 2 3\n" + std::string(word) + "\n")), {"line 6"});
+  for (const char* word : {"1.5D", ".", "1.5.2", "1,5", "0x1p-3", "1e-400", "*****", "1.5*****", "1.5-3x", "1.5-3.x"})
+    says(refusal(peer("2 .01 NPTS, DT", "1\n" + std::string(word) + "\n")), {"line 6", "number "});
+}
+
+TEST_CASE("fields that overflow are refused with their line, in columns too", "[records]") {
+  const std::string overflow = replaced(cosmos_data, "1000.12345", "**********");
+  says(refusal(cosmos_channel("HNE", overflow)), {"line 50", "number 3 of the 10", "*****"});
+  says(refusal("****,0.5\n0.1,2\n0.2,3\n", {.units = "g", .component = ""}), {"line 1", "two finite numbers", "****"});
+  says(refusal(",0.5\n0.1,2\n0.2,3\n", {.units = "g", .component = ""}), {"line 1", "two finite numbers"});
 }
 
 TEST_CASE("velocity and displacement are not taken for acceleration", "[records]") {
@@ -283,6 +317,74 @@ TEST_CASE("a byte-order mark and DOS line ends are taken in every format", "[rec
   }
 }
 
+TEST_CASE("headers of many megabytes are read or refused", "[records]") {
+  const auto many = [](const std::string& part, std::size_t bytes = 1'000'000) {
+    std::string text;
+    while (text.size() < bytes) text += part;
+    return text;
+  };
+  says(refusal("a\nb\nACCELERATION G\nNPTS DT " + many("1", 8'000'000) + "\n1 2 3\n"), {"line 4", "expected 'NPTS="});
+  says(refusal(peer(many("NPTS DT NPTSDT "))), {"line 4", "expected 'NPTS="});
+  says(refusal("time (s) acc (" + many("sec", 8'000'000) + ")\n0,1\n1,2\n"), {"unknown unit of acceleration 'secsec"});
+  for (const char* part : {"g's", "**", "s/s", "(", "[)", "unit", "unit ", "(s) ", "\xC2\xB2"})
+    CHECK(refusal("# " + many(part) + "\n0,1\n1,2\n").size() < 400);
+  says(refusal(replaced(geonet(), "Instrument corrected data", "data in units of " + many("1")),
+               {.units = "", .component = "1"}),
+       {"line 11", "units of 1.00 mm/s/s"});
+  says(refusal("0,1\n0.1," + many("1")), {"line 2", "two finite numbers"});
+  says(refusal("0,1\n0.1," + many("1 ,")), {"line 2", "two columns"});
+  CHECK(read("# " + many("title ") + "\n0,1\n1,2\n", {.units = "g", .component = ""}).name().size() < 300);
+  const std::string channel = cosmos_channel("HNE", many("0 accel pts\nEnd\n"));
+  says(refusal(replaced(channel, "Made-up Earthquake", std::string(1'000'000, 'x'))), {"1 HNE, 2 HNE", "and so on to"});
+}
+
+TEST_CASE("names and messages are valid UTF-8", "[records]") {
+  const RecordOptions in_g{.units = "g", .component = ""};
+  const std::string bad = "\xEF\xBF\xBD";  // U+FFFD
+  struct Name {
+    std::string bytes, read;
+  };
+  for (const auto& [bytes, name] : {Name{"\xED\xA0\x80", bad},                     // a surrogate
+                                    Name{"\xED\xBF\xBF", bad},                     //
+                                    Name{"\xC0\xAF", bad},                         // overlong forms of /
+                                    Name{"\xE0\x80\xAF", bad},                     //
+                                    Name{"\xF0\x80\x80\xAF", bad},                 //
+                                    Name{"\xF4\x90\x80\x80", bad},                 // above U+10FFFF
+                                    Name{"\xF7\xBF\xBF\xBF", bad},                 //
+                                    Name{"\xED\x9F\xBF", "\xED\x9F\xBF"},          // the last before surrogates
+                                    Name{"\xEE\x80\x80", "\xEE\x80\x80"},          // the first after
+                                    Name{"\xF0\x9F\x8C\x8B", "\xF0\x9F\x8C\x8B"},  // a volcano
+                                    Name{"\xF4\x8F\xBF\xBF", "\xF4\x8F\xBF\xBF"},  //
+                                    Name{"a\x1B[31m\x7F"
+                                         "b",
+                                         "a [31m b"},  // control characters
+                                    Name{"a\xC2\x9B"
+                                         "31m",
+                                         "a 31m"}}) {  // of eight bits
+    CHECK(read("# x" + bytes + " y\n0,1\n1,2\n", in_g).name() == "x" + name + " y");
+    says(refusal("# x\n0,1\nx" + bytes + ",2\n", in_g), {"line 3", ("got 'x" + replaced(name, " [", " [")).c_str()});
+  }
+  const std::string cut = read("# " + std::string(255, 'x') + "\xC3\xBC" + "\n0,1\n1,2\n", in_g).name();
+  CHECK(cut == std::string(255, 'x') + "...");
+}
+
+TEST_CASE("a file name that is not UTF-8 names the motion and the error in UTF-8", "[records]") {
+  const Folder folder;
+  const fs::path file = folder.write("0,1\n1,2\n",
+                                     "\xFF"
+                                     "a.csv");
+  CHECK(read_record(file, {.units = "g", .component = ""}).name() ==
+        "\xEF\xBF\xBD"
+        "a");
+  try {
+    read_record(file);
+    FAIL("no units, and accepted");
+  } catch (const std::invalid_argument& error) {
+    says(error.what(), {"/\xEF\xBF\xBD"
+                        "a.csv: the file states no units"});
+  }
+}
+
 TEST_CASE("names come out in UTF-8", "[records]") {
   CHECK(read("# D\xFCzce\n# units: g\n0 1\n1 2\n").name() == "D\xC3\xBCzce");
   CHECK(read("# D\xC3\xBCzce\n# units: g\n0 1\n1 2\n").name() == "D\xC3\xBCzce");
@@ -374,6 +476,41 @@ TEST_CASE("a missing sample never hides in the rounding", "[records]") {
   }
 }
 
+TEST_CASE("times printed with so many digits are even as far as each is printed", "[records]") {
+  for (const char* format : {"%.3e", "%.4g"}) {
+    CHECK(read(table(even_times(500, 0.02), format)).dt() == 0.02);
+    CHECK(read(table(even_times(500, 1. / 16), format)).dt() == 1. / 16);
+    CHECK(read(table(even_times(2000, 1e-7), format)).dt() == 1e-7);
+    CHECK(read(table(even_times(3, 1e-7), format)).dt() == 1e-7);
+    // One early time off by 2 units of its own last place, a fiftieth of the last time's.
+    std::vector<double> times = even_times(500, 0.02);
+    times[4] += 2e-4;
+    const GroundMotion motion = read(table(times, format));
+    CHECK(std::isnan(motion.dt()));
+    CHECK(motion.time(4) == 0.0802);
+    CHECK(motion.time(499) == 9.98);
+  }
+  // Steps that grow from 0.02 to 0.04 s: the same at %.3e, whose unit is 0.01 s in the end.
+  std::vector<double> times = even_times(1000, 0.02);
+  for (double& t : times) t *= 1 + t / 40;
+  CHECK(std::isnan(read(table(times, "%.3e")).dt()));
+  // Microseconds of an uneven clock that starts at 0, which %.3e prints with three places.
+  times = even_times(1000, 1e-6);
+  times[500] += 4e-7;
+  CHECK(std::isnan(read(table(times, "%.3e")).dt()));
+}
+
+TEST_CASE("a time off by one unit of its last place is even, by two it is not", "[records]") {
+  for (const char* format : {"%.2f", "%.4f", "%.5e"}) {
+    const std::vector<double> even = even_times(400, 1.);
+    for (const auto& [off, is_even] : {std::pair{0.5, true}, {2., false}}) {
+      std::vector<double> times = even;
+      times[150] += off * (format[2] == '2' ? 1e-2 : format[2] == '4' ? 1e-4 : 1e-3);
+      CHECK(std::isnan(read(table(times, format)).dt()) != is_even);
+    }
+  }
+}
+
 TEST_CASE("times that do not increase are refused", "[records]") {
   says(refusal(table({0, 2, 1, 3, 4}, "%.1f")), {"times[2]", "got 1 s"});
   says(refusal(table({0, 1, 1, 3}, "%.1f")), {"times[2]"});
@@ -422,7 +559,7 @@ TEST_CASE("a damaged file is read or refused, and never more", "[records]") {
 }
 
 TEST_CASE("the peaks of a real GeoNet file are those its header states", "[records][real]") {
-  const auto file = real_record("geonet/20161113_110259_WTMC_20.V2A");
+  const auto file = test::real_record("geonet/20161113_110259_WTMC_20.V2A");
   if (!file) return;
   struct Stated {
     const char* component;
@@ -441,7 +578,7 @@ TEST_CASE("the peaks of a real GeoNet file are those its header states", "[recor
 }
 
 TEST_CASE("the peak of a real SMC file is the one its header states", "[records][real]") {
-  const auto file = real_record("smc/0111a.smc");
+  const auto file = test::real_record("smc/0111a.smc");
   if (!file) return;
   const GroundMotion motion = read_record(*file);
   CHECK(motion.samples() == 6001);
@@ -451,7 +588,7 @@ TEST_CASE("the peak of a real SMC file is the one its header states", "[records]
 }
 
 TEST_CASE("the peak of a real COSMOS file is the one its header states", "[records][real]") {
-  const auto file = real_record("cosmos/akbmr_bnz.v2c");
+  const auto file = test::real_record("cosmos/akbmr_bnz.v2c");
   if (!file) return;
   const GroundMotion motion = read_record(*file, {.units = "", .component = "BNZ"});
   CHECK(motion.samples() == 42000);

@@ -360,3 +360,17 @@ TEST_CASE("sketches merge exactly, in any order, and come back from their bins",
   CHECK(read.count() == 3000);
   CHECK(read.value_at(1500) == all.value_at(1500));
 }
+
+TEST_CASE("bins that no values fall into are refused", "[statistics][errors]") {
+  Sketch ends;
+  ends.add(0), ends.add(5e-324), ends.add(1.7976931348623157e308);
+  CHECK(Sketch::from_bins(ends.bins()).count() == 3);
+  const std::int32_t highest = ends.bins().rbegin()->first;
+  const auto refuses = [](std::map<std::int32_t, std::uint64_t> bins, const char* text) {
+    CHECK_THROWS_WITH(Sketch::from_bins(std::move(bins)), Catch::Matchers::ContainsSubstring(text));
+  };
+  refuses({{highest + 1, 1}}, "a bin must be");
+  refuses({{-highest * 2, 1}}, "a bin must be");
+  refuses({{0, 0}}, "counts must be positive and add up to less than 2^64, got 0");
+  refuses({{0, UINT64_MAX}, {1, 1}}, "counts must be positive and add up to less than 2^64, got 1");
+}

@@ -2,8 +2,6 @@
 #include "stickslip/strong_motion.hpp"
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "catch.hpp"
 #include "motions.hpp"
+#include "real_records.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/records.hpp"
 #include "stickslip/units.hpp"
@@ -131,15 +130,11 @@ TEST_CASE("pulses give back the earthquake that they were made from", "[strong_m
 }
 
 TEST_CASE("a real record has strong motion, and pulses of its intensity", "[strong_motion]") {
-  const char* folder = std::getenv("STICKSLIP_RECORDS");
-  const auto file = std::filesystem::path(folder ? folder : "") / "geonet" / "20161113_110259_WTMC_20.V2A";
-  if (!std::filesystem::exists(file)) {
-    WARN("skipped: set STICKSLIP_RECORDS to the folder of real records");
-    return;
-  }
+  const auto file = real_record("geonet/20161113_110259_WTMC_20.V2A");
+  if (!file) return;
   RecordOptions options;
   options.component = "N28W";
-  const GroundMotion record = read_record(file, options);
+  const GroundMotion record = read_record(*file, options);
   const StrongMotion s = strong_motion(record);
   CHECK(s.rms_acceleration < record.peak_acceleration());
   CHECK(s.rms_acceleration > record.peak_acceleration() / 20);

@@ -236,6 +236,23 @@ TEST_CASE("a level each way: what mirrors, and what is known of one side alone",
   CHECK(reflected.density(-1) == 0);
 }
 
+TEST_CASE("without friction no stationary velocity: its variance and the growth are infinite", "[white_noise_theory]") {
+  // A vanishing level, s0 = 1: the leading term of (3.49) with one side, 4 pi^3 / a^4.
+  for (const double a : {1.0, 1e-3, 1e-12})
+    CHECK(relative(WhiteNoise(Coulomb(a, infinity), 1.0).growth_rate() * std::pow(a, 4), 4 * pi * pi * pi) < 1e-14);
+  for (const Coulomb& law : {Coulomb(0, infinity), Coulomb(0, 1), Coulomb(1, 0), Coulomb(0)}) {
+    const WhiteNoise noise(law, 1.0);
+    CAPTURE(law.forward(), law.backward());
+    CHECK(noise.growth_rate() == infinity);
+    CHECK(noise.variance() == infinity);
+    CHECK(std::isnan(at(noise, 4).growth_rate.value));  // the velocity never is stationary
+  }
+  // Reflected Brownian motion, v = |w|: as it has no scale but time's, Var[x] grows as t^3.
+  const std::array<double, 2> times = {2, 4};
+  const Moments m = WhiteNoise(Coulomb(0, infinity), 1.0).predict(times);
+  CHECK(relative(m.displacement_variance.value[1], 8 * m.displacement_variance.value[0]) < 1e-12);
+}
+
 TEST_CASE("ensembles with a level each way spread and drift so", "[white_noise_theory][statistics]") {
   // Held loads of step dt are wrong by O(dt), which halving shows, in the same motions. Fixed seed; drawn anew, one of
   // five checks within three standard errors would fail 1 time in 75.

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "stickslip/error.hpp"
 #include "stickslip/flow/harmonic.hpp"
 #include "stickslip/flow/polynomial.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
@@ -36,11 +39,33 @@ struct NoObserver {
 
 namespace detail {
 
+/// Counts steps that take no time off what is left of a segment, and ends an event loop that makes no others.
+class Standstill {
+ public:
+  template <class Flows>
+  void count(const Flows&, double taken, double left, double duration) {
+    if constexpr (!requires { Flows::stops_twice_at_most; })
+      if (!(left - taken < left) && ++steps_ > most) refuse(duration);
+  }
+
+ private:
+  static constexpr int most = 1'000'000;
+
+  [[noreturn, gnu::noinline]] static void refuse(double duration) {
+    throw ConvergenceError("advance: in a segment of " + shortest(duration) +
+                           " s the motion changes faster than its time can be resolved: the spring is too stiff, or "
+                           "the acceleration too large, for a segment this long");
+  }
+
+  int steps_ = 0;
+};
+
 /// The event loop, over a piece of any kind (segment.hpp); `flows` makes the flows of the law under its load.
 template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer>
 void advance(const Law& law, const Flows& flows, const Piece& segment, State& state, Observer& observer) {
   if (!(segment.duration > 0)) return;
   double left = segment.duration;
+  Standstill standstill;
   double load = segment.first_load() - flows.pull(state.displacement);  // all but friction
   double acceleration = 0;                                              // net, in the direction of sliding
   Mode stopped = Mode::stuck;                                           // the mode of a slip that stopped just now
@@ -56,6 +81,11 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       const double forward = law.level(state.displacement, Direction::forward);
       const double backward = law.level(state.displacement, Direction::backward);
       double delay = 0;
+      // A slip slows down as it stops: what its load is above the level then is round-off.
+      if (stopped == Mode::forward)
+        load = std::min(load, forward);
+      else if (stopped == Mode::backward)
+        load = std::max(load, -backward);
       if (load > forward) {
         state.mode = Mode::forward;
         acceleration = load - forward;
@@ -105,6 +135,7 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       state.displacement += s * end.distance;
       state.velocity = s * std::max(end.speed, 0.0);
       if (whole) return;
+      standstill.count(flows, taken, left, segment.duration);
       left -= taken;
       load = ground_load + s * gain - flows.pull(state.displacement);
       acceleration = s * load - law.level(state.displacement, direction);
@@ -116,6 +147,7 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       state.displacement += s * end.distance;
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
+      standstill.count(flows, stop, left, segment.duration);
       left -= stop;
       load = ground_load + s * gain - flows.pull(state.displacement);
     }
@@ -144,6 +176,40 @@ void with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
   work(Taylor<Law>{slider});
 }
 
+/// Whether all are finite, by their sum: numbers near the largest double count as infinite.
+template <class... Numbers>
+bool finite(Numbers... numbers) noexcept {
+  return (std::abs(numbers) + ...) <= std::numeric_limits<double>::max();
+}
+inline bool finite(const Segment& s, const State& state) noexcept {
+  return finite(s.duration, s.start, s.end, state.displacement, state.velocity);
+}
+inline bool finite(const HarmonicSegment& s, const State& state) noexcept {
+  return finite(s.duration, s.amplitude, s.omega, s.phase, state.displacement, state.velocity);
+}
+
+inline std::string description(const Segment& s) {
+  return "a duration of " + shortest(s.duration) + " s, start " + shortest(s.start) + " m/s^2, end " + shortest(s.end) +
+         " m/s^2";
+}
+inline std::string description(const HarmonicSegment& s) {
+  return "a duration of " + shortest(s.duration) + " s, amplitude " + shortest(s.amplitude) + " m/s^2, omega " +
+         shortest(s.omega) + " rad/s, phase " + shortest(s.phase) + " rad";
+}
+inline std::string description(const State& state) {
+  return "x = " + shortest(state.displacement) + " m, x' = " + shortest(state.velocity) + " m/s";
+}
+
+// By value: a state whose address is known here would be kept in memory by the event loop.
+template <class Piece>
+[[noreturn, gnu::noinline]] void refuse(Piece segment, State state) {
+  throw std::invalid_argument("advance: segment and state must be finite, got " + description(segment) + ", " +
+                              description(state));
+}
+[[noreturn, gnu::noinline]] inline void refuse_overflow(State state) {
+  throw std::overflow_error("advance: the motion leaves the range of doubles, at " + description(state));
+}
+
 }  // namespace detail
 
 /// Moves a slider over one segment of ground motion:
@@ -153,25 +219,36 @@ void with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
 /// allocated, nothing is remembered but the state.
 ///
 /// @param slider    the law and the spring
-/// @param segment   finite, with a duration of at least 0; not checked
-/// @param state     at the beginning; becomes the state at the end. `State::at(x, v)` makes one
+/// @param segment   finite; where its duration is not positive nothing happens
+/// @param state     at the beginning, finite; becomes the state at the end. `State::at(x, v)` makes one
 /// @param observer  sees slips and events; optional
-/// @throws ConvergenceError if a law has no finite power series where it is needed: Caster only under accelerations or
-///         springs beyond all measure, Coulomb never
+/// @throws std::invalid_argument a number of the segment or the state is not finite; says all of them, changes nothing
+/// @throws std::overflow_error   the motion leaves the range of doubles
+/// @throws ConvergenceError      events follow each other faster than the time within the segment can be resolved (a
+///         spring of far more than 1e15 cycles a segment); a law has no finite power series where it is needed (Caster
+///         only under extreme accelerations or stiffness)
 /// Constant friction is exact to round-off, other laws to near round-off. Takes 12 to 30 ns without a spring.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
+  if (!detail::finite(segment, state)) [[unlikely]]
+    detail::refuse(segment, state);
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
                      [&](const auto& flows) { detail::advance(slider.law(), flows, segment, state, observer); });
+  if (!detail::finite(state.displacement, state.velocity)) [[unlikely]]
+    detail::refuse_overflow(state);
 }
 
 /// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
 /// piece in bare braces is a Segment.)
 template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
+  if (!detail::finite(segment, state)) [[unlikely]]
+    detail::refuse(segment, state);
   detail::with_harmonic_flows(slider, segment.omega, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
     detail::advance(slider.law(), flows, segment, state, observer);
   });
+  if (!detail::finite(state.displacement, state.velocity)) [[unlikely]]
+    detail::refuse_overflow(state);
 }
 
 }  // namespace stickslip

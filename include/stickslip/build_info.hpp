@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// How the compiled library was made, and the versions of the libraries that are loaded with it.

@@ -78,6 +78,7 @@ struct EnsembleTimes {
   /// Stationary averages are taken over the central half, thesis 4.4: `central` times from `begin` on.
   std::size_t begin() const noexcept { return count / 4; }
   std::size_t central() const noexcept { return count / 2; }
+  friend bool operator==(const EnsembleTimes&, const EnsembleTimes&) = default;
 };
 
 /// Averages over the central half of the motion, from `begin` to `end` [s], thesis 4.4, with standard errors from the
@@ -119,6 +120,7 @@ class Ensemble {
   /// Of each member of a block.
   struct Kept {
     std::vector<double> peak, residual;  ///< [m]
+    friend bool operator==(const Kept&, const Kept&) = default;
   };
 
   /// All that an ensemble holds, to be put into a file and read back.
@@ -130,18 +132,26 @@ class Ensemble {
     std::map<std::uint64_t, std::size_t> cut;  ///< blocks that are not whole, and how many members they have
     std::map<std::uint64_t, Kept> kept;        ///< by the block's number; empty once there are more than `most_kept`
     detail::Sketch peaks;                      ///< then this counts them
+    friend bool operator==(const Parts&, const Parts&) = default;
   };
 
   /// Of more members than these no single peak and residual is kept; peaks are then counted in bins 0.1 % wide.
   static constexpr std::uint64_t most_kept = std::uint64_t{1} << 24;
 
+  /// Times of the statistics there may be.
+  static constexpr std::size_t max_times = std::size_t{1} << 24;
+
   /// Members are simulated and summed in blocks of this many, which the parts of an ensemble may not cut: 64, and fewer
   /// for motions of more than 16,384 times, so that a block's memory stays bounded.
   static std::size_t block(std::size_t times);
 
-  /// @throws std::invalid_argument where the parts do not fit together
+  /// @throws std::invalid_argument where the parts do not fit together, or no members can have left them: what is not
+  ///         finite, a negative peak or sum of squares
   explicit Ensemble(Parts parts);
   const Parts& parts() const noexcept { return parts_; }
+
+  /// Whether they are of one configuration and hold the same members with the same figures.
+  friend bool operator==(const Ensemble&, const Ensemble&) = default;
 
   const Configuration& configuration() const noexcept { return parts_.configuration; }
   std::uint64_t members() const;
@@ -321,19 +331,13 @@ class MemberSimulator final : public Simulator {
     }
     void event(EventKind, double, const State&) {
       beat();
-      if (++events_ > most_events_) refuse_more();
+      if (++events_ > most_events_) refuse_more_events(most_events_);
     }
 
    private:
     void beat() {
       if (++beats_ % Recorder<Law>::work_a_beat == 0) block_.beat();
     }
-    [[gnu::noinline]] void refuse_more() const {
-      throw ConvergenceError("more than " + std::to_string(most_events_) +
-                             " events: the spring is too stiff, or the slip level too low, for pieces of motion this "
-                             "long");
-    }
-
     const Block& block_;
     std::size_t most_events_, events_ = 0;
     std::uint32_t beats_ = 0;
@@ -351,7 +355,7 @@ class MemberSimulator final : public Simulator {
   void slide(const Flows& flows, const GroundMotion& motion, std::size_t member, Block& block) {
     const std::size_t width = block.width();
     State state;
-    PeakObserver observer(block, 1'000'000 + 8 * (motion.segments() + block.times().count));
+    PeakObserver observer(block, max_events(motion.segments() + block.times().count));
     go_through(
         motion, block, [&](const Segment& segment) { go(flows, segment, state, observer); },
         [&](std::size_t time) {
@@ -494,7 +498,8 @@ Ensemble run_ensemble(const S& slider, const E& excitation, const EnsembleOption
 ///                    goes on from what was kept ends with the same bits
 /// @return statistics over the members `first_member` to `first_member + members - 1`, and those of `start`
 /// @throws std::invalid_argument  an option out of its range (names it); a `start` of another configuration
-/// @throws std::overflow_error    a member leaves the range of doubles
+/// @throws std::overflow_error    displacements or velocities beyond 1e34 [m, m/s], whose statistics could leave the
+///                                range of doubles; says which member or block
 /// @throws ConvergenceError       a member does not settle, or its law has no power series; says which member
 /// What `heartbeat` throws ends the work; what it was shown before is whole and can be gone on from.
 ///

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// What a stationary acceleration is multiplied by to become an earthquake: it builds up, stays strong, decays.
@@ -28,7 +30,7 @@ class Envelope {
   /// @throws std::invalid_argument naming the value refused and its index
   static Envelope from_table(std::vector<double> time, std::vector<double> factor);
 
-  /// The factor at time t [s], at least 0.
+  /// The factor at time t [s], at least 0; NaN of NaN.
   double operator()(double t) const noexcept;
 
   double build_up() const noexcept { return build_up_; }

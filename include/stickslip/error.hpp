@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// A computation that could not reach what was asked of it: the message says how far it came and what to change.

@@ -77,11 +77,22 @@ class GroundMotion {
   /// Ground acceleration at the samples [m/s^2].
   std::span<const double> acceleration() const noexcept { return acceleration_; }
 
-  /// Time of sample i [s].
-  double time(std::size_t i) const noexcept { return Pieces(*this).time(i); }
+  /// Time of sample i [s]; past the last sample times continue with the last step.
+  double time(std::size_t i) const noexcept {
+    if (times_.empty() || i < samples()) return Pieces(*this).time(i);
+    return times_.back() + static_cast<double>(i - segments()) * last_step();
+  }
 
   /// Time between samples [s], or NaN where the times are uneven.
   double dt() const noexcept { return dt_; }
+
+  /// The last time between samples that is not zero [s].
+  double last_step() const noexcept {
+    if (times_.empty()) return dt_;
+    std::size_t i = segments() - 1;
+    while (times_[i] == times_.back()) --i;  // the duration is positive
+    return times_.back() - times_[i];
+  }
 
   /// From the first sample to the last [s].
   double duration() const noexcept { return time(samples() - 1) - time(0); }
@@ -90,12 +101,7 @@ class GroundMotion {
   const std::string& name() const noexcept { return name_; }
 
   /// Largest magnitude of the ground acceleration [m/s^2], the PGA.
-  double peak_acceleration() const noexcept {
-    double peak = 0;
-    const std::size_t acting = samples() - (interpolation_ == Interpolation::constant ? 1 : 0);
-    for (std::size_t i = 0; i < acting; ++i) peak = std::max(peak, std::abs(acceleration_[i]));
-    return peak;
-  }
+  double peak_acceleration() const noexcept { return peak_; }
 
   /// The pieces as a loop wants them: what is the same for all is looked up once. Refers to the motion.
   class Pieces {
@@ -131,8 +137,15 @@ class GroundMotion {
     return result;
   }
 
+  /// Whether samples, times, interpolation and name are the same; even times differ from a list of them.
+  friend bool operator==(const GroundMotion& a, const GroundMotion& b) {
+    const bool same_dt = a.dt_ == b.dt_ || (std::isnan(a.dt_) && std::isnan(b.dt_));
+    return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ &&
+           a.interpolation_ == b.interpolation_ && a.name_ == b.name_;
+  }
+
  private:
-  void check_samples() const {
+  void check_samples() {
     if (samples() < 2)
       throw std::invalid_argument("GroundMotion: needs at least two samples, got " + std::to_string(samples()));
     for (std::size_t i = 0; i < samples(); ++i)
@@ -140,6 +153,9 @@ class GroundMotion {
         detail::refuse(
             "GroundMotion: " + element("acceleration", i) + " must be finite and at most 1e100 m/s^2 in magnitude",
             acceleration_[i], "m/s^2");
+    peak_ = 0;
+    const std::size_t acting = samples() - (interpolation_ == Interpolation::constant ? 1 : 0);
+    for (std::size_t i = 0; i < acting; ++i) peak_ = std::max(peak_, std::abs(acceleration_[i]));
   }
 
   static std::string element(const char* array, std::size_t i) {
@@ -149,6 +165,7 @@ class GroundMotion {
   std::vector<double> acceleration_;
   std::vector<double> times_;  // empty where samples are evenly spaced
   double dt_ = std::numeric_limits<double>::quiet_NaN();
+  double peak_ = 0;
   Interpolation interpolation_;
   std::string name_;
 };

@@ -52,8 +52,13 @@ class HarmonicMotion {
   std::size_t samples() const noexcept { return segments_ + 1; }
   std::size_t segments() const noexcept { return segments_; }
 
-  /// Time of sample i [s].
-  double time(std::size_t i) const noexcept { return i < segments_ ? static_cast<double>(i) * dt_ : duration_; }
+  /// Time of sample i [s]; past the last sample times continue with `last_step`.
+  double time(std::size_t i) const noexcept {
+    return i < segments_ ? static_cast<double>(i) * dt_ : duration_ + static_cast<double>(i - segments_) * dt_;
+  }
+
+  /// The step after the end of the motion [s].
+  double last_step() const noexcept { return dt_; }
 
   /// Ground acceleration n at a time [m/s^2].
   double acceleration(double time) const noexcept { return -amplitude_ * std::cos(phase(time)); }

@@ -32,7 +32,7 @@ struct Histories {
 /// @param motion     the ground acceleration
 /// @param heartbeat  called at least every second or so; may throw to end the work; optional
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
-/// @throws ConvergenceError     a law without power series
+/// @throws ConvergenceError     a law without power series; more events than `integrate` allows
 /// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 9 to 14 ns a
 /// sample at even steps, new arrays included, where `integrate` takes 20 to 42 (AVX2).
 template <FrictionLaw Law>
@@ -41,7 +41,7 @@ Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
   Histories result{std::vector<double>(motion.samples()), std::vector<double>(motion.samples())};
   const detail::HistorySpans spans{result.displacement, result.velocity};
   State state;
-  detail::NoRecorder none(heartbeat);
+  detail::NoRecorder none(detail::max_events(motion.segments()), heartbeat);
   const auto run = [&] {
     if constexpr (std::same_as<Law, Coulomb>) {
       if (detail::worth_pieces(slider, motion)) return detail::run_by_pieces(slider.law(), motion, state, none, spans);

@@ -21,7 +21,7 @@ namespace stickslip {
 struct IntegrateOptions {
   double displacement = 0;  ///< x at the start [m], finite
   double velocity = 0;      ///< x' at the start [m/s], finite
-  bool settle = false;      ///< go on under zero ground acceleration after the last sample until the slider rests
+  bool settle = false;      ///< continue under zero ground acceleration after the last sample until the slider rests
   std::function<void()> heartbeat{};  ///< called at least every second or so; may throw to end the work
 };
 
@@ -39,6 +39,24 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
       "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
       " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
       shortest(slider.law().level(state.displacement, direction_of(state.mode))) + " m/s^2 there; use settle = false");
+}
+
+/// Adds the samples from the end of a motion to those at or after a rest: at most nine times as many as the motion has.
+/// @param from  the state at the end of the motion
+/// @param rest  when the slider comes to rest for good [s], at `residual` [m]
+/// @return whether the rest was reached
+template <FrictionLaw Law, Motion M>
+bool add_samples(const Slider<Law>& slider, const M& motion, State from, double rest, double residual,
+                 Response& response) {
+  const Segment step{motion.last_step(), 0, 0};
+  for (std::size_t i = motion.segments(); motion.time(i) < rest; ++i) {
+    if (i + 1 >= 10 * motion.samples()) return false;
+    advance(slider, step, from);
+    if (!(motion.time(i + 1) < rest)) from = {residual, 0, Mode::stuck};
+    response.displacement.push_back(from.displacement);
+    response.velocity.push_back(from.velocity);
+  }
+  return true;
 }
 
 /// `integrate`, where `run(state, recorder, histories)` moves the slider through the motion.
@@ -61,22 +79,24 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   response.displacement[0] = state.displacement;
   response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
-  const std::size_t most_events = 1'000'000 + 8 * pieces(motion);  // without a spring one has five at most
-  RecorderFor<M, Law> recorder(slider.law(), state.displacement, most_events, options.heartbeat,
+  RecorderFor<M, Law> recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.heartbeat,
                                std::move(response.events));
-  recorder.begin_segment(motion.time(0));
+  recorder.begin_segment(motion.time(0), motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
   const HistorySpans histories{response.displacement, response.velocity};
   run(state, recorder, histories);
+  response.truncated = false;
   if (options.settle) {
+    const State at_end = state;
     double time = end;
     settle(slider, state, [&](double duration) {
-      recorder.begin_segment(time);
+      recorder.begin_segment(time, time + duration);
       advance(slider, Segment{duration, 0, 0}, state, recorder);
       time += duration;
     });
     end = std::max(end, recorder.last_event());
+    response.truncated = !add_samples(slider, motion, at_end, end, state.displacement, response);
   }
   recorder.finish(end, state, response);
 
@@ -100,7 +120,9 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
 /// @param motion   the ground acceleration: a GroundMotion or a HarmonicMotion
 /// @param options  state at the start, and whether to go on until the slider rests
 /// @param storage  a response that is no longer needed, for its memory, which can cost as much time as the motion
-/// @return the motion at the samples, its events, peak and energy. Where it settles, the last event (`end`) and the
+/// @return the motion at the samples, its events, peak and energy. Where it settles, samples continue up to the first
+/// at
+///         or after the final rest (see Response::displacement), and the last event (`end`) and the
 ///         residual are those of the final rest
 /// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles

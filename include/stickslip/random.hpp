@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// One of the endless rows of random numbers, named: Philox4x32-10 with

@@ -19,6 +19,16 @@
 
 namespace stickslip::detail {
 
+/// Events that a motion may have; without a spring one has five a segment at most.
+constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'000 + 8 * segments; }
+
+[[noreturn, gnu::noinline]] inline void refuse_more_events(std::size_t most_events,
+                                                           double time = std::numeric_limits<double>::quiet_NaN()) {
+  throw ConvergenceError("more than " + std::to_string(most_events) + " events" +
+                         (std::isnan(time) ? "" : " up to " + shortest(time) + " s") +
+                         ": the spring is too stiff, or the slip level too low, for segments this long");
+}
+
 /// Sums up slips and keeps events.
 /// @tparam in_steps  slips come in many steps, of which a segment may have so many that they must beat
 template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>>
@@ -41,8 +51,11 @@ class Recorder {
     events_.clear();
   }
 
-  /// @param time  at which the segment begins [s]
-  void begin_segment(double time) noexcept { segment_begins_ = time; }
+  /// @param begin, end  times of the segment that is next [s]
+  void begin_segment(double begin, double end) noexcept {
+    segment_begins_ = begin;
+    segment_ends_ = end;
+  }
 
   /// For the loop over segments, now and then; long segments beat by themselves, with events and steps of Taylor flows.
   void heartbeat() const {
@@ -60,8 +73,10 @@ class Recorder {
 
   void event(EventKind kind, double time, const State& state) {
     beat();
-    if (events_.size() >= most_events_) refuse_more(time);
-    events_.push_back({segment_begins_ + time, state.displacement, state.velocity, kind});
+    if (events_.size() >= most_events_) refuse_more_events(most_events_, segment_begins_ + time);
+    // The sum can be rounded past the end, where the next segment begins.
+    const double when = std::min(segment_begins_ + time, segment_ends_);
+    events_.push_back({when, state.displacement, state.velocity, kind});
     peak_ = std::max(peak_, std::abs(state.displacement));  // between events x runs one way
     sliding_distance_ += slip_distance_;
     if constexpr (LawWithWork<Law>) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
@@ -74,7 +89,7 @@ class Recorder {
   /// @param event  the k-th of `count`, in order
   template <class Generate>
   void events(std::size_t count, Generate&& event) requires ConstantLevelLaw<Law> {
-    if (events_.size() + count > most_events_) refuse_more(0);
+    if (events_.size() + count > most_events_) refuse_more_events(most_events_, segment_begins_);
     events_.resize(events_.size() + count);
     Event* const added = events_.data() + (events_.size() - count);
     double x = slip_from_, time = 0, forward = 0, backward = 0, time_sliding = 0, peak = peak_;
@@ -102,7 +117,7 @@ class Recorder {
   }
 
   void finish(double time, const State& state, Response& response) {
-    begin_segment(time);
+    begin_segment(time, time);
     event(EventKind::end, 0, state);
     response.events = std::move(events_);
     response.peak = peak_;
@@ -113,18 +128,12 @@ class Recorder {
   }
 
  private:
-  [[gnu::noinline]] void refuse_more(double time) const {
-    throw ConvergenceError("more than " + std::to_string(most_events_) + " events up to " +
-                           shortest(segment_begins_ + time) +
-                           " s: the spring is too stiff, or the slip level too low, for pieces of motion this long");
-  }
-
   void beat() {
     if (++beats_ % work_a_beat == 0) heartbeat();
   }
 
   const Law& law_;
-  double segment_begins_ = 0;
+  double segment_begins_ = 0, segment_ends_ = 0;
   double slip_from_;  // x where the slip at hand began
   double slip_distance_ = 0;
   Direction slip_direction_ = Direction::forward;
@@ -139,16 +148,23 @@ class Recorder {
 /// In the place of a recorder, where nothing is asked but the motion.
 class NoRecorder : public NoObserver {
  public:
-  static constexpr std::uint32_t work_a_beat = 4096;  // segments
+  static constexpr std::uint32_t work_a_beat = 4096;  // segments or events
 
-  explicit NoRecorder(const std::function<void()>& heartbeat) : heartbeat_(heartbeat) {}
+  explicit NoRecorder(std::size_t most_events, const std::function<void()>& heartbeat)
+      : most_events_(most_events), heartbeat_(heartbeat) {}
 
-  void begin_segment(double) const noexcept {}
+  void begin_segment(double, double) const noexcept {}
   void heartbeat() const {
     if (heartbeat_) heartbeat_();
   }
+  void event(EventKind, double, const State&) {
+    if (++events_ % work_a_beat != 0) return;
+    heartbeat();
+    if (events_ > most_events_) refuse_more_events(most_events_);
+  }
 
  private:
+  std::size_t most_events_, events_ = 0;
   const std::function<void()>& heartbeat_;
 };
 

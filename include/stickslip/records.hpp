@@ -27,14 +27,20 @@ struct RecordOptions {
 ///
 /// Two-column text is seconds and acceleration, parted by a comma, a semicolon, a tab or blanks. Any number of lines
 /// may come before: comments (`#`) and text. Units are read from column labels, as `Time (s), Acceleration (g)`, or
-/// from a line as `# units: cm/s^2`. Times that are even within the rounding they are printed with become a step dt,
-/// the shortest decimal that fits them all, and the clock starts at 0 whatever the first time; others are kept as
-/// they stand. Rounding is seen in long lists alone: the times 0, 1, 2, 4 are taken at their word.
+/// from a line as `# units: cm/s^2`. Times that are even to the places or digits they are printed with become a step
+/// dt, the shortest decimal that fits them all, and the clock starts at 0 whatever the first time. Other times are kept
+/// as they are, also in lists of less than 100 units of the last place, or with steps of less than two: the times 0, 1,
+/// 2, 4 are not rounded.
+///
+/// Numbers are as C or Fortran print them: 1.5D-03 and 1.5-103 have an exponent, and a sign may separate numbers that
+/// run together. A field that overflowed (`*****`), a decimal comma and a hexadecimal number are errors.
 ///
 /// The samples are those of the file, all of them: GeoNet counts its stated peak times from after the samples it put
 /// before the record (5 s, say), the motion counts them too.
 ///
-/// UTF-8 (with or without byte-order mark) and Latin-1 are read, with LF or CRLF line ends.
+/// UTF-8 (with or without byte-order mark) and Latin-1 are read, with LF or CRLF line ends. Names and messages are
+/// valid UTF-8 whatever the file holds: U+FFFD stands for what is no character, a blank for a control character. Names
+/// are cut to 256 bytes each.
 ///
 /// @param file     an existing regular file
 /// @param options  units, where the file has none (another unit than the file's is refused); component, where the

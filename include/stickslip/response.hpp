@@ -38,14 +38,20 @@ struct Energy {
 
 /// The motion of a slider under one ground motion.
 struct Response {
-  std::vector<double> displacement;  ///< x at the samples of the motion [m]
-  std::vector<double> velocity;      ///< x' at the samples [m/s]
-  std::vector<Event> events;         ///< in order of time; the last is the end
-  double peak = 0;                   ///< largest |x| over all time, not only at samples [m]
-  double residual = 0;               ///< x at the end [m]; final if the slider rests
-  double sliding_distance = 0;       ///< length of the way slid [m]
-  double time_sliding = 0;           ///< [s]
+  /// x at the samples of the motion [m]. Where `integrate` was asked to settle and the slider still moves at the last
+  /// of them, further samples follow at the motion's last step, up to the first at or after rest; `time(i)` of the
+  /// motion is the time of each.
+  std::vector<double> displacement;
+  std::vector<double> velocity;  ///< x' at the same times [m/s]
+  std::vector<Event> events;     ///< in order of time; the last is the end
+  double peak = 0;               ///< largest |x| over all time, not only at samples [m]
+  double residual = 0;           ///< x at the end [m]; final if the slider rests
+  double sliding_distance = 0;   ///< length of the way slid [m]
+  double time_sliding = 0;       ///< [s]
   Energy energy;
+  /// Whether displacement and velocity end before the slider rests, at ten times the number of samples of the motion.
+  /// All else is that of the final rest.
+  bool truncated = false;
   State state;  ///< at the end: a motion can be continued from it
 };
 

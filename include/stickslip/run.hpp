@@ -45,9 +45,11 @@ template <FrictionLaw Law, class Flows, class Recording>
   const GroundMotion::Pieces pieces(motion);
   const std::size_t count = motion.segments();
   State moving = state;
+  double begin = pieces.time(0);
   for (std::size_t i = 0; i < count;) {
     for (const std::size_t beat = std::min(i + Recording::work_a_beat, count); i < beat; ++i) {
-      recorder.begin_segment(pieces.time(i));
+      const double end = pieces.time(i + 1);
+      recorder.begin_segment(std::exchange(begin, end), end);
       detail::advance(law, flows, pieces.segment(i), moving, recorder);
       histories.keep(i + 1, moving);
     }
@@ -76,20 +78,20 @@ template <FrictionLaw Law, class Flows>
 void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State& state,
          RecorderFor<HarmonicMotion, Law>& recorder, const HistorySpans& histories) {
   std::uint32_t pieces = 0;
-  const auto piece = [&](double begin, double duration, double phase) {
+  const auto piece = [&](double begin, double end, double duration, double phase) {
     if (++pieces % RecorderFor<HarmonicMotion, Law>::work_a_beat == 0) recorder.heartbeat();
-    recorder.begin_segment(begin);
+    recorder.begin_segment(begin, end);
     detail::advance(law, flows, HarmonicSegment{duration, motion.amplitude(), motion.omega(), phase}, state, recorder);
   };
   const bool short_steps = motion.dt() <= motion.period();
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     const double begin = motion.time(i), end = motion.time(i + 1);
     if (short_steps && i + 1 < motion.segments()) {  // all of one length, as if times were not rounded
-      piece(begin, motion.dt(), motion.phase(begin, std::fma(static_cast<double>(i), motion.dt(), -begin)));
+      piece(begin, end, motion.dt(), motion.phase(begin, std::fma(static_cast<double>(i), motion.dt(), -begin)));
     } else {
       for (double time = begin; time < end;) {
         const double next = std::min(time + motion.period(), end);
-        piece(time, next - time, motion.phase(time));
+        piece(time, next, next - time, motion.phase(time));
         time = next;
       }
     }

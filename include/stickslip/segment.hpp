@@ -32,9 +32,10 @@ struct Segment {
   /// Of a slider at rest, whose load net of its spring's pull is within both levels now.
   /// @param left  time to the end, positive [s]
   Departure departure(double net, double pull, double forward, double backward, double left) const noexcept {
-    const double last = -end - pull;
-    if (last > forward) return {Mode::forward, left * ((forward - net) / (last - net))};
-    if (last < -backward) return {Mode::backward, left * ((backward + net) / (net - last))};
+    // What the load gains beyond the level, as the flow will have it: positive, however they are rounded.
+    const double above = -end - (forward + pull), below = end - (backward - pull);
+    if (above > 0) return {Mode::forward, left * ((forward - net) / ((forward - net) + above))};
+    if (below > 0) return {Mode::backward, left * ((backward + net) / ((backward + net) + below))};
     return {};
   }
 

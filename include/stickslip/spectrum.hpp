@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// The two-sided spectral density S(omega) of a stationary ground acceleration [m^2/s^3], omega in rad/s:

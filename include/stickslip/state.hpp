@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// The two ways a slider can slide along its line.

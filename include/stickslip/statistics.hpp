@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "stickslip/detail/requirements.hpp"
 
 namespace stickslip {
 
@@ -55,9 +58,12 @@ class Tally {
 
   Tally() = default;
   Tally(std::size_t times, std::size_t frequencies)
-      : times_(times),
-        frequencies_(frequencies),
-        sums_(moments * times + 2 * frequencies + features * (features + 1)) {}
+      : times_(times), frequencies_(frequencies), sums_(size(times, frequencies)) {}
+
+  /// How many sums there are.
+  static constexpr std::size_t size(std::size_t times, std::size_t frequencies) noexcept {
+    return moments * times + 2 * frequencies + features * (features + 1);
+  }
 
   std::size_t times() const noexcept { return times_; }
   std::size_t frequencies() const noexcept { return frequencies_; }
@@ -86,8 +92,22 @@ class Tally {
   std::span<double> sums() noexcept { return sums_; }
   std::span<const double> sums() const noexcept { return sums_; }
 
+  /// Largest root mean square over members: of x [m] and x' [m/s], and of a density or feature, which has up to fourth
+  /// powers of these. Tallies of 2^64 members within these bounds merge without overflow.
+  static constexpr double max_motion = 1e34, max_feature = 1e142;
+
+  /// The first time at which a root mean square exceeds its bound or is NaN; `times()` if it is that of a density or
+  /// feature; nothing if all are within bounds.
+  std::optional<std::size_t> out_of_range() const;
+
+  /// Whether some members can have these sums: all finite, those of even powers not negative, none so large that
+  /// merging could overflow.
+  bool is_possible() const;
+
   /// Becomes the tally of both. Which is the left one decides the last bits.
   void merge(const Tally& right);
+
+  friend bool operator==(const Tally&, const Tally&) = default;
 
  private:
   double* tail() noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
@@ -123,6 +143,8 @@ class TallyTree {
 
   const std::map<Place, Tally>& nodes() const noexcept { return nodes_; }
 
+  friend bool operator==(const TallyTree&, const TallyTree&) = default;
+
  private:
   std::map<Place, Tally> nodes_;
 };
@@ -145,7 +167,10 @@ class Sketch {
 
   /// Counts by bin: bin i holds the values about ((1 + accuracy) / (1 - accuracy))^i, the lowest one the zeros.
   std::map<std::int32_t, std::uint64_t> bins() const { return bins_; }
+  /// @throws std::invalid_argument for a bin that no double falls into, a count of 0, or 2^64 values and more
   static Sketch from_bins(std::map<std::int32_t, std::uint64_t> bins);
+
+  friend bool operator==(const Sketch&, const Sketch&) = default;
 
  private:
   std::map<std::int32_t, std::uint64_t> bins_;

@@ -1,6 +1,8 @@
 // SI everywhere inside; what is not SI is converted here, once.
 #pragma once
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// Standard acceleration of gravity [m/s^2], exact by definition (CGPM 1901).

@@ -302,6 +302,7 @@ inline Response integrate(const ViscousSlider& slider, const GroundMotion& motio
   response.velocity[0] = options.velocity;
   response.time_sliding = 0;
   response.energy = {};
+  response.truncated = false;
 
   detail::ViscousMotion moving(slider, options.displacement, options.velocity);
   const auto kinetic = [&] { return moving.velocity() * moving.velocity() / 2; };

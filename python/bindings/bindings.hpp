@@ -101,16 +101,62 @@ inline py::array_t<double> to_array(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// A one-dimensional array of real numbers as a vector; `name` is for the message where it is not one.
-inline std::vector<double> to_vector(const py::object& values, const std::string& name) {
-  if (py::hasattr(values, "mask")) throw std::invalid_argument(name + " must not be masked; fill the gaps first");
+/// An array of doubles in a row.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Each object's value as a float; what has none is refused with its index.
+inline Numbers values_of(const py::array& objects, const std::string& name) {
+  Numbers numbers(std::vector<py::ssize_t>(objects.shape(), objects.shape() + objects.ndim()));
+  double* to = numbers.mutable_data();
+  std::size_t index = 0;
+  for (const py::handle object : objects.attr("ravel")()) {
+    *to++ = PyFloat_AsDouble(object.ptr());
+    if (PyErr_Occurred()) {
+      py::error_already_set error;
+      if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError) && !error.matches(PyExc_OverflowError))
+        throw error;
+      const auto text = py::module_::import("reprlib").attr("repr")(object).cast<std::string>();
+      throw std::invalid_argument(name + " must hold real numbers, got " + text +
+                                  (objects.ndim() > 0 ? " at index " + std::to_string(index) : ""));
+    }
+    ++index;
+  }
+  return numbers;
+}
+
+/// Real numbers in an array of any shape: those of a list, of NumPy, of pandas. `name` is for the message where they
+/// are none.
+inline Numbers to_numbers(const py::object& values, const std::string& name) {
+  if (py::hasattr(values, "mask")) {  // as pandas has, too
+    const py::module_ ma = py::module_::import("numpy.ma");
+    if (py::isinstance(values, ma.attr("MaskedArray"))) {
+      const py::object mask = ma.attr("getmaskarray")(values);
+      if (mask.attr("any")().cast<bool>())
+        throw std::invalid_argument(name + " must not be masked, got a masked value at index " +
+                                    std::to_string(mask.attr("argmax")().cast<std::size_t>()) +
+                                    "; fill the gaps first");
+    }
+  }
   const py::array array = py::module_::import("numpy").attr("asarray")(values);  // whose own errors say what is wrong
+  if (array.dtype().kind() == 'O') return values_of(array, name);
   if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
     throw std::invalid_argument(name + " must hold real numbers, got " + py::str(array.dtype()).cast<std::string>());
-  if (array.ndim() != 1)
-    throw std::invalid_argument(name + " must be one-dimensional, got " + std::to_string(array.ndim()) + " dimensions");
-  const auto doubles = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
-  return {doubles.data(), doubles.data() + doubles.size()};
+  return Numbers::ensure(array);
+}
+
+/// A one-dimensional array of real numbers as a vector.
+inline std::vector<double> to_vector(const py::object& values, const std::string& name) {
+  const Numbers numbers = to_numbers(values, name);
+  if (numbers.ndim() != 1)
+    throw std::invalid_argument(name + " must be one-dimensional, got " + std::to_string(numbers.ndim()) +
+                                " dimensions");
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+/// A function of each of the numbers: a float of one, an array of their shape of an array.
+template <class F>
+py::object of_each(const py::object& values, const std::string& name, F&& f) {
+  return py::vectorize(std::forward<F>(f))(to_numbers(values, name));
 }
 
 inline Interpolation interpolation_of(const std::string& name, const std::string& owner) {

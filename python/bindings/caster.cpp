@@ -1,11 +1,11 @@
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_caster(py::module_& m) {
-  py::class_<Caster>(m, "Caster", R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach).
+  value_class<Caster>(m, "Caster", R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach).
 
 The thesis writes 3l for the reach. The law holds while the wheels are neither in line with the motion nor flipped
 round: |x| up to about the reach is sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
@@ -65,18 +65,10 @@ Notes
 Accurate to a few units of the last digit for every l/w > 0; about 2.5 us.)")
       .def_property_readonly("slip_level", &Caster::slip_level, "Level at x = 0 [m/s^2].")
       .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
-      .def("__repr__",
-           [](const Caster& law) {
-             return "Caster(slip_level=" + detail::shortest(law.slip_level()) +
-                    ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) + ")";
-           })
-      .def(
-          "__eq__",
-          [](const Caster& a, const Caster& b) { return a.slip_level() == b.slip_level() && a.reach() == b.reach(); },
-          py::is_operator())
-      .def("__hash__", [](const Caster& law) { return py::hash(py::make_tuple(law.slip_level(), law.reach())); })
-      .def(py::pickle([](const Caster& law) { return py::make_tuple(law.slip_level(), law.reach()); },
-                      [](const py::tuple& t) { return Caster(t[0].cast<double>(), t[1].cast<double>()); }));
+      .def("__repr__", [](const Caster& law) {
+        return "Caster(slip_level=" + detail::shortest(law.slip_level()) +
+               ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) + ")";
+      });
 }
 
 }  // namespace stickslip::python

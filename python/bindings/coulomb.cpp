@@ -1,11 +1,11 @@
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_coulomb(py::module_& m) {
-  py::class_<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
+  value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
 
 f = a sgn(x'), a = mu g the slip level: friction force per unit mass. The two directions may differ: on an inclined
 plane they do, and with an infinite level one way the block is Newmark's, which slides the other way only.
@@ -54,21 +54,13 @@ ValueError
     A value out of its range, or a block that would slide under its own weight.)")
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
       .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
-      .def("__repr__",
-           [](const Coulomb& law) {
-             std::string text = "Coulomb(slip_level=" + detail::shortest(law.forward());
-             if (law.backward() != law.forward())
-               text += std::isinf(law.backward()) ? ", backward=float('inf')"
-                                                  : ", backward=" + detail::shortest(law.backward());
-             return text + ")";
-           })
-      .def(
-          "__eq__",
-          [](const Coulomb& a, const Coulomb& b) { return a.forward() == b.forward() && a.backward() == b.backward(); },
-          py::is_operator())
-      .def("__hash__", [](const Coulomb& law) { return py::hash(py::make_tuple(law.forward(), law.backward())); })
-      .def(py::pickle([](const Coulomb& law) { return py::make_tuple(law.forward(), law.backward()); },
-                      [](const py::tuple& t) { return Coulomb(t[0].cast<double>(), t[1].cast<double>()); }));
+      .def("__repr__", [](const Coulomb& law) {
+        std::string text = "Coulomb(slip_level=" + detail::shortest(law.forward());
+        if (law.backward() != law.forward())
+          text +=
+              std::isinf(law.backward()) ? ", backward=float('inf')" : ", backward=" + detail::shortest(law.backward());
+        return text + ")";
+      });
 }
 
 }  // namespace stickslip::python

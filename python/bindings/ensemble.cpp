@@ -1,13 +1,15 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <utility>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "stickslip/ensemble.hpp"
 
 namespace stickslip::python {
@@ -50,11 +52,20 @@ std::string with_error(const Estimate& estimate) {
 
 // ---- what an ensemble holds, as arrays
 
+/// What is of another type is refused: converted, it would not be what was saved.
+template <class T>
+py::array_t<T, py::array::c_style> table(const py::dict& state, const char* name, py::ssize_t dimensions) {
+  const py::object value = state[name];
+  if (!py::isinstance<py::array_t<T, 0>>(value) || value.cast<py::array>().ndim() != dimensions)
+    throw std::invalid_argument(std::string("Ensemble: ") + name + " must be an array of " +
+                                std::to_string(dimensions) + " dimensions and type " +
+                                py::str(py::dtype::of<T>()).cast<std::string>());
+  return py::array_t<T, py::array::c_style>::ensure(value);
+}
+
 template <class T>
 std::vector<T> column(const py::dict& state, const char* name) {
-  const auto values = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(state[name]);
-  if (!values || values.ndim() != 1)
-    throw std::invalid_argument(std::string("Ensemble: ") + name + " must be a row of numbers");
+  const auto values = table<T>(state, name, 1);
   return {values.data(), values.data() + values.size()};
 }
 
@@ -117,25 +128,23 @@ Ensemble ensemble_of(const py::dict& state) {
   parts.configuration = state["configuration"].cast<Ensemble::Configuration>();
   parts.times = {state["dt"].cast<double>(), state["times"].cast<std::size_t>()};
   parts.velocity_spectrum = state["velocity_spectrum"].cast<bool>();
-  expect(std::isfinite(parts.times.dt) && parts.times.dt > 0, "dt must be positive");
-  expect(parts.times.count >= 2 && parts.times.count <= (std::size_t{1} << 24), "times must be 2 to 2^24");
-  const std::uint64_t block = Ensemble::block(parts.times.count);
+  expect(parts.times.count <= Ensemble::max_times, "there are too many times");
 
   const auto level = column<std::uint64_t>(state, "level"), number = column<std::uint64_t>(state, "number"),
              count = column<std::uint64_t>(state, "count");
-  const auto sums = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(state["sums"]);
+  const auto sums = table<double>(state, "sums", 2);
   const std::size_t frequencies = parts.velocity_spectrum ? parts.times.central() / 2 + 1 : 0;
-  expect(sums && sums.ndim() == 2, "sums must be a table");
   const auto rows = static_cast<std::size_t>(sums.shape(0)), width = static_cast<std::size_t>(sums.shape(1));
   expect(level.size() == rows && number.size() == rows && count.size() == rows,
          "level, number, count and sums must go together");
+  // Before any room is made for them.
+  expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies),
+         "sums must have one column for each sum");
   for (std::size_t i = 0; i < rows; ++i) {
     constexpr unsigned most = 61;  // blocks have eight members at least
     expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "a part is at no possible place");
     const detail::TallyTree::Place place{static_cast<unsigned>(level[i]), number[i]};
     detail::Tally tally(parts.times.count, frequencies);
-    expect(width == tally.sums().size(), "sums must have one column for each sum");
-    expect(count[i] > 0 && count[i] <= block << std::min(level[i], std::uint64_t{57}), "a part has too many members");
     expect(!parts.tallies.overlaps(place), "two parts hold the same members");
     tally.count = count[i];
     std::copy_n(sums.data() + i * width, width, tally.sums().data());
@@ -145,8 +154,7 @@ Ensemble ensemble_of(const py::dict& state) {
   const auto cut_block = column<std::uint64_t>(state, "cut_block"), cut_size = column<std::uint64_t>(state, "cut_size");
   expect(cut_block.size() == cut_size.size(), "cut_block and cut_size must go together");
   for (std::size_t i = 0; i < cut_block.size(); ++i) {
-    expect(cut_size[i] > 0 && cut_size[i] < block, "a cut block must be smaller than a whole one");
-    parts.cut.emplace(cut_block[i], cut_size[i]);
+    expect(parts.cut.emplace(cut_block[i], cut_size[i]).second, "a block is cut twice");
   }
 
   const auto kept_block = column<std::uint64_t>(state, "kept_block"),
@@ -156,7 +164,7 @@ Ensemble ensemble_of(const py::dict& state) {
          "kept_block and kept_size, peak and residual must go together");
   std::size_t from = 0;
   for (std::size_t i = 0; i < kept_block.size(); ++i) {
-    expect(kept_size[i] <= block && kept_size[i] <= peak.size() - from, "a block has more members than peaks");
+    expect(kept_size[i] <= peak.size() - from, "a block has more members than peaks");
     const auto begin = static_cast<std::ptrdiff_t>(from), end = static_cast<std::ptrdiff_t>(from += kept_size[i]);
     parts.kept.emplace_hint(
         parts.kept.end(), kept_block[i],
@@ -214,10 +222,11 @@ std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_of(const Ensemble& e
 
 // ---- the run
 
-/// A source of ground motions that is written in Python; called by threads that do not hold the interpreter.
+/// A source of ground motions that is written in Python; called by threads that do not hold the interpreter. Once the
+/// run has `ended` it is not asked any more.
 class PythonExcitation {
  public:
-  explicit PythonExcitation(const py::object& object) : sample_(method(object)) {
+  PythonExcitation(const py::object& object, const std::atomic<bool>& ended) : sample_(method(object)), ended_(ended) {
     duration_ = attribute(object, "duration").cast<double>();
     detail::require(std::isfinite(duration_) && duration_ > 0,
                     "run_ensemble: the excitation's duration must be positive and finite", duration_, "s");
@@ -230,6 +239,8 @@ class PythonExcitation {
   }
 
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
+    const std::scoped_lock turn(one_at_a_time_);  // before the interpreter's, which whoever is within may let go of
+    if (ended_) throw detail::Block::Stopped{};
     const py::gil_scoped_acquire held;
     const py::object made = sample_(py::arg("seed") = seed, py::arg("member") = member);
     if (!py::isinstance<GroundMotion>(made))
@@ -263,16 +274,18 @@ class PythonExcitation {
   static py::object method(const py::object& object) { return attribute(object, "sample"); }
 
   py::object sample_;
+  const std::atomic<bool>& ended_;
+  mutable std::mutex one_at_a_time_;
   double duration_ = 0, dt_ = 0;
   std::string configuration_;
 };
 
 /// Calls with the excitation as what it is.
 template <class F>
-auto with_excitation(const py::object& excitation, F&& f) {
+auto with_excitation(const py::object& excitation, const std::atomic<bool>& ended, F&& f) {
   if (py::isinstance<GaussianExcitation>(excitation)) return f(excitation.cast<const GaussianExcitation&>());
   if (py::isinstance<PoissonPulses>(excitation)) return f(excitation.cast<const PoissonPulses&>());
-  return f(PythonExcitation(excitation));
+  return f(PythonExcitation(excitation, ended));
 }
 
 template <class E>
@@ -290,6 +303,7 @@ Ensemble run(const S& slider, const py::object& excitation, std::uint64_t member
              std::uint64_t seed, unsigned threads, double dt, bool settle, bool velocity_spectrum,
              const Ensemble* start, const py::object& heartbeat, const py::object& interrupted) {
   EnsembleOptions options{members, first_member, seed, threads, dt, settle, velocity_spectrum};
+  std::atomic<bool> ended = false;
   options.heartbeat = [&](const EnsembleProgress& progress) {
     const py::gil_scoped_acquire held;
     // What is there so far is copied only for who asks, and only while it stands still.
@@ -304,11 +318,12 @@ Ensemble run(const S& slider, const py::object& excitation, std::uint64_t member
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (!heartbeat.is_none()) heartbeat(progress.done, progress.members, so_far);
     } catch (const py::error_already_set&) {
+      ended = true;
       if (!interrupted.is_none()) interrupted(so_far);
       throw;
     }
   };
-  return with_excitation(excitation, [&](const auto& source) {
+  return with_excitation(excitation, ended, [&](const auto& source) {
     const py::gil_scoped_release released;
     return run_members(slider, source, options, start);
   });
@@ -352,12 +367,12 @@ that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
 }  // namespace
 
 void bind_ensemble(py::module_& m) {
-  py::class_<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
+  value_class<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
       .def_readonly("value", &Estimate::value, "The figure.")
       .def_readonly("error", &Estimate::error, "Its standard error, from the scatter between members.")
       .def("__repr__", [](const Estimate& e) { return "<Estimate: " + with_error(e) + ">"; });
 
-  py::class_<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
+  value_class<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
       .def_readonly("value", &Interval::value, "The figure.")
       .def_readonly("low", &Interval::low, "Lower bound.")
       .def_readonly("high", &Interval::high, "Upper bound; infinite where the members are too few to bound it.")
@@ -365,8 +380,8 @@ void bind_ensemble(py::module_& m) {
         return "<Interval: " + digits(i.value) + ", from " + digits(i.low) + " to " + digits(i.high) + ">";
       });
 
-  py::class_<Stationary>(m, "Stationary",
-                         R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
+  value_class<Stationary>(m, "Stationary",
+                          R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
 
 The errors are those of the scatter between members.)")
       .def_readonly("begin", &Stationary::begin, "From when on it was averaged [s].")
@@ -386,8 +401,8 @@ Of D(t) = Var[x(begin + t) - x(begin)]: (D(T) - D(T/2)) / (T/2), with T from beg
                with_error(s.velocity_variance) + " m^2/s^2, growth_rate " + with_error(s.growth_rate) + " m^2/s>";
       });
 
-  py::class_<VelocitySpectrum>(m, "VelocitySpectrum",
-                               R"(Spectral density of the velocity in the central half of the motions, two-sided.
+  value_class<VelocitySpectrum>(m, "VelocitySpectrum",
+                                R"(Spectral density of the velocity in the central half of the motions, two-sided.
 
 Kaiser-Bessel window, thesis (4.62), beta = 8, with a mean square of one; dt / (2 pi M) |DFT|^2 of the M windowed
 samples. The integral over the whole line is the mean square velocity.)")
@@ -408,7 +423,8 @@ Every figure comes with its standard error, from the scatter between members. Al
 means (Pebay 2008), and merge in an order that the members' numbers fix: the same members give the same bits on any
 number of threads and in any parts that end on whole blocks.
 
-Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for.)")
+Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for. Ensembles with the same
+members and figures are equal; they can be copied and pickled, but not hashed, for `merge` changes them.)")
       .def_property_readonly("members", &Ensemble::members, "How many members it holds.")
       .def_property_readonly("member_ranges", &ranges_of,
                              "Which members: (first, one past the last) of each unbroken row of them.")
@@ -528,12 +544,13 @@ Parts that begin on a multiple of `block` may be merged in any order: the bits a
 Parameters
 ----------
 file : path-like
-    A NumPy archive (.npz), without pickled objects; the name is taken as it is.
+    A NumPy archive (.npz), without pickled objects; the name is taken as it is. A symbolic link is followed; a file
+    that is there already keeps its mode, and its owner where that is permitted.
 
 Raises
 ------
 OSError
-    The folder is missing or cannot be written.
+    The folder is missing or cannot be written; the file is read-only (which does not stop root), or is no regular file.
 
 Notes
 -----
@@ -554,9 +571,10 @@ Ensemble
 Raises
 ------
 ValueError
-    The file is truncated or damaged (every byte of it is checked by CRC-32), or is something else.
+    The file is truncated or damaged (every byte of it is checked by CRC-32), or is something else; it holds what no
+    members can have left, as a negative peak. Takes no more memory than a few times the file's size.
 OSError
-    There is no such file, or it cannot be read.)")
+    There is no such file, it cannot be read, or is no regular file.)")
       .def(
           "plot",
           [](const py::object& self, const py::kwargs& options) {
@@ -566,6 +584,8 @@ OSError
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def("__repr__", &repr)
+      .def(
+          "__eq__", [](const Ensemble& a, const Ensemble& b) { return a == b; }, py::is_operator())
       .def(py::pickle(&state_of, &ensemble_of));
 
   add_runs<AnySlider>(m);

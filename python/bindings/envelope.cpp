@@ -69,8 +69,8 @@ ValueError
     Naming the value refused and its index.)")
       .def(
           "__call__",
-          [](const Envelope& self, const py::array_t<double>& t) {
-            return py::vectorize([&self](double at) { return self(at); })(t);
+          [](const Envelope& self, const py::object& t) {
+            return of_each(t, "Envelope: t", [&self](double at) { return self(at); });
           },
           py::arg("t"), R"(The factor at a time, at least 0.
 

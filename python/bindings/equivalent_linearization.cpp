@@ -1,6 +1,6 @@
 #include "stickslip/theory/equivalent_linearization.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "white_level.hpp"
 
 namespace stickslip::python {
@@ -46,8 +46,8 @@ TransitionTime transition(const AnySlider& slider, const AnyLevel& s0) {
 }  // namespace
 
 void bind_equivalent_linearization(py::module_& m) {
-  py::class_<EquivalentLinearization>(m, "EquivalentLinearization",
-                                      R"(Generalized equivalent linearization under white noise, thesis 3.3 and 3.4.
+  value_class<EquivalentLinearization>(m, "EquivalentLinearization",
+                                       R"(Generalized equivalent linearization under white noise, thesis 3.3 and 3.4.
 
 At each time the friction is replaced by the linear force nearest to it in the mean square, a21 x + a22 x', the response
 taken as Gaussian. The covariance then follows
@@ -169,7 +169,7 @@ ValueError
                ")";
       });
 
-  py::class_<TransitionTime>(m, "TransitionTime", "When a caster under white noise breaks loose; see transition_time.")
+  value_class<TransitionTime>(m, "TransitionTime", "When a caster under white noise breaks loose; see transition_time.")
       .def_readonly("thesis", &TransitionTime::thesis, "(3.51): S0 / a^2 (1 / (pi^5 gamma^2) + pi^2 / 4) [s].")
       .def_readonly("with_intercept", &TransitionTime::with_intercept,
                     "Later by 47 pi^2 / 48 S0 / a^2, the delay of q11 behind (3.47), which (3.51) drops [s].")

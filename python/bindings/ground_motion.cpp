@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -30,6 +30,8 @@ std::optional<double> dt_of(const GroundMotion& motion) {
 
 void bind_ground_motion(py::module_& m) {
   py::class_<GroundMotion>(m, "GroundMotion", R"(The acceleration history n(t) of the ground.
+
+Motions with the same samples, dt or times, interpolation and name are equal; they can be hashed, copied and pickled.
 
 N samples make N - 1 pieces; the motion lasts from the first time to the last.
 
@@ -77,6 +79,12 @@ ValueError
                     detail::shortest(std::round(g.duration() * 1e3) / 1e3) + " s, peak " +
                     detail::shortest(std::round(g.peak_acceleration() * 1e4) / 1e4) + " m/s^2, " +
                     name_of(g.interpolation()) + ">";
+           })
+      .def(
+          "__eq__", [](const GroundMotion& a, const GroundMotion& b) { return a == b; }, py::is_operator())
+      .def("__hash__",
+           [](const GroundMotion& g) {
+             return py::hash(py::make_tuple(hash_of(g.acceleration()), name_of(g.interpolation()), g.name()));
            })
       .def(py::pickle(
           [](const GroundMotion& g) {

@@ -1,7 +1,7 @@
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "response.hpp"
 
 namespace stickslip::python {
@@ -86,8 +86,14 @@ auto of_orbit() {
 
 }  // namespace
 
+template <>
+inline constexpr auto parts<SlidersOrbit> = std::tuple(&SlidersOrbit::orbit, &SlidersOrbit::slider);
+template <>
+inline constexpr auto parts<SlidersBranch> = std::tuple(&SlidersBranch::orbits, &SlidersBranch::folds,
+                                                        &SlidersBranch::slider);
+
 void bind_harmonic(py::module_& m) {
-  py::class_<SlidersOrbit>(m, "Orbit", R"(A periodic motion under -n(t) = B cos(omega t), thesis (2.28).
+  value_class<SlidersOrbit>(m, "Orbit", R"(A periodic motion under -n(t) = B cos(omega t), thesis (2.28).
 
 It is symmetric, x(t + T/2) = -x(t) with T = 2 pi / omega; what `harmonic.orbits` returns.)")
       .def_property_readonly(
@@ -148,7 +154,7 @@ velocity : ndarray, shape (N,)
                (o.stable ? "stable>" : "unstable>");
       });
 
-  py::class_<SlidersBranch>(m, "OrbitBranch", R"(Orbits that hang together along the response curve, in order.
+  value_class<SlidersBranch>(m, "OrbitBranch", R"(Orbits that hang together along the response curve, in order.
 
 What `harmonic.continuation` returns. Arrays are over the orbits, read-only.)")
       .def_property_readonly("omega", each<&Orbit::omega>(), "Angular frequency [rad/s], shape (N,).")

@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -23,12 +23,10 @@ std::string arguments(const HarmonicMotion& m) {
          ", duration=" + detail::shortest(m.duration()) + ", dt=" + detail::shortest(m.dt());
 }
 
-py::tuple state_of(const HarmonicMotion& m) { return py::make_tuple(m.amplitude(), m.omega(), m.duration(), m.dt()); }
-
 }  // namespace
 
 void bind_harmonic_motion(py::module_& m) {
-  py::class_<HarmonicMotion>(m, "HarmonicMotion", R"(A ground acceleration of one frequency: -n(t) = B cos(omega t).
+  value_class<HarmonicMotion>(m, "HarmonicMotion", R"(A ground acceleration of one frequency: -n(t) = B cos(omega t).
 
 Thesis (2.28), from t = 0 on. Nothing of it is sampled: a slider slides exactly under the cosine. Samples say only where
 the response is asked for: at 0, dt, 2 dt, ... and at the end.
@@ -88,17 +86,7 @@ Returns
 -------
 GroundMotion)")
       .def("__len__", &HarmonicMotion::samples)
-      .def("__repr__", [](const HarmonicMotion& h) { return "HarmonicMotion(" + arguments(h) + ")"; })
-      .def(
-          "__eq__",
-          [](const HarmonicMotion& a, const py::object& other) {
-            return py::isinstance<HarmonicMotion>(other) && state_of(a).equal(state_of(other.cast<HarmonicMotion>()));
-          },
-          py::is_operator())
-      .def("__hash__", [](const HarmonicMotion& h) { return py::hash(state_of(h)); })
-      .def(py::pickle(&state_of, [](const py::tuple& t) {
-        return HarmonicMotion(t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>(), t[3].cast<double>());
-      }));
+      .def("__repr__", [](const HarmonicMotion& h) { return "HarmonicMotion(" + arguments(h) + ")"; });
 }
 
 }  // namespace stickslip::python

@@ -63,7 +63,8 @@ displacement : float, optional
 velocity : float, optional
     x' at the start [m/s], finite.
 settle : bool, optional
-    Go on under zero ground acceleration after the last sample until the slider rests, so that the residual is final.
+    Continue under zero ground acceleration after the last sample until the slider rests, so that the residual is
+    final. The samples of the response continue too, up to the first at or after rest (see `Response.truncated`).
 
 Returns
 -------

@@ -1,5 +1,28 @@
 // The table of contents of `stickslip._core`.
+#include <algorithm>
+
 #include "bindings.hpp"
+
+namespace {
+
+/// Two ways in which pybind11 lets Python code crash the interpreter are closed.
+void make_safe(py::type type) {
+  auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(type.ptr()));
+  if (info == nullptr) return;
+  // An object made by `__new__` alone would be given uninitialized memory when it is first used.
+  info->operator_new = [](std::size_t) -> void* {
+    throw py::type_error("an object was used whose __init__ was never called");
+  };
+  // Protocols 0 and 1 of pickle call the common base class of all objects, which ends the program.
+  type.attr("__reduce_ex__") = py::cpp_function(
+      [](const py::object& self, int protocol) {
+        return py::handle(reinterpret_cast<PyObject*>(&PyBaseObject_Type))
+            .attr("__reduce_ex__")(self, std::max(protocol, 2));
+      },
+      py::name("__reduce_ex__"), py::is_method(type));
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_core, m) {
   using namespace stickslip::python;
@@ -32,4 +55,10 @@ PYBIND11_MODULE(_core, m) {
   bind_pulse_chain(m);
   bind_thesis(m);
   bind_build_info(m);
+  m.def(
+      "to_vector", [](const py::object& values, const std::string& name) { return to_array(to_vector(values, name)); },
+      py::arg("values"), py::arg("name"),
+      "Real numbers in a row, as all functions take them; `name` is for the message where they are none.");
+  for (const auto& [name, thing] : m.attr("__dict__").cast<py::dict>())
+    if (py::isinstance<py::type>(thing)) make_safe(py::reinterpret_borrow<py::type>(thing));
 }

@@ -1,5 +1,5 @@
 #include "stickslip/moments.hpp"
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -12,7 +12,7 @@ py::array_t<double> by_time(const py::object& self) {
 }  // namespace
 
 void bind_moments(py::module_& m) {
-  py::class_<Moments>(m, "Moments", R"(Means and covariances of displacement and velocity by time.
+  value_class<Moments>(m, "Moments", R"(Means and covariances of displacement and velocity by time.
 
 What each theory's `predict` answers, and `Ensemble.moments`. Arrays are of shape (T,) and read-only. The errors are
 standard errors of an ensemble; those of a theory are zero: it has no scatter, and is wrong by what it neglects.)")

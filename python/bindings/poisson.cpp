@@ -256,8 +256,8 @@ amplitudes : ndarray, shape (K,)
           "Of the acceleration [m^2/s^4]: lambda sigma^2 int w^2, thesis (5.19); 2 lambda Dt sigma^2, (5.61).")
       .def(
           "density",
-          [](const PoissonPulses& self, const py::array_t<double>& omega) {
-            return py::vectorize([&self](double w) { return self.density(w); })(omega);
+          [](const PoissonPulses& self, const py::object& omega) {
+            return of_each(omega, "PoissonPulses: omega", [&self](double w) { return self.density(w); });
           },
           py::arg("omega"),
           R"(Two-sided spectral density of the acceleration; its integral over the whole line is `variance`.
@@ -281,8 +281,8 @@ float or ndarray
 Exact. Infinite for a shape that leaves a net velocity: there is no stationary one.)")
       .def(
           "ground_displacement_variance",
-          [](const PoissonPulses& self, const py::array_t<double>& t) {
-            return py::vectorize([&self](double at) { return self.ground_displacement_variance(at); })(t);
+          [](const PoissonPulses& self, const py::object& t) {
+            return of_each(t, "PoissonPulses: t", [&self](double at) { return self.ground_displacement_variance(at); });
           },
           py::arg("t"), R"(Variance of the ground displacement at large times: thesis (5.49), lambda Dt^4 sigma^2 t.
 

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -32,7 +32,7 @@ PulseResponse respond(const AnySlider& slider, double b, double dt,
 }  // namespace
 
 void bind_pulse_response(py::module_& m) {
-  py::class_<PulseResponse>(m, "PulseResponse", R"(The motion that one pulse of ground acceleration causes.
+  value_class<PulseResponse>(m, "PulseResponse", R"(The motion that one pulse of ground acceleration causes.
 
 Arrays are of shape (T,) and read-only.)")
       .def_property_readonly("time", &array<&PulseResponse::time>, "From the arrival of the pulse on [s].")

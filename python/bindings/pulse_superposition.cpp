@@ -1,6 +1,6 @@
 #include "stickslip/theory/pulse_superposition.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -39,7 +39,7 @@ double superposition_rms(const PulseSuperposition& self, const AnySlider& slider
 }  // namespace
 
 void bind_pulse_superposition(py::module_& m) {
-  py::class_<PulseSuperposition>(m, "PulseSuperposition", R"(Poisson pulses as if each found the slider at rest.
+  value_class<PulseSuperposition>(m, "PulseSuperposition", R"(Poisson pulses as if each found the slider at rest.
 
 E[x'^2] = lambda E[int v^2], d/dt Var[x] = lambda E[dx^2], d/dt E[x] = lambda E[dx], thesis (5.25), (5.28): v and dx are
 what one pulse does.

@@ -11,8 +11,9 @@ void bind_records(py::module_& m) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const std::filesystem::filesystem_error& e) {
+      const auto filename = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(e.path1().string().c_str()));
       const py::object os_error =
-          py::reinterpret_borrow<py::object>(PyExc_OSError)(e.code().value(), e.code().message(), e.path1().string());
+          py::reinterpret_borrow<py::object>(PyExc_OSError)(e.code().value(), e.code().message(), filename);
       PyErr_SetObject(py::type::handle_of(os_error).ptr(), os_error.ptr());
     }
   });
@@ -62,6 +63,18 @@ ValueError
 Notes
 -----
 About 1 ms for 10,000 samples.)");
+  m.def("acceleration_unit", &acceleration_unit, py::arg("name"),
+        R"(How many m/s^2 one unit of acceleration is: `acceleration_unit("gal")` is 0.01.
+
+Parameters
+----------
+name : str
+    A unit as `read_record` takes it.
+
+Raises
+------
+ValueError
+    Unknown unit; lists the known ones.)");
 }
 
 }  // namespace stickslip::python

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -64,7 +64,17 @@ py::object events_of(Recording& recording) {
 }
 
 py::object time_of(Recording& recording) {
-  return keep(recording.time, [&] { return recording.motion.attr("time"); });
+  return keep(recording.time, [&]() -> py::object {
+    const std::size_t samples = recording.response.displacement.size();
+    if (py::len(recording.motion.attr("time")) == samples) return recording.motion.attr("time");
+    const auto times = [&](const auto& motion) {
+      std::vector<double> time(samples);
+      for (std::size_t i = 0; i < samples; ++i) time[i] = motion.time(i);
+      return to_array(time);
+    };
+    if (py::isinstance<GroundMotion>(recording.motion)) return times(recording.motion.cast<const GroundMotion&>());
+    return times(recording.motion.cast<const HarmonicMotion&>());
+  });
 }
 
 template <auto member>
@@ -79,8 +89,11 @@ auto number() {
 
 }  // namespace
 
+template <>
+inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recording::slider, &Recording::motion);
+
 void bind_response(py::module_& m) {
-  py::class_<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
+  value_class<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
 
 initial + input = dissipated + kinetic + elastic, to round-off.)")
       .def_readonly("initial", &Energy::initial, "Kinetic and elastic energy at the start.")
@@ -95,7 +108,7 @@ initial + input = dissipated + kinetic + elastic, to round-off.)")
                ", elastic=" + detail::shortest(e.elastic) + ")";
       });
 
-  py::class_<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
+  value_class<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
 
 Displacement and velocity are relative to the ground. The arrays are read-only; displacement and velocity are not
 copied.)")
@@ -103,9 +116,17 @@ copied.)")
           "slider", [](const Recording& r) { return r.slider; }, "The slider that moved.")
       .def_property_readonly(
           "motion", [](const Recording& r) { return r.motion; }, "The ground motion.")
-      .def_property_readonly("time", &time_of, "Times of the samples [s], shape (N,).")
-      .def_property_readonly("displacement", history<&Response::displacement>(), "x at the samples [m], shape (N,).")
-      .def_property_readonly("velocity", history<&Response::velocity>(), "x' at the samples [m/s], shape (N,).")
+      .def_property_readonly("time", &time_of, R"(Times of the samples [s], shape (N,).
+
+Those of the ground motion. With `settle=True`, where the slider still moves at the last of them, samples continue at
+the motion's last step up to the first at or after rest, so that `displacement[-1]` is `residual`; but see `truncated`.)")
+      .def_property_readonly("displacement", history<&Response::displacement>(), "x at `time` [m], shape (N,).")
+      .def_property_readonly("velocity", history<&Response::velocity>(), "x' at `time` [m/s], shape (N,).")
+      .def_property_readonly("truncated", number<&Response::truncated>(),
+                             R"(Whether the samples end before the slider rests (bool).
+
+They end at ten times the number of samples of the ground motion. Peak, residual, events and energy are still those of
+the final rest.)")
       .def_property_readonly("events", &events_of,
                              R"(Changes of mode in order of time, and the end: a structured array.
 
@@ -137,7 +158,8 @@ under way at the start is entered as a breakaway there.)")
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def("__repr__", [](const Recording& r) {
         return "<Response: peak " + detail::shortest(r.response.peak) + " m, residual " +
-               detail::shortest(r.response.residual) + " m, " + std::to_string(r.response.events.size()) + " events>";
+               detail::shortest(r.response.residual) + " m, " + std::to_string(r.response.events.size()) + " events" +
+               (r.response.truncated ? ", samples end before rest>" : ">");
       });
 }
 

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -20,11 +20,12 @@ struct SlowlyVaryingParameters : theory::SlowlyVaryingParameters {
   AnySlider slider;
 };
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+constexpr const char* amplitudes = "SlowlyVaryingParameters: amplitude";
 
 /// Two numbers by amplitude: a tuple of floats for a float, of arrays of the same shape for an array.
 template <class F>
-py::tuple branches(const Numbers& amplitude, const F& f) {
+py::tuple branches(const py::object& given, const F& f) {
+  const Numbers amplitude = to_numbers(given, amplitudes);
   if (amplitude.ndim() == 0) {
     const Branches b = f(*amplitude.data());
     return py::make_tuple(b.lower, b.upper);
@@ -46,15 +47,18 @@ py::tuple branches(const Numbers& amplitude, const F& f) {
 }
 
 template <double (theory::SlowlyVaryingParameters::*f)(double) const>
-py::object by_amplitude(const SlowlyVaryingParameters& self, const Numbers& amplitude) {
-  return py::vectorize([&self](double a) { return (self.*f)(a); })(amplitude);
+py::object by_amplitude(const SlowlyVaryingParameters& self, const py::object& amplitude) {
+  return of_each(amplitude, amplitudes, [&self](double a) { return (self.*f)(a); });
 }
 
 }  // namespace
 
+template <>
+inline constexpr auto parts<SlowlyVaryingParameters> = std::tuple(&SlowlyVaryingParameters::slider);
+
 void bind_slowly_varying_parameters(py::module_& m) {
-  py::class_<HarmonicSolution>(m, "HarmonicSolution",
-                               R"(A periodic motion x = amplitude cos(omega t + phase) under B cos(omega t).)")
+  value_class<HarmonicSolution>(m, "HarmonicSolution",
+                                R"(A periodic motion x = amplitude cos(omega t + phase) under B cos(omega t).)")
       .def_readonly("amplitude", &HarmonicSolution::amplitude, "A [m].")
       .def_readonly("phase", &HarmonicSolution::phase, "phi [rad], from -pi to pi; nan where the amplitude is 0.")
       .def_readonly("stable", &HarmonicSolution::stable, "Whether it is come back to after a small disturbance.")
@@ -63,7 +67,7 @@ void bind_slowly_varying_parameters(py::module_& m) {
                detail::shortest(s.phase) + " rad, " + (s.stable ? "stable" : "unstable") + ">";
       });
 
-  py::class_<SlowlyVaryingParameters>(
+  value_class<SlowlyVaryingParameters>(
       m, "SlowlyVaryingParameters",
       R"(Harmonic response by the method of slowly varying parameters, thesis 2.2 and 2.3.
 
@@ -207,7 +211,7 @@ Notes
 All of them, amplitudes to round-off; 1 to 10 us.)")
       .def(
           "frequency",
-          [](const SlowlyVaryingParameters& self, double B, const Numbers& amplitude) {
+          [](const SlowlyVaryingParameters& self, double B, const py::object& amplitude) {
             return branches(amplitude, [&](double a) { return self.frequency(B, a); });
           },
           py::arg("B"), py::arg("amplitude"),
@@ -234,7 +238,7 @@ ValueError
     A value out of its range.)")
       .def(
           "stability_boundary",
-          [](const SlowlyVaryingParameters& self, const Numbers& amplitude) {
+          [](const SlowlyVaryingParameters& self, const py::object& amplitude) {
             return branches(amplitude, [&](double a) { return self.stability_boundary(a); });
           },
           py::arg("amplitude"),
@@ -369,12 +373,8 @@ ConvergenceError
 Notes
 -----
 Some milliseconds where several are stable.)")
-      .def("__repr__",
-           [](const SlowlyVaryingParameters& self) {
-             return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
-           })
-      .def("__reduce__", [](const py::object& self) {
-        return py::make_tuple(py::type::of(self), py::make_tuple(self.attr("slider")));
+      .def("__repr__", [](const SlowlyVaryingParameters& self) {
+        return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
       });
 }
 

@@ -190,8 +190,8 @@ ValueError
     Where the function is negative or NaN (at which omega), or not integrable.)")
       .def(
           "__call__",
-          [](const Spectrum& self, const py::array_t<double>& omega) {
-            return py::vectorize([&self](double w) { return self(w); })(omega);
+          [](const Spectrum& self, const py::object& omega) {
+            return of_each(omega, "Spectrum: omega", [&self](double w) { return self(w); });
           },
           py::arg("omega"), R"(The density.
 

@@ -1,6 +1,6 @@
 #include "stickslip/theory/stationary_linearization.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -19,8 +19,8 @@ const Slider<Coulomb>& coulomb(const AnySlider& slider) {
 }  // namespace
 
 void bind_stationary_linearization(py::module_& m) {
-  py::class_<StationaryPrediction>(m, "StationaryPrediction",
-                                   R"(What stationary linearization says of a slider.
+  value_class<StationaryPrediction>(m, "StationaryPrediction",
+                                    R"(What stationary linearization says of a slider.
 
 The linear system x'' + zeta x' + wn^2 x = -n(t) and its response; what `StationaryLinearization.predict` returns.)")
       .def_readonly("damping", &StationaryPrediction::damping,
@@ -39,8 +39,9 @@ The linear system x'' + zeta x' + wn^2 x = -n(t) and its response; what `Station
       .def_readonly("natural_frequency", &StationaryPrediction::natural_frequency, "wn [rad/s]; 0 without a spring.")
       .def(
           "velocity_spectrum",
-          [](const StationaryPrediction& self, const py::array_t<double>& omega) {
-            return py::vectorize([&self](double w) { return self.velocity_spectrum(w); })(omega);
+          [](const StationaryPrediction& self, const py::object& omega) {
+            return of_each(omega, "StationaryPrediction: omega",
+                           [&self](double w) { return self.velocity_spectrum(w); });
           },
           py::arg("omega"),
           R"(Two-sided spectral density of the stationary velocity; its integral over the whole line is velocity_std**2.
@@ -97,8 +98,8 @@ Accuracy 1e-8 of the values at most; some 0.3 to 2 ms for each time, however lat
                (p.remark.empty() ? "" : "; " + p.remark) + ">";
       });
 
-  py::class_<StationaryLinearization>(m, "StationaryLinearization",
-                                      R"(Stationary equivalent linearization of Coulomb friction, thesis 4.3.
+  value_class<StationaryLinearization>(m, "StationaryLinearization",
+                                       R"(Stationary equivalent linearization of Coulomb friction, thesis 4.3.
 
 x'' + a sgn(x') + wn^2 x = -n(t) by x'' + zeta x' + wn^2 x = -n(t), thesis (4.1), (4.2), with
 
@@ -173,9 +174,7 @@ Raises
 ------
 TypeError, ValueError
     As for `predict`.)")
-      .def("__repr__", [](const StationaryLinearization&) { return "StationaryLinearization()"; })
-      .def(py::pickle([](const StationaryLinearization&) { return py::tuple(); },
-                      [](const py::tuple&) { return StationaryLinearization(); }));
+      .def("__repr__", [](const StationaryLinearization&) { return "StationaryLinearization()"; });
 }
 
 }  // namespace stickslip::python

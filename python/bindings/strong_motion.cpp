@@ -1,11 +1,11 @@
 #include "stickslip/strong_motion.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_strong_motion(py::module_& m) {
-  py::class_<StrongMotion>(m, "StrongMotion", "What a record's strong motion is like; what `strong_motion` returns.")
+  value_class<StrongMotion>(m, "StrongMotion", "What a record's strong motion is like; what `strong_motion` returns.")
       .def_readonly("arias_intensity", &StrongMotion::arias_intensity,
                     "Of the whole record [m/s]: pi / 2g times the integral of n^2 dt.")
       .def_readonly("begin", &StrongMotion::begin, "When 5 % of it have come [s].")

@@ -3,7 +3,7 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -18,7 +18,7 @@ py::object limits(const std::vector<double>& two) {
 }
 
 void bind_figure(py::module_& m) {
-  py::class_<ThesisCurve>(m, "ThesisCurve", "One curve or set of points of a figure.")
+  value_class<ThesisCurve>(m, "ThesisCurve", "One curve or set of points of a figure.")
       .def_readonly("label", &ThesisCurve::label,
                     "What is drawn, in TeX between dollar signs; curves of one label belong together.")
       .def_property_readonly(
@@ -47,7 +47,7 @@ void bind_figure(py::module_& m) {
                " points>";
       });
 
-  py::class_<ThesisPanel>(m, "ThesisPanel", "One pair of axes of a figure.")
+  value_class<ThesisPanel>(m, "ThesisPanel", "One pair of axes of a figure.")
       .def_readonly("title", &ThesisPanel::title, "What is seen, str.")
       .def_readonly("x", &ThesisPanel::x, "What the axis along shows, with its unit or as a group without one.")
       .def_readonly("y", &ThesisPanel::y, "The same of the axis upward.")
@@ -62,7 +62,8 @@ void bind_figure(py::module_& m) {
           "What of it is shown, (float, float), or None for all.")
       .def("__repr__", [](const ThesisPanel& panel) { return "<ThesisPanel '" + panel.title + "'>"; });
 
-  py::class_<ThesisStatement>(m, "ThesisStatement", "Something that the thesis says with a number, and what was found.")
+  value_class<ThesisStatement>(m, "ThesisStatement",
+                               "Something that the thesis says with a number, and what was found.")
       .def_readonly("where", &ThesisStatement::where, "Section or equation of the thesis; '' for one of our own.")
       .def_readonly("claim", &ThesisStatement::claim, "In the thesis's sense, with the unit.")
       .def_readonly("said", &ThesisStatement::said, "By the thesis.")
@@ -76,7 +77,7 @@ void bind_figure(py::module_& m) {
                detail::shortest(s.found) + ">";
       });
 
-  py::class_<ThesisCheck>(m, "ThesisCheck", "A number of a figure beside the one that is expected.")
+  value_class<ThesisCheck>(m, "ThesisCheck", "A number of a figure beside the one that is expected.")
       .def_readonly("what", &ThesisCheck::what, "Figure, and panel / curve / point or statement.")
       .def_readonly("found", &ThesisCheck::found, "What it is.")
       .def_readonly("expected", &ThesisCheck::expected, "What it was when the expectations were made.")
@@ -87,7 +88,7 @@ void bind_figure(py::module_& m) {
                detail::shortest(c.expected) + " +- " + detail::shortest(c.allowed) + ">";
       });
 
-  py::class_<ThesisFigure>(m, "ThesisFigure", "A figure or table of the thesis, as it comes out here.")
+  value_class<ThesisFigure>(m, "ThesisFigure", "A figure or table of the thesis, as it comes out here.")
       .def_readonly("number", &ThesisFigure::number, "'2.1' to '5.7', 'A.2', 'Table 5.1'.")
       .def_readonly("caption", &ThesisFigure::caption, "What is seen.")
       .def_readonly("thesis_cost", &ThesisFigure::thesis_cost, "What the thesis says it took; '' where it doesn't.")

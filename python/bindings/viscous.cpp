@@ -1,12 +1,12 @@
 #include "stickslip/viscous.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_viscous(py::module_& m) {
-  py::class_<ViscousSlider>(m, "ViscousSlider",
-                            R"(A mass on a viscous damper: the linear system that stands in for a slider on friction.
+  value_class<ViscousSlider>(m, "ViscousSlider",
+                             R"(A mass on a viscous damper: the linear system that stands in for a slider on friction.
 
 x'' + zeta x' + wn^2 x = -n(t), thesis (4.2), (5.2): x the displacement relative to the ground [m], n the ground
 acceleration [m/s^2]. It never sticks, and never comes to rest. `integrate` and `run_ensemble` take it as they take a
@@ -30,21 +30,11 @@ Solved in closed form over each straight piece of the ground motion: exact to ro
       .def(py::init<double, double>(), py::arg("damping"), py::arg("natural_frequency") = 0.0)
       .def_property_readonly("damping", &ViscousSlider::damping, "zeta [1/s].")
       .def_property_readonly("natural_frequency", &ViscousSlider::natural_frequency, "wn [rad/s]; 0 without a spring.")
-      .def(
-          "__repr__",
-          [](const ViscousSlider& s) {
-            return "ViscousSlider(damping=" + detail::shortest(s.damping()) +
-                   (s.natural_frequency() > 0 ? ", natural_frequency=" + detail::shortest(s.natural_frequency()) : "") +
-                   ")";
-          })
-      .def(
-          "__eq__", [](const ViscousSlider& a, const ViscousSlider& b) { return a == b; }, py::is_operator())
-      .def("__hash__",
-           [](const ViscousSlider& s) {
-             return py::hash(py::make_tuple("viscous", s.damping(), s.natural_frequency()));
-           })
-      .def(py::pickle([](const ViscousSlider& s) { return py::make_tuple(s.damping(), s.natural_frequency()); },
-                      [](const py::tuple& t) { return ViscousSlider(t[0].cast<double>(), t[1].cast<double>()); }));
+      .def("__repr__", [](const ViscousSlider& s) {
+        return "ViscousSlider(damping=" + detail::shortest(s.damping()) +
+               (s.natural_frequency() > 0 ? ", natural_frequency=" + detail::shortest(s.natural_frequency()) : "") +
+               ")";
+      });
 }
 
 }  // namespace stickslip::python

@@ -1,12 +1,18 @@
 #include "stickslip/theory/white_noise.hpp"
 
-#include "bindings.hpp"
+#include "parts.hpp"
 #include "white_level.hpp"
 
 namespace stickslip::python {
 namespace {
 
 using theory::WhiteNoise;
+
+auto by_one(const char* name, double (WhiteNoise::*f)(double) const) {
+  return [name = std::string("WhiteNoise: ") + name, f](const WhiteNoise& self, const py::object& values) {
+    return of_each(values, name, [&](double value) { return (self.*f)(value); });
+  };
+}
 
 WhiteNoise of_slider(const AnySlider& slider, const AnyLevel& s0) {
   const auto* const coulomb = std::get_if<Slider<Coulomb>>(&slider);
@@ -17,7 +23,7 @@ WhiteNoise of_slider(const AnySlider& slider, const AnyLevel& s0) {
 }  // namespace
 
 void bind_white_noise(py::module_& m) {
-  py::class_<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
+  value_class<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
 
 The velocity is a diffusion towards rest: dv = -a sgn(v) dt + sqrt(2 D) dW, D = pi S0, dx = v dt, thesis (3.48), (3.49);
 with a level of its own each way where the two differ. For other laws, and with a spring, nothing exact is known.
@@ -68,8 +74,9 @@ s0 : float or Spectrum
                              "a^2, thesis (3.48) [m^2/s^2].")
       .def_property_readonly("growth_rate", &WhiteNoise::growth_rate,
                              "Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 "
-                             "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s].")
-      .def("density", py::vectorize(&WhiteNoise::density), py::arg("velocity"),
+                             "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a "
+                             "level is 0: the variance then grows as t^3, and `predict` leaves its growth rate NaN.")
+      .def("density", by_one("velocity", &WhiteNoise::density), py::arg("velocity"),
            R"(Stationary probability density of the velocity.
 
 Two exponentials that meet at rest: p(v) = exp(-a v / D) / (D / a + D / b) for v > 0, exp(b v / D) / (D / a + D / b) for
@@ -84,8 +91,15 @@ Returns
 -------
 float or numpy.ndarray
     [s/m], of the shape of velocity.)")
-      .def("transition_density", py::vectorize(&WhiteNoise::transition_density), py::arg("velocity"), py::arg("time"),
-           py::arg("start") = 0.0, R"(Probability density of the velocity at a time, from the velocity at time 0.
+      .def(
+          "transition_density",
+          [](const WhiteNoise& self, const py::object& velocity, const py::object& time, const py::object& start) {
+            return py::vectorize([&self](double v, double t, double v0) { return self.transition_density(v, t, v0); })(
+                to_numbers(velocity, "WhiteNoise: velocity"), to_numbers(time, "WhiteNoise: time"),
+                to_numbers(start, "WhiteNoise: start"));
+          },
+          py::arg("velocity"), py::arg("time"), py::arg("start") = 0.0,
+          R"(Probability density of the velocity at a time, from the velocity at time 0.
 
 With y = |v|, y0 = |v0|: exp(-(y - y0 + a t)^2 / 4 D t) / sqrt(4 pi D t) + q on the side of the start, exp(-a y / D)
 exp(-(y + y0 - a t)^2 / 4 D t) / sqrt(4 pi D t) + q beyond rest, q = a / (4 D) exp(-a y / D) erfc((y + y0 - a t) /
@@ -109,7 +123,7 @@ Raises
 ------
 ValueError
     A value out of its range; or unequal levels, for which no closed form is known.)")
-      .def("velocity_spectrum", py::vectorize(&WhiteNoise::velocity_spectrum), py::arg("omega"),
+      .def("velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
            R"(Two-sided spectral density of the stationary velocity; its variance is the integral over the whole line.
 
 S(w) = D^3 / (pi a^4) Re[(2 k^2 + 2 k + 1) / k^4], 2 k = 1 + sqrt(1 + 4 i w D / a^2).
@@ -128,8 +142,13 @@ Raises
 ------
 ValueError
     Levels that differ, or are 0.)")
-      .def("absolute_moment", py::vectorize(&WhiteNoise::absolute_moment), py::arg("order"), py::arg("time"),
-           R"(E|v|^n at a time, from rest.
+      .def(
+          "absolute_moment",
+          [](const WhiteNoise& self, int order, const py::object& time) {
+            return of_each(time, "WhiteNoise: time", [&](double t) { return self.absolute_moment(order, t); });
+          },
+          py::arg("order"), py::arg("time"),
+          R"(E|v|^n at a time, from rest.
 
 By the transform n! (1/k^(n+1) + 1/m^(n+1)) / (s (1/k + 1/m)), 2 D k = a + sqrt(a^2 + 4 D s), m as k, of b.
 

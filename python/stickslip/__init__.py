@@ -103,3 +103,10 @@ if not TYPE_CHECKING:
 
             return globals().setdefault(name, getattr(comparison, name))
         raise AttributeError(f"module 'stickslip' has no attribute {name!r}")
+
+    def __dir__():
+        shown = (name for name in globals() if name.startswith("__") or not name.startswith("_"))
+        return sorted({*__all__, *shown})
+
+
+del TYPE_CHECKING

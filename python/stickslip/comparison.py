@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import theory
+from . import _core, theory
 from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses
 from .ensemble import run_ensemble
 
@@ -25,6 +25,8 @@ _FINEST = 512  # times of the statistics at least, for the stationary averages
 
 class Comparison:
     """What `compare` returns: an ensemble, and what each theory predicts of it.
+
+    Comparisons with equal attributes are equal; they can be copied and pickled, but not hashed.
 
     Attributes
     ----------
@@ -50,6 +52,16 @@ class Comparison:
         self.theories = theories
         self.refused = refused
         self._at = np.rint(time / ensemble.time[1]).astype(int)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Comparison):
+            return NotImplemented
+        return (
+            np.array_equal(self.time, other.time)
+            and self.ensemble == other.ensemble
+            and self.theories == other.theories
+            and self.refused == other.refused
+        )
 
     def simulated(self, figure: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """A figure of the ensemble at `time`, and its standard error.
@@ -271,8 +283,8 @@ def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:
         time = np.linspace(end / 6, end, 6)
         time = time if own is None else np.maximum(np.rint(time / own), 1) * own
     else:
-        time = np.asarray(times, float)
-    if time.ndim != 1 or len(time) == 0 or not np.isfinite(time).all():
+        time = _core.to_vector(times, "compare: times")
+    if len(time) == 0 or not np.isfinite(time).all():
         raise ValueError(f"compare: times must be a row of finite numbers, got {times!r}")
     if not (np.diff(time, prepend=0) > 0).all() or time[-1] > end * (1 + 1e-12):
         raise ValueError(

@@ -7,13 +7,14 @@ cluster, a run that was broken off and gone on with.
 
 from __future__ import annotations
 
-import errno
+import io
 import json
 import math
 import operator
 import os
 import sys
 import time
+import warnings
 import zipfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
@@ -34,7 +35,7 @@ from ._core import (
     Slider,
     ViscousSlider,
 )
-from ._files import replacing
+from ._files import check_regular, check_writable, replacing
 
 __all__ = ["EnsembleError", "Excitation", "run_ensemble"]
 
@@ -64,20 +65,25 @@ _Progress: TypeAlias = Callable[[int, int], object]
 
 
 class EnsembleError(RuntimeError):
-    """A part of an ensemble failed in its executor; `__cause__` is what it raised.
+    """A part of an ensemble failed in its executor, or its checkpoint could not be written.
+
+    `__cause__` is the exception raised there.
 
     Attributes
     ----------
     members : range
-        Those that the part was to simulate.
+        Those that the part was to simulate; none if it was the checkpoint.
     partial : Ensemble
-        What was done; in the checkpoint too, where there is one.
+        What was done; also in the checkpoint, unless that could not be written.
     """
 
     def __init__(self, message: str, members: range, partial: Ensemble) -> None:
         super().__init__(message)
         self.members = members
         self.partial = partial
+
+    def __reduce__(self) -> tuple[type[EnsembleError], tuple[str, range, Ensemble]]:
+        return type(self), (str(self), self.members, self.partial)
 
 
 def run_ensemble(
@@ -132,7 +138,9 @@ def run_ensemble(
         and grow until they take a second.
     checkpoint : path-like, optional
         A file that keeps what is done: written every `checkpoint_every` seconds, at the end, and
-        where the run is broken off. If it is there already, the run goes on from it.
+        where the run is broken off. If it is there already, the run resumes from it. If it cannot
+        be written during the run, as on a full disk, the run warns once (RuntimeWarning), continues
+        and retries.
     checkpoint_every : float, optional
         [s], at least 0.
 
@@ -144,18 +152,20 @@ def run_ensemble(
     Raises
     ------
     ValueError
-        A value out of its range; a checkpoint that is damaged, or of another configuration (says
-        what differs).
+        A value out of its range; a checkpoint that is damaged, of another configuration (says what
+        differs), or that holds members not asked for.
     TypeError
         An argument of the wrong type.
     OverflowError
-        A member leaves the range of doubles.
+        Displacements or velocities beyond 1e34 [m, m/s], whose statistics could leave the range of
+        doubles; says which member or block.
     ConvergenceError
         A member does not settle; says which.
     EnsembleError
-        A part failed in the executor; has what was done. What had not begun is cancelled.
+        A part failed in the executor, and what had not begun is cancelled; or the checkpoint could
+        not be written when the run ended or was interrupted. `partial` has what was done.
     OSError
-        The checkpoint cannot be read or written.
+        Before the run: the checkpoint cannot be read, or is not a regular file that may be written.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -192,7 +202,7 @@ def run_ensemble(
         "velocity_spectrum": velocity_spectrum,
     }
     keeper = _Checkpoint(checkpoint, checkpoint_every)
-    start = keeper.load()
+    start = keeper.load(range(first, first + total))
     with _shown(progress) as show:
         try:
             if executor is None:
@@ -240,8 +250,7 @@ def _run_here(
 ) -> Ensemble:
     def heartbeat(done: int, total: int, so_far: Callable[[], Ensemble]) -> None:
         show(done, total)
-        if keeper.is_due():
-            keeper.save(so_far())
+        keeper.save_if_due(so_far)
 
     def interrupted(so_far: Callable[[], Ensemble]) -> None:
         if keeper.file is not None:
@@ -330,8 +339,7 @@ class _Parts:
                 finished, _ = wait(self.flying, timeout=0.1, return_when=FIRST_COMPLETED)
                 self._take(finished)
                 show(self.members - self.todo, self.members)
-                if keeper.is_due():
-                    keeper.save(self.whole)
+                keeper.save_if_due(lambda: self.whole)
         except BaseException:
             for future in self.flying:
                 future.cancel()
@@ -473,6 +481,12 @@ def _span(seconds: float) -> str:
 # ---- files
 
 _FORMAT = "stickslip ensemble 1"
+_ABOUT = frozenset(("format", "library"))
+_NAMES = _ABOUT | {
+    *("configuration", "dt", "times", "velocity_spectrum"),
+    *("level", "number", "count", "sums", "cut_block", "cut_size"),
+    *("kept_block", "kept_size", "peak", "residual", "bin", "bin_count"),
+}
 
 
 class _Checkpoint:
@@ -484,29 +498,62 @@ class _Checkpoint:
         self.file = None if file is None else Path(os.fspath(file))
         self.every = every
         self.saved = time.monotonic()
-        if self.file is not None and not self.file.parent.is_dir():
-            raise FileNotFoundError(errno.ENOENT, "no such folder", str(self.file.parent))
+        self.warned = False
+        if self.file is not None:
+            check_writable(self.file)
 
-    def load(self) -> Ensemble | None:
-        return load(self.file) if self.file is not None and self.file.exists() else None
+    def load(self, asked: range) -> Ensemble | None:
+        """The members it holds; ValueError if some are not among those asked for."""
+        if self.file is None or not self.file.exists():
+            return None
+        kept = load(self.file)
+        for begin, end in kept.member_ranges:
+            if begin < asked.start or end > asked.stop:
+                raise ValueError(
+                    f"run_ensemble: checkpoint '{self.file}' must hold members of this run only,"
+                    f" {asked.start} to {asked.stop - 1} ({len(asked)}), got {kept.members}"
+                    f" members, including {begin} to {end - 1}"
+                )
+        return kept
 
-    def is_due(self) -> bool:
-        return self.file is not None and time.monotonic() - self.saved >= self.every
+    def save_if_due(self, so_far: Callable[[], Ensemble]) -> None:
+        """Save once every `every` seconds; a failure is retried after as long."""
+        if self.file is None or time.monotonic() - self.saved < self.every:
+            return
+        try:
+            save(so_far(), self.file)
+        except OSError as error:
+            if not self.warned:
+                self.warned = True
+                warnings.warn(
+                    f"run_ensemble: cannot write checkpoint '{self.file}': {error}; the run"
+                    f" continues and retries every {self.every:g} s",
+                    RuntimeWarning,
+                    stacklevel=2,
+                )
+        self.saved = time.monotonic()
 
     def save(self, ensemble: Ensemble) -> None:
-        if self.file is not None:
+        """Save for the last time; an error carries the ensemble."""
+        if self.file is None:
+            return
+        try:
             save(ensemble, self.file)
-            self.saved = time.monotonic()
+        except OSError as error:
+            raise EnsembleError(
+                f"run_ensemble: cannot write checkpoint '{self.file}': {error}; .partial has the"
+                f" {ensemble.members} members that are done",
+                range(0),
+                ensemble,
+            ) from error
 
 
 def save(ensemble: Ensemble, file: str | os.PathLike[str]) -> None:
     """What `Ensemble.save` does, which see."""
     state = ensemble.__getstate__()
     state["configuration"] = json.dumps(state["configuration"])
-    with replacing(file) as part, part.open("wb") as stream:
+    with replacing(file) as stream:
         np.savez(stream, format=_FORMAT, library=_core.__version__, **state)
-        stream.flush()
-        os.fsync(stream.fileno())  # or a loss of power could leave an empty file in its place
 
 
 def load(file: str | os.PathLike[str]) -> Ensemble:
@@ -516,6 +563,7 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
     def refuse(what: str) -> ValueError:
         return ValueError(f"Ensemble.load: '{path}' {what}")
 
+    check_regular(path)
     with path.open("rb") as stream:
         if stream.read(4) != b"PK\x03\x04":
             raise refuse("is no ensemble: not a NumPy archive (.npz)")
@@ -526,27 +574,53 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
         except Exception as error:  # what the table says is nonsense, in whatever way
             raise refuse(f"is damaged: {error}") from error
         try:
-            broken = archive.testzip()
-            if broken is None:
-                stream.seek(0)
-                with np.load(stream, allow_pickle=False) as arrays:
-                    state = {name: arrays[name] for name in arrays.files}
+            entries = _entries(archive, path.stat().st_size)
+            about = {name: _array(archive, entries[name]) for name in _ABOUT if name in entries}
         except Exception as error:
             raise refuse(f"is damaged: {error}") from error
-    if broken is not None:
-        raise refuse(f"is damaged: {broken} does not have its checksum")
-    if "format" not in state or not str(state["format"]).startswith("stickslip ensemble "):
-        raise refuse(f"is no ensemble: it holds {', '.join(sorted(state)) or 'nothing'}")
-    if str(state["format"]) != _FORMAT:
-        raise refuse(
-            f"is of format '{state['format']}', of stickslip {state.get('library')}; this is"
-            f" stickslip {_core.__version__}, which reads '{_FORMAT}'"
-        )
+        if not str(about.get("format")).startswith("stickslip ensemble "):
+            raise refuse(f"is no ensemble: it holds {', '.join(sorted(entries)) or 'nothing'}")
+        if str(about["format"]) != _FORMAT:
+            raise refuse(
+                f"is of format '{about['format']}', of stickslip {about.get('library')}; this is"
+                f" stickslip {_core.__version__}, which reads '{_FORMAT}'"
+            )
+        if entries.keys() != _NAMES:
+            odd = ", ".join(sorted(entries.keys() ^ _NAMES))
+            raise refuse(f"does not hold what an ensemble does: missing or unknown {odd}")
+        try:
+            state = {name: _array(archive, entries[name]) for name in _NAMES - _ABOUT}
+        except Exception as error:
+            raise refuse(f"is damaged: {error}") from error
     ensemble = Ensemble.__new__(Ensemble)
     try:
         plain = {name: array.item() if array.ndim == 0 else array for name, array in state.items()}
         plain["configuration"] = [tuple(entry) for entry in json.loads(plain["configuration"])]
         ensemble.__setstate__(plain)
-    except (KeyError, RuntimeError, TypeError, ValueError) as error:
+    except (RuntimeError, TypeError, ValueError) as error:
         raise refuse(f"does not hold what an ensemble does: {error}") from error
     return ensemble
+
+
+def _entries(archive: zipfile.ZipFile, size: int) -> dict[str, zipfile.ZipInfo]:
+    """The entries of an archive by name; ValueError if they take more memory than the file."""
+    entries = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+    if len(entries) < len(archive.infolist()):
+        raise ValueError("two entries have one name")
+    for name, info in entries.items():
+        if info.compress_type != zipfile.ZIP_STORED or info.file_size != info.compress_size:
+            raise ValueError(f"{name} must not be compressed")
+    if sum(info.file_size for info in entries.values()) > size:
+        raise ValueError("its entries overlap")
+    return entries
+
+
+def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> np.ndarray:
+    """The array of an entry; an error if its checksum or size is wrong."""
+    content = archive.read(entry)
+    stream = io.BytesIO(content)
+    if np.lib.format.read_magic(stream) != (1, 0):
+        raise ValueError(f"{entry.filename} is no array of format 1.0")
+    shape, is_fortran, dtype = np.lib.format.read_array_header_1_0(stream)
+    array = np.frombuffer(content, dtype, offset=stream.tell())
+    return array.reshape(shape, order="F" if is_fortran else "C")

@@ -27,6 +27,7 @@ except ImportError as error:
 
 from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response, ViscousSlider
 from ._files import replacing
+from ._text import printable
 from .comparison import Comparison
 
 __all__ = [
@@ -86,6 +87,8 @@ class _Picture(Figure):
 def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
     """Writes a figure, whole or not at all.
 
+    A symbolic link is followed; a file that is there already keeps its mode.
+
     Parameters
     ----------
     figure : matplotlib.figure.Figure
@@ -101,12 +104,12 @@ def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
     ValueError
         Another suffix.
     OSError
-        The folder is missing or cannot be written.
+        The folder is missing or cannot be written; the file is read-only, or no regular file.
     """
     path = Path(file)
     content = _render(figure, check_suffix(path))
-    with replacing(path) as part:
-        part.write_bytes(content)
+    with replacing(path) as stream:
+        stream.write(content)
     return path
 
 
@@ -238,7 +241,7 @@ def plot_responses(
         raise ValueError("plot_responses: at least one response is needed, got none")
     if any(
         not np.array_equal(r.motion.acceleration, responses[0].motion.acceleration)
-        or not np.array_equal(r.time, responses[0].time)
+        or not np.array_equal(r.motion.time, responses[0].motion.time)
         for r in responses[1:]
     ):
         raise ValueError("plot_responses: all responses must be of the same ground motion")
@@ -328,7 +331,7 @@ def plot_friction_sweep(
         for line in np.delete(lines, lifted, axis=0):
             axes.plot(mu, line, color="#c4c4c4", linewidth=0.8)
         for i, colour in zip(lifted, COLOURS):
-            axes.plot(mu, lines[i], color=colour, linewidth=1.5, label=names[i])
+            axes.plot(mu, lines[i], color=colour, linewidth=1.5, label=printable(names[i]))
         median = np.median(lines, axis=0)
         axes.plot(mu, median, color=INK, linewidth=3, label=f"median of {len(names)} records")
         axes.set(xscale="log", yscale="log", xlim=(mu[0], mu[-1]))
@@ -342,7 +345,8 @@ def plot_friction_sweep(
         axes.set_xlabel("coefficient of friction [\N{MINUS SIGN}]")
         axes.set_ylabel("peak relative displacement [cm]")
         axes.set_title(f"How far a block slides in {len(names)} earthquake records")
-        axes.legend(loc="lower left", fontsize=8)
+        for text in axes.legend(loc="lower left", fontsize=8).get_texts():
+            text.set_parse_math(False)  # a dollar in the name of a file is one
     return figure
 
 
@@ -541,7 +545,7 @@ def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _draw_ground(axes: Axes, response: Response) -> None:
     motion, end = response.motion, response.events["time"][-1]
-    t = np.append(response.time, [response.time[-1], end])
+    t = np.append(motion.time, [motion.time[-1], max(end, motion.time[-1])])
     n = np.append(motion.acceleration, [0, 0]) / STANDARD_GRAVITY
     axes.plot(
         t,
@@ -620,8 +624,9 @@ def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
 
 
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
-    name = textwrap.fill(title or motion.name or "ground motion", 75)
-    axes.set_title(name, pad=18 if below else None)
+    name = title or printable(motion.name) or "ground motion"
+    # Math in a caller's title is meant, a dollar in the name of a file is one.
+    axes.set_title(textwrap.fill(name, 75), pad=18 if below else None, parse_math=bool(title))
     axes.annotate(
         below,
         (0, 1),

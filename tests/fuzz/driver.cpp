@@ -24,6 +24,7 @@
 
 namespace {
 
+using namespace std::string_view_literals;
 using Random = std::mt19937_64;
 
 constexpr std::size_t longest = std::size_t{1} << 18;  // bytes of an input
@@ -35,12 +36,6 @@ std::size_t below(Random& random, std::size_t limit) {
 /// A whole number below `limit`, small ones as frequent as large ones.
 std::size_t mostly_small(Random& random, std::size_t limit) {
   return below(random, 1 + below(random, 1 + below(random, limit)));
-}
-
-std::string random_bytes(Random& random) {
-  std::string bytes(mostly_small(random, 4096), '\0');
-  for (char& byte : bytes) byte = static_cast<char>(random());
-  return bytes;
 }
 
 bool in_number(char c) { return std::string_view("0123456789+-.eE").find(c) != std::string_view::npos; }
@@ -69,7 +64,7 @@ void mutate(std::string& input, const std::vector<std::string>& seeds, Random& r
                                                                     "0,5",
                                                                     "9007199254740993",
                                                                     "18446744073709551616"});
-  static constexpr std::string_view alphabet("0123456789.,;-+eEdD \n\r\t#|()[]=*xN\0\x80\xC0\xED\xFF", 43);
+  static constexpr std::string_view alphabet = "0123456789.,;-+eEdD \n\r\t#|()[]=*xN\0\x80\xC0\xED\xFF"sv;
   const auto any_byte = [&] {
     return random() % 4 == 0 ? static_cast<char>(random()) : alphabet[below(random, alphabet.size())];
   };
@@ -188,6 +183,12 @@ bool passes() {
     std::fprintf(stderr, "finding: an exception escapes\n");
   }
   return false;
+}
+
+std::string random_bytes(Random& random) {
+  std::string bytes(mostly_small(random, 4096), '\0');
+  for (char& byte : bytes) byte = static_cast<char>(random());
+  return bytes;
 }
 
 template <class T>

@@ -80,9 +80,8 @@ def pyslammer_files():
 
 @pytest.fixture(scope="session")
 def agency_files():
-    """Records in the formats of agencies: in $STICKSLIP_RECORDS, or beside the repository."""
-    beside = Path(__file__).parents[2].parent / "shared" / "records"
-    folder = Path(os.environ.get("STICKSLIP_RECORDS", beside))
-    if not folder.is_dir():
+    """Records in the formats of agencies, in the folder that $STICKSLIP_RECORDS names."""
+    folder = os.environ.get("STICKSLIP_RECORDS")
+    if not folder or not Path(folder).is_dir():
         pytest.skip("no agency files: set STICKSLIP_RECORDS to a folder of them")
-    return folder
+    return Path(folder)

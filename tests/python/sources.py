@@ -39,3 +39,12 @@ def same_bits(a, b):
     return left.keys() == right.keys() and all(
         np.array_equal(np.asarray(left[name]), np.asarray(right[name])) for name in left
     )
+
+
+def waiting_for(there, child):
+    """Returns once something is there; a child that ends before, or hangs for a minute, fails."""
+    deadline = time.monotonic() + 60
+    while not there():
+        assert child.poll() is None
+        assert time.monotonic() < deadline
+        time.sleep(0.02)

@@ -1,16 +1,20 @@
 """The command `stickslip`: the same numbers as the library, and errors that name what was wrong."""
 
+import gc
 import json
 import math
 import os
+import shlex
 import signal
 import subprocess
 import sys
-import time
+import warnings
+import weakref
 
 import numpy as np
 import pytest
 import stickslip as ss
+from sources import waiting_for
 from stickslip.cli import main
 
 G = ss.STANDARD_GRAVITY
@@ -40,6 +44,15 @@ def results(capsys, *arguments):
     code, out, err = run(capsys, *arguments, "--json")
     assert (code, err) == (0, "")
     return json.loads(out)["results"]
+
+
+QUAKE = ["--event", "moderate near field", "--mu", 0.02, "--members", 500]
+
+
+def run_ensemble(capsys, *arguments):
+    code = main(["ensemble", *map(str, arguments)])
+    out, err = capsys.readouterr()
+    return code, out, err
 
 
 CASES = {
@@ -101,6 +114,18 @@ def test_the_table_has_a_row_for_each_coefficient_and_says_its_units(capsys, rec
     assert rows[2].split()[-1] == "0"
 
 
+@pytest.mark.parametrize("factor", [1e4, 1e12, 1e90, -1e98])
+def test_columns_keep_their_width_under_huge_numbers(capsys, record, factor):
+    _, out, _ = run(capsys, record, "--mu", 0.1, f"--scale={factor}")
+    head, row = out.splitlines()
+    assert len(row.removesuffix("  never rests: at end of record")) == len(head)
+    with_mu = row.split("ABC-090")[1].split()
+    (exact,) = results(capsys, record, "--mu", 0.1, f"--scale={factor}")
+    for text, name in ((with_mu[0], "pga_g"), (with_mu[2], "peak_m"), (with_mu[3], "residual_m")):
+        value = exact[name] * (1 if name == "pga_g" else 100)
+        assert float(text) == pytest.approx(value, rel=0.05, abs=0.005)  # two digits at least
+
+
 def test_a_slider_that_never_rests_is_an_answer_and_says_so(capsys, record):
     code, out, _ = run(capsys, record, "--mu", 0)
     assert code == 0
@@ -111,7 +136,6 @@ def test_a_slider_that_never_rests_is_an_answer_and_says_so(capsys, record):
 
 
 REFUSED = {
-    "missing file": (["nowhere.csv", "--mu", 0.1], "nowhere.csv: No such file"),
     "bad units": (["RECORD", "--mu", 0.1, "--units", "furlong"], "'furlong'"),
     "negative friction": (["RECORD", "--mu", -0.25], "got -0.25"),
     "one bad among good": (["RECORD", "--mu", 0.1, "nan"], "got nan"),
@@ -122,7 +146,7 @@ REFUSED = {
     ),
     "trail without width": (
         ["RECORD", "--mu", 0.1, "--law", "caster", "--trail", 0.04],
-        "--trail and --wheel-width, in metres, got --trail",
+        "--trail and --wheel-width, in meters, got --trail",
     ),
     "caster on a slope": (
         ["RECORD", "--mu", 0.1, "--law", "caster", "--reach", 1, "--slope", 5],
@@ -130,14 +154,23 @@ REFUSED = {
     ),
     "too steep": (["RECORD", "--mu", 0.1, "--slope", 45], "45 degrees"),
     "no period": (["RECORD", "--mu", 0.1, "--period", 0], "got 0 s"),
-    "infinite scale": (["RECORD", "--mu", 0.1, "--scale", "inf"], "got inf"),
+    "NaN period": (["RECORD", "--mu", 0.1, "--period", "nan"], "got nan s"),
+    "infinite scale": (
+        ["RECORD", "--mu", 0.1, "--scale", "inf"],
+        "--scale must be finite, got inf",
+    ),
 }
 
 
+@pytest.mark.parametrize("strict", [[], ["--strict"]], ids=["", "strict"])
+@pytest.mark.parametrize("file", ["RECORD", "nowhere.csv"])
 @pytest.mark.parametrize("case", REFUSED)
-def test_what_is_refused_is_named_on_stderr_with_code_2(capsys, record, case):
-    arguments, message = REFUSED[case]
-    code, out, err = run(capsys, *(record if a == "RECORD" else a for a in arguments))
+def test_a_bad_option_is_named_on_stderr_with_code_2_before_any_file_is_read(
+    capsys, record, case, file, strict
+):
+    (_, *options), message = REFUSED[case]
+    file = record if file == "RECORD" else file  # options are judged before a file is read
+    code, out, err = run(capsys, file, *options, *strict)
     assert (code, out) == (2, "")
     assert err.startswith("stickslip: ")
     assert message in err
@@ -166,12 +199,411 @@ def test_the_version_says_what_the_build_contains_and_its_licence(capsys):
         assert info[library] in out
 
 
-def test_a_reader_that_stops_early_is_no_error(record):
-    command = [sys.executable, "-m", "stickslip", "slide", str(record), "--mu", "0.1"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
+# ---- batches
+
+
+@pytest.fixture
+def bad_files(tmp_path):
+    """Files that hold no record, with what is said of each."""
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "empty.csv").touch()
+    (tmp_path / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
+    (tmp_path / "words.txt").write_text("nothing\n")
+    return {
+        tmp_path / "folder": "Is a directory",
+        tmp_path / "empty.csv": "the file is empty",
+        tmp_path / "nowhere.csv": "No such file or directory",
+        tmp_path / "picture.png": "NUL byte",
+        tmp_path / "words.txt": "no known format",
+    }
+
+
+def test_bad_files_are_named_and_the_good_ones_are_answered(capsys, record, bad_files):
+    _, alone, _ = run(capsys, record, record, "--mu", 0.1, 0.2)
+    code, out, err = run(capsys, record, *bad_files, record, "--mu", 0.1, 0.2)
+    assert (code, out) == (1, alone)
+    lines = err.splitlines()
+    assert len(lines) == len(bad_files)
+    for line, (file, reason) in zip(lines, bad_files.items()):
+        assert line.startswith(f"stickslip: {file}: ")
+        assert reason in line
+        assert line.count(str(file)) == 1
+
+
+def test_json_lists_the_bad_files_beside_the_results(capsys, record, bad_files):
+    good = results(capsys, record, "--mu", 0.1)
+    code, out, err = run(capsys, *bad_files, record, "--mu", 0.1, "--json")
+    assert code == 1
+    document = json.loads(out)
+    assert document["results"] == good
+    assert [error["file"] for error in document["errors"]] == [str(file) for file in bad_files]
+    for error, reason, line in zip(document["errors"], bad_files.values(), err.splitlines()):
+        assert reason in error["error"]
+        assert line == f"stickslip: {error['file']}: {error['error']}"
+    code, out, err = run(capsys, record, "--mu", 0.1, "--json")
+    assert json.loads(out)["errors"] == []
+
+
+def test_where_every_file_is_bad_there_is_no_table(capsys, bad_files):
+    code, out, err = run(capsys, *bad_files, "--mu", 0.1)
+    assert (code, out, err.count("\n")) == (1, "", len(bad_files))
+    code, out, _ = run(capsys, *bad_files, "--mu", 0.1, "--json")
+    document = json.loads(out)
+    assert (code, document["results"], len(document["errors"])) == (1, [], len(bad_files))
+
+
+@pytest.mark.parametrize("more", [[], ["--json"]])
+def test_strict_ends_a_batch_at_the_first_bad_file(capsys, record, bad_files, more):
+    first, *_ = bad_files
+    code, out, err = run(capsys, record, *bad_files, "--mu", 0.1, "--strict", *more)
+    assert (code, out) == (2, "")
+    assert err == f"stickslip: {first}: Is a directory\n"
+
+
+@pytest.fixture
+def violent(tmp_path):
+    """Ground whose acceleration, but not the displacement of a block on it, is a double."""
+    file = tmp_path / "violent.csv"
+    file.write_text("Time (s),Acceleration (g)\n0,0\n1e150,1e98\n2e150,1e98\n3e150,0\n")
+    return file
+
+
+def test_a_slider_that_leaves_the_range_of_doubles_is_reported_and_the_others_answered(
+    capsys, record, violent
+):
+    options = ["--mu", 0.1, 1e99]
+    good = results(capsys, record, *options)
+    code, out, err = run(capsys, violent, record, *options, "--json")
+    document = json.loads(out)
+    assert code == 1
+    (error,) = document["errors"]
+    assert error["file"] == str(violent)
+    assert error["error"].startswith("mu = 0.1: ")
+    assert err == f"stickslip: {violent}: {error['error']}\n"
+    held, *others = document["results"]
+    assert others == good
+    assert (held["file"], held["mu"], held["peak_m"]) == (str(violent), 1e99, 0)
+    code, out, strict = run(capsys, violent, record, *options, "--strict")
+    assert (code, out, strict) == (2, "", err)
+
+
+@pytest.mark.parametrize("text", ["", "std::bad_alloc", "Unable to allocate 9 EiB"])
+def test_without_enough_memory_there_is_one_line(capsys, record, monkeypatch, text):
+    def full(*_, **__):
+        raise MemoryError(text)
+
+    said = "not enough memory" + (f": {text}" if text.startswith("U") else "")
+    monkeypatch.setattr("stickslip.ensemble.run_ensemble", full)
+    assert run_ensemble(capsys, *QUAKE) == (2, "", f"stickslip: {said}\n")
+    monkeypatch.setattr("stickslip.cli.read_record", full)
+    assert run(capsys, record, "--mu", 0.1) == (1, "", f"stickslip: {record}: {said}\n")
+
+
+# ---- options
+
+REPEATED = {
+    "scale": ["slide", "RECORD", "--mu", "0.1", "--scale", "2", "--scale", "3"],
+    "equal scales": ["slide", "RECORD", "--mu", "0.1", "--scale", "2", "--scale", "2"],
+    "shortened": ["slide", "RECORD", "--mu", "0.1", "--scale", "2", "--sca", "3"],
+    "law": ["slide", "RECORD", "--mu", "0.1", "--law", "coulomb", "--law", "one-way"],
+    "seed": ["ensemble", "--event", "great near field", "--mu", "0.1", "--seed=1", "--seed=2"],
+    "band": ["ensemble", "--mu", "0.1", "--band", *"123", "--band", *"456"],
+    "out": ["thesis", "2.1", "--check", "--out", "a", "--out", "b"],
+}
+
+
+@pytest.mark.parametrize("case", REPEATED)
+def test_an_option_of_one_value_is_given_once(capsys, record, case, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    arguments = [str(record) if a == "RECORD" else a for a in REPEATED[case]]
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    out, err = capsys.readouterr()
+    assert (end.value.code, out) == (2, "")
+    assert f"--{'scale' if 'scale' in ' '.join(arguments) else case} given twice: " in err
+
+
+def test_lists_that_are_repeated_add_up_and_a_repeated_value_is_used_once(capsys, record):
+    rows = results(capsys, record, "--mu", 0.1, 0.2, "--mu", 0.3, "--mu", 0.1)
+    assert [row["mu"] for row in rows] == [0.1, 0.2, 0.3]
+    code, out, _ = run_ensemble(
+        capsys, *QUAKE, "--level", 0.02, "--level", 0.05, 0.02, "--level", 0.01, "--json"
+    )
+    assert code == 0
+    assert [row["peak_m"] for row in json.loads(out)["exceedance"]] == [0.02, 0.05, 0.01]
+
+
+@pytest.mark.parametrize("arguments", [["2.1", "--check"], ["--check", "2.1", "2.1"]])
+def test_a_figure_is_named_before_or_after_the_options_and_drawn_once(capsys, arguments):
+    assert main(["thesis", *arguments]) == 0
+    assert "of 1 figures" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no bytes in arguments")
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["slide", "a.csv", "--mu", "1", "--units", "\udcff"],
+        ["slide", "a.csv", "--mu", "1", "--component", "\udcff"],
+        ["ensemble", "--mu", "1", "--event", "\udcff"],
+    ],
+)
+def test_an_option_that_is_no_text_is_named(capsys, arguments):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+    assert arguments[-2] in capsys.readouterr().err
+
+
+def test_infinity_is_null_in_json(capsys, record):
+    block = results(capsys, record, "--mu", 0.1)
+    (row,) = results(capsys, record, "--mu", 0.1, "--law", "caster", "--reach", "inf")
+    assert row["reach_m"] is None
+    # Casters of infinite reach are a block, integrated by Taylor series.
+    assert row["peak_m"] == pytest.approx(block[0]["peak_m"], rel=1e-12)
+    (row,) = results(capsys, record, "--mu", 0.1, "--period", "inf")
+    assert (row["period_s"], row["peak_m"]) == (None, block[0]["peak_m"])
+    code, out, _ = run_ensemble(
+        capsys, *QUAKE, "--law", "caster", "--reach", "inf", "--level", 0, "--json"
+    )
+    assert code == 0
+    assert json.loads(out)["configuration"]["slider"]["reach"] is None
+
+
+# ---- outputs
+
+
+def links(file):
+    """Other names of a file."""
+    folder = file.parent
+    (folder / "soft.svg").symlink_to(file)
+    os.link(file, folder / "hard.svg")
+    return [
+        file,
+        folder / "soft.svg",
+        folder / "hard.svg",
+        folder / "." / ".." / folder.name / file.name,
+    ]
+
+
+def test_no_record_is_overwritten_by_its_picture(capsys, record):
+    pytest.importorskip("matplotlib")
+    record = record.rename(record.with_suffix(".svg"))
+    content = record.read_bytes()
+    for name in links(record):
+        code, out, err = run(capsys, record, "--mu", 0.1, "--plot", name)
+        assert (code, out) == (2, "")
+        assert err == f"stickslip: --plot {name} would overwrite the record {record}\n"
+    again = record.with_name("out-1-quake.svg")
+    again.write_bytes(content)
+    code, out, err = run(capsys, record, again, "--mu", 0.1, "--plot", record.with_name("out.svg"))
+    assert (code, out) == (2, "")
+    assert "would overwrite the record" in err
+    assert record.read_bytes() == again.read_bytes() == content
+
+
+def test_a_checkpoint_and_a_picture_are_two_files(capsys, tmp_path):
+    pytest.importorskip("matplotlib")
+    kept = tmp_path / "run.svg"
+    options = [*QUAKE, "--checkpoint", kept, "--plot"]
+    assert run_ensemble(capsys, *options, kept)[:2] == (2, "")
+    assert not kept.exists()
+    assert run_ensemble(capsys, *options[:-1])[0] == 0
+    content = kept.read_bytes()
+    for name in links(kept):
+        code, out, err = run_ensemble(capsys, *options, name)
+        assert (code, out) == (2, "")
+        assert "would overwrite the file of --checkpoint" in err
+    assert kept.read_bytes() == content
+
+
+def test_a_picture_that_fails_costs_no_result(capsys, record, tmp_path, monkeypatch):
+    plotting = pytest.importorskip("stickslip.plotting", exc_type=ImportError)
+    long = record.with_name(f"{'a' * 250}.csv")  # out-2-aaa....png is longer than a name may be
+    long.write_bytes(record.read_bytes())
+    good = results(capsys, record, long, "--mu", 0.1)
+    code, out, err = run(
+        capsys, record, long, "--mu", 0.1, "--json", "--plot", tmp_path / "out.png"
+    )
+    document = json.loads(out)
+    assert (code, document["results"]) == (1, good)
+    assert document["figures"] == [str(tmp_path / "out-1-quake.png")]
+    assert [error["file"] for error in document["errors"]] == [str(long)]
+    assert err.startswith(f"stickslip: {long}: ") and err.count("\n") == 1
+
+    def full(_, file):
+        raise OSError(28, "No space left on device", str(file))
+
+    table = run_ensemble(capsys, *QUAKE)[1]
+    monkeypatch.setattr(plotting, "save", full)
+    code, out, err = run_ensemble(capsys, *QUAKE, "--plot", tmp_path / "e.png")
+    assert (code, out) == (1, table)
+    assert err == f"stickslip: {tmp_path / 'e.png'}: No space left on device\n"
+
+
+def test_records_of_the_same_name_have_a_picture_each_of_which_one_is_in_memory(
+    capsys, record, tmp_path, monkeypatch
+):
+    plotting = pytest.importorskip("stickslip.plotting", exc_type=ImportError)
+    records = []
+    for folder in "abc":
+        (tmp_path / folder).mkdir()
+        records.append(tmp_path / folder / "quake.csv")
+        records[-1].write_bytes(record.read_bytes())
+    save, figures = plotting.save, []
+
+    def saved(figure, file):
+        gc.collect()
+        assert [kept for kept in figures if kept() is not None] == []
+        figures.append(weakref.ref(figure))
+        return save(figure, file)
+
+    monkeypatch.setattr(plotting, "save", saved)
+    code, _, err = run(capsys, *records, "--mu", 0.1, "--plot", tmp_path / "out.svg")
+    assert (code, err) == (0, "")
+    assert sorted(f.name for f in tmp_path.glob("*.svg")) == [
+        f"out-{place}-quake.svg" for place in (1, 2, 3)
+    ]
+
+
+# ---- text from files, terminals and pipes
+
+HOSTILE = {
+    "escape": "\x1b[2J\x1b]0;owned\x07",
+    "backspace": "a\b\b\r",
+    "C1": "\x9b31m",
+    "bidirectional override": "\u202egpj.\u202c",
+    "isolate": "\u2066\u2069",
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+def test_no_control_character_of_a_title_or_a_name_reaches_the_terminal(
+    capsys, record, tmp_path, case
+):
+    text = HOSTILE[case]
+    record.write_text(record.read_text().replace("Somewhere", f"Some{text}where"), "utf-8")
+    code, out, err = run(capsys, record, "--mu", 0.1)
+    assert (code, err) == (0, "")
+    assert "Some" in out and "where" in out
+    assert text not in out
+    assert all(c.isprintable() or c == "\n" for c in out)
+    head, row = out.splitlines()
+    assert head.index("PGA") + len("PGA [g]") == row.index(" 0.", row.index("ABC-090")) + 6
+    (row,) = results(capsys, record, "--mu", 0.1)
+    assert row["record"] == f"Some{text}where 2001 - ABC-090"
+    _, out, _ = run(capsys, record, "--mu", 0.1, "--json")
+    assert out.isascii() and all(c.isprintable() or c == "\n" for c in out)
+
+    bad = tmp_path / f"bad{text}.csv"
+    bad.write_text(f"{text}\n{text}\n")
+    nowhere = tmp_path / f"x{text}" / "out.png"
+    for arguments in ([bad], [tmp_path / f"no{text}\n.csv"], [record, "--plot", nowhere]):
+        code, out, err = run(capsys, *arguments, "--mu", 0.1)
+        assert code > 0 and out == ""
+        assert err.count("\n") == 1 and err.removesuffix("\n").isprintable()
+    with pytest.raises(SystemExit):
+        main(["slide", str(record), "--mu", "0.1", "--json", str(bad)])
+    assert all(c.isprintable() or c == "\n" for c in capsys.readouterr().err)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are any bytes on Linux")
+def test_file_names_that_are_no_text_are_slid_and_named(record, tmp_path):
+    good, bad = os.fsencode(tmp_path) + b"/good\xff.csv", os.fsencode(tmp_path) + b"/bad\xff.csv"
+    os.rename(record, good)
+    options = [good, bad, "--mu", "0.1"]
+    done = command("slide", *options)
+    assert done.returncode == 1
+    assert done.stdout.count(b"\n") == 2
+    line = os.fsencode(tmp_path) + b"/bad\\udcff.csv: "
+    assert done.stderr.startswith(b"stickslip: " + line) and done.stderr.count(b"\n") == 1
+    document = json.loads(command("slide", *options, "--json").stdout)
+    assert [os.fsencode(row["file"]) for row in document["results"]] == [good]
+    assert [os.fsencode(row["file"]) for row in document["errors"]] == [bad]
+
+
+def command(*arguments, **options):
+    """The command in a process of its own."""
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+    return subprocess.run([sys.executable, "-m", "stickslip", *arguments], timeout=60, **pipes)
+
+
+def test_letters_that_the_terminal_lacks_are_escaped(record):
+    record.write_text(
+        record.read_text().replace("Somewhere", "Stra\N{LATIN SMALL LETTER SHARP S}e")
+    )
+    ascii_only = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = command("slide", record, "--mu", "0.1", env=ascii_only)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert b"Stra\\xdfe 2001 - ABC-090" in done.stdout
+
+
+ANSWERS = {
+    "slide": ["slide", "RECORD", "--mu", "0.1"],
+    "json": ["slide", "RECORD", "--mu", "0.1", "--json"],
+    "ensemble": ["ensemble", *map(str, QUAKE)],
+    "thesis": ["thesis", "2.1", "--check"],
+    "help": ["slide", "--help"],
+    "version": ["--version"],
+}
+
+
+@pytest.fixture(params=ANSWERS)
+def answer(request, record):
+    """Arguments that are answered on stdout."""
+    return [str(record) if a == "RECORD" else a for a in ANSWERS[request.param]]
+
+
+def test_a_reader_that_stops_early_is_no_error(answer):
+    words = [sys.executable, "-m", "stickslip", *answer]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
         child.stdout.close()
         assert child.stderr.read() == b""
         assert child.wait() == 0
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")
+def test_what_cannot_be_printed_is_an_error(answer):
+    with open("/dev/full", "w") as full:
+        done = command(*answer, stdout=full)
+    assert done.returncode == 2
+    assert done.stderr == b"stickslip: standard output: No space left on device\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell")
+def test_what_is_printed_nowhere_is_an_error(answer):
+    words = shlex.join([sys.executable, "-m", "stickslip", *answer])
+    done = subprocess.run(["sh", "-c", f"{words} >&-"], stderr=subprocess.PIPE, timeout=60)
+    assert done.returncode == 2
+    assert done.stderr == b"stickslip: standard output: Bad file descriptor\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell")
+@pytest.mark.parametrize("stderr", ["2>&-", "2>/dev/full"])
+def test_errors_that_nobody_hears_are_told_by_the_exit_code_alone(record, stderr):
+    """They are not mixed with the results on stdout."""
+    start = shlex.join([sys.executable, "-m", "stickslip", "slide"])
+    for arguments, code in (
+        (f"{record} --mu -1", 2),
+        (f"{record} --mu x", 2),
+        ("nowhere.csv --mu 0.1", 1),
+    ):
+        done = subprocess.run(
+            ["sh", "-c", f"{start} {arguments} {stderr}"], stdout=subprocess.PIPE, timeout=60
+        )
+        assert (done.returncode, done.stdout) == (code, b"")
+
+
+def test_a_warning_is_one_line(capsys, record, monkeypatch):
+    def warned(*_, **__):
+        warnings.warn("two\nlines", stacklevel=1)
+        return ss.read_record(record)
+
+    monkeypatch.setattr("stickslip.cli.read_record", warned)
+    with warnings.catch_warnings():
+        warnings.simplefilter("default")
+        code, _, err = run(capsys, record, "--mu", 0.1)
+    assert (code, err) == (0, "stickslip: warning: two\\nlines\n")
 
 
 def test_who_slides_a_record_waits_for_neither_matplotlib_nor_numpy(record):
@@ -224,15 +656,6 @@ def test_without_matplotlib_plot_says_what_to_install(capsys, record, monkeypatc
 
 
 # ---- ensembles
-
-QUAKE = ["--event", "moderate near field", "--mu", 0.02, "--members", 500]
-
-
-def run_ensemble(capsys, *arguments):
-    code = main(["ensemble", *map(str, arguments)])
-    out, err = capsys.readouterr()
-    return code, out, err
-
 
 SOURCES = {
     "event": (["--event", "great near field"], ss.PoissonPulses.event("great near field")),
@@ -308,8 +731,21 @@ def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
 REFUSED_ENSEMBLES = {
     "an unknown event": (["--event", "big", "--mu", 0.1], "got 'big'"),
     "negative friction": (["--event", "great near field", "--mu", -1], "got -1"),
-    "one member": ([*QUAKE, "--members", 1], "--members must be at least 2"),
-    "fewer than none": ([*QUAKE, "--members", -7], "got -7"),
+    "one member": ([*QUAKE[:-2], "--members", 1], "--members must be at least 2"),
+    "fewer than none": ([*QUAKE[:-2], "--members", -7], "got -7"),
+    "more than are counted": ([*QUAKE[:-2], "--members", 2**64], "--members must be at most"),
+    "a negative length": (
+        ["--band", 1, 2, 3, "--mu", 0.1, "--dt", 0.1, "--samples", -1],
+        "--samples must be at least 1, got -1",
+    ),
+    "an endless length": (
+        ["--band", 1, 2, 3, "--mu", 0.1, "--dt", 0.1, "--samples", 2**64],
+        "--samples must be at most",
+    ),
+    "variances beyond doubles": (
+        ["--rate", 3, "--half-width", 0.1, "--duration", 9, "--sigma", 1e90, "--mu", 0.1],
+        "",
+    ),
     "a negative seed": ([*QUAKE, "--seed", -1], "seed must be at least 0, got -1"),
     "no threads": ([*QUAKE, "--threads", 0], "threads must be at least 1, got 0"),
     "no width": (["--rate", 3, "--mu", 0.1], "--rate needs --half-width, got none"),
@@ -331,6 +767,7 @@ REFUSED_ENSEMBLES = {
     "reach without caster": ([*QUAKE, "--reach", 1], "--law caster, got --law coulomb"),
     "no rest": (["--event", "great near field", "--mu", 0, "--settle"], "does not come to rest"),
     "no folder": ([*QUAKE, "--checkpoint", "nowhere/run.npz"], "nowhere: no such folder"),
+    "no folder for a picture": ([*QUAKE, "--plot", "nowhere/a.png"], "nowhere: no such folder"),
 }
 
 
@@ -376,15 +813,81 @@ def test_a_checkpoint_and_a_picture_are_written_where_the_command_says(capsys, t
     assert "seed 3 against seed 0" in err
 
 
+@pytest.mark.parametrize("factor", [1e-170, 1e60])
+def test_the_rms_of_residuals_is_their_rms_however_small_or_large(capsys, factor):
+    def residuals(factor):
+        pulses = ["--rate", 3, "--half-width", 0.1, "--duration", 9, "--sigma", factor]
+        options = ["--mu", 0.02 * factor, "--members", 100, "--json"]
+        code, out, _ = run_ensemble(capsys, *pulses, *options)
+        assert code == 0
+        document = json.loads(out)
+        return [document[f"residual_{name}_m"][key] for name in ("mean", "rms") for key in KEYS]
+
+    KEYS = ("value", "error")
+    mean, _, rms, _ = scaled = residuals(factor)
+    assert rms > abs(mean)
+    # Dry friction has no scale of its own: twice the accelerations are twice the displacements.
+    assert scaled == pytest.approx([factor * r for r in residuals(1)], rel=1e-9)
+
+
+def test_ctrl_c_before_a_checkpoint_promises_none(capsys, tmp_path, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("stickslip.ensemble.run_ensemble", interrupted)
+    answer = run_ensemble(capsys, *QUAKE, "--checkpoint", tmp_path / "run.npz")
+    assert answer == (130, "", "stickslip: interrupted\n")
+
+
+def test_pulses_whose_statistics_overflow_are_refused_in_one_line(capsys):
+    pulses = ("--rate", 1, "--half-width", 0.5, "--sigma", 1e90, "--duration", 20, "--mu", 0.1)
+    code, out, err = run_ensemble(capsys, *pulses, "--members", 100)
+    assert (code, out) == (2, "")
+    assert err.startswith("stickslip: run_ensemble: displacement [m] and velocity [m/s] must not")
+    assert err.count("\n") == 1
+
+
+def test_a_checkpoint_that_cannot_be_written_in_the_end_costs_no_result(
+    capsys, tmp_path, monkeypatch
+):
+    def refuse(descriptor):
+        raise OSError(28, "No space left on device")
+
+    _, result, _ = run_ensemble(capsys, *QUAKE)
+    monkeypatch.setattr(os, "fsync", refuse)
+    code, out, err = run_ensemble(capsys, *QUAKE, "--checkpoint", tmp_path / "run.npz")
+    assert (code, out) == (1, result)
+    assert err.startswith("stickslip: run_ensemble: cannot write checkpoint ")
+    assert "No space left on device" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_cannot_be_written_is_refused_before_the_run(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("stickslip._core.run_ensemble", lambda *_, **__: pytest.fail("ran"))
+    for option in ("--plot", "--checkpoint"):
+        folder = tmp_path / f"{option}.png"
+        folder.mkdir()
+        code, out, err = run_ensemble(capsys, *QUAKE, option, folder)
+        assert (code, out) == (2, "")
+        assert err == f"stickslip: {folder}: must be a regular file, got a folder\n"
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_ctrl_c_leaves_a_checkpoint_and_no_traceback(tmp_path):
     kept = tmp_path / "run.npz"
-    options = ["--event", "great near field", "--mu", "0.1", "--members", "100000000"]
-    command = [sys.executable, "-m", "stickslip", "ensemble", *options, "--checkpoint", str(kept)]
+    often = """
+import functools, runpy, stickslip.ensemble as module
+module.run_ensemble = functools.partial(module.run_ensemble, checkpoint_every=0)
+runpy.run_module("stickslip", run_name="__main__", alter_sys=True)"""
+    options = ["--event", "great near field", "--mu", "0.1", "--members", "1000000000"]
+    command = [sys.executable, "-c", often, "ensemble", *options, "--checkpoint", str(kept)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
-        time.sleep(1)
-        child.send_signal(signal.SIGINT)
-        out, err = child.communicate(timeout=5)
+        try:
+            waiting_for(lambda: kept.exists() and ss.Ensemble.load(kept).members, child)
+            child.send_signal(signal.SIGINT)
+            out, err = child.communicate(timeout=60)
+        finally:
+            child.kill()
     assert (child.returncode, out) == (130, b"")
     assert err.decode() == f"stickslip: interrupted; {kept} has what was done\n"
     assert ss.Ensemble.load(kept).members > 0

@@ -59,27 +59,27 @@ def test_processes_get_the_answers_of_one():
         assert pool.starmap(peak, zip(sliders, motions)) == [*map(peak, sliders, motions)]
 
 
+# Each would take three minutes or more, and ends in a test within the minute after which it fails.
 LONG = {
-    "many samples": "ss.integrate(cart, ss.GroundMotion(noise(5_000_000), dt=0.1))",
-    "long samples": "ss.integrate(cart, ss.GroundMotion(noise(60_000), dt=10.0))",
+    "many samples": "ss.integrate(cart(1e4), ss.GroundMotion(noise(5_000_000), dt=0.1))",
+    "long samples": "ss.integrate(cart(1.3), ss.GroundMotion(noise(5_000_000), dt=1000.0))",
     "settling": """ss.integrate(
             ss.Slider(ss.Caster(slip_level=1.0, reach=0.05), 100.0),
-            ss.GroundMotion([0, 0], dt=1), displacement=3.0, settle=True)""",
+            ss.GroundMotion(0 * noise(1_000_000), dt=1e-9), displacement=30.0, settle=True)""",
 }
 
 SCRIPT = """
-import time
 import numpy as np
 import stickslip as ss
 
-cart = ss.Slider(ss.Caster(slip_level=1.0, reach=0.5), 1.3)
+cart = lambda natural_frequency: ss.Slider(ss.Caster(slip_level=1.0, reach=0.5), natural_frequency)
 noise = lambda samples: np.random.default_rng(1).normal(0, 2, samples)
 try:
-    for runs in range(1000):
-        print("run", flush=True)
-        {work}
+    print("run", flush=True)
+    {work}
+    print("ended")
 except KeyboardInterrupt:
-    print("interrupted", runs, time.time(), flush=True)
+    print("interrupted")
 """
 
 
@@ -92,22 +92,18 @@ except KeyboardInterrupt:
         "settling",
     ],
 )
-def test_ctrl_c_ends_an_integration_within_a_second(work):
+def test_ctrl_c_ends_an_integration(work):
     script = SCRIPT.format(work=LONG[work])
     with subprocess.Popen(
         [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True
     ) as process:
         try:
             assert process.stdout.readline() == "run\n"
-            time.sleep(0.5)
-            sent = time.time()
+            time.sleep(0.5)  # for it to have begun in earnest; if it has not, nothing fails
             process.send_signal(signal.SIGINT)
-            output, _ = process.communicate(timeout=2)
+            output, _ = process.communicate(timeout=60)
         except subprocess.TimeoutExpired:
-            pytest.fail("two seconds after Ctrl-C it still ran")
+            pytest.fail("a minute after Ctrl-C it still ran")
         finally:
             process.kill()
-    word, runs, caught = output.split()
-    assert word == "interrupted"
-    assert runs == "0"  # within an integration, not between two
-    assert float(caught) - sent < 1
+    assert output == "interrupted\n"

@@ -5,7 +5,6 @@ import os
 import queue
 import signal
 import threading
-import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import pytest
@@ -69,7 +68,7 @@ class Backwards(Executor):
 
     def work(self):
         while not self.ended.wait(0.02):
-            while not self.waiting.empty():
+            while self.waiting.qsize() > (0 if self.order else 1):  # at first, two to choose from
                 future, function, args = self.waiting.get()
                 self.order.append(args[-2])
                 future.set_result(function(*args))
@@ -89,7 +88,7 @@ def test_parts_begin_and_end_on_whole_blocks_and_grow():
     class Noting(ThreadPoolExecutor):
         def submit(self, function, /, *args):
             parts.append(args[-2:])
-            return super().submit(function, *args)
+            return super().submit(lambda: (function(*args)[0], 1e-5 * args[-1]))  # however fast
 
     parts = []
     with Noting(1) as pool:
@@ -209,8 +208,6 @@ def test_a_cluster_one_worker_of_which_is_killed_gives_the_same_bits(slow_whole)
         pids = list(client.run(os.getpid).values())
         assert len(set(pids)) == 2
         with client.get_executor() as pool:
-            began = time.perf_counter()
             e = run(pool, Delayed(1e-3), progress=kill_one)
-            assert time.perf_counter() - began < 30
     assert len(killed) == 1
     assert same_bits(e, slow_whole)

@@ -92,8 +92,8 @@ def test_ctrl_c_ends_a_long_harmonic_motion():
     script = """
 import os, signal, threading
 import stickslip as ss
-threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 try:
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     ss.integrate(ss.Slider(ss.Coulomb(slip_level=1.0), 1.0), ss.HarmonicMotion(1.5, 0.7, 1e9, 1e9))
 except KeyboardInterrupt:
     print("interrupted")"""

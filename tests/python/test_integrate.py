@@ -308,7 +308,7 @@ import stickslip as ss
 law, still = ss.Caster(slip_level=1.0, reach=1.0), ss.GroundMotion([0, 0], dt=10)
 print(ss.integrate(law, still, displacement=760.0, velocity=-2.0).residual)"""
     command = [sys.executable, "-c", script]
-    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=30).stdout
+    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60).stdout
     assert float(output) == pytest.approx(740.0, rel=1e-11)
 
 
@@ -384,7 +384,11 @@ def test_settling_waits_for_the_final_rest():
     quake = ss.GroundMotion([0, -3, 0], dt=1)
     law = ss.Coulomb(slip_level=1.0)
     short, long = ss.integrate(law, quake), ss.integrate(law, quake, settle=True)
-    assert np.array_equal(short.displacement, long.displacement)
+    assert np.array_equal(short.displacement, long.displacement[:3])
+    assert long.time.tolist() == [0, 1, 2, 3, 4]  # the first sample at or after rest
+    assert long.displacement[-1] == long.residual
+    assert long.velocity[-1] == 0
+    assert not long.truncated
     assert not short.at_rest
     assert long.at_rest
     assert short.residual == short.displacement[-1]
@@ -393,6 +397,26 @@ def test_settling_waits_for_the_final_rest():
     assert long.events["kind"][-2:].tolist() == ["arrest", "end"]
     assert long.events["time"][-2:] == pytest.approx([2 + 7 / 6] * 2, rel=1e-14)
     assert long.peak == long.residual
+
+
+@pytest.mark.parametrize("even", [True, False])
+def test_the_last_sample_of_a_settled_slider_is_its_residual(even):
+    step = dict(dt=0.1) if even else dict(times=[0, 0.1, 0.2, 0.3])
+    quake = ss.GroundMotion([0, 6, 6, 6], **step)
+    r = ss.integrate(ss.Coulomb(mu=0.05), quake, settle=True)
+    assert r.displacement[-1] == r.residual == pytest.approx(-2.040, abs=5e-4)
+    assert len(r.time) == len(r.displacement) == len(r.velocity)
+    assert np.diff(r.time) == pytest.approx(0.1, rel=1e-12)
+    assert r.time[-2] < r.events["time"][-1] <= r.time[-1]
+
+
+def test_samples_end_at_ten_times_the_length_of_the_motion():
+    r = ss.integrate(ss.Coulomb(slip_level=0.01), line(0, 0, 1), velocity=3.0, settle=True)
+    assert r.truncated
+    assert len(r.time) == len(r.displacement) == 20
+    assert r.residual == pytest.approx(450)  # v^2 / (2 a)
+    assert r.events["time"][-1] == pytest.approx(300)
+    assert "samples end before rest" in repr(r)
 
 
 def test_a_slider_at_rest_has_settled(record_a):

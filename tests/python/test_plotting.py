@@ -1,8 +1,10 @@
 """Pictures: what is drawn is what happened."""
 
 import math
+import os
 import re
 import sys
+import xml.etree.ElementTree
 
 import numpy as np
 import pytest
@@ -43,6 +45,36 @@ def test_every_axis_of_a_response_has_a_unit(response):
     assert speed.get_ylabel().endswith("m/s]")
     assert way.get_ylabel().endswith("m]")
     assert way.get_xlabel() == "time [s]"
+
+
+NAMES = [
+    r"$\bad{$",
+    r"5 $ and 6 $",
+    r"a \$ b$",
+    "\x1b[31m\b\0",
+    "$\\frac$",
+]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_is_drawn_as_it_stands(tmp_path, name):
+    """A dollar begins no formula, and a control character, which no SVG may hold, is escaped."""
+    ground = ss.GroundMotion([0.0, 5.0, 0.0], dt=0.1, name=name)
+    r = ss.integrate(ss.Coulomb(mu=0.1), ground)
+    figures = [r.plot(), plotting.plot_responses([r, r])]
+    for figure in figures:
+        title = figure.axes[0].get_title(loc="left")
+        assert title == "".join(c if c.isprintable() else repr(c)[1:-1] for c in name)
+    figures.append(plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], [name], [name]))
+    for figure in figures:
+        picture = plotting.save(figure, tmp_path / "name.svg")
+        xml.etree.ElementTree.parse(picture)
+
+
+def test_a_title_that_the_caller_gives_may_hold_a_formula():
+    ground = ss.GroundMotion([0.0, 5.0, 0.0], dt=0.1)
+    title = ss.integrate(ss.Coulomb(mu=0.1), ground).plot(title=r"$\mu = 0.1$").axes[0]._left_title
+    assert title.get_parse_math()
 
 
 def test_sticks_and_slides_make_up_the_whole_time(response):
@@ -244,12 +276,10 @@ def test_a_picture_is_saved_whole_or_not_at_all(tmp_path, monkeypatch):
     file = tmp_path / "a.png"
     file.write_bytes(b"what was there")
 
-    def fill_the_disk(self, content):
-        with self.open("wb") as stream:
-            stream.write(content[:10])
-        raise OSError(28, "No space left on device", str(self))
+    def fill_the_disk(descriptor):
+        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(type(file), "write_bytes", fill_the_disk)
+    monkeypatch.setattr(os, "fsync", fill_the_disk)
     with pytest.raises(OSError, match="No space left"):
         plotting.save(figure, file)
     assert file.read_bytes() == b"what was there"

@@ -1,6 +1,10 @@
 """Records from files: formats, units, and what is wrong with a file."""
 
 import codecs
+import os
+import pickle
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -200,12 +204,71 @@ def test_a_file_that_is_not_there_is_an_error_of_the_system(tmp_path):
     assert caught.value.filename == str(tmp_path / "missing.AT2")
     with pytest.raises(IsADirectoryError):
         ss.read_record(tmp_path)
+    nameless = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.AT2")
+    with pytest.raises(FileNotFoundError) as caught:
+        ss.read_record(nameless)
+    assert caught.value.filename == nameless
 
 
 @pytest.mark.parametrize("file", [3, None, 2.5, ["record.txt"]])
 def test_what_is_no_file_name_is_a_type_error(file):
     with pytest.raises(TypeError):
         ss.read_record(file)
+
+
+# ---- bytes that are no UTF-8
+
+NO_UTF8 = {
+    "a surrogate": b"\xed\xa0\x80",
+    "the last surrogate": b"\xed\xbf\xbf",
+    "overlong, two bytes": b"\xc1\xbf",
+    "overlong, three bytes": b"\xe0\x9f\xbf",
+    "overlong, four bytes": b"\xf0\x8f\xbf\xbf",
+    "beyond Unicode": b"\xf4\x90\x80\x80",
+    "five bytes": b"\xf8\x88\x80\x80\x80",
+    "cut off": b"\xe2\x82",
+    "a continuation alone": b"\x80",
+}
+
+
+@pytest.mark.parametrize("odd", NO_UTF8.values(), ids=NO_UTF8)
+def test_names_and_messages_are_text_whatever_the_bytes(write, odd):
+    motion = ss.read_record(write(b"# a " + odd + b" x\n# units: g\n0,1\n1,2\n"))
+    assert motion.name.encode("utf-8").startswith(b"a ")
+    assert motion.name.endswith(" x")
+    assert motion.name in repr(motion)
+    assert pickle.loads(pickle.dumps(motion)) == motion
+    with pytest.raises(ValueError, match="expected two finite numbers, got") as caught:
+        ss.read_record(write(b"# units: g\n0,1\n1," + odd + b"\n"))
+    assert type(caught.value) is ValueError
+    assert str(caught.value).encode("utf-8")
+
+
+FIRST_AND_LAST = ["\u0080\u07ff", "\u0800\ud7ff\ue000\uffff", "\U00010000\U0010ffff"]
+
+
+@pytest.mark.parametrize("text", FIRST_AND_LAST, ids=["two bytes", "three", "four"])
+def test_utf8_of_every_length_is_kept(write, text):
+    assert ss.read_record(write(f"# {text}\n# units: g\n0,1\n1,2\n".encode())).name == text
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="where file names are bytes")
+def test_a_file_name_may_be_any_bytes(tmp_path):
+    file = Path(os.fsdecode(bytes(tmp_path) + b"/\xff\xed\xa0\x80.csv"))
+    for name in (file, str(file), os.fsencode(file)):
+        file.write_bytes(b"# units: g\n0,1\n1,2\n")
+        motion = ss.read_record(name)
+        assert motion.name.encode("utf-8")
+        assert motion.name in repr(motion)
+        assert pickle.loads(pickle.dumps(motion)) == motion
+        file.write_bytes(b"0,1\n1,2\n")
+        with pytest.raises(ValueError, match=r"[.]csv: the file states no units") as caught:
+            ss.read_record(name)
+        assert type(caught.value) is ValueError
+    file.unlink()
+    with pytest.raises(FileNotFoundError) as missing:
+        ss.read_record(file)
+    assert missing.value.filename == str(file)
 
 
 # ---- real records

@@ -77,7 +77,23 @@ def test_the_command_checks(capsys):
     assert len(lines) > 20 and all(line.startswith("holds") for line in lines[:-1])
 
 
-def test_the_command_refuses_a_figure_before_it_begins(tmp_path, capsys):
-    assert cli.main(["thesis", "2.1", "9.9", "--check"]) == 2
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (["2.1", "9.9"], "got 9.9"),
+        (["2.1", "9.9", "--check"], "got 9.9"),
+        (["2.1", "--members", "0"], "got 0"),
+        (["2.1", "--seed", "-1"], "-1"),
+        (["2.1", "--seed", str(2**64)], "--seed must be at most"),
+        (["2.1", "--threads", "0"], "--threads must be at least 1, got 0"),
+        (["2.1", "--threads", "-1"], "--threads must be at least 1, got -1"),
+    ],
+)
+def test_the_command_refuses_before_it_begins_and_leaves_no_folder(
+    tmp_path, capsys, monkeypatch, arguments, message
+):
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["thesis", *arguments]) == 2
     captured = capsys.readouterr()
-    assert captured.out == "" and "got 9.9" in captured.err
+    assert captured.out == "" and message in captured.err and captured.err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// What a flow has come to after a time.

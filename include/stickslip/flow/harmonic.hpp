@@ -47,7 +47,7 @@ class Harmonic {
   double first_stop(double u, double a, double load_rate) const noexcept {
     const double y = first_root(u, a, load_rate - w_ * w_ * u * (1.0 / 2));
     if (std::isnan(y)) return never;
-    return (2 / w_) * (std::atan(w_ * y / 2) + (y < 0 ? std::numbers::pi : 0.0));
+    return (2 / w_) * (std::atan(w_ * y / 2) + (std::signbit(y) ? std::numbers::pi : 0.0));
   }
 
   /// Pull of the spring per unit mass [m/s^2].

@@ -1,6 +1,8 @@
 // Constant friction without a spring: the displacement is a cubic in time.
 #pragma once
 
+#include <cmath>
+
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/state.hpp"
 
@@ -10,6 +12,7 @@ namespace stickslip {
 ///     speed = u + a t + g t / 2,    distance = u t + a t^2 / 2 + g t^2 / 6.
 struct Polynomial {
   using Basis = double;  // the time itself
+  static constexpr bool stops_twice_at_most = true;
 
   static constexpr Basis basis(double t) noexcept { return t; }
   static constexpr bool one_arch(double) noexcept { return true; }
@@ -26,7 +29,7 @@ struct Polynomial {
 
   static double first_stop(double u, double a, double load_rate) noexcept {
     const double root = first_root(u, a, load_rate);
-    return root > 0 ? root : never;
+    return root >= 0 && !std::signbit(root) ? root : never;  // a root that underflowed is at +0 or before the start
   }
 
   /// No spring pulls.

@@ -13,6 +13,8 @@
 #include <concepts>
 #include <utility>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// 1 / cosh(x), without overflow.

@@ -191,8 +191,8 @@ class TaylorFlow {
     for (;;) {
       const double within_reach = expand();
       if (within_reach == 1) return;
-      horizon_ *= within_reach;
-      if (!(horizon_ > 0x1p-200 * duration))
+      const double longer = std::exchange(horizon_, horizon_ * within_reach);
+      if (!(horizon_ < longer && horizon_ > 0x1p-200 * duration))
         throw ConvergenceError("the slip level has no finite power series at x = " + detail::shortest(displacement) +
                                " m, where it is " + detail::shortest(level_here_) + " m/s^2");
     }
@@ -205,7 +205,11 @@ class TaylorFlow {
     // Roots at the start are taken out by leaving out leading zeros.
     int leading = 0;
     while (leading < order_ && speed_[leading] == 0) ++leading;
-    if (leading == order_ || speed_[leading] < 0) return 0;
+    // All of them underflow where a slip that does begin is too slow for doubles.
+    const bool begins =
+        start_.speed > 0 || start_.acceleration > 0 || (start_.acceleration == 0 && gain_.at(horizon_, 1) > 0);
+    if (leading == order_) return begins ? never : 0;
+    if (speed_[leading] < 0) return 0;
     const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
     return root < never ? root * horizon_ : never;
   }
@@ -245,7 +249,7 @@ class TaylorFlow {
   double work_of_gain(double t) const noexcept {
     const double s = t / horizon_;
     auto gain = gain_.coefficients(horizon_ * s);
-    double way[series::highest_order + 1], power = 1, work = 0;
+    double way[series::highest_order + 1], power = horizon_, work = 0;
     for (int k = 1; k <= order_; ++k) way[k] = (power *= s) * speed_[k - 1];
     for (int i = 1; i <= order_; ++i) {
       double sum = 0;
@@ -275,9 +279,8 @@ class TaylorFlow {
       even.mean = even.mean * z + distance_[k - 2] * series::reciprocal[k];
     }
     const auto gained = [s, z](double of_odd, double of_even) { return s * of_odd + z * of_even; };
-    return {s * (distance_[0] + gained(odd.distance, even.distance)),
-            start_.speed + gained(odd.speed, even.speed) / horizon_,
-            start_.acceleration + gained(odd.acceleration, even.acceleration) / (horizon_ * horizon_),
+    return {s * (distance_[0] + gained(odd.distance, even.distance)), start_.speed + gained(odd.speed, even.speed),
+            start_.acceleration + gained(odd.acceleration, even.acceleration),
             s * (distance_[0] / 2 + gained(odd.mean, even.mean))};
   }
 
@@ -287,7 +290,8 @@ class TaylorFlow {
     series::Coefficients x;
     auto level = as_series(slider_.law().level(series::Variable{&x}, direction_));
     x[0] = displacement_;
-    speed_[0] = distance_[0] = start_.speed * h;
+    speed_[0] = start_.speed;
+    distance_[0] = start_.speed * h;
     x[1] = s * distance_[0];
     level.update(0);
 
@@ -301,9 +305,9 @@ class TaylorFlow {
         level.update(k);
         net = gain(k) - stiffness * distance_[k - 1] - level[k];
       }
-      acceleration_[k] = h * h * net;
-      speed_[k + 1] = acceleration_[k] * series::reciprocal[k + 1];
-      distance_[k + 1] = speed_[k + 1] * series::reciprocal[k + 2];
+      acceleration_[k] = net;
+      speed_[k + 1] = h * net * series::reciprocal[k + 1];
+      distance_[k + 1] = h * speed_[k + 1] * series::reciprocal[k + 2];
       x[k + 2] = s * distance_[k + 1];
       const double previous = std::exchange(term, std::abs(speed_[k + 1]));
       fastest_ = std::max(fastest_, term);
@@ -317,7 +321,8 @@ class TaylorFlow {
     end_series(series::highest_order);
     const double last = std::max(std::abs(speed_[order_ - 1]), std::abs(speed_[order_ - 2])) / fastest_;
     const double outgrown = std::max(last / round_off, std::abs(level[order_ - 2]) / largest_level);
-    return std::clamp(std::pow(outgrown, -1.0 / (order_ - 2)), 0x1p-20, 0.75);
+    const double part = std::pow(outgrown, -1.0 / (order_ - 2));
+    return part > 0x1p-20 ? std::min(part, 0.75) : 0x1p-20;  // also where the coefficients overflowed
   }
 
   // `order` is the highest of the distance. Sums in pairs find zeros beyond.
@@ -334,7 +339,7 @@ class TaylorFlow {
     const double net = start_.acceleration + gain - pull - (level_there - level_here_);
     const double terms = std::abs(start_.acceleration) + gain_.largest(horizon_, part) + std::abs(pull) +
                          std::abs(level_here_) + std::abs(level_there) + slider_.stiffness() * std::abs(displacement_) +
-                         fastest_ / (horizon_ * horizon_);
+                         fastest_ / horizon_;
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
@@ -368,10 +373,10 @@ class TaylorFlow {
   decltype(detail::gain_series(SlipStart{}, 0)) gain_;
   double level_here_;  // [m/s^2]
   double horizon_;
-  double fastest_ = 0;  // the largest term of the speed, for time in units of the horizon [m]
+  double fastest_ = 0;  // the largest term of the speed [m/s]
   int order_ = 0;
-  // Coefficients, for time in units of the horizon: of the distance over the time, of the speed and of the
-  // acceleration.
+  // Coefficients, for time in units of the horizon: of the distance over that time [m], of the speed [m/s] and of the
+  // acceleration [m/s^2].
   double distance_[series::highest_order + 1], speed_[series::highest_order + 1],
       acceleration_[series::highest_order + 1];
   Progress end_{};  // at the horizon

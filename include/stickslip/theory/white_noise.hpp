@@ -81,7 +81,8 @@ class WhiteNoise {
   double variance() const;
 
   /// Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 / (a b)^2 + 2 / b^4),
-  /// which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s].
+  /// which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a level is 0: the variance then grows as t^3,
+  /// and `predict` leaves its growth rate NaN.
   double growth_rate() const;
 
   /// Two-sided spectral density of the stationary velocity [m^2/s]: its variance is the integral over the whole line.

@@ -1,0 +1,248 @@
+// Pickling, copies, comparison and hash of a class, from one list of what its objects are made of.
+#pragma once
+
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <ranges>
+#include <tuple>
+#include <type_traits>
+
+#include "bindings.hpp"
+#include "stickslip/thesis.hpp"
+
+namespace stickslip::python {
+
+/// Data members or getters, in the order in which T{...} takes them. A class that has them gets all below:
+///     template <> inline constexpr auto parts<Interval> = std::tuple(&Interval::value, &Interval::low, ...);
+template <class T>
+inline constexpr auto parts = nullptr;
+
+template <class T>
+concept MadeOfParts = !std::same_as<std::remove_cvref_t<decltype(parts<T>)>, std::nullptr_t>;
+
+// All in one place: a class within another must be known to be made of parts wherever either is.
+
+template <>
+inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::backward);
+template <>
+inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach);
+template <>
+inline constexpr auto parts<ViscousSlider> = std::tuple(&ViscousSlider::damping, &ViscousSlider::natural_frequency);
+template <>
+inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
+                                                         &HarmonicMotion::duration, &HarmonicMotion::dt);
+
+template <>
+inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::velocity, &State::mode);
+template <>
+inline constexpr auto parts<Event> = std::tuple(&Event::time, &Event::displacement, &Event::velocity, &Event::kind);
+template <>
+inline constexpr auto parts<Energy> = std::tuple(&Energy::initial, &Energy::input, &Energy::dissipated,
+                                                 &Energy::kinetic, &Energy::elastic);
+template <>
+inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Response::velocity, &Response::events,
+                                                   &Response::peak, &Response::residual, &Response::sliding_distance,
+                                                   &Response::time_sliding, &Response::energy, &Response::truncated,
+                                                   &Response::state);
+template <>
+inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
+                                                &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,
+                                                &Orbit::half_period_multipliers, &Orbit::multipliers, &Orbit::stable,
+                                                &Orbit::mean_arbitrary, &Orbit::state, &Orbit::events,
+                                                &Orbit::dissipated);
+
+template <>
+inline constexpr auto parts<Estimate> = std::tuple(&Estimate::value, &Estimate::error);
+template <>
+inline constexpr auto parts<Estimates> = std::tuple(&Estimates::value, &Estimates::error);
+template <>
+inline constexpr auto parts<Interval> = std::tuple(&Interval::value, &Interval::low, &Interval::high);
+template <>
+inline constexpr auto parts<Moments> = std::tuple(&Moments::time, &Moments::displacement_mean,
+                                                  &Moments::displacement_variance, &Moments::covariance,
+                                                  &Moments::velocity_mean, &Moments::velocity_variance,
+                                                  &Moments::growth_rate, &Moments::remark);
+template <>
+inline constexpr auto parts<Stationary> = std::tuple(&Stationary::begin, &Stationary::end, &Stationary::velocity_mean,
+                                                     &Stationary::velocity_variance, &Stationary::velocity_kurtosis,
+                                                     &Stationary::covariance, &Stationary::growth_rate);
+template <>
+inline constexpr auto parts<VelocitySpectrum> = std::tuple(&VelocitySpectrum::omega, &VelocitySpectrum::density,
+                                                           &VelocitySpectrum::error);
+template <>
+inline constexpr auto parts<StrongMotion> = std::tuple(&StrongMotion::arias_intensity, &StrongMotion::begin,
+                                                       &StrongMotion::end, &StrongMotion::duration,
+                                                       &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity,
+                                                       &StrongMotion::centre_frequency_hz);
+
+template <>
+inline constexpr auto parts<theory::WhiteNoise> = std::tuple(&theory::WhiteNoise::law, &theory::WhiteNoise::s0);
+template <>
+inline constexpr auto parts<theory::EquivalentLinearization::Options> =
+    std::tuple(&theory::EquivalentLinearization::Options::force, &theory::EquivalentLinearization::Options::start,
+               &theory::EquivalentLinearization::Options::tolerance);
+template <>
+inline constexpr auto parts<theory::EquivalentLinearization> = std::tuple(&theory::EquivalentLinearization::options);
+template <>
+inline constexpr auto parts<theory::TransitionTime> = std::tuple(&theory::TransitionTime::thesis,
+                                                                 &theory::TransitionTime::with_intercept);
+template <>
+inline constexpr auto parts<theory::PulseChain> = std::tuple(&theory::PulseChain::refined);
+template <>
+inline constexpr auto parts<theory::PulseSuperposition> = std::tuple(&theory::PulseSuperposition::overlap);
+template <>
+inline constexpr auto parts<theory::PulseResponse> =
+    std::tuple(&theory::PulseResponse::time, &theory::PulseResponse::displacement, &theory::PulseResponse::velocity,
+               &theory::PulseResponse::offset, &theory::PulseResponse::peak, &theory::PulseResponse::stop,
+               &theory::PulseResponse::velocity_square);
+template <>
+inline constexpr auto parts<theory::HarmonicSolution> = std::tuple(&theory::HarmonicSolution::amplitude,
+                                                                   &theory::HarmonicSolution::phase,
+                                                                   &theory::HarmonicSolution::stable);
+template <>
+inline constexpr auto parts<theory::StationaryLinearization> = std::tuple();
+template <>
+inline constexpr auto parts<theory::StationaryPrediction> =
+    std::tuple(&theory::StationaryPrediction::damping, &theory::StationaryPrediction::velocity_std,
+               &theory::StationaryPrediction::displacement_std, &theory::StationaryPrediction::growth_rate,
+               &theory::StationaryPrediction::remark, &theory::StationaryPrediction::spectrum,
+               &theory::StationaryPrediction::natural_frequency);
+
+template <>
+inline constexpr auto parts<ThesisCurve> = std::tuple(&ThesisCurve::label, &ThesisCurve::kind, &ThesisCurve::x,
+                                                      &ThesisCurve::y, &ThesisCurve::error, &ThesisCurve::members,
+                                                      &ThesisCurve::even);
+template <>
+inline constexpr auto parts<ThesisPanel> = std::tuple(&ThesisPanel::title, &ThesisPanel::x, &ThesisPanel::y,
+                                                      &ThesisPanel::log_x, &ThesisPanel::log_y, &ThesisPanel::curves,
+                                                      &ThesisPanel::x_limits, &ThesisPanel::y_limits);
+template <>
+inline constexpr auto parts<ThesisStatement> = std::tuple(&ThesisStatement::where, &ThesisStatement::claim,
+                                                          &ThesisStatement::said, &ThesisStatement::found,
+                                                          &ThesisStatement::error, &ThesisStatement::agrees,
+                                                          &ThesisStatement::why);
+template <>
+inline constexpr auto parts<ThesisCheck> = std::tuple(&ThesisCheck::what, &ThesisCheck::found, &ThesisCheck::expected,
+                                                      &ThesisCheck::allowed, &ThesisCheck::holds);
+template <>
+inline constexpr auto parts<ThesisFigure> = std::tuple(&ThesisFigure::number, &ThesisFigure::caption,
+                                                       &ThesisFigure::thesis_cost, &ThesisFigure::panels,
+                                                       &ThesisFigure::statements, &ThesisFigure::seconds);
+
+template <class T>
+concept Sequence = std::ranges::random_access_range<T> && !std::convertible_to<T, std::string_view> &&
+                   !std::derived_from<T, py::handle>;
+
+/// Plain Python objects to pickle.
+template <class T>
+py::object pack(const T& value) {
+  if constexpr (MadeOfParts<T>) {
+    return std::apply([&](auto... part) { return py::make_tuple(pack(std::invoke(part, value))...); }, parts<T>);
+  } else if constexpr (std::is_enum_v<T>) {
+    return py::int_(static_cast<int>(value));
+  } else if constexpr (std::same_as<T, std::vector<double>>) {
+    return to_array(value);
+  } else if constexpr (Sequence<T>) {
+    py::list list;
+    for (const auto& element : value) list.append(pack(element));
+    return list;
+  } else if constexpr (std::derived_from<T, py::object>) {
+    return value;
+  } else {
+    return py::cast(value);
+  }
+}
+
+template <class T>
+T unpack(const py::object& packed);
+
+template <class T, std::size_t... i>
+T unpack_parts(const py::tuple& packed, std::index_sequence<i...>) {
+  if (packed.size() != sizeof...(i))
+    throw std::invalid_argument("unpickling: expected " + std::to_string(sizeof...(i)) + " values, got " +
+                                std::to_string(packed.size()));
+  return T{unpack<std::remove_cvref_t<std::invoke_result_t<decltype(std::get<i>(parts<T>)), const T&>>>(
+      packed[i].template cast<py::object>())...};
+}
+
+template <class T>
+T unpack(const py::object& packed) {
+  if constexpr (MadeOfParts<T>) {
+    return unpack_parts<T>(packed.cast<py::tuple>(),
+                           std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<decltype(parts<T>)>>>());
+  } else if constexpr (std::is_enum_v<T>) {
+    return static_cast<T>(packed.cast<int>());
+  } else if constexpr (std::same_as<T, std::vector<double>>) {
+    return to_vector(packed, "unpickling: values");
+  } else if constexpr (Sequence<T> && requires(T list) { list.reserve(0); }) {
+    T list;
+    for (const py::handle element : packed)
+      list.push_back(unpack<typename T::value_type>(py::reinterpret_borrow<py::object>(element)));
+    return list;
+  } else {
+    return packed.cast<T>();
+  }
+}
+
+/// Whether both hold the same. A NaN is the same as another.
+template <class T>
+bool same(const T& a, const T& b) {
+  if constexpr (MadeOfParts<T>)
+    return std::apply([&](auto... part) { return (same(std::invoke(part, a), std::invoke(part, b)) && ...); },
+                      parts<T>);
+  else if constexpr (std::floating_point<T>)
+    return a == b || (std::isnan(a) && std::isnan(b));
+  else if constexpr (std::same_as<T, std::complex<double>>)
+    return same(a.real(), b.real()) && same(a.imag(), b.imag());
+  else if constexpr (Sequence<T>)
+    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return same(x, y); });
+  else
+    return pack(a).equal(pack(b));
+}
+
+/// The same for what is the same.
+template <class T>
+std::size_t hash_of(const T& value) {
+  const auto join = [](std::size_t hash, std::size_t next) { return hash * 1'000'003 ^ next; };
+  std::size_t hash = 0;
+  if constexpr (MadeOfParts<T>) {
+    std::apply([&](auto... part) { ((hash = join(hash, hash_of(std::invoke(part, value)))), ...); }, parts<T>);
+  } else if constexpr (std::floating_point<T>) {
+    hash = std::isnan(value) ? 0 : std::hash<T>()(value);
+  } else if constexpr (std::same_as<T, std::complex<double>>) {
+    hash = join(hash_of(value.real()), hash_of(value.imag()));
+  } else if constexpr (Sequence<T>) {
+    for (const auto& element : value) hash = join(hash, hash_of(element));
+  } else {
+    hash = static_cast<std::size_t>(py::hash(pack(value)));
+  }
+  return hash;
+}
+
+/// A class of objects that do not change: they compare by content, and can be hashed, copied and pickled.
+template <MadeOfParts T>
+py::class_<T> value_class(py::module_& m, const char* name, std::string doc) {
+  doc.insert(std::min(doc.find("\n\n"), doc.size()),
+             "\n\nObjects compare by content; they can be hashed, copied and pickled.");
+  py::class_<T> type(m, name, doc.c_str());
+  type.def(
+          "__eq__",
+          [](const T& self, const py::object& other) -> py::object {  // `const T&` would convert, a law to a slider
+            if (!py::isinstance<T>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+            return py::bool_(same(self, other.cast<const T&>()));
+          },
+          py::is_operator())
+      .def("__hash__", [](const T& self) { return static_cast<py::ssize_t>(hash_of(self) >> 1); })
+      .def(py::pickle([](const T& self) { return py::tuple(pack(self)); },
+                      [](const py::tuple& state) { return unpack<T>(state); }));
+  return type;
+}
+
+}  // namespace stickslip::python

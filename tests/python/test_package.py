@@ -1,0 +1,35 @@
+"""What the package shows of itself in a fresh interpreter."""
+
+import importlib
+import subprocess
+import sys
+
+import pytest
+
+
+def shown(module):
+    script = f"""
+import {module} as m
+print(*dir(m))
+print(*(name for name in dir(m) if not hasattr(m, name)))
+"""
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    names, missing = result.stdout.split("\n")[:2]
+    return names.split(), missing.split()
+
+
+@pytest.mark.parametrize("module", ["stickslip", "stickslip.harmonic", "stickslip.theory"])
+def test_a_module_shows_its_public_names_and_nothing_else(module):
+    names, missing = shown(module)
+    assert missing == []
+    assert len(names) == len(set(names))
+    assert {n for n in names if not n.startswith("__")} == {
+        n for n in importlib.import_module(module).__all__ if not n.startswith("__")
+    }
+    assert {"__all__", "__doc__", "__file__", "__name__"} <= set(names)
+
+
+def test_a_submodule_shows_once_it_is_imported():
+    script = "import stickslip, stickslip.thesis; print('thesis' in dir(stickslip))"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True).stdout == b"True\n"

@@ -1,0 +1,317 @@
+"""What every class of the package does: pickling, copies, comparison, hash; no use before init."""
+
+import copy
+import multiprocessing
+import pickle
+import subprocess
+import sys
+from concurrent.futures import ProcessPoolExecutor
+
+import numpy as np
+import pytest
+import stickslip as ss
+import stickslip.thesis
+from stickslip import harmonic, theory, thesis
+
+BLOCK, WHEEL = ss.Coulomb(slip_level=1.0, backward=1.6), ss.Caster(slip_level=1.0, reach=0.5)
+CART, DAMPER = ss.Slider(WHEEL, 1.3), ss.ViscousSlider(0.5, 2.0)
+EVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, name="M\u00e9xico")
+UNEVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], times=[0, 0.1, 0.1, 7], interpolation="constant")
+WHITE, BAND = ss.Spectrum.white(s0=1 / 3), ss.Spectrum.band_pass(s0=1.0, low=2.0, high=12.0)
+TABLE = ss.Spectrum.from_table([0, 1, 3], [0.1, 1, 0])
+SHAKING = ss.GaussianExcitation(BAND, dt=0.1, samples=256)
+PULSES = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
+ENSEMBLE = ss.run_ensemble(BLOCK, SHAKING, members=70, seed=1)
+SMALLER = ss.run_ensemble(BLOCK, SHAKING, members=64, seed=1)
+COMPARED = ss.compare(ss.Coulomb(slip_level=0.5), PULSES, [2, 4], members=64)
+RESPONSES = [
+    ss.integrate(BLOCK, EVEN, displacement=0.01, velocity=-0.3, settle=True),
+    ss.integrate(CART, ss.HarmonicMotion(2, 3, 4)),
+    ss.integrate(DAMPER, UNEVEN),
+    ss.integrate(BLOCK, EVEN),
+]
+BRANCH = harmonic.continuation(WHEEL, harmonic.orbits(WHEEL, 1.5, 1.0)[-1], 0.9, 1.1)
+LINEARIZED = [
+    theory.StationaryLinearization().predict(ss.Coulomb(slip_level=level), TABLE)
+    for level in (0.5, 0.7, 50.0)
+]
+DRAWN = thesis.Thesis(members=100)
+FIGURES = [DRAWN.figure(number) for number in ("4.3", "A.2", "Table 5.1")]
+STATEMENTS = [s for figure in FIGURES for s in figure.statements]
+
+# Of each class, objects that differ.
+EXAMPLES = {
+    ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
+    ss.Caster: [WHEEL, ss.Caster(slip_level=1.0, reach=float("inf"))],
+    ss.Slider: [CART, ss.Slider(WHEEL), ss.Slider(BLOCK, 1.3)],
+    ss.ViscousSlider: [DAMPER, ss.ViscousSlider(0.5)],
+    ss.GroundMotion: [
+        EVEN,
+        UNEVEN,
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, interpolation="constant"),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.2),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], times=[0, 0.1, 0.2, 0.3]),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.2], dt=0.1),
+    ],
+    ss.HarmonicMotion: [ss.HarmonicMotion(2, 3, 4), ss.HarmonicMotion(2, 3, 4, dt=0.1)],
+    ss.Envelope: [
+        ss.Envelope(build_up=1, strong=float("inf"), decay_rate=1 / 3),
+        ss.Envelope(build_up=2, strong=2, decay_rate=3),
+        ss.Envelope.from_table([0, 1 / 3], [1, 0]),
+    ],
+    ss.Spectrum: [
+        WHITE,
+        BAND,
+        TABLE,
+        ss.Spectrum.kanai_tajimi(s0=1, frequency=15, damping=0.6),
+        ss.Spectrum.clough_penzien(
+            s0=1, frequency=15, damping=0.6, filter_frequency=1.5, filter_damping=0.6
+        ),
+        ss.Spectrum.from_function(np.exp2, high=3.0),
+    ],
+    ss.GaussianExcitation: [
+        SHAKING,
+        SHAKING.refined(2),
+        ss.GaussianExcitation(BAND, 0.1, 256, envelope=ss.Envelope.from_table([0, 9], [1, 0])),
+    ],
+    ss.PoissonPulses: [
+        PULSES,
+        ss.PoissonPulses(rate=3, half_width=1, sigma=2, duration=6, shape=([0, 1 / 3, 1], [2, -1])),
+    ],
+    ss.Energy: [r.energy for r in RESPONSES],
+    ss.Response: RESPONSES,
+    ss.StrongMotion: [ss.strong_motion(PULSES.sample(seed=1, member=m)) for m in (0, 1)],
+    ss.Estimate: [ENSEMBLE.stationary.growth_rate, COMPARED.theories["PulseChain"].growth_rate],
+    ss.Interval: [ENSEMBLE.quantile(0.5), ENSEMBLE.quantile(0.999)],
+    ss.Stationary: [ENSEMBLE.stationary, SMALLER.stationary],
+    ss.VelocitySpectrum: [ENSEMBLE.velocity_spectrum, SMALLER.velocity_spectrum],
+    ss.Moments: [ENSEMBLE.moments, *COMPARED.theories.values(), LINEARIZED[0].transient([1, 2])],
+    ss.Ensemble: [
+        ENSEMBLE,
+        SMALLER,
+        ss.run_ensemble(BLOCK, SHAKING, members=70, seed=1, velocity_spectrum=False),
+        ss.run_ensemble(BLOCK, SHAKING, members=70, seed=2),
+    ],
+    ss.Comparison: [COMPARED, ss.compare(CART.law, PULSES, [2, 4], members=64)],
+    ss.ConvergenceError: [ss.ConvergenceError("not yet")],
+    ss.EnsembleError: [ss.EnsembleError("no motion here", range(64, 70), SMALLER)],
+    harmonic.Orbit: [
+        *harmonic.orbits(WHEEL, 0.9, 0.5),
+        *harmonic.orbits(BLOCK.on_slope(mu=0.2, degrees=0), 4, 1),
+    ],
+    harmonic.OrbitBranch: [
+        BRANCH,
+        harmonic.continuation(WHEEL, BRANCH[0], 0.9, 1.1, largest_step=0.1),
+    ],
+    theory.EquivalentLinearization: [
+        theory.EquivalentLinearization(),
+        theory.EquivalentLinearization("thesis", start="thesis"),
+        theory.EquivalentLinearization(tolerance=1e-9),
+    ],
+    theory.HarmonicSolution: theory.SlowlyVaryingParameters(CART).response(3, 1.2),
+    theory.PulseChain: [theory.PulseChain(), theory.PulseChain(refined=True)],
+    theory.PulseResponse: [
+        theory.pulse_response(BLOCK, 2, 0.1),
+        theory.viscous_pulse_response(1, 2, 0.1, times=[]),
+    ],
+    theory.PulseSuperposition: [
+        theory.PulseSuperposition(overlap) for overlap in ("none", "thesis", "renewal")
+    ],
+    theory.SlowlyVaryingParameters: [
+        theory.SlowlyVaryingParameters(CART),
+        theory.SlowlyVaryingParameters(WHEEL),
+    ],
+    theory.StationaryLinearization: [theory.StationaryLinearization()],
+    theory.StationaryPrediction: LINEARIZED,
+    theory.TransitionTime: [theory.transition_time(WHEEL, s0) for s0 in (0.01, 0.02)],
+    theory.WhiteNoise: [theory.WhiteNoise(BLOCK, WHITE), theory.WhiteNoise(BLOCK, 2)],
+    thesis.ThesisCheck: FIGURES[0].check(100)[:2],
+    thesis.ThesisCurve: [c for figure in FIGURES for panel in figure.panels for c in panel.curves],
+    thesis.ThesisFigure: FIGURES,
+    thesis.ThesisPanel: [panel for figure in FIGURES for panel in figure.panels],
+    thesis.ThesisStatement: STATEMENTS,
+}
+DOES_WORK = {thesis.Thesis}  # no value: it draws, tells how far it is, and remembers ensembles
+
+PUBLIC = {
+    thing
+    for module in (ss, harmonic, theory, thesis)
+    for thing in (getattr(module, name) for name in module.__all__)
+    if isinstance(thing, type)
+}
+ALL = [pytest.param(e, id=f"{c.__name__} {i}") for c in EXAMPLES for i, e in enumerate(EXAMPLES[c])]
+
+
+def content(thing):
+    """All that an object shows, to the bit, in what Python compares."""
+    if isinstance(thing, np.ndarray):
+        return thing.dtype.str, thing.shape, thing.tobytes()
+    if isinstance(thing, float | complex | np.generic):
+        return content(np.asarray(thing))
+    if isinstance(thing, list | tuple | range):
+        return type(thing), [content(element) for element in thing]
+    if isinstance(thing, dict):
+        return {name: content(value) for name, value in thing.items()}
+    if type(thing) not in EXAMPLES:
+        return thing
+    shown = {"repr": repr(thing)} if type(thing) is not ss.Comparison else {}
+    for name in dir(thing):
+        if name.startswith("__") or name == "with_traceback":
+            continue
+        try:
+            value = getattr(thing, name)
+        except ValueError as error:
+            value = str(error)
+        if not callable(value):
+            shown[name] = content(value)
+    return shown
+
+
+def twins(thing):
+    return [
+        *(pickle.loads(pickle.dumps(thing, p)) for p in range(pickle.HIGHEST_PROTOCOL + 1)),
+        copy.copy(thing),
+        copy.deepcopy(thing),
+    ]
+
+
+def is_same(twin, thing):
+    assert type(twin) is type(thing)
+    assert twin is not thing
+    assert content(twin) == content(thing)
+    if not isinstance(thing, Exception):
+        assert twin == thing
+        assert not twin != thing  # noqa: SIM202
+        assert type(thing).__hash__ is None or hash(twin) == hash(thing)
+
+
+def test_of_every_public_class_there_is_an_example():
+    assert EXAMPLES.keys() | DOES_WORK == PUBLIC
+    assert all(EXAMPLES.values())
+
+
+@pytest.mark.parametrize("thing", ALL)
+def test_pickled_and_copied_all_is_the_same_to_the_bit(thing):
+    for twin in twins(thing):
+        is_same(twin, thing)
+
+
+def test_all_go_through_other_processes():
+    things = [example for examples in EXAMPLES.values() for example in examples]
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        for twin, thing in zip(pool.map(copy.deepcopy, things), things, strict=True):
+            is_same(twin, thing)
+
+
+@pytest.mark.parametrize("kind", EXAMPLES, ids=lambda kind: kind.__name__)
+def test_what_differs_compares_different(kind):
+    examples = EXAMPLES[kind]
+    for i, one in enumerate(examples):
+        assert [one == other for other in examples] == [i == k for k in range(len(examples))]
+        assert [one != other for other in examples] == [i != k for k in range(len(examples))]
+        for stranger in (None, 1.0, "", kind, DAMPER if kind is not ss.ViscousSlider else EVEN):
+            assert not one == stranger  # noqa: SIM201
+            assert one != stranger
+
+
+def test_what_can_change_has_no_hash_and_all_else_has_one():
+    unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
+    assert unhashable == {ss.Ensemble, ss.Comparison}
+    for kind in EXAMPLES.keys() - unhashable:
+        assert len({*EXAMPLES[kind], *EXAMPLES[kind]}) == len(EXAMPLES[kind])
+
+
+def test_a_response_keeps_what_it_came_from_when_it_is_pickled():
+    first, *others = pickle.loads(pickle.dumps([ss.integrate(BLOCK, EVEN) for _ in range(3)]))
+    assert first.motion == EVEN
+    assert all(other.motion is first.motion for other in others)
+    assert not first.displacement.flags.writeable
+
+
+def test_zeros_of_either_sign_are_equal_and_hash_alike():
+    plus, minus = (ss.GroundMotion([0, zero, 1], dt=0.1) for zero in (0.0, -0.0))
+    assert plus == minus
+    assert hash(plus) == hash(minus)
+
+
+def test_an_ensemble_is_equal_however_it_was_put_together():
+    parts = [
+        ss.run_ensemble(BLOCK, SHAKING, members=n, seed=1, first_member=first)
+        for first, n in ((64, 6), (0, 64))
+    ]
+    whole = parts[0]
+    assert whole != ENSEMBLE
+    whole.merge(parts[1])
+    assert whole == ENSEMBLE
+
+
+class OwnMotion(ss.GroundMotion):
+    pass
+
+
+def test_what_is_derived_from_a_class_stays_what_it_is():
+    own = OwnMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, name="M\u00e9xico")
+    for twin in twins(own):
+        assert type(twin) is OwnMotion
+        assert twin == own == EVEN
+
+
+# ---- objects that were never initialized
+
+UNFINISHED = """
+import pickle
+import stickslip as ss
+from stickslip import harmonic, theory, thesis
+
+motion = ss.GroundMotion([0, 1], dt=1)
+
+def check(kind, what, use):
+    try:
+        use()
+    except TypeError:
+        return
+    except Exception as error:
+        print(kind.__name__, what, "raises", repr(error))
+    else:
+        print(kind.__name__, what, "works")
+
+for module in (ss, harmonic, theory, thesis):
+    for kind in map(vars(module).get, module.__all__):
+        if type(kind).__name__ != "pybind11_type":
+            continue
+        def make():
+            return kind.__new__(kind)
+        check(kind, "pickle", lambda: pickle.dumps(make()))
+        if kind is not thesis.Thesis:
+            check(kind, "repr", lambda: repr(make()))
+            check(kind, "==", lambda: make() == make())
+            check(kind, "hash", lambda: hash(make()))
+            check(kind, "len", lambda: len(make()))
+        for name, member in vars(kind).items():
+            if type(member) is property:
+                check(kind, name, lambda: getattr(make(), name))
+        for name in dir(kind):
+            if not name.startswith("__") and type(vars(kind)[name]).__name__ == "instancemethod":
+                check(kind, name + "()", lambda: getattr(make(), name)(*[1] * 2))
+                check(kind, name + "()", lambda: getattr(make(), name)())
+
+class Early(ss.GroundMotion):
+    def __init__(self):
+        check(Early, "repr", lambda: repr(self))
+        super().__init__([0, 1], dt=1)
+
+repr(Early())
+slider = ss.Slider.__new__(ss.Slider)
+check(ss.Slider, "argument", lambda: ss.integrate(slider, motion))
+check(ss.Coulomb, "argument", lambda: ss.integrate(ss.Coulomb.__new__(ss.Coulomb), motion))
+empty = ss.GroundMotion.__new__(ss.GroundMotion)
+check(ss.GroundMotion, "argument", lambda: ss.integrate(ss.Coulomb(mu=1), empty))
+check(ss.Coulomb, "law", lambda: ss.Slider(ss.Coulomb.__new__(ss.Coulomb)))
+print("alive")
+"""
+
+
+def test_an_object_that_was_never_initialized_is_a_type_error_wherever_it_is_used():
+    result = subprocess.run([sys.executable, "-c", UNFINISHED], capture_output=True, text=True)
+    assert (result.returncode, result.stdout, result.stderr) == (0, "alive\n", "")
