@@ -59,6 +59,7 @@ class IndependentSlider {
   void advance(Real duration, Real start, Real end, const Times& times, Look&& look) {
     if (!(duration > 0)) return;
     duration_ = duration;
+    largest = std::max({largest, std::abs(x), v * v, w_ * w_ * x * x});
     rate_ = (start - end) / duration;
     Real now = 0;
     int came_from = 0;                                    // direction of a slip that stopped just now
@@ -348,10 +349,10 @@ class IndependentSlider {
       v_error += rounding * duration_;
       drift = wait * v_error;
     }
-    if (margin_then <= 2 * force_error) v_error += force_error * wait;
+    if (margin_then <= 2 * force_error) v_error += force_error * wait, drift += force_error * wait * wait;
     x_error += drift;
     path_error += drift;
-    input_error += drift * std::abs(load_);
+    input_error += drift * (std::abs(load_) + std::abs(rate_) * duration_);
     dissipated_error += drift * std::min(f, b);
   }
 
