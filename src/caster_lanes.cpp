@@ -100,9 +100,13 @@ struct Series {
       w[k + 2] = (k == 0 ? slope - braked : -braked) * Real(1.0 / (k + 2));
     }
     // Terms fall off as the way over pi/2, where the complex plane has the next pole, or faster; two of them, as one
-    // can vanish by symmetry (from rest more can: see below). Over more than a reach they tell nothing.
+    // can vanish by symmetry. Over more than a reach they tell nothing.
     const Real next = way * fma(way * 0.4, abs(w[order]), abs(w[order + 1]));
-    converges = ((way <= 1) & (next <= left_out)) | (abs(y) - way > far_off);
+    // From rest at y = 0, or nearly so, the level changes as y^2 ~ t^6 and then as y^4 ~ t^12, which the last terms do
+    // not see.
+    const Real far = abs(w[1]) + abs(w[2]);
+    const Bool seen = (abs(w[0]) * 16.0 > far) | (abs(friction) * (far * far) * (far * far) <= 100 * left_out);
+    converges = ((way <= 1) & (next <= left_out) & seen) | (abs(y) - way > far_off);
   }
 
   HWY_INLINE Real distance(const Real& t) const {
@@ -219,11 +223,8 @@ HWY_INLINE Bool move(const Real& friction, Real& y, Real& w, const Real& load, c
     const Series series(y, w * step, fma(slope, time, load) * square, slope * (square * step),
                         direction * (friction * square),
                         [&](const Real& net) HWY_ATTR { return select(from_rest & eased, 0.0, net); });
-    // From rest at y = 0 the level changes as y^2 ~ t^6 and then as y^4 ~ t^12, which the last terms do not see.
-    const Real far = abs(series.w[1]) + abs(series.w[2]);
-    const Bool seen = friction * square * (far * far) * (far * far) <= 100 * left_out;
     const Zeros zeros(series, direction, from_rest);
-    const Bool good = but_not(series.converges & (seen | !from_rest), done);
+    const Bool good = but_not(series.converges, done);
     const Bool goes_on = good & zeros.are_none, stops = good & zeros.is_one, moves = goes_on | stops;
     const Real at = any(stops) ? select(stops, zeros.find(), 1.0) : Real(1.0);
     y = select(moves, y + series.distance(at), y);

@@ -354,3 +354,11 @@ TEST_CASE("a slip too short for a double is none", "[advance][range]") {
   CHECK(std::abs(through(Slider(Coulomb(0.1), 1e-8), jump, State::at(0.669, 0)) - (0.669 + (n - 0.1) / 2 - n / 6)) <=
         1e-15);
 }
+
+TEST_CASE("the rate of a load may be as large as doubles are", "[advance][range]") {
+  // Within 1e-300 s no load stops a speed of 2.5e-17 m/s.
+  State state = State::at(0, 2.5e-17);
+  advance(Slider(Coulomb(1)), Segment{1e-300, 0, -1e8}, state);
+  CHECK(state.velocity == 2.5e-17);
+  CHECK(state.mode == Mode::forward);
+}

@@ -235,5 +235,20 @@ TEST_CASE("Caster names what it refuses", "[caster][errors]") {
 TEST_CASE("the work of a caster of enormous reach is that of Coulomb friction", "[caster][range]") {
   constexpr double largest = std::numeric_limits<double>::max();
   for (const double level : {1.0, 9.8})
-    CHECK(std::abs(Caster(level, largest).work(0.1, 3, Direction::forward) - level * 3) <= 1e-14 * level);
+    for (const double distance : {3.0, 1e-16})
+      CHECK(std::abs(Caster(level, largest).work(0.1, distance, Direction::forward) - level * distance) <=
+            1e-14 * level * distance);
+}
+
+TEST_CASE("however slow a caster starts, the motion is that from rest", "[caster]") {
+  // A start at 1e-12 m/s shifts x by less than 1e-12 m within the 0.7 s.
+  const GroundMotion motion({2, -1}, 0.7);
+  const auto residual = [&](double velocity) {
+    IntegrateOptions options;
+    options.velocity = velocity;
+    return integrate(Caster(1, 1), motion, options).residual;
+  };
+  const double from_rest = residual(0);
+  for (const double velocity : {-1e-300, -1e-20, -1e-12, 1e-20})
+    CHECK(std::abs(residual(velocity) - from_rest) <= 1e-12);
 }

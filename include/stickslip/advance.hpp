@@ -232,8 +232,10 @@ template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
+  State moving = state;  // in registers
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
-                     [&](const auto& flows) { detail::advance(slider.law(), flows, segment, state, observer); });
+                     [&](const auto& flows) { detail::advance(slider.law(), flows, segment, moving, observer); });
+  state = moving;
   if (!detail::finite(state.displacement, state.velocity)) [[unlikely]]
     detail::refuse_overflow(state);
 }

@@ -83,7 +83,8 @@ class ClosedForm {
     // the end.
     if (one_arch && last_speed > 0 && (a >= 0 || oscillator_.acceleration(start_, end_) <= 0)) return never;
     if (u == 0 && a <= 0) return a < 0 || gain <= 0 ? 0 : never;
-    const double stop = oscillator_.first_stop(u, a, gain / duration_);
+    // In units of the duration all terms are speeds, which neither overflow nor underflow where it matters.
+    const double stop = oscillator_.first_stop(u, a * duration_, gain * duration_, duration_);
     if (stop <= duration_) return stop;
     return one_arch && last_speed <= 0 ? duration_ : never;  // past the end by rounding alone
   }

@@ -44,8 +44,10 @@ class Harmonic {
     return {u * b.b1 + a * b.b2 + g * b.c3, speed(start, b), acceleration(start, b), u * b.c2 + a * b.c3 + g * b.c4};
   }
 
-  double first_stop(double u, double a, double load_rate) const noexcept {
-    const double y = first_root(u, a, load_rate - w_ * w_ * u * (1.0 / 2));
+  /// As `Polynomial::first_stop`.
+  double first_stop(double u, double a, double g, double duration) const noexcept {
+    const double radians = w_ * duration;
+    const double y = duration * first_root(u, a, g - radians * radians * u * (1.0 / 2));
     if (std::isnan(y)) return never;
     return (2 / w_) * (std::atan(w_ * y / 2) + (std::signbit(y) ? std::numbers::pi : 0.0));
   }

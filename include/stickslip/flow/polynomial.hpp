@@ -27,9 +27,10 @@ struct Polynomial {
             t * (u * (1.0 / 2) + t * (a * (1.0 / 6) + g * (1.0 / 24)))};
   }
 
-  static double first_stop(double u, double a, double load_rate) noexcept {
-    const double root = first_root(u, a, load_rate);
-    return root >= 0 && !std::signbit(root) ? root : never;  // a root that underflowed is at +0 or before the start
+  /// @param u, a, g  speed, and acceleration and gain times the duration [m/s]
+  static double first_stop(double u, double a, double g, double duration) noexcept {
+    const double root = first_root(u, a, g);
+    return root >= 0 && !std::signbit(root) ? root * duration : never;  // one that underflowed is +0, or -0 and before
   }
 
   /// No spring pulls.

@@ -315,8 +315,9 @@ class TaylorFlow {
       end_series(k + 2);
       // On breaking away x is a cubic, and two of three coefficients of the level are zero.
       const double recent_level = std::max({std::abs(level[k]), std::abs(level[k - 1]), std::abs(level[k - 2])});
-      // From rest x may also come back to its start at the horizon, where nothing would then be noticed.
-      if (recent_level <= largest_level && (start_.speed != 0 || balanced(0.6)) && balanced(1)) return 1;
+      // From rest, or nearly so, x may also come back to its start at the horizon, where nothing would then be noticed.
+      const bool fast = start_.speed > fastest_ / 16;
+      if (recent_level <= largest_level && (fast || balanced(0.6)) && balanced(1)) return 1;
     }
     end_series(series::highest_order);
     const double last = std::max(std::abs(speed_[order_ - 1]), std::abs(speed_[order_ - 2])) / fastest_;

@@ -64,8 +64,9 @@ class Caster {
   /// Work per unit mass against friction in sliding `distance` >= 0 from `from` [m^2/s^2]: a reach times the difference
   /// of two Gudermannians, in a form that does not cancel.
   double work(double from, double distance, Direction direction) const noexcept {
-    if (std::isinf(reach_)) return slip_level_ * distance;
-    const double half = distance / 2 / reach_, middle = std::abs(from / reach_ + sign(direction) * half);
+    const double half = distance / 2 / reach_;
+    if (half < 0x1p-60) return level(from, direction) * distance;  // which does not change over so short a way
+    const double middle = std::abs(from / reach_ + sign(direction) * half);
     const double ratio = std::exp(half - middle) * -std::expm1(-2 * half) / (1 + std::exp(-2 * middle));
     return slip_level_ * (reach_ * (2 * std::atan(ratio)));  // ratio = sinh(half) / cosh(middle)
   }
