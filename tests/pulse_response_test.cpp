@@ -126,8 +126,14 @@ TEST_CASE("a caster of infinite reach is a block; one of finite reach follows th
   double sum = 0;
   for (const double v : pulse_response(caster, 3.5, 0.5, {}, 0, times).velocity) sum += v * v;
   CHECK(r.velocity_square == Approx(sum * r.stop / 20'000).epsilon(1e-6));
-  // Its friction takes no more than a finite work: a strong pulse carries it off.
-  CHECK(std::isinf(pulse_response(caster, 200, 0.5).offset));
+  // A strong pulse throws it to where there is no friction left, from where it comes back, slowly.
+  const PulseResponse back = pulse_response(caster, 200, 0.5);
+  const Response strong =
+      integrate(caster, GroundMotion({200, -200, 0, 0}, std::vector<double>{0, 0.5, 1, 2000}, Interpolation::constant));
+  CHECK(back.offset == Approx(strong.residual).epsilon(1e-12));
+  CHECK(back.peak == Approx(strong.peak).epsilon(1e-12));
+  CHECK(strong.events[strong.events.size() - 2].kind == EventKind::arrest);
+  CHECK(back.stop == Approx(strong.events[strong.events.size() - 2].time).epsilon(1e-9));
 }
 
 TEST_CASE("displacements are the integral of velocities", "[pulse_response]") {

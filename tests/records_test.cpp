@@ -85,8 +85,6 @@ constexpr double g = standard_gravity;
 
 const std::vector<double> peer_samples = {-0.1 * g, 0.2 * g, 0.5 * g, -0.25 * g, 0.001 * g};
 
-}
-
 }  // namespace
 
 TEST_CASE("units of acceleration are known in all their spellings", "[records]") {

@@ -142,7 +142,10 @@ TEST_CASE("settling under a steady pull over, a slider held off centre by the gr
   CHECK(held_there.residual == 3);
   const Response settled = integrate(slider, held(-2.5, 1), from(3, 0, true));
   CHECK(std::abs(settled.residual + 1) <= 2e-15);
-  CHECK(settled.displacement.back() == 3);
+  CHECK(settled.displacement[1] == 3);
+  REQUIRE(settled.displacement.size() == 6);  // at 2, 3, 4 and, after the rest at 1 + pi, 5 s
+  CHECK(settled.displacement[2] == Approx(1 + 2 * std::cos(1)));
+  CHECK(settled.displacement.back() == settled.residual);
   CHECK(settled.state.mode == Mode::stuck);
   CHECK(settled.events.front().kind == EventKind::breakaway);
   CHECK(settled.events.front().time == 1);

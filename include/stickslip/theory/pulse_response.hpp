@@ -117,10 +117,17 @@ template <FrictionLaw Law>
 double coast(const Slider<Law>& slider, Ride& ride) {
   constexpr double never_stops = std::numeric_limits<double>::infinity();
   constexpr int most_doublings = 30;
-  const auto level = [&] { return slider.law().level(ride.state.displacement, direction_of(ride.state.mode)); };
+  // To where it stops under the level here; but not so far beyond x = 0, where the level may be all there is, that the
+  // times of events would lose their digits.
+  const auto first_step = [&] {
+    const Direction direction = direction_of(ride.state.mode);
+    const double x = std::abs(ride.state.displacement), v = std::abs(ride.state.velocity);
+    const auto time_to_stop = [&](double place) { return v / slider.law().level(place, direction); };
+    return std::min(time_to_stop(ride.state.displacement), std::max(x / v, time_to_stop(0)));
+  };
   double time = 0, step = 0;
   for (int i = 0; ride.state.mode != Mode::stuck; ++i) {
-    step = i == 0 ? std::abs(ride.state.velocity) / level() : 2 * step;
+    step = i == 0 ? first_step() : 2 * step;
     if (i > most_doublings || !std::isfinite(step)) {
       ride.state.displacement *= never_stops;
       return never_stops;
