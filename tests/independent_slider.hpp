@@ -277,7 +277,7 @@ class IndependentSlider {
     for (int k = 0; k <= terms_; ++k) fastest += std::abs(c_[k]);
     const Real time = h_ * part, distance = std::abs(way(part)), a = scale() + w_ * w_ * fastest * h_;
     const Real reach_error = std::isinf(reach_) ? 0 : slope_of_level();
-    const Real lost_below = least * ((1 + duration_) * (1 + duration_) + a + fastest);
+    const Real lost_below = least * ((1 + duration_) * (1 + duration_) + a + fastest + (w_ > 0 ? a / w_ : 0));
     const Real x_rounding = round_off * (std::abs(x) + fastest * h_) + lost_below;
     const Real v_rounding = round_off * (fastest + a * duration_) + lost_below + w_ * x_rounding;
     v_error += v_rounding + reach_error * x_error * time;
@@ -353,7 +353,7 @@ class IndependentSlider {
     x_error += drift;
     path_error += drift;
     input_error += drift * (std::abs(load_) + std::abs(rate_) * duration_);
-    dissipated_error += drift * std::min(f, b);
+    dissipated_error += drift * std::max(f, std::isinf(b) ? 0 : b);
   }
 
   static constexpr Real never = std::numeric_limits<Real>::infinity();
