@@ -65,6 +65,9 @@ LONG = {
     "settling": """ss.integrate(
             ss.Slider(ss.Caster(slip_level=1.0, reach=0.05), 100.0),
             ss.GroundMotion([0, 0], dt=1), displacement=3.0, settle=True)""",
+    "casters under pulses": """ss.theory.PulseSuperposition().predict(
+            ss.Caster(slip_level=1.0, reach=10.0),
+            ss.PoissonPulses(rate=0.5, half_width=1.0, sigma=10.0, duration=60.0), [60.0])""",
 }
 
 SCRIPT = """
@@ -90,6 +93,7 @@ except KeyboardInterrupt:
         "many samples",
         "long samples",
         "settling",
+        "casters under pulses",
     ],
 )
 def test_ctrl_c_ends_an_integration_within_a_second(work):
