@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/theory/pulse_chain.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -198,6 +203,7 @@ class Pulses {
     Rates rates;
     for (const auto& [b, weight] : nodes) {
       if (weight == 0) continue;
+      if (heartbeat_ && !system_.constant_level) heartbeat_();  // an event loop takes 20 us and more
       const detail::PulseEffect effect = system_.effect(b, x);
       if (!std::isfinite(effect.offset)) {
         rates.lost += weight;
@@ -265,7 +271,39 @@ double reach_of(const detail::PulseSystem& system, double step) {
   return high;
 }
 
-std::string percent(double share) { return shortest(std::round(share * 1e4) / 1e2) + " %"; }
+/// What overlaps do that the theory leaves out, at the level where the slider lies before: rms displacement of a block
+/// on Coulomb friction by `PulseChain`, and that over the superposition's own.
+struct Overlaps {
+  double growth = nan;   ///< of the variance [m^2/s]; NaN where the chain does not cover it
+  double own = nan;      ///< the same by the superposition
+  double factor = nan;   ///< of the rms
+  std::string reason{};  ///< why it does not
+
+  bool matter() const { return !(factor < 1.3 && factor > 1 / 1.3); }
+};
+
+Overlaps overlaps_of(const PulseSuperposition& theory, const detail::PulseSystem& system, const PoissonPulses& pulses,
+                     const std::function<void()>& heartbeat) {
+  Overlaps found;
+  try {
+    const Slider block(Coulomb(system.level(0, Direction::forward), system.level(0, Direction::backward)));
+    found.growth = PulseChain().predict(block, pulses, {}, heartbeat).growth_rate.value;
+    found.own = theory.predict(block, pulses, {}, heartbeat).growth_rate.value;
+    found.factor = found.growth == found.own ? 1 : std::sqrt(found.growth / found.own);
+  } catch (const std::invalid_argument& refusal) {
+    found.reason = refusal.what();
+  } catch (const ConvergenceError& failure) {
+    found.reason = failure.what();
+  }
+  return found;
+}
+
+/// Three digits: what is estimated has no more.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
 
 void remark(Moments& moments, const std::string& sentence) {
   moments.remark += (moments.remark.empty() ? "" : " ") + sentence;
@@ -297,7 +335,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
   const double per_composite = overlap_ == Overlap::none ? 1 : 1 + overlap;  // at most: the mean square
   if (rest.lost > 1e-3)
     throw std::invalid_argument("PulseSuperposition: friction never stops the slider again after " +
-                                percent(rest.lost) + " of the pulses");
+                                rounded(100 * rest.lost) + " %" + " of the pulses");
 
   const std::size_t count = times.size();
   Moments moments;
@@ -343,6 +381,34 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
     moments.growth_rate = {nan, 0};
   } else {
     const double reach = reach_of(system, std::max(std::sqrt(rest.growth / pulses.rate()), sigma * dt * dt * 1e-6));
+    // Whether it holds is asked for all of the excitation, whatever the times are.
+    const double end = std::max(pulses.duration(), times.empty() ? 0 : std::ranges::max(times));
+    const std::string halves = "the " + rounded(reach) + " m over which the slip level halves";
+    const auto escapes = [&](const std::string& why) {
+      throw std::invalid_argument("PulseSuperposition: the slider escapes within " + shortest(end) + " s: " + why);
+    };
+    // One that is carried off goes on at some sigma dt, and then is all there is of the variance.
+    if (rest.lost * pulses.rate() * std::pow(sigma * dt * end, 2) / 3 > 0.1 * rest.growth)
+      escapes("friction never stops it again after " + rounded(100 * rest.lost) +
+              " % of the pulses, which make up the variance");
+    const std::string outgrows = "its rms displacement exceeds four times " + halves;
+    if (std::isfinite(reach) && std::sqrt(rest.growth * end) > 4 * reach) escapes(outgrows);
+    const Overlaps overlaps = overlaps_of(*this, system, pulses, heartbeat);
+    if (!overlaps.reason.empty()) {
+      remark(moments, "The effect of overlapping pulses is unknown: " + overlaps.reason + ".");
+    } else {
+      if (const double spread = std::sqrt(overlaps.growth * end); overlaps.matter() && spread > reach / 2)
+        escapes("overlapping pulses move it by " + rounded(spread) + " m rms, more than half of " + halves);
+      const double met = pulses.rate() * end * pulses.rate() * options.shape.length() * dt;
+      const double ratio = rest.growth == overlaps.own ? 1 : rest.growth / overlaps.own;
+      if (met > 0.1 && !(ratio > 0.7 && ratio < 1.3))
+        throw std::invalid_argument("PulseSuperposition: " + rounded(met) + " pulses overlap within " + shortest(end) +
+                                    " s, and single slips are not short against " + halves + ": no theory covers both");
+      if (overlaps.matter())
+        remark(moments, "Pulses overlap: under Coulomb friction of this level the rms displacement is " +
+                            rounded(overlaps.factor) +
+                            " times that of this theory (PulseChain); expect about as much here.");
+    }
     RatesByPosition by_position(law, sigma, std::isinf(reach) ? 1 : reach / 4);
     struct Slopes {
       double mean, variance;
@@ -366,31 +432,43 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
       return Slopes{s.mean / total, s.variance / total, {s.rates.drift / total, 0, s.rates.velocity_square / total, 0}};
     };
     double now = 0, mean = 0, variance = 0, widest = 0;
-    for (const std::size_t i : order) {
-      while (now < times[i]) {
+    const double scale = std::isinf(reach) ? infinity : 0.05 * reach;
+    const auto advance_to = [&](double time) {
+      double most = infinity;
+      while (now < time) {
+        if (heartbeat) heartbeat();
         const Slopes k1 = slopes(mean, variance);
-        const double scale = std::isinf(reach) ? infinity : 0.05 * reach;
         const double step =
-            std::min({times[i] - now, scale * reach / std::abs(k1.variance), scale / std::abs(k1.mean)});
-        const double h = now + step > now ? step : times[i] - now;
+            std::min({time - now, most, scale * reach / std::abs(k1.variance), scale / std::abs(k1.mean)});
+        const double h = now + step > now ? step : time - now;
         const auto positive = [](double v) { return std::max(v, 0.0); };
         const Slopes k2 = slopes(mean + h / 2 * k1.mean, positive(variance + h / 2 * k1.variance));
         const Slopes k3 = slopes(mean + h / 2 * k2.mean, positive(variance + h / 2 * k2.variance));
         const Slopes k4 = slopes(mean + h * k3.mean, positive(variance + h * k3.variance));
+        // Where the slider is drawn back to its place the equations are stiff.
+        const double of_mean = h * std::abs(k4.mean - k1.mean), of_variance = h * std::abs(k4.variance - k1.variance);
+        if (h == step && (of_variance > 0.2 * (variance + h * std::abs(k1.variance)) ||
+                          of_mean > 0.2 * (std::abs(mean) + std::sqrt(variance) + h * std::abs(k1.mean)))) {
+          most = h / 2;
+          continue;
+        }
+        most = 2 * h;
         mean += h / 6 * (k1.mean + 2 * k2.mean + 2 * k3.mean + k4.mean);
         variance = positive(variance + h / 6 * (k1.variance + 2 * k2.variance + 2 * k3.variance + k4.variance));
-        now = h == step ? now + h : times[i];
-        if (times[i] - now < 1e-12 * times[i]) now = times[i];
-        if (std::hypot(mean, std::sqrt(variance)) > 4 * reach)
-          throw std::invalid_argument("PulseSuperposition: by " + shortest(now) +
-                                      " s the displacement has outgrown four times the distance over which the slip "
-                                      "level halves, " +
-                                      shortest(reach) + " m: give earlier times");
+        now = h == step ? now + h : time;
+        if (time - now < 1e-12 * time) now = time;
+        if (std::hypot(mean, std::sqrt(variance)) > 4 * reach) escapes(outgrows);
       }
+    };
+    for (const std::size_t i : order) {
+      advance_to(times[i]);
       const Slopes s = slopes(mean, variance);
       set(i, mean, variance, s.rates, s.variance);
       widest = std::max(widest, std::hypot(mean, std::sqrt(variance)));
     }
+    advance_to(end);
+    if (variance < rest.growth * end / 4 && std::sqrt(rest.growth * end) > reach / 4)
+      escapes("friction draws it back to its place until rare pulses carry it beyond " + halves);
     moments.growth_rate = {rest.growth, 0};
     if (widest > reach / 2)
       remark(moments, "The displacement is no longer small against the distance over which the slip level halves, " +

@@ -1,14 +1,19 @@
 // Superposition of pulses: independent numbers, limits, scaling, and what other laws and shapes add.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catch.hpp"
 #include "pulse_superposition_reference.hpp"
 #include "stickslip/ensemble.hpp"
 #include "stickslip/friction/caster.hpp"
+#include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"
 
 using namespace stickslip;
@@ -248,6 +253,142 @@ TEST_CASE("a caster under rare pulses spreads as in an ensemble", "[pulse_superp
           3 * found.displacement_variance.error[i] + 0.01 * m.displacement_variance.value[i]);
   }
   CHECK(m.displacement_variance.value[3] > 1.1 * fixed.displacement_variance.value[3]);
+}
+
+namespace {
+
+/// The rms displacement of casters at the end of the motion, and its standard error.
+Estimate simulated_rms(const Caster& caster, const PoissonPulses& pulses, std::uint64_t members) {
+  EnsembleOptions options;
+  options.members = members;
+  options.seed = 1;
+  options.dt = pulses.duration() / 8;
+  options.velocity_spectrum = false;
+  const Estimates found = run_ensemble(caster, pulses, options).moments().displacement_variance;
+  const double rms = std::sqrt(found.value.back());
+  return {rms, found.error.back() / (2 * rms)};
+}
+
+/// Refused, or as good as it says: within 30 %, or, where the remark says that overlaps matter, that close to what is
+/// left of the error when the factor by which it fails for a block is put right.
+void check_caster(Overlap overlap, const Caster& caster, const PoissonPulses& pulses, std::uint64_t members) {
+  const PulseSuperposition theory(overlap);
+  double found;
+  std::string remark;
+  try {
+    const Moments m = theory.predict(Slider(caster), pulses, std::vector<double>{pulses.duration()});
+    found = std::sqrt(m.displacement_variance.value[0]);
+    remark = m.remark;
+  } catch (const std::invalid_argument& refusal) {
+    CHECK_THAT(refusal.what(), ContainsSubstring("escapes") || ContainsSubstring("no theory covers both"));
+    return;
+  }
+  if (remark.find("Pulses overlap: under Coulomb friction") != std::string::npos) {
+    const Slider fixed = block(caster.slip_level());
+    found *= PulseChain().final_rms(fixed, pulses) / theory.final_rms(fixed, pulses);
+  }
+  const Estimate expected = simulated_rms(caster, pulses, members);
+  CAPTURE(found, expected.value, expected.error, remark);
+  CHECK(std::abs(found - expected.value) < 0.3 * expected.value + 3 * expected.error);
+}
+
+}  // namespace
+
+TEST_CASE("carts in the four earthquakes: right as far as it says, or refused", "[pulse_superposition][statistics]") {
+  // Fixed seed. A tail of escaped members makes the error of an rms uncertain itself; none of those is answered.
+  for (const Caster& cart : {Caster::from_geometry_thesis(0.5, 0.04, 0.032), Caster::from_geometry(0.5, 0.04, 0.032)})
+    for (const std::string_view name : PoissonPulses::events())
+      for (const Overlap overlap : {Overlap::none, Overlap::renewal}) {
+        CAPTURE(cart.reach(), name, overlap == Overlap::none);
+        check_caster(overlap, cart, PoissonPulses::event(name), 2000);
+      }
+  // The thesis's cart, of which 0.024 m were predicted where it moves 0.4 m, and 0.28 mm where it moves 4.8 mm.
+  const Slider cart(Caster::from_geometry_thesis(0.5, 0.04, 0.032));
+  const PulseSuperposition theory;
+  CHECK_THROWS_WITH(
+      theory.final_rms(cart, PoissonPulses::event("great very near field")),
+      "PulseSuperposition: the slider escapes within 60 s: overlapping pulses move it by 0.119 m rms, more "
+      "than half of the 0.158 m over which the slip level halves");
+  CHECK_THROWS_WITH(theory.final_rms(cart, PoissonPulses::event("great near field")),
+                    ContainsSubstring("no theory covers both"));
+  CHECK_THAT(theory.predict(cart, PoissonPulses::event("moderate very near field"), {}).remark,
+             ContainsSubstring("3.21 times that of this theory"));
+}
+
+TEST_CASE("casters that escape, and those that do not", "[pulse_superposition][statistics]") {
+  // docs/pulse_superposition.md has the map; here some of its corners, a = dt = 1.
+  struct Run {
+    double sigma, rate, reach, pulses;
+  };
+  for (const auto& [sigma, rate, reach, count] :
+       {Run{0.35, 0.1, 3, 300}, Run{0.5, 0.003, 0.3, 3000}, Run{0.5, 0.5, 0.3, 30}, Run{0.7, 0.02, 0.3, 30},
+        Run{0.7, 0.1, 1, 3000}, Run{0.7, 0.02, 10, 300}, Run{1, 0.02, 3, 300}, Run{1, 1, 1, 30}, Run{1.5, 0.1, 10, 300},
+        Run{2, 0.1, 300, 300}, Run{3, 0.5, 100, 300}})
+    for (const Overlap overlap : {Overlap::none, Overlap::renewal}) {
+      CAPTURE(sigma, rate, reach, count, overlap == Overlap::none);
+      check_caster(overlap, Caster(1, reach), PoissonPulses(rate, 1, sigma, count / rate), 1000);
+    }
+}
+
+TEST_CASE("whether a caster escapes is asked of all the excitation, not of the times", "[pulse_superposition]") {
+  const Slider caster(Caster(1, 1));
+  const PoissonPulses pulses(0.1, 1, 0.7, 3e4);
+  for (const std::vector<double>& times :
+       {std::vector<double>{}, std::vector<double>{0.0}, std::vector<double>{50.0}, std::vector<double>{3e4}})
+    CHECK_THROWS_WITH(PulseSuperposition().predict(caster, pulses, times), ContainsSubstring("30000 s"));
+  // Nor of how it gets there: what outgrows the friction only at the end is refused at once.
+  const PoissonPulses strong(0.5, 1, 2, 600);
+  CHECK_THROWS_WITH(PulseSuperposition().predict(Slider(Caster(1, 3)), strong, std::vector<double>{1.0}),
+                    ContainsSubstring("its rms displacement exceeds four times"));
+  // Times after the end are asked for as well.
+  const PoissonPulses early(0.5, 1, 2, 30);
+  CHECK_NOTHROW(PulseSuperposition().predict(Slider(Caster(1, 10)), early, std::vector<double>{30.0}));
+  CHECK_THROWS_WITH(PulseSuperposition().predict(Slider(Caster(1, 10)), early, std::vector<double>{6e3}),
+                    ContainsSubstring("6000 s"));
+}
+
+TEST_CASE("where overlaps cannot be looked into the remark says so", "[pulse_superposition]") {
+  const PulseShape uneven({0, 1, 3}, {1, -0.5});
+  const Moments m = PulseSuperposition().predict(
+      Slider(Caster(1, 50)), PoissonPulses(1e-3, 1, 1, 1e4, {.shape = uneven}), std::vector<double>{1e4});
+  CHECK_THAT(m.remark, ContainsSubstring("overlapping pulses is unknown: PulseChain: the pulse must have equal steps"));
+}
+
+namespace {
+
+/// A law that counts how often it is asked.
+struct Counted {
+  static inline std::size_t asked = 0;
+  template <class T>
+  auto level(const T& x, Direction) const {
+    ++asked;
+    return 1.0 / (1.0 + x * x / 100.0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the progress callback is called between single responses, and what it throws ends the work",
+          "[pulse_superposition]") {
+  const Slider slider(Counted{});
+  const PoissonPulses pulses(0.02, 1, 1.5, 1e4);
+  std::size_t calls = 0, before = Counted::asked = 0, most = 0;
+  const auto watch = [&] {
+    ++calls;
+    most = std::max(most, Counted::asked - std::exchange(before, Counted::asked));
+  };
+  PulseSuperposition().predict(slider, pulses, late, watch);
+  CAPTURE(calls, most, Counted::asked);
+  CHECK(calls > 10'000);
+  CHECK(most < Counted::asked / 1000);
+  for (const std::size_t end : {std::size_t{1}, std::size_t{100}, calls / 2, calls}) {
+    std::size_t left = end;
+    const auto stop = [&] {
+      if (--left == 0) throw std::runtime_error("stop");
+    };
+    CHECK_THROWS_WITH(PulseSuperposition().predict(slider, pulses, late, stop), "stop");
+    CHECK(left == 0);
+  }
 }
 
 TEST_CASE("the largest |x| of Brownian motion", "[pulse_superposition]") {

@@ -67,6 +67,12 @@ Covers any friction law without a spring, unequal slip levels, any pulse shape t
 levels only). A caster's rates depend on where it is: the equations of the moments are closed by a Gaussian law of x, and
 `growth_rate` is that at x = 0.
 
+A caster escapes where its friction can no longer stop it, by pulses that overlap or by the last ones of many. Before
+anything is answered, it is asked for all of the excitation what the overlaps do to a block of the same level, by
+`PulseChain`, and how far the slider comes: where it escapes it is refused, where the overlaps matter `remark` has the
+factor by which they do. Of 231 casters that were simulated, all that is answered is within 45 % of the rms, after that
+factor.
+
 References
 ----------
 Thesis 5.3 with the errata to (5.52); Y. K. Lin, Probabilistic Theory of Structural Dynamics (1967), 87-94.)")
@@ -88,16 +94,17 @@ Returns
 -------
 Moments
     Velocities are stationary; `growth_rate` is NaN under an envelope. `remark` says where times are too short, where
-    nothing slips and why, and which share of the pulses would carry a caster off.
+    nothing slips and why, by how much overlaps are missed for a caster, and which share of the pulses would carry it off.
 
 Raises
 ------
 ValueError
-    What is not covered; a value out of its range.
+    What is not covered; a value out of its range; a caster that escapes within the excitation, whatever the times are.
 
 Notes
 -----
-Integrals over the amplitudes to 1e-12 for Coulomb friction, 60 us. A caster takes 0.1 to 1 s.)")
+Integrals over the amplitudes to 1e-12 for Coulomb friction, 60 us. A caster takes 0.1 to 10 s, most where it spreads
+far; Ctrl-C ends it.)")
       .def("final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
            R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis 5.6 and figure 5.7.
 

@@ -72,10 +72,11 @@ s0 : float or Spectrum
       .def_property_readonly("variance", &WhiteNoise::variance,
                              "Stationary variance of the velocity: D^2 (1 / a^2 + 1 / b^2), which is 2 pi^2 S0^2 / "
                              "a^2, thesis (3.48) [m^2/s^2].")
-      .def_property_readonly("growth_rate", &WhiteNoise::growth_rate,
-                             "Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 "
-                             "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a "
-                             "level is 0: the variance then grows as t^3, and `predict` leaves its growth rate NaN.")
+      .def_property_readonly(
+          "growth_rate", &WhiteNoise::growth_rate,
+          "Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 "
+          "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a "
+          "level is 0: the variance then grows as t^3, and `predict` leaves its growth rate NaN.")
       .def("density", by_one("velocity", &WhiteNoise::density), py::arg("velocity"),
            R"(Stationary probability density of the velocity.
 

@@ -151,7 +151,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fs::path& file = scratch.write(bytes);
   std::string units;
   Result first = read(file, size, units);
-  if (first.error.ends_with("pass units, such as \"g\" or \"m/s^2\"")) first = read(file, size, units = "g");
+  if (first.error.ends_with("pass units, such as \"g\" or \"m/s^2\"")) {
+    units.push_back('g');  // an assignment of "g" makes GCC 12 warn of memory that overlaps
+    first = read(file, size, units);
+  }
   check(first);
   if (!same(read(file, size, units), first)) finding("two answers to the same bytes");
   std::string dos;

@@ -74,6 +74,15 @@ def test_what_does_not_apply_says_why():
     assert "WhiteNoise does not apply: " in str(c)
 
 
+def test_a_caster_that_escapes_is_left_to_the_simulation():
+    cart = ss.Caster.from_geometry(mu=0.5, trail=0.04, wheel_width=0.032, thesis=True)
+    quake = ss.PoissonPulses.event("great very near field")
+    c = ss.compare(cart, quake, [10.0, 60.0], members=640, seed=1)
+    assert c.theories == {}
+    assert "escapes" in c.refused["PulseSuperposition, renewal"]
+    assert "PulseSuperposition, none does not apply: " in str(c)
+
+
 def test_other_spectra_bring_stationary_linearization():
     band = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=1.0, low=2.0, high=4.0), 0.1, 1024)
     c = ss.compare(BLOCK, band, members=640, seed=1)

@@ -59,13 +59,16 @@ def test_processes_get_the_answers_of_one():
         assert pool.starmap(peak, zip(sliders, motions)) == [*map(peak, sliders, motions)]
 
 
-# Each would take three minutes or more, and ends in a test within the minute after which it fails.
+# Each would take minutes (the last one several seconds), and ends in a test within the minute after which it fails.
 LONG = {
     "many samples": "ss.integrate(cart(1e4), ss.GroundMotion(noise(5_000_000), dt=0.1))",
     "long samples": "ss.integrate(cart(1.3), ss.GroundMotion(noise(5_000_000), dt=1000.0))",
     "settling": """ss.integrate(
             ss.Slider(ss.Caster(slip_level=1.0, reach=0.05), 100.0),
             ss.GroundMotion(0 * noise(1_000_000), dt=1e-9), displacement=30.0, settle=True)""",
+    "casters under pulses": """ss.theory.PulseSuperposition().predict(
+            ss.Caster(slip_level=1.0, reach=10.0),
+            ss.PoissonPulses(rate=0.5, half_width=1.0, sigma=10.0, duration=60.0), [60.0])""",
 }
 
 SCRIPT = """
@@ -90,6 +93,7 @@ except KeyboardInterrupt:
         "many samples",
         "long samples",
         "settling",
+        "casters under pulses",
     ],
 )
 def test_ctrl_c_ends_an_integration(work):
