@@ -210,7 +210,7 @@ def compare(
     Notes
     -----
     Takes what `run_ensemble` takes, and some milliseconds for each theory; a caster under pulses up
-    to a second.
+    to ten seconds.
     """
     rivals = _rivals(slider, excitation)
     time, dt = _times(times, excitation)
