@@ -59,7 +59,7 @@ def test_processes_get_the_answers_of_one():
         assert pool.starmap(peak, zip(sliders, motions)) == [*map(peak, sliders, motions)]
 
 
-# Each would take minutes (the last one several seconds), and ends in a test within the minute after which it fails.
+# Each would take minutes, the last one several seconds; a test fails a minute after Ctrl-C.
 LONG = {
     "many samples": "ss.integrate(cart(1e4), ss.GroundMotion(noise(5_000_000), dt=0.1))",
     "long samples": "ss.integrate(cart(1.3), ss.GroundMotion(noise(5_000_000), dt=1000.0))",
