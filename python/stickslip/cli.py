@@ -218,7 +218,13 @@ def _check_outputs(outputs: Iterable[tuple[str, Path]], records: Iterable[Path] 
     """Raises where a file cannot be made or would replace a record or another output."""
     taken = {_identity(record): f"the record {record}" for record in records}
     for option, file in outputs:
-        check_writable(file)
+        try:
+            check_writable(file)
+        except OSError as error:
+            if (
+                error.errno != errno.ENAMETOOLONG
+            ):  # by the name of one record: no more than its picture fails
+                raise
         owner = f"the file of {option}, {file}"
         if taken.setdefault(_identity(file), owner) is not owner:
             raise ValueError(f"{option} {file} would overwrite {taken[_identity(file)]}")

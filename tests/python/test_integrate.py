@@ -315,7 +315,7 @@ print(ss.integrate(law, still, displacement=760.0, velocity=-2.0).residual)"""
 def test_one_pulse_moves_a_block_back_and_half_of_it_forth():
     # values.json pulse.coulomb.b10 (thesis 5.7, 5.8): n = b for one second, -b for one more; a = 1
     r = ss.integrate(ss.Coulomb(slip_level=1.0), steps(10, -10), settle=True)
-    assert np.allclose(r.velocity, [0, -9, 1.636363636363636363636364], rtol=1e-13, atol=0)
+    assert np.allclose(r.velocity[:3], [0, -9, 1.636363636363636363636364], rtol=1e-13, atol=0)
     assert r.residual == pytest.approx(-6.694214876033057851239669, rel=1e-13)
     assert r.peak == pytest.approx(8.181818181818181818181818, rel=1e-13)
     assert r.events["kind"].tolist() == ["breakaway", "reversal", "arrest", "end"]

@@ -244,7 +244,7 @@ def test_names_and_messages_are_text_whatever_the_bytes(write, odd):
     assert str(caught.value).encode("utf-8")
 
 
-FIRST_AND_LAST = ["\u0080\u07ff", "\u0800\ud7ff\ue000\uffff", "\U00010000\U0010ffff"]
+FIRST_AND_LAST = ["\u00a1\u07ff", "\u0800\ud7ff\ue000\uffff", "\U00010000\U0010ffff"]
 
 
 @pytest.mark.parametrize("text", FIRST_AND_LAST, ids=["two bytes", "three", "four"])

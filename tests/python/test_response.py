@@ -101,8 +101,11 @@ def test_a_response_remembers_what_it_came_from():
 
 
 def test_histories_have_one_value_a_sample(response):
-    assert response.time.shape == response.displacement.shape == response.velocity.shape == (401,)
-    assert np.array_equal(response.time, response.motion.time)
+    assert response.time.shape == response.displacement.shape == response.velocity.shape
+    assert np.array_equal(response.time[:401], response.motion.time)
+    rest = response.events["time"][-1]  # settled: samples continue up to the first at or after rest
+    assert response.time[-2] < rest <= response.time[-1]
+    assert np.diff(response.time) == pytest.approx(response.motion.dt)
     assert (response.displacement[0], response.velocity[0]) == (0.01, -0.3)
 
 
