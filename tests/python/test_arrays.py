@@ -106,11 +106,16 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("given, message", REFUSED.values(), ids=REFUSED)
-@pytest.mark.parametrize("take", TAKES.values(), ids=TAKES)
+@pytest.mark.parametrize(
+    "take, given, message",
+    [
+        pytest.param(take, *refused, id=f"{what}-{where}")
+        for what, refused in REFUSED.items()
+        for where, take in TAKES.items()
+        if what != "None" or where not in NONE_IS_THE_DEFAULT
+    ],
+)
 def test_what_is_no_number_is_refused_with_its_index(take, given, message):
-    if given is None and take in map(TAKES.get, NONE_IS_THE_DEFAULT):
-        pytest.skip("there None is the default")
     with pytest.raises(ValueError, match=": .*" + message):
         take(given)
 
