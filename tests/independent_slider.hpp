@@ -300,8 +300,8 @@ class IndependentSlider {
     path += distance;
     const Real lost = time * v_error + x_rounding;
     path_error += lost;
-    input_error += a * lost + round_off * a * distance;
-    dissipated_error += (level_[0] + a) * lost + reach_error * x_error * distance + round_off * a * distance;
+    input_error += a * lost + (round_off * a + least) * distance;
+    dissipated_error += (level_[0] + a) * lost + reach_error * x_error * distance + (round_off * a + least) * distance;
     imbalance += v_rounding * (fastest + v_rounding) + a * (x_rounding + round_off * distance);
     largest = std::max({largest, std::abs(x) + distance, fastest * fastest, a * a, a * distance, std::abs(input), path,
                         w_ * w_ * x * x, a, a * duration_, gain / h_, w_ * w_ * fastest});
