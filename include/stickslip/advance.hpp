@@ -68,7 +68,8 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
   Standstill standstill;
   double load = segment.first_load() - flows.pull(state.displacement);  // all but friction
   double acceleration = 0;                                              // net, in the direction of sliding
-  Mode stopped = Mode::stuck;                                           // the mode of a slip that stopped just now
+  Mode stopped = Mode::stuck;                                           // the mode of a slip that stopped just now,
+  bool instant = false;                                                 // and whether it took no time
   if (state.mode != Mode::stuck) {
     const Direction direction = direction_of(state.mode);
     acceleration = sign(direction) * load - law.level(state.displacement, direction);
@@ -81,11 +82,14 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       const double forward = law.level(state.displacement, Direction::forward);
       const double backward = law.level(state.displacement, Direction::backward);
       double delay = 0;
-      // A slip slows down as it stops: what its load is above the level then is round-off.
-      if (stopped == Mode::forward)
-        load = std::min(load, forward);
-      else if (stopped == Mode::backward)
-        load = std::max(load, -backward);
+      // A slip slows down as it stops: what its load is above the level then is round-off, unless the stop is a graze.
+      if (stopped != Mode::stuck) {
+        const double most = instant ? never : 0x1p-44 * (std::abs(load) + 2 * std::abs(flows.pull(state.displacement)));
+        if (stopped == Mode::forward && load - forward <= most)
+          load = std::min(load, forward);
+        else if (stopped == Mode::backward && -load - backward <= most)
+          load = std::max(load, -backward);
+      }
       if (load > forward) {
         state.mode = Mode::forward;
         acceleration = load - forward;
@@ -147,6 +151,7 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       state.displacement += s * end.distance;
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
+      instant = !(left - stop < left);
       standstill.count(flows, stop, left, segment.duration);
       left -= stop;
       load = ground_load + s * gain - flows.pull(state.displacement);

@@ -80,7 +80,8 @@ class FirstRoot {
   // addition must wait for what it adds.
   double polish(double low, double high) const noexcept {
     const double guess = degree_ < 2 ? 1 : first_root(w_[0], w_[1], 2 * w_[2]);
-    for (double t = guess > low && guess < high ? guess : low + (high - low) / 2;;) {
+    double t = guess > low && guess < high ? guess : low + (high - low) / 2;
+    for (int steps = 0;; ++steps) {
       const double z = t * t;
       double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // slopes by z
       for (int k = degree_ & ~1; k >= 0; k -= 2) {
@@ -95,7 +96,7 @@ class FirstRoot {
       (value > 0 ? low : high) = t;
       double next = t - value / slope;
       if (std::abs(next - t) <= 0x1p-52 * t) return t;
-      if (!(next > low && next < high)) next = low + (high - low) / 2;
+      if (!(next > low && next < high) || steps > 64) next = low + (high - low) / 2;  // powers of t may underflow
       if (next <= low || next >= high) return high;
       t = next;
     }
