@@ -174,5 +174,6 @@ def test_every_public_header_stands_in_the_reference():
     }
     folder = ROOT / "include" / "stickslip"
     headers = {file.relative_to(folder).as_posix() for file in folder.rglob("*.hpp")}
+    headers = {header for header in headers if not header.startswith("detail/")}
     # two that include all others, and two of which users need nothing
     assert said == headers - {"core.hpp", "stickslip.hpp", "recorder.hpp", "flow/dual.hpp"}
