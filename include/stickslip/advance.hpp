@@ -228,7 +228,7 @@ template <class Piece>
 /// @param state     at the beginning, finite; becomes the state at the end. `State::at(x, v)` makes one
 /// @param observer  sees slips and events; optional
 /// @throws std::invalid_argument a number of the segment or the state is not finite; says all of them, changes nothing
-/// @throws std::overflow_error   the motion leaves the range of doubles
+/// @throws std::overflow_error   the motion leaves the range of doubles; `state` stays as it was, as by all errors
 /// @throws ConvergenceError      events follow each other faster than the time within the segment can be resolved (a
 ///         spring of far more than 1e15 cycles a segment); a law has no finite power series where it is needed (Caster
 ///         only under extreme accelerations or stiffness)
@@ -240,9 +240,9 @@ void advance(const Slider<Law>& slider, const Segment& segment, State& state, Ob
   State moving = state;  // in registers
   detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
                      [&](const auto& flows) { detail::advance(slider.law(), flows, segment, moving, observer); });
+  if (!detail::finite(moving.displacement, moving.velocity)) [[unlikely]]
+    detail::refuse_overflow(moving);
   state = moving;
-  if (!detail::finite(state.displacement, state.velocity)) [[unlikely]]
-    detail::refuse_overflow(state);
 }
 
 /// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
@@ -251,11 +251,13 @@ template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver O
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
+  State moving = state;
   detail::with_harmonic_flows(slider, segment.omega, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
-    detail::advance(slider.law(), flows, segment, state, observer);
+    detail::advance(slider.law(), flows, segment, moving, observer);
   });
-  if (!detail::finite(state.displacement, state.velocity)) [[unlikely]]
-    detail::refuse_overflow(state);
+  if (!detail::finite(moving.displacement, moving.velocity)) [[unlikely]]
+    detail::refuse_overflow(moving);
+  state = moving;
 }
 
 }  // namespace stickslip

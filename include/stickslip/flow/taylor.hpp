@@ -207,8 +207,8 @@ class TaylorFlow {
     int leading = 0;
     while (leading < order_ && speed_[leading] == 0) ++leading;
     // All of them underflow where a slip that does begin is too slow for doubles.
-    const bool begins =
-        start_.speed > 0 || start_.acceleration > 0 || (start_.acceleration == 0 && gain_.at(horizon_, 1) > 0);
+    const bool begins = start_.speed > 0 || start_.acceleration > 0 ||
+                        (start_.acceleration == 0 && start_.gain_within(horizon_, horizon_) > 0);
     if (leading == order_) return begins ? never : 0;
     if (speed_[leading] < 0) return 0;
     const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
@@ -348,8 +348,8 @@ class TaylorFlow {
   // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
   double time_to_half_way() const noexcept {
     const double third = std::abs(displacement_) / 6;
-    return std::min(
-        {third / start_.speed, std::sqrt(third / std::abs(start_.acceleration)), std::cbrt(third / gain_.steepest())});
+    return std::min({third / start_.speed, std::sqrt(third / std::abs(start_.acceleration)),
+                     std::cbrt(third) / std::cbrt(gain_.steepest())});
   }
 
   // 1/k, for k = 1 to twice the highest order.
