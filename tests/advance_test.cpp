@@ -374,3 +374,12 @@ TEST_CASE("a caster far from its centre answers the smallest of loads", "[advanc
   advance(Slider(Caster(0x1p-20, 0x1.bff2ee48e053p-353)), Segment{2, -0.0, 0x1p-1074}, state);
   CHECK(state.displacement == -0x1.0624dd2f1a9fcp-30);
 }
+
+TEST_CASE("where the loads balance to the last digit, the slowest slip ends", "[advance][range]") {
+  // The spring pulls by the level exactly; a quarter swing is 52 s.
+  const Slider slider(Caster(1, 0x1p+1000), 0x1.eb851eb851eb8p-6);
+  State state = State::at(0x1.15c71c71c71c7p+10, -0x1p-1074);
+  advance(slider, Segment{1e6, 0, 0}, state);
+  CHECK(state.mode == Mode::stuck);
+  CHECK(state.displacement == 0x1.15c71c71c71c7p+10);
+}

@@ -107,8 +107,7 @@ TEST_CASE("histories of the smallest motions are those of integrate", "[historie
 
 TEST_CASE("single samples too small to be squared move a frictionless block as in integrate", "[histories][range]") {
   std::vector<double> samples;
-  while (samples.size() < 10'000)
-    samples.insert(samples.end(), {0x1p-1074, 0x1p-1074, -0x1.7d784p+27, 2, -2});
+  while (samples.size() < 10'000) samples.insert(samples.end(), {0x1p-1074, 0x1p-1074, -0x1.7d784p+27, 2, -2});
   const GroundMotion motion(samples, 0.1);
   CHECK(difference(Coulomb(0), motion) < tolerance(motion));
   CHECK(difference(Coulomb(1e-150), motion) < tolerance(motion));

@@ -143,6 +143,12 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       left -= taken;
       load = ground_load + s * gain - flows.pull(state.displacement);
       acceleration = s * load - law.level(state.displacement, direction);
+      // Where the loads balance to the last digit a slip too slow to move x would creep on for ever.
+      if (std::abs(state.velocity) < std::numeric_limits<double>::min() && acceleration <= 0) {
+        state.velocity = 0;
+        stopped = std::exchange(state.mode, Mode::stuck);
+        instant = false;
+      }
     } else {
       const Progress end = flow.at(stop);
       const double gain = start.gain_within(stop, left);
