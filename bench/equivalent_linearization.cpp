@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "covariance.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/white_noise.hpp"
+#include "theory/covariance.hpp"
 
 using namespace stickslip;
 using theory::EquivalentLinearization;

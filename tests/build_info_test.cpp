@@ -2,7 +2,7 @@
 
 #include <cctype>
 
-#include "catch.hpp"
+#include "support/catch.hpp"
 
 using namespace stickslip;
 

@@ -1,8 +1,8 @@
 // A slider: a law and a spring. When it holds, and how its spring brings it back.
 #include <numbers>
 
-#include "catch.hpp"
-#include "motions.hpp"
+#include "support/catch.hpp"
+#include "support/motions.hpp"
 
 using namespace stickslip;
 using namespace test;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "catch.hpp"
+#include "support/catch.hpp"
 
 using namespace stickslip;
 using Catch::Matchers::ContainsSubstring;

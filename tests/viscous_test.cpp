@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "catch.hpp"
-#include "instruction_sets.hpp"
-#include "motions.hpp"
-#include "stickslip/ensemble.hpp"
-#include "viscous_lanes.hpp"
+#include "simd/instruction_sets.hpp"
+#include "simd/viscous_lanes.hpp"
+#include "stickslip/ensemble/ensemble.hpp"
+#include "support/catch.hpp"
+#include "support/motions.hpp"
 
 using namespace stickslip;
 using namespace test;

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stickslip/ensemble.hpp"
+#include "stickslip/ensemble/ensemble.hpp"
 
 namespace stickslip {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "stickslip/error.hpp"
-#include "stickslip/ground_motion.hpp"
-#include "stickslip/integrate.hpp"
-#include "stickslip/response.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/sliding/integrate.hpp"
+#include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {

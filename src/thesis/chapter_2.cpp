@@ -5,9 +5,9 @@
 #include <optional>
 #include <stickslip/friction/caster.hpp>
 #include <stickslip/friction/coulomb.hpp>
-#include <stickslip/harmonic_motion.hpp>
-#include <stickslip/integrate.hpp>
-#include <stickslip/orbits.hpp>
+#include <stickslip/ground/harmonic_motion.hpp>
+#include <stickslip/harmonic/orbits.hpp>
+#include <stickslip/sliding/integrate.hpp>
 #include <stickslip/theory/slowly_varying_parameters.hpp>
 
 #include "thesis/figures.hpp"

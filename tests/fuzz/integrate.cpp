@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "independent_slider.hpp"
 #include "stickslip/core.hpp"
-#include "stickslip/histories.hpp"
-#include "stickslip/pieces.hpp"
+#include "stickslip/sliding/histories.hpp"
+#include "stickslip/sliding/pieces.hpp"
+#include "support/independent_slider.hpp"
 
 using namespace stickslip;
 using test::IndependentSlider;

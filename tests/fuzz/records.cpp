@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "fuzz.hpp"
-#include "record_files.hpp"
-#include "stickslip/records.hpp"
+#include "ground/record_files.hpp"
+#include "stickslip/ground/records.hpp"
 
 using namespace record_files;
 using stickslip::GroundMotion;

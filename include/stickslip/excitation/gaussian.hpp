@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/envelope.hpp"
-#include "stickslip/ground_motion.hpp"
-#include "stickslip/spectrum.hpp"
+#include "stickslip/excitation/envelope.hpp"
+#include "stickslip/excitation/spectrum.hpp"
+#include "stickslip/ground/ground_motion.hpp"
 
 namespace stickslip {
 

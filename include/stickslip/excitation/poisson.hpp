@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/envelope.hpp"
-#include "stickslip/ground_motion.hpp"
+#include "stickslip/excitation/envelope.hpp"
+#include "stickslip/ground/ground_motion.hpp"
 
 namespace stickslip {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/flow/harmonic.hpp"
+#include "stickslip/flow/oscillator.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {

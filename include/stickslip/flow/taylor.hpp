@@ -10,10 +10,10 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
-#include "stickslip/flow/dual.hpp"
-#include "stickslip/flow/series.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/series/dual.hpp"
+#include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
 
 namespace stickslip {

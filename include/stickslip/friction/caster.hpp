@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "stickslip/error.hpp"
-#include "stickslip/flow/series.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/series/series.hpp"
 #include "stickslip/units.hpp"
 
 namespace stickslip {

@@ -23,7 +23,7 @@ namespace stickslip {
 ///       }
 ///     };
 ///
-/// It must be analytic in x (no branches on x). flow/series.hpp lists the functions at hand.
+/// It must be analytic in x (no branches on x). series/series.hpp lists the functions at hand.
 template <class Law>
 concept FrictionLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
   { law.level(x, direction) } -> std::convertible_to<double>;

@@ -9,8 +9,8 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/moments.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/white_noise.hpp"
 
 namespace stickslip::detail {

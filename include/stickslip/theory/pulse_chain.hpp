@@ -6,8 +6,8 @@
 
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/moments.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/statistics/moments.hpp"
 
 namespace stickslip::theory {
 

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/advance.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/advance.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip::theory {

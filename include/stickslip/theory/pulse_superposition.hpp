@@ -8,9 +8,9 @@
 
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/moments.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 
 namespace stickslip::detail {

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "stickslip/flow/series.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
 
 namespace stickslip {

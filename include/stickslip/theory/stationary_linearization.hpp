@@ -5,11 +5,11 @@
 #include <span>
 #include <string>
 
+#include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/moments.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/spectrum.hpp"
+#include "stickslip/statistics/moments.hpp"
 
 namespace stickslip::theory {
 

@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/moments.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/spectrum.hpp"
+#include "stickslip/statistics/moments.hpp"
 
 namespace stickslip::theory {
 

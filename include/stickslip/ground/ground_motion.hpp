@@ -1,0 +1,173 @@
+// One history of ground acceleration.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stickslip/error.hpp"
+#include "stickslip/ground/segment.hpp"
+
+namespace stickslip {
+
+/// What the ground does between two samples: a straight line, or the earlier value held.
+enum class Interpolation { linear, constant };
+
+/// The acceleration history n(t) of the ground [m/s^2], at even or uneven times.
+///
+/// N samples make N - 1 segments; the motion lasts from the first time to the last. With
+/// `Interpolation::linear` the acceleration is a straight line between samples (thesis 4.56); with
+/// `Interpolation::constant` a value holds until the next time, and the last value closes the motion
+/// without acting.
+///
+/// Immutable, and checked once when made: every sample finite and at most 1e100 m/s^2 in magnitude (so that
+/// no energy can overflow silently), at least two of them, `dt` positive, `times` increasing. Steps that are held may
+/// share a time (a piece of no length); lines may not.
+class GroundMotion {
+ public:
+  static constexpr double largest_acceleration = 1e100;  ///< [m/s^2]
+
+  /// Samples at times 0, dt, 2 dt, ...
+  /// @param acceleration  n at the samples [m/s^2], at least two, finite
+  /// @param dt            time between samples [s], positive and finite
+  /// @param name          where the motion comes from; shown in plots and messages
+  /// @throws std::invalid_argument naming the value refused (and its index)
+  GroundMotion(std::vector<double> acceleration, double dt, Interpolation interpolation = Interpolation::linear,
+               std::string name = {})
+      : acceleration_(std::move(acceleration)), dt_(dt), interpolation_(interpolation), name_(std::move(name)) {
+    detail::require(std::isfinite(dt) && dt > 0, "GroundMotion: dt must be positive and finite", dt, "s");
+    check_samples();
+    detail::require(std::isfinite(time(samples() - 1)), "GroundMotion: its duration must be finite", duration(), "s");
+  }
+
+  /// Samples at given times.
+  /// @param times  [s], as many as samples, finite and increasing (not decreasing, for values that are held)
+  /// @throws std::invalid_argument naming the value refused (and its index)
+  GroundMotion(std::vector<double> acceleration, std::vector<double> times,
+               Interpolation interpolation = Interpolation::linear, std::string name = {})
+      : acceleration_(std::move(acceleration)),
+        times_(std::move(times)),
+        interpolation_(interpolation),
+        name_(std::move(name)) {
+    if (times_.size() != acceleration_.size())
+      throw std::invalid_argument("GroundMotion: needs as many times as samples, got " + std::to_string(times_.size()) +
+                                  " times for " + std::to_string(acceleration_.size()) + " samples");
+    check_samples();
+    for (std::size_t i = 0; i < times_.size(); ++i)
+      if (!std::isfinite(times_[i]))
+        detail::refuse("GroundMotion: " + element("times", i) + " must be finite", times_[i], "s");
+    const bool held = interpolation_ == Interpolation::constant;
+    for (std::size_t i = 1; i < times_.size(); ++i)
+      if (held ? times_[i] < times_[i - 1] : times_[i] <= times_[i - 1])
+        detail::refuse("GroundMotion: times must " + std::string(held ? "not decrease" : "increase") + ", " +
+                           element("times", i) + " must come after " + detail::shortest(times_[i - 1]) + " s",
+                       times_[i], "s");
+    detail::require(std::isfinite(duration()) && duration() > 0,
+                    "GroundMotion: its duration must be positive and finite", duration(), "s");
+  }
+
+  std::size_t samples() const noexcept { return acceleration_.size(); }
+  std::size_t segments() const noexcept { return acceleration_.size() - 1; }
+
+  /// Ground acceleration at the samples [m/s^2].
+  std::span<const double> acceleration() const noexcept { return acceleration_; }
+
+  /// Time of sample i [s]; past the last sample times continue with the last step.
+  double time(std::size_t i) const noexcept {
+    if (times_.empty() || i < samples()) return Pieces(*this).time(i);
+    return times_.back() + static_cast<double>(i - segments()) * last_step();
+  }
+
+  /// Time between samples [s], or NaN where the times are uneven.
+  double dt() const noexcept { return dt_; }
+
+  /// The last time between samples that is not zero [s].
+  double last_step() const noexcept {
+    if (times_.empty()) return dt_;
+    std::size_t i = segments() - 1;
+    while (times_[i] == times_.back()) --i;  // the duration is positive
+    return times_.back() - times_[i];
+  }
+
+  /// From the first sample to the last [s].
+  double duration() const noexcept { return time(samples() - 1) - time(0); }
+
+  Interpolation interpolation() const noexcept { return interpolation_; }
+  const std::string& name() const noexcept { return name_; }
+
+  /// Largest magnitude of the ground acceleration [m/s^2], the PGA.
+  double peak_acceleration() const noexcept { return peak_; }
+
+  /// The pieces as a loop wants them: what is the same for all is looked up once. Refers to the motion.
+  class Pieces {
+   public:
+    explicit Pieces(const GroundMotion& motion) noexcept
+        : starts_(motion.acceleration_.data()),
+          ends_(starts_ + (motion.interpolation_ == Interpolation::linear ? 1 : 0)),
+          times_(motion.times_.empty() ? nullptr : motion.times_.data()),
+          dt_(motion.dt_) {}
+
+    double time(std::size_t i) const noexcept {
+      const auto steps = static_cast<std::ptrdiff_t>(i);  // signed numbers are doubles at once, others take a jump
+      return times_ == nullptr ? static_cast<double>(steps) * dt_ : times_[i];
+    }
+    Segment segment(std::size_t i) const noexcept {
+      return {times_ == nullptr ? dt_ : times_[i + 1] - times_[i], starts_[i], ends_[i]};
+    }
+
+   private:
+    const double *starts_, *ends_, *times_;
+    double dt_;
+  };
+
+  /// The i-th piece, between samples i and i + 1.
+  Segment segment(std::size_t i) const noexcept { return Pieces(*this).segment(i); }
+
+  /// The same motion with every acceleration multiplied by `factor` (finite; -1 mirrors it).
+  GroundMotion scaled(double factor) const {
+    detail::require(std::isfinite(factor), "GroundMotion: a scale factor must be finite", factor);
+    GroundMotion result = *this;
+    for (double& n : result.acceleration_) n *= factor;
+    result.check_samples();
+    return result;
+  }
+
+  /// Whether samples, times, interpolation and name are the same; even times differ from a list of them.
+  friend bool operator==(const GroundMotion& a, const GroundMotion& b) {
+    const bool same_dt = a.dt_ == b.dt_ || (std::isnan(a.dt_) && std::isnan(b.dt_));
+    return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ &&
+           a.interpolation_ == b.interpolation_ && a.name_ == b.name_;
+  }
+
+ private:
+  void check_samples() {
+    if (samples() < 2)
+      throw std::invalid_argument("GroundMotion: needs at least two samples, got " + std::to_string(samples()));
+    for (std::size_t i = 0; i < samples(); ++i)
+      if (!(std::abs(acceleration_[i]) <= largest_acceleration))
+        detail::refuse(
+            "GroundMotion: " + element("acceleration", i) + " must be finite and at most 1e100 m/s^2 in magnitude",
+            acceleration_[i], "m/s^2");
+    peak_ = 0;
+    const std::size_t acting = samples() - (interpolation_ == Interpolation::constant ? 1 : 0);
+    for (std::size_t i = 0; i < acting; ++i) peak_ = std::max(peak_, std::abs(acceleration_[i]));
+  }
+
+  static std::string element(const char* array, std::size_t i) {
+    return std::string(array) + "[" + std::to_string(i) + "]";
+  }
+
+  std::vector<double> acceleration_;
+  std::vector<double> times_;  // empty where samples are evenly spaced
+  double dt_ = std::numeric_limits<double>::quiet_NaN();
+  double peak_ = 0;
+  Interpolation interpolation_;
+  std::string name_;
+};
+
+}  // namespace stickslip

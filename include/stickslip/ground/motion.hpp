@@ -1,0 +1,15 @@
+// Any motion of the ground.
+#pragma once
+
+#include <concepts>
+
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/ground/harmonic_motion.hpp"
+
+namespace stickslip {
+
+/// What the ground does: straight pieces between samples, or one harmonic.
+template <class M>
+concept Motion = std::same_as<M, GroundMotion> || std::same_as<M, HarmonicMotion>;
+
+}  // namespace stickslip

@@ -1,0 +1,64 @@
+// The motion at the samples and nothing else: faster than a whole response.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "stickslip/detail/recorder.hpp"
+#include "stickslip/detail/run.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/pieces.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// The motion at the samples of a ground motion.
+struct Histories {
+  std::vector<double> displacement;  ///< x [m]
+  std::vector<double> velocity;      ///< x' [m/s]
+};
+
+/// What `integrate` gives as displacement and velocity at the samples, from rest at x = 0, without events, peak and
+/// energy:
+///     x'' + level(x) sgn(x') + wn^2 x = -n(t).
+/// @param slider     any law, with or without a spring
+/// @param motion     the ground acceleration
+/// @param heartbeat  called at least every second or so; may throw to end the work; optional
+/// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
+/// @throws ConvergenceError     a law without power series; more events than `integrate` allows
+/// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 9 to 14 ns a
+/// sample at even steps, new arrays included, where `integrate` takes 20 to 42 (AVX2).
+template <FrictionLaw Law>
+Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
+                    const std::function<void()>& heartbeat = {}) {
+  Histories result{std::vector<double>(motion.samples()), std::vector<double>(motion.samples())};
+  const detail::HistorySpans spans{result.displacement, result.velocity};
+  State state;
+  detail::NoRecorder none(detail::max_events(motion.segments()), heartbeat);
+  const auto run = [&] {
+    if constexpr (std::same_as<Law, Coulomb>) {
+      if (detail::worth_pieces(slider, motion)) return detail::run_by_pieces(slider.law(), motion, state, none, spans);
+    }
+    detail::run(slider, motion, state, none, spans);
+  };
+  run();
+  bool finite = true;
+  for (const auto* values : {&result.displacement, &result.velocity})
+    for (const double value : *values) finite &= std::abs(value) <= std::numeric_limits<double>::max();
+  if (!finite) throw std::overflow_error("histories: the motion leaves the range of doubles");
+  return result;
+}
+
+template <FrictionLaw Law>
+Histories histories(const Law& law, const GroundMotion& motion, const std::function<void()>& heartbeat = {}) {
+  return histories(Slider<Law>(law), motion, heartbeat);
+}
+
+}  // namespace stickslip

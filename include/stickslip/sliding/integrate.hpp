@@ -1,0 +1,149 @@
+// One slider through one ground motion.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "stickslip/detail/recorder.hpp"
+#include "stickslip/detail/run.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/motion.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/response.hpp"
+
+namespace stickslip {
+
+struct IntegrateOptions {
+  double displacement = 0;  ///< x at the start [m], finite
+  double velocity = 0;      ///< x' at the start [m/s], finite
+  bool settle = false;      ///< continue under zero ground acceleration after the last sample until the slider rests
+  std::function<void()> heartbeat{};  ///< called at least every second or so; may throw to end the work
+};
+
+namespace detail {
+
+/// Goes on without ground acceleration until the slider rests; `go(duration)` moves it.
+template <FrictionLaw Law, class Go>
+void settle(const Slider<Law>& slider, const State& state, Go&& go) {
+  constexpr double longest = 0x1p40;  // [s], some 35,000 years
+  for (double duration = 1; duration <= longest; duration *= 2) {
+    go(duration);
+    if (state.mode == Mode::stuck) return;
+  }
+  throw ConvergenceError(
+      "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
+      " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
+      shortest(slider.law().level(state.displacement, direction_of(state.mode))) + " m/s^2 there; use settle = false");
+}
+
+/// Adds the samples from the end of a motion to those at or after a rest: at most nine times as many as the motion has.
+/// @param from  the state at the end of the motion
+/// @param rest  when the slider comes to rest for good [s], at `residual` [m]
+/// @return whether the rest was reached
+template <FrictionLaw Law, Motion M>
+bool add_samples(const Slider<Law>& slider, const M& motion, State from, double rest, double residual,
+                 Response& response) {
+  const Segment step{motion.last_step(), 0, 0};
+  for (std::size_t i = motion.segments(); motion.time(i) < rest; ++i) {
+    if (i + 1 >= 10 * motion.samples()) return false;
+    advance(slider, step, from);
+    if (!(motion.time(i + 1) < rest)) from = {residual, 0, Mode::stuck};
+    response.displacement.push_back(from.displacement);
+    response.velocity.push_back(from.velocity);
+  }
+  return true;
+}
+
+/// `integrate`, where `run(state, recorder, histories)` moves the slider through the motion.
+template <FrictionLaw Law, Motion M, class Run>
+Response integrate_by(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
+                      Run&& run) {
+  require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement, "m");
+  require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
+  State state = State::at(options.displacement, options.velocity);
+  if (state.mode != Mode::stuck)
+    require(std::isfinite(slider.law().level(state.displacement, direction_of(state.mode))),
+            "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
+
+  Response response = std::move(storage);
+  response.displacement.resize(motion.samples());
+  response.velocity.resize(motion.samples());
+  const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
+  const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
+
+  response.displacement[0] = state.displacement;
+  response.velocity[0] = state.velocity;
+  response.energy.initial = kinetic() + elastic();
+  RecorderFor<M, Law> recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.heartbeat,
+                               std::move(response.events));
+  recorder.begin_segment(motion.time(0), motion.time(0));
+  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
+  double end = motion.time(motion.segments());
+  const HistorySpans histories{response.displacement, response.velocity};
+  run(state, recorder, histories);
+  response.truncated = false;
+  if (options.settle) {
+    const State at_end = state;
+    double time = end;
+    settle(slider, state, [&](double duration) {
+      recorder.begin_segment(time, time + duration);
+      advance(slider, Segment{duration, 0, 0}, state, recorder);
+      time += duration;
+    });
+    end = std::max(end, recorder.last_event());
+    response.truncated = !add_samples(slider, motion, at_end, end, state.displacement, response);
+  }
+  recorder.finish(end, state, response);
+
+  response.residual = state.displacement;
+  response.energy.kinetic = kinetic();
+  response.energy.elastic = elastic();
+  response.state = state;
+  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak))
+    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
+                              shortest(response.peak) + " m), velocity or energy");
+  return response;
+}
+
+}  // namespace detail
+
+/// Slides through a whole motion of the ground:
+///     x'' + level(x) sgn(x') + wn^2 x = -n(t),            thesis (4.51) to (4.53), (2.44), (2.50); (2.27), (2.28)
+/// with all breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
+///
+/// @param slider   a law and an optional spring; a law alone is a slider without one
+/// @param motion   the ground acceleration: a GroundMotion or a HarmonicMotion
+/// @param options  state at the start, and whether to go on until the slider rests
+/// @param storage  a response that is no longer needed, for its memory, which can cost as much time as the motion
+/// @return the motion at the samples, its events, peak and energy. Where it settles, samples continue up to
+///         the first at or after the final rest (see Response::displacement), and the last event (`end`) and the
+///         residual are those of the final rest
+/// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level
+/// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
+/// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
+///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic
+///                                motion (a spring that swings that often within the pieces of the motion)
+/// Constant friction: exact to round-off, 1e-13 of the scale of x; 20 to 42 ns a sample, 30 to 61 with a spring. Other
+/// laws: Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic motion constant friction without a
+/// spring is in closed form, all else in power series: 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us
+/// for other laws; each sample adds 0.1 to 0.2 us.
+template <FrictionLaw Law, Motion M>
+Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
+                   Response storage = {}) {
+  return detail::integrate_by(slider, motion, options, std::move(storage),
+                              [&](State& state, auto& recorder, const detail::HistorySpans& histories) {
+                                detail::run(slider, motion, state, recorder, histories);
+                              });
+}
+
+template <FrictionLaw Law, Motion M>
+Response integrate(const Law& law, const M& motion, const IntegrateOptions& options = {}, Response storage = {}) {
+  return integrate(Slider<Law>(law), motion, options, std::move(storage));
+}
+
+}  // namespace stickslip

@@ -1,0 +1,268 @@
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include "parts.hpp"
+#include "sliding/response.hpp"
+
+namespace stickslip::python {
+namespace {
+
+/// An orbit and the slider that goes round it.
+struct SlidersOrbit {
+  Orbit orbit;
+  AnySlider slider;
+};
+
+struct SlidersBranch {
+  std::vector<Orbit> orbits;
+  std::vector<std::size_t> folds;
+  AnySlider slider;
+};
+
+std::vector<SlidersOrbit> orbits_of(const AnySlider& slider, double load, double omega) {
+  std::vector<Orbit> found = [&] {
+    const py::gil_scoped_release released;
+    return std::visit([&](const auto& s) { return orbits(s, load, omega, check_for_interrupt); }, slider);
+  }();
+  std::vector<SlidersOrbit> result;
+  for (Orbit& orbit : found) result.push_back({std::move(orbit), slider});
+  return result;
+}
+
+SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from, double low, double high,
+                              double largest_step, double largest_amplitude, std::size_t most_orbits) {
+  OrbitBranch branch = [&] {
+    const py::gil_scoped_release released;
+    const ContinuationOptions options{largest_step, largest_amplitude, most_orbits, check_for_interrupt};
+    return std::visit([&](const auto& s) { return continuation(s, from.orbit, low, high, options); }, slider);
+  }();
+  return {std::move(branch.orbits), std::move(branch.folds), slider};
+}
+
+// x and x' at any times.
+py::tuple motion_of(const SlidersOrbit& self, const py::object& times) {
+  const std::vector<double> t = to_vector(times, "Orbit.motion: times");
+  for (const double time : t) detail::require(std::isfinite(time), "Orbit.motion: times must be finite", time, "s");
+  const auto states = std::visit([&](const auto& s) { return states_at(s, self.orbit, t); }, self.slider);
+  std::vector<double> displacement, velocity;
+  for (const State& state : states) {
+    displacement.push_back(state.displacement);
+    velocity.push_back(state.velocity);
+  }
+  return py::make_tuple(array_of(std::move(displacement)), array_of(std::move(velocity)));
+}
+
+template <class Value>
+auto each(Value&& value) {
+  return [value](const SlidersBranch& branch) {
+    using T = std::remove_cvref_t<decltype(value(branch.orbits[0]))>;
+    std::vector<std::conditional_t<std::same_as<T, bool>, std::uint8_t, T>> values;
+    for (const Orbit& orbit : branch.orbits) values.push_back(value(orbit));
+    py::array array = array_of(std::move(values));
+    if constexpr (std::same_as<T, bool>) array = array.attr("view")("bool");
+    return array;
+  };
+}
+
+template <auto member>
+auto each() {
+  return each([](const Orbit& orbit) { return orbit.*member; });
+}
+
+template <auto member>
+auto each_pair() {
+  return [](const SlidersBranch& branch) {
+    std::vector<std::complex<double>> values;
+    for (const Orbit& orbit : branch.orbits)
+      values.insert(values.end(), (orbit.*member).begin(), (orbit.*member).end());
+    return array_of(std::move(values)).attr("reshape")(branch.orbits.size(), 2);
+  };
+}
+
+template <auto member>
+auto of_orbit() {
+  return [](const SlidersOrbit& self) { return self.orbit.*member; };
+}
+
+}  // namespace
+
+template <>
+inline constexpr auto parts<SlidersOrbit> = std::tuple(&SlidersOrbit::orbit, &SlidersOrbit::slider);
+template <>
+inline constexpr auto parts<SlidersBranch> = std::tuple(&SlidersBranch::orbits, &SlidersBranch::folds,
+                                                        &SlidersBranch::slider);
+
+void bind_harmonic(py::module_& m) {
+  value_class<SlidersOrbit>(m, "Orbit", R"(A periodic motion under -n(t) = B cos(omega t), thesis (2.28).
+
+It is symmetric, x(t + T/2) = -x(t) with T = 2 pi / omega; what `harmonic.orbits` returns.)")
+      .def_property_readonly(
+          "slider", [](const SlidersOrbit& self) { return py::cast(self.slider); }, "What goes round it.")
+      .def_property_readonly("B", of_orbit<&Orbit::load>(), "Amplitude of the load [m/s^2].")
+      .def_property_readonly("omega", of_orbit<&Orbit::omega>(), "Angular frequency [rad/s].")
+      .def_property_readonly(
+          "period", [](const SlidersOrbit& self) { return self.orbit.period(); }, "T = 2 pi / omega [s].")
+      .def_property_readonly("amplitude", of_orbit<&Orbit::amplitude>(),
+                             "Half the way from the lowest x to the highest [m]; 0 for the rest at x = 0.")
+      .def_property_readonly("phase", of_orbit<&Orbit::phase>(),
+                             R"(Of x = amplitude cos(omega t + phase), in (-pi, pi] [rad].
+
+-omega times the time at which x first comes to its highest value; nan at rest. Thesis (2.2), (2.17) as corrected.)")
+      .def_property_readonly("stops_per_cycle", of_orbit<&Orbit::stops_per_cycle>(), "Arrests: times it sticks.")
+      .def_property_readonly("reversals_per_cycle", of_orbit<&Orbit::reversals_per_cycle>(), "Turns without a stop.")
+      .def_property_readonly("multipliers", of_orbit<&Orbit::multipliers>(),
+                             R"(The two Floquet multipliers: by what a small change of the state grows in a period.
+
+Complex, the larger one first; 0 is one where the slider stops.)")
+      .def_property_readonly(
+          "half_period_multipliers", of_orbit<&Orbit::half_period_multipliers>(),
+          "Those of the half-period map (x, x') -> -(x, x')(T/2 later), of which the others are the squares.")
+      .def_property_readonly("stable", of_orbit<&Orbit::stable>(), R"(Whether no small change grows.
+
+No multiplier beyond the unit circle, by more than 1e-10. One on it is neutral: Coulomb friction without a spring cares
+for no mean position, and a rest stays where it is put.)")
+      .def_property_readonly(
+          "mean_arbitrary", of_orbit<&Orbit::mean_arbitrary>(),
+          "Whether the mean position is arbitrary (Coulomb friction without a spring); given is the orbit around 0.")
+      .def_property_readonly(
+          "displacement", [](const SlidersOrbit& self) { return self.orbit.state.displacement; },
+          "x at t = 0 [m]; `integrate` started from it and `velocity` stays on the orbit.")
+      .def_property_readonly(
+          "velocity", [](const SlidersOrbit& self) { return self.orbit.state.velocity; }, "x' at t = 0 [m/s].")
+      .def_property_readonly("dissipated", of_orbit<&Orbit::dissipated>(),
+                             "Work against friction in a period, as much as the ground's input [m^2/s^2].")
+      .def_property_readonly(
+          "events", [](const SlidersOrbit& self) { return events_array(self.orbit.events); },
+          "Events of one period from t = 0, a structured array as `Response.events`, without an end.")
+      .def("motion", &motion_of, py::arg("times"), R"(Displacement and velocity at any times.
+
+Parameters
+----------
+times : array_like, shape (N,)
+    [s], finite, in any order.
+
+Returns
+-------
+displacement : ndarray, shape (N,)
+    x [m].
+velocity : ndarray, shape (N,)
+    x' [m/s].)")
+      .def("__repr__", [](const SlidersOrbit& self) {
+        const Orbit& o = self.orbit;
+        return "<Orbit: amplitude " + detail::shortest(o.amplitude) + " m at " + detail::shortest(o.omega) +
+               " rad/s, " + std::to_string(o.stops_per_cycle) + " stops a cycle, " +
+               (o.stable ? "stable>" : "unstable>");
+      });
+
+  value_class<SlidersBranch>(m, "OrbitBranch", R"(Orbits that hang together along the response curve, in order.
+
+What `harmonic.continuation` returns. Arrays are over the orbits, read-only.)")
+      .def_property_readonly("omega", each<&Orbit::omega>(), "Angular frequency [rad/s], shape (N,).")
+      .def_property_readonly("amplitude", each<&Orbit::amplitude>(), "Half of peak to peak [m], shape (N,).")
+      .def_property_readonly("phase", each<&Orbit::phase>(), "As `Orbit.phase` [rad], shape (N,).")
+      .def_property_readonly("stable", each<&Orbit::stable>(), "As `Orbit.stable`, shape (N,).")
+      .def_property_readonly("stops_per_cycle", each<&Orbit::stops_per_cycle>(), "Arrests, shape (N,).")
+      .def_property_readonly("multipliers", each_pair<&Orbit::multipliers>(), "Floquet multipliers, shape (N, 2).")
+      .def_property_readonly("half_period_multipliers", each_pair<&Orbit::half_period_multipliers>(),
+                             "As `Orbit.half_period_multipliers`, shape (N, 2).")
+      .def_property_readonly(
+          "folds", [](const SlidersBranch& b) { return b.folds; },
+          "Indices of the orbits at which the curve turns back in frequency.")
+      .def("__len__", [](const SlidersBranch& b) { return b.orbits.size(); })
+      .def("__getitem__",
+           [](const SlidersBranch& b, py::ssize_t i) {
+             const auto size = static_cast<py::ssize_t>(b.orbits.size());
+             if (i < -size || i >= size) throw py::index_error("OrbitBranch: no such orbit");
+             return SlidersOrbit{b.orbits[static_cast<std::size_t>(i < 0 ? i + size : i)], b.slider};
+           })
+      .def("__repr__", [](const SlidersBranch& b) {
+        return "<OrbitBranch: " + std::to_string(b.orbits.size()) + " orbits, " + std::to_string(b.folds.size()) +
+               " folds>";
+      });
+
+  m.def("orbits", &orbits_of, py::arg("slider"), py::arg("B"), py::arg("omega"),
+        R"(The exact symmetric periodic motions of a slider under -n(t) = B cos(omega t).
+
+x'' + level(x) sgn(x') + wn^2 x = B cos(omega t), thesis (2.27), (2.28), (2.50), of which slowly varying parameters,
+(2.16), give an approximation.
+
+Constant friction: one orbit if B > a. Without stops it is Den Hartog's, in closed form; without a spring that is
+A = sqrt(B^2 - (pi a/2)^2) / omega^2 for B/a >= sqrt(1 + pi^2/4), and below it stops twice a cycle. At resonance, wn =
+omega, there is none for B >= 4 a/pi: the amplitude grows without bound. Caster: all that a search of the turning points
+finds, stable or not. The rest at x = 0 is entered, with amplitude 0, where B is at most the slip level there. Orbits
+that are not symmetric are not looked for.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    With equal levels both ways.
+B : float
+    Amplitude of the load [m/s^2], positive and at most 1e100.
+omega : float
+    Angular frequency [rad/s], positive, with a finite square.
+
+Returns
+-------
+list of Orbit
+    In order of amplitude.
+
+Raises
+------
+ValueError
+    A value out of its range; levels that differ by direction (the slider drifts).
+ConvergenceError
+    A caster under accelerations beyond all measure.
+
+Notes
+-----
+Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us without a
+spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff spring swings
+many times a period. The interpreter is not held meanwhile.
+
+References
+----------
+J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous friction, Trans. ASME 53 (1931).)");
+
+  m.def("continuation", &continuation_of, py::arg("slider"), py::arg("orbit"), py::arg("low"), py::arg("high"),
+        py::kw_only(), py::arg("largest_step") = 0.05,
+        py::arg("largest_amplitude") = std::numeric_limits<double>::infinity(), py::arg("most_orbits") = 10'000,
+        R"(The orbits that hang together with one, along the response curve.
+
+By pseudo-arclength continuation over the frequency, which goes on round folds to the unstable orbits behind them.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    The one that `orbit` is an orbit of.
+orbit : Orbit
+    Where to begin, not a rest.
+low, high : float
+    Frequencies to stay between [rad/s], positive; `orbit` lies between them.
+largest_step : float, optional
+    Part by which state and frequency may change from orbit to orbit, positive and at most 0.5.
+largest_amplitude : float, optional
+    The branch is left beyond it [m]: near resonance it may go to infinity.
+most_orbits : int, optional
+    Each way.
+
+Returns
+-------
+OrbitBranch
+    `orbit` and those on both sides of it, up to where the branch leaves the frequencies asked for, ends, or closes.
+    The folds are orbits of it.
+
+Raises
+------
+ValueError
+    A value out of its range.
+
+Notes
+-----
+Takes 20 to 40 us an orbit with constant friction, 1 to 4 ms for a caster. The interpreter is not held meanwhile.
+
+References
+----------
+H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977).)");
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,54 @@
+#include "stickslip/sliding/histories.hpp"
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+namespace {
+
+py::tuple histories_any(const AnySlider& slider, const py::object& motion) {
+  if (!py::isinstance<GroundMotion>(motion))
+    throw py::type_error("histories: motion must be a GroundMotion, got " +
+                         py::type::of(motion).attr("__name__").cast<std::string>());
+  const auto& ground = motion.cast<const GroundMotion&>();
+  Histories result = [&] {
+    const py::gil_scoped_release released;
+    return std::visit([&](const auto& s) { return histories(s, ground, check_for_interrupt); }, slider);
+  }();
+  return py::make_tuple(array_of(std::move(result.displacement)), array_of(std::move(result.velocity)));
+}
+
+}  // namespace
+
+void bind_histories(py::module_& m) {
+  m.def("histories", &histories_any, py::arg("slider"), py::arg("motion"),
+        R"(Displacement and velocity at the samples and nothing else: faster than `integrate`.
+
+x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), from rest at x = 0; without events, peak
+and energy.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides; a law alone is a slider without a spring.
+motion : GroundMotion
+    The ground acceleration.
+
+Returns
+-------
+displacement : ndarray, shape (samples,)
+    x, relative to the ground [m]. Read-only.
+velocity : ndarray, shape (samples,)
+    x', relative to the ground [m/s].
+
+Raises
+------
+OverflowError
+    A displacement or velocity beyond the range of doubles.
+
+Notes
+-----
+As accurate as `integrate`, of which the last bits may differ; a long record goes in pieces side by side where it does
+there. The interpreter is not held meanwhile.)");
+}
+
+}  // namespace stickslip::python

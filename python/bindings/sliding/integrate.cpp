@@ -1,0 +1,103 @@
+#include <concepts>
+
+#include "bindings.hpp"
+#include "sliding/response.hpp"
+
+namespace stickslip::python {
+namespace {
+
+template <class S, class M>
+Recording integrate_under(const S& slider, const py::object& motion, const IntegrateOptions& options) {
+  const auto& ground = motion.cast<const M&>();
+  Response storage = Storage::take();
+  Response response = [&] {
+    const py::gil_scoped_release released;
+    if constexpr (std::same_as<S, AnySlider>)
+      return std::visit([&](const auto& s) { return integrate_by_pieces(s, ground, options, std::move(storage)); },
+                        slider);
+    else
+      return integrate(slider, ground, options, std::move(storage));
+  }();
+  return {std::move(response), py::cast(slider), motion};
+}
+
+[[noreturn]] void refuse(const char* motions, const py::object& motion) {
+  throw py::type_error(std::string("integrate: motion must be ") + motions + ", got " +
+                       py::type::of(motion).attr("__name__").cast<std::string>());
+}
+
+Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
+                        bool settle) {
+  const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
+  if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
+  if (py::isinstance<HarmonicMotion>(motion))
+    return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
+  refuse("a GroundMotion or a HarmonicMotion", motion);
+}
+
+Recording integrate_viscous(const ViscousSlider& slider, const py::object& motion, double displacement, double velocity,
+                            bool settle) {
+  if (!py::isinstance<GroundMotion>(motion)) refuse("a GroundMotion", motion);
+  return integrate_under<ViscousSlider, GroundMotion>(slider, motion,
+                                                      {displacement, velocity, settle, check_for_interrupt});
+}
+
+}  // namespace
+
+void bind_integrate(py::module_& m) {
+  m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
+        py::arg("velocity") = 0.0, py::arg("settle") = false,
+        R"(Slides through a whole motion of the ground.
+
+x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50); (2.27), (2.28); with all breakaways,
+reversals and arrests, up to two reversals within one straight piece of n(t).
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides; a law alone is a slider without a spring.
+motion : GroundMotion or HarmonicMotion
+    The ground acceleration.
+displacement : float, optional
+    x at the start [m], finite.
+velocity : float, optional
+    x' at the start [m/s], finite.
+settle : bool, optional
+    Continue under zero ground acceleration after the last sample until the slider rests, so that the residual is
+    final. The samples of the response continue too, up to the first at or after rest (see `Response.truncated`).
+
+Returns
+-------
+Response
+
+Raises
+------
+ValueError
+    A start that is not finite, or that moves against an infinite slip level.
+OverflowError
+    A displacement, velocity or energy beyond the range of doubles.
+ConvergenceError
+    Asked to settle, and the slider does not come to rest (no friction; a caster that has escaped). More than 1,000,000
+    events and eight a sample, or period of a harmonic motion (a spring that swings that often between samples).
+
+Notes
+-----
+Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 13 to 25 ns a
+sample, 28 to 57 with a spring. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
+motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
+power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
+adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
+
+A long record of even steps is cut in pieces which, with Coulomb friction and no spring, move side by side from rest, in
+vector lanes; each is then done again from where the one before has come to, until both are stuck and so move alike.
+Nothing is lost by it but the last bits, and what they decide: whether a velocity that only touches zero stops there.)");
+  m.def("integrate", &integrate_viscous, py::arg("slider"), py::arg("motion"), py::kw_only(),
+        py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("settle") = false,
+        R"(The same for the linear system, x'' + zeta x' + wn^2 x = -n(t), thesis (4.2), (5.2).
+
+Parameters, answers and errors are those of a slider on friction. There are no events but the end; what is dissipated is
+the integral of zeta x'^2 dt; settle must be False, for it never comes to rest. Exact to round-off for any damping and
+step; some 150 ns a sample at even steps, 1.2 us where they are uneven.)");
+}
+
+}  // namespace stickslip::python

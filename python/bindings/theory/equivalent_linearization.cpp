@@ -1,0 +1,205 @@
+#include "stickslip/theory/equivalent_linearization.hpp"
+
+#include "parts.hpp"
+#include "theory/white_level.hpp"
+
+namespace stickslip::python {
+namespace {
+
+using theory::EquivalentLinearization;
+using theory::TransitionTime;
+using Force = EquivalentLinearization::Force;
+using Start = EquivalentLinearization::Start;
+
+constexpr std::pair<const char*, Force> forces[] = {
+    {"gaussian", Force::gaussian}, {"gaussian_a22", Force::gaussian_a22}, {"thesis", Force::thesis}};
+constexpr std::pair<const char*, Start> starts[] = {{"rest", Start::rest}, {"thesis", Start::thesis}};
+
+template <class T, std::size_t n>
+T named(const std::pair<const char*, T> (&all)[n], const std::string& name, const char* rule) {
+  for (const auto& [known, value] : all)
+    if (name == known) return value;
+  throw std::invalid_argument(std::string("EquivalentLinearization: ") + rule + ", got '" + name + "'");
+}
+
+template <class T, std::size_t n>
+const char* which_of(const std::pair<const char*, T> (&all)[n], T value) {
+  for (const auto& [name, known] : all)
+    if (value == known) return name;
+  return "";
+}
+
+Moments predict(const EquivalentLinearization& self, const AnySlider& slider, const AnyLevel& s0,
+                const py::object& times) {
+  const std::vector<double> t = to_vector(times, "EquivalentLinearization: times");
+  const theory::WhiteLevel level = white_level(s0);
+  const py::gil_scoped_release released;
+  return std::visit([&](const auto& s) { return self.predict(s, level, t, check_for_interrupt); }, slider);
+}
+
+TransitionTime transition(const AnySlider& slider, const AnyLevel& s0) {
+  const auto* const caster = std::get_if<Slider<Caster>>(&slider);
+  if (caster == nullptr) throw py::type_error("transition_time: covers casters without a spring, got Coulomb");
+  return theory::transition_time(*caster, white_level(s0));
+}
+
+}  // namespace
+
+void bind_equivalent_linearization(py::module_& m) {
+  value_class<EquivalentLinearization>(m, "EquivalentLinearization",
+                                       R"(Generalized equivalent linearization under white noise, thesis 3.3 and 3.4.
+
+At each time the friction is replaced by the linear force nearest to it in the mean square, a21 x + a22 x', the response
+taken as Gaussian. The covariance then follows
+
+    q11' = 2 q12                                                (3.32)
+    q12' = (a21 - wn^2) q11 + a22 q12 + q22                     (3.33) corrected
+    q22' = 2 (a21 - wn^2) q12 + 2 a22 q22 + 2 pi S0             (3.34) corrected
+
+with [a21 a22] = E[h x^T] Q^-1, h = -level(x) sgn(x'), (3.5) corrected. The thesis takes a21 for zero (3.24), which it
+is only where x and x' are uncorrelated, and simplifies a caster's level (3.28).
+
+Parameters
+----------
+force : {'gaussian', 'gaussian_a22', 'thesis'}, optional
+    'gaussian': Gaussian expectations of the law itself. 'gaussian_a22': the same, but a21 = 0, (3.24) as the thesis has
+    it. 'thesis': a level of a / (1 + (x / reach)^2), (3.28) to (3.30), and a21 = 0.
+start : {'rest', 'thesis'}, optional
+    'rest': x = x' = 0, by the series that the covariance begins with. 'thesis': (3.38) to (3.40), a^6 q11 / S0^4 =
+    0.01, a^4 q12 / S0^3 = 5.4e-8, a^2 q22 / S0^2 = 1.3e-5.
+tolerance : float, optional
+    About the relative error of the answers; from 1e-12 to 1e-2.
+
+Raises
+------
+ValueError
+    Another name, a tolerance out of its range.
+
+Notes
+-----
+Covers Coulomb friction with the same level both ways, and casters, with a spring or without. The response is not
+Gaussian: for Coulomb friction the stationary velocity variance is 21 % low and the growth of the displacement variance
+51 %, see `WhiteNoise` for what is exact; for casters of small gamma = S0^2 / (reach a^3) the displacement variance is low
+by a factor of three while they break loose.
+
+References
+----------
+W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik, S. Utku, Earthq. Eng. Struct. Dyn. 4
+(1976), 411-420.)")
+      .def(py::init([](const std::string& force, const std::string& start, double tolerance) {
+             return EquivalentLinearization(
+                 {.force = named(forces, force, "force must be 'gaussian', 'gaussian_a22' or 'thesis'"),
+                  .start = named(starts, start, "start must be 'rest' or 'thesis'"),
+                  .tolerance = tolerance});
+           }),
+           py::arg("force") = "gaussian", py::kw_only(), py::arg("start") = "rest", py::arg("tolerance") = 1e-10)
+      .def_property_readonly(
+          "force", [](const EquivalentLinearization& self) { return which_of(forces, self.options().force); },
+          "What stands for friction.")
+      .def_property_readonly(
+          "start", [](const EquivalentLinearization& self) { return which_of(starts, self.options().start); },
+          "Where the covariance starts.")
+      .def_property_readonly(
+          "tolerance", [](const EquivalentLinearization& self) { return self.options().tolerance; },
+          "About the relative error of the answers.")
+      .def("predict", &predict, py::arg("slider"), py::arg("s0"), py::arg("times"), R"(Covariances by time.
+
+Means are zero. Integrated over the logarithm of time, in variables that keep the covariance positive definite, so any
+scale will do. A slider without friction is answered in closed form.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides; a law alone is a slider without a spring.
+s0 : float or Spectrum
+    Level S0 of the white ground acceleration, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite; or a
+    white Spectrum.
+times : array_like of shape (T,)
+    [s], finite, at least 0, increasing.
+
+Returns
+-------
+Moments
+    growth_rate is that of Coulomb friction, pi^5 S0^3 / (2 a^4), (3.47); 0 with a spring that holds the displacement
+    (for a caster: a reach wn > pi S0); NaN where the velocity never is stationary.
+
+Raises
+------
+ValueError
+    Times out of range, levels that differ, a spectrum that is not white, a figure beyond the range of doubles.
+ConvergenceError
+    The tolerance is out of reach: with a spring, after 300,000 steps. The message has the time reached.
+
+Notes
+-----
+About 1 ms; with a spring that swings for long some 0.1 ms a period. The interpreter is not held meanwhile.)")
+      .def(
+          "coefficients",
+          [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {
+            const auto f = std::visit([&](const auto& s) { return self.coefficients(s.law(), q11, q12, q22); }, slider);
+            return std::pair(f.a21, f.a22);
+          },
+          py::arg("slider"), py::arg("q11"), py::arg("q12"), py::arg("q22"),
+          R"(The equivalent linear friction where displacement and velocity have the covariance given.
+
+a21 = -E[level'(x) sgn(x')], (3.22), and a22 = -sqrt(2 / (pi q22)) E[level(x) | x' = 0], (3.25); 0 and (3.29) by the
+thesis's force. Good to 1e-12.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    Whose law it is; the spring is apart.
+q11, q22 : float
+    Variances of x [m^2] and x' [m^2/s^2], positive and finite.
+q12 : float
+    Their covariance [m^2/s], q12^2 < q11 q22.
+
+Returns
+-------
+tuple of float
+    a21 [1/s^2] and a22 [1/s].
+
+Raises
+------
+ValueError
+    A value out of its range, levels that differ.)")
+      .def("__repr__", [](const EquivalentLinearization& self) {
+        return "EquivalentLinearization(force='" + std::string(which_of(forces, self.options().force)) + "', start='" +
+               which_of(starts, self.options().start) + "', tolerance=" + detail::shortest(self.options().tolerance) +
+               ")";
+      });
+
+  value_class<TransitionTime>(m, "TransitionTime", "When a caster under white noise breaks loose; see transition_time.")
+      .def_readonly("thesis", &TransitionTime::thesis, "(3.51): S0 / a^2 (1 / (pi^5 gamma^2) + pi^2 / 4) [s].")
+      .def_readonly("with_intercept", &TransitionTime::with_intercept,
+                    "Later by 47 pi^2 / 48 S0 / a^2, the delay of q11 behind (3.47), which (3.51) drops [s].")
+      .def("__repr__", [](const TransitionTime& t) {
+        return "<TransitionTime: " + detail::shortest(t.thesis) + " s by (3.51), " +
+               detail::shortest(t.with_intercept) + " s with the intercept>";
+      });
+  m.def("transition_time", &transition, py::arg("slider"), py::arg("s0"),
+        R"(When a caster under white noise breaks loose, by equivalent linearization, thesis (3.51).
+
+Its rms displacement has then come to the reach (z = 1 in (3.30)) and friction fades.
+
+Parameters
+----------
+slider : Slider or Caster
+    A caster without a spring, of some friction. gamma = S0^2 / (reach a^3); (3.51) counts on a stationary velocity, and
+    says little for gamma over 0.02. An infinite reach never breaks loose.
+s0 : float or Spectrum
+    Level of the white noise [m^2/s^3], positive and finite; or a white Spectrum.
+
+Returns
+-------
+TransitionTime
+
+Raises
+------
+ValueError
+    s0 out of its range, no friction, a spring.
+TypeError
+    Another law.)");
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,336 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/caster_lanes.cpp"
+#include "simd/caster_lanes.hpp"
+
+#include <hwy/foreach_target.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "simd/pack-inl.hpp"
+#include "stickslip/sliding/advance.hpp"
+
+#ifndef STICKSLIP_CASTER_LANES_ONCE
+#define STICKSLIP_CASTER_LANES_ONCE
+namespace stickslip::detail {
+namespace {
+
+// One caster by the event loop for single ones.
+void advance_alone(const CasterLanes& slider, std::size_t lane, const double* start, const double* end,
+                   const LaneStates& states) {
+  struct Peak {
+    double& most;
+    void slide(Direction way, double from, double distance, double, double) const {
+      most = std::max(most, std::abs(from + sign(way) * distance));
+    }
+    void event(EventKind, double, const State&) const noexcept {}
+  } peak{states.peak[lane]};
+  State state = State::at(states.displacement[lane], states.velocity[lane]);
+  advance(Slider<Caster>(slider.law), Segment{slider.duration, start[lane], end[lane]}, state, peak);
+  states.displacement[lane] = state.displacement;
+  states.velocity[lane] = state.velocity;
+}
+
+}  // namespace
+}  // namespace stickslip::detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace stickslip::detail::HWY_NAMESPACE {
+
+using Real = Pack<8 / lanes>;
+using Bool = Real::Mask;
+
+// In what follows the unit of length is the reach, the unit of time a step: y = x/l, w = dy/d(time).
+
+constexpr int order = 9;            // of the series of sech; the velocity's has one more, the displacement's two
+constexpr double left_out = 1e-13;  // of the velocity in a step, by the estimate; where terms cancel up to 3e-11
+constexpr double far_off = 40;      // reaches, from where friction is below 1e-17
+
+struct Level {
+  Real sech, tanh;
+
+  static HWY_INLINE Level at(const Real& y) {
+    const Real e = exp(-abs(y)), ee = e * e, share = Real(1) / (ee + 1);
+    return {(e + e) * share, copysign((Real(1) - ee) * share, y)};
+  }
+};
+
+// A slide over a step: y'' = load + slope t - friction sech(y), friction with the sign of the direction.
+struct Series {
+  Level level;  // at the beginning
+  Real way;     // at least as far as it goes
+  Real w[order + 2];
+  Bool converges;  // what is left out does not matter
+
+  // `first` may put something better in place of the first net acceleration.
+  template <class First>
+  HWY_INLINE Series(const Real& y, const Real& speed, const Real& load, const Real& slope, const Real& friction,
+                    First first)
+      : level(Level::at(y)), way(abs(speed) + max(abs(load), abs(load + slope))) {
+    Real s[order + 1], t[order + 1], angle[order];
+    s[0] = level.sech;
+    t[0] = level.tanh;
+    w[0] = speed;
+    w[1] = first(nfma(friction, s[0], load));
+    // s = cos(angle), t = sin(angle) of the Gudermannian: angle' = s w, s' = -angle' t, t' = angle' s. The terms that
+    // were computed last come last, so that the sums need not wait.
+#pragma GCC unroll 16
+    for (int k = 0; k < order; ++k) {
+      Real sum = 0.0, cosine = 0.0, sine = 0.0;
+#pragma GCC unroll 16
+      for (int i = 1; i < k; ++i) sum = fma(s[i], w[k - i], sum);
+#pragma GCC unroll 16
+      for (int i = 1; i < k; ++i) {
+        cosine = fma(angle[i], t[k - i], cosine);
+        sine = fma(angle[i], s[k - i], sine);
+      }
+      sum = fma(s[0], w[k], sum);
+      if (k > 0) {
+        sum = fma(s[k], w[0], sum);
+        cosine = fma(angle[0], t[k], cosine);
+        sine = fma(angle[0], s[k], sine);
+      }
+      angle[k] = sum;
+      const Real share = 1.0 / (k + 1);
+      s[k + 1] = -share * fma(sum, t[0], cosine);
+      t[k + 1] = share * fma(sum, s[0], sine);
+      const Real braked = friction * s[k + 1];
+      w[k + 2] = (k == 0 ? slope - braked : -braked) * Real(1.0 / (k + 2));
+    }
+    // Terms fall off as the way over pi/2, where the complex plane has the next pole, or faster; two of them, as one
+    // can vanish by symmetry. Over more than a reach they tell nothing.
+    const Real next = way * fma(way * 0.4, abs(w[order]), abs(w[order + 1]));
+    // From rest at y = 0, or nearly so, the level changes as y^2 ~ t^6 and then as y^4 ~ t^12, which the last terms do
+    // not see.
+    const Real far = abs(w[1]) + abs(w[2]);
+    const Bool seen = (abs(w[0]) * 16.0 > far) | (abs(friction) * (far * far) * (far * far) <= 100 * left_out);
+    converges = ((way <= 1) & (next <= left_out) & seen) | (abs(y) - way > far_off);
+  }
+
+  HWY_INLINE Real distance(const Real& t) const {
+    Real sum = w[order + 1] * (1.0 / (order + 2));
+#pragma GCC unroll 16
+    for (int k = order; k >= 0; --k) sum = fma(sum, t, w[k] * (1.0 / (k + 1)));
+    return sum * t;
+  }
+
+  // Both at the end of the step, where they are sums.
+  HWY_INLINE Real last_speed() const {
+    Real odd = w[order], even = w[order + 1];
+#pragma GCC unroll 16
+    for (int k = order - 1; k >= 1; k -= 2) {
+      even = even + w[k];
+      odd = odd + w[k - 1];
+    }
+    return (odd + even) + w[0];
+  }
+  HWY_INLINE Real whole_distance() const {
+    Real odd = w[order] * (1.0 / (order + 1)), even = w[order + 1] * (1.0 / (order + 2));
+#pragma GCC unroll 16
+    for (int k = order - 1; k >= 1; k -= 2) {
+      even = fma(w[k], 1.0 / (k + 1), even);
+      odd = fma(w[k - 1], 1.0 / k, odd);
+    }
+    return (odd + even) + w[0];
+  }
+};
+
+struct Same {
+  HWY_INLINE Real operator()(const Real& net) const { return net; }
+};
+
+// The velocity of a slide over a step, in its own direction: its zeros but the one that it may start from.
+struct Zeros {
+  static constexpr int degree = order + 1;
+  Real c[degree + 1];     // power series
+  Bool are_none, is_one;  // where that can be said
+
+  HWY_INLINE Zeros(const Series& series, const Real& direction, const Bool& from_rest) {
+#pragma GCC unroll 16
+    for (int k = 0; k <= degree; ++k)
+      c[k] = direction * select(from_rest, k < degree ? series.w[k + 1] : Real(0.0), series.w[k]);
+    // Bernstein coefficient j: the sum over i <= j of c_i (j over i) / (degree over i). Descartes' rule holds for them.
+    Bool changed = Real(0.0) != 0.0, twice = changed, negative = changed;
+#pragma GCC unroll 16
+    for (int j = 0; j <= degree; ++j) {
+      Real b = c[0];
+      double weight = 1;
+#pragma GCC unroll 16
+      for (int i = 1; i <= j; ++i) {
+        weight *= static_cast<double>(j - i + 1) / (degree - i + 1);
+        b = fma(c[i], weight, b);
+      }
+      const Bool now_negative = b < 0, changes = now_negative ^ negative;
+      twice = twice | (changed & changes);
+      changed = changed | changes;
+      negative = now_negative;
+    }
+    are_none = !changed;
+    is_one = but_not(changed, twice);
+  }
+
+  // The single zero, where there is one: Newton's method, kept within its bracket.
+  HWY_INLINE Real find() const {
+    Real low = 0.0, high = 1.0;
+    // It starts from the zero of the first three terms.
+    const Real root = sqrt(max(nfma(c[2] * 4.0, c[0], c[1] * c[1]), 0.0)), guess = (c[0] + c[0]) / (root - c[1]);
+    Real t = select((guess > 0) & (guess < 1), guess, 0.5);
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      Real value = c[degree], slope = 0.0;
+#pragma GCC unroll 16
+      for (int k = degree - 1; k >= 0; --k) {
+        slope = fma(slope, t, value);
+        value = fma(value, t, c[k]);
+      }
+      const Bool before = value > 0;
+      low = select(before, t, low);
+      high = select(before, high, t);
+      const Real newton = t - value / slope;
+      const Real next = select((newton >= low) & (newton <= high), newton, (low + high) * 0.5);
+      const Real moved = abs(next - t);
+      t = next;
+      if (all((moved <= 4e-16) | !is_one)) break;
+    }
+    return t;
+  }
+};
+
+// Casters through the events of their segments, of which the unit of time is the duration; says which did not come to
+// the end.
+HWY_INLINE Bool move(const Real& friction, Real& y, Real& w, const Real& load, const Real& slope, Real& peak) {
+  Real time = 0.0, step = 1.0, direction = copysign(1.0, w);
+  Bool stuck = w == 0, done = w != w, from_rest = done, eased = done;
+  for (int round = 0; round < 64; ++round) {
+    // From rest: at once, or when the load has grown to the level; see Lanes::slip_from_rest in coulomb_lanes.cpp.
+    if (any(stuck)) {
+      const Real held = friction * Level::at(y).sech, p = fma(slope, time, load);
+      const Bool above = p > held, below = p < -held, at_once = above | below;
+      const Real way = select(above | but_not(slope > 0, below), Real(1.0), -1.0);
+      const Real reaches = max(time, (way * held - load) / slope);
+      const Bool later = but_not((slope != 0) & (reaches < 1), at_once), slips = stuck & (at_once | later);
+      done = done | but_not(stuck, slips);
+      direction = select(slips, way, direction);
+      time = select(stuck & later, reaches, time);
+      step = select(slips, Real(1) - time, step);
+      from_rest = slips | but_not(from_rest, stuck);
+      eased = (slips & later) | but_not(eased, stuck);
+    }
+    if (all(done)) break;
+
+    const Real square = step * step;
+    const Series series(y, w * step, fma(slope, time, load) * square, slope * (square * step),
+                        direction * (friction * square),
+                        [&](const Real& net) HWY_ATTR { return select(from_rest & eased, 0.0, net); });
+    const Zeros zeros(series, direction, from_rest);
+    const Bool good = but_not(series.converges, done);
+    const Bool goes_on = good & zeros.are_none, stops = good & zeros.is_one, moves = goes_on | stops;
+    const Real at = any(stops) ? select(stops, zeros.find(), 1.0) : Real(1.0);
+    y = select(moves, y + series.distance(at), y);
+    w = select(goes_on, direction * (max(direction * series.last_speed(), 0.0) / step), select(stops, 0.0, w));
+    peak = max(peak, abs(y));
+    const Real left = Real(1) - time;
+    done = done | (goes_on & (step == left));
+    time = select(moves, fma(step, at, time), time);
+    step = select(moves, Real(1) - time, step * 0.5);
+    stuck = stops;
+    from_rest = but_not(from_rest, moves);
+  }
+  return !done;
+}
+
+// Slides without an event in 2, 4, 8 ... steps, as many as all need; says which need more than can be.
+HWY_INLINE Bool slide(const Real& friction, Real& y, Real& w, const Real& load, const Real& slope) {
+  const Real y0 = y, w0 = w, against = copysign(friction, w);
+  Bool open;
+  for (int steps = 2; steps <= 64; steps *= 2) {
+    const double step = 1.0 / steps;
+    const Real less_friction = against * (step * step), change = slope * (step * step * step);
+    y = y0;
+    w = w0 * step;
+    open = w != w;
+    for (int i = 0; i < steps; ++i) {
+      const Series series(y, w, fma(slope, i * step, load) * (step * step), change, less_friction, Same());
+      open = open | (!series.converges);
+      y = y + series.whole_distance();
+      w = series.last_speed();
+    }
+    w = w * static_cast<double>(steps);
+    if (!any(open)) break;
+  }
+  return open;
+}
+
+void AdvanceCasters(const CasterLanes& slider, std::size_t members, const double* HWY_RESTRICT start,
+                    const double* HWY_RESTRICT end, const LaneStates& states) {
+  const double reach = slider.law.reach(), h = slider.duration;
+  const Real friction = slider.law.slip_level() * h * h / reach;
+  const Real to_y = 1 / reach, to_w = h / reach, to_load = -h * h / reach, from_y = reach, from_w = reach / h;
+
+  // Most slide on the way they do, or are stuck throughout. What is left, one bit each: those that may have an event;
+  // those that have none but take shorter steps.
+  std::uint64_t eventful = 0, fast = 0;
+  for (std::size_t i = 0; i < members; i += Real::size) {
+    const Real x = Real::load(states.displacement + i), v = Real::load(states.velocity + i);
+    const Real load = Real::load(start + i) * to_load, load_end = Real::load(end + i) * to_load;
+    const Real w = v * to_w, against = copysign(friction, v);
+    const Series series(x * to_y, w, load, load_end - load, against, Same());
+
+    // The most that friction can do on the way: sech grows by no more than exp of the distance, and exp(z) is at most
+    // 1 + z + z^2 for z < 1. With that constant level the velocity is a parabola, within its Bernstein coefficients.
+    const Real growth = fma(series.way, series.way + 1, 1.0);
+    const Real most = against * select(series.way < 1, min(series.level.sech * growth, 1.0), 1.0);
+    const Real middle = fma(load - most, 0.5, w), lowest = fma(load_end - most, 0.5, middle);
+    const Bool safe = min(w * middle, w * lowest) > 0, slides = safe & series.converges;
+    const Bool stuck = (v == 0) & (max(abs(load), abs(load_end)) <= friction * series.level.sech);
+
+    const Real there = select(slides, fma(from_y, series.whole_distance(), x), x);
+    there.store(states.displacement + i);
+    select(slides, from_w * series.last_speed(), v).store(states.velocity + i);
+    max(Real::load(states.peak + i), abs(there)).store(states.peak + i);
+    eventful |= bits(!(safe | stuck)) << i;
+    fast |= bits(but_not(safe, series.converges)) << i;
+  }
+
+  const auto work_off = [&](std::uint64_t set_apart, auto work) HWY_ATTR {
+    if (set_apart == 0) return;
+    LaneQueue queue(set_apart, start, end, states);
+    std::uint64_t open = 0;
+    for (std::size_t k = 0; k < queue.count; k += Real::size) {
+      const Real x = Real::load(queue.displacement + k), v = Real::load(queue.velocity + k);
+      const Real before = Real::load(queue.peak + k);
+      const Real load = Real::load(queue.start + k) * to_load, load_end = Real::load(queue.end + k) * to_load;
+      Real y = x * to_y, w = v * to_w, peak = before * to_y;
+      const Bool unsettled = work(y, w, load, load_end - load, peak);
+      // Those that are not settled stay as they were.
+      select(unsettled, x, y * from_y).store(queue.displacement + k);
+      select(unsettled, v, w * from_w).store(queue.velocity + k);
+      select(unsettled, before, max(before, max(peak, abs(y)) * from_y)).store(queue.peak + k);
+      open |= bits(unsettled) << k;
+    }
+    queue.put_back(states);
+    for (std::size_t k = 0; k < queue.count; ++k)
+      if ((open >> k & 1) != 0) advance_alone(slider, queue.lane[k], start, end, states);
+  };
+  work_off(eventful, [friction](Real& y, Real& w, const Real& load, const Real& slope, Real& peak)
+                         HWY_ATTR { return move(friction, y, w, load, slope, peak); });
+  work_off(fast, [friction](Real& y, Real& w, const Real& load, const Real& slope, Real&)
+                     HWY_ATTR { return slide(friction, y, w, load, slope); });
+}
+
+}  // namespace stickslip::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace stickslip::detail {
+
+HWY_EXPORT(AdvanceCasters);
+
+void advance_lanes(const CasterLanes& slider, std::size_t members, const double* start, const double* end,
+                   const LaneStates& states) {
+  HWY_DYNAMIC_DISPATCH(AdvanceCasters)(slider, members, start, end, states);
+}
+
+}  // namespace stickslip::detail
+#endif

@@ -1,0 +1,57 @@
+// The members of a row that need more than the rest, packed so that whole vectors can take them.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/row_moments.hpp"
+
+namespace stickslip::detail {
+
+/// Rows are at most this wide, so that a bit for each member fits into one word.
+inline constexpr std::size_t most_lanes = 64;
+
+/// The sliders' states, padded to a multiple of `row_padding`. The velocity is exactly 0 where a slider is stuck, and
+/// only there: laws without memory need no more.
+struct LaneStates {
+  double* displacement;  ///< x [m]
+  double* velocity;      ///< x' [m/s]
+  double* peak;          ///< largest |x| so far [m]
+};
+
+struct LaneQueue {
+  alignas(64) double displacement[most_lanes];
+  double velocity[most_lanes], start[most_lanes], end[most_lanes], peak[most_lanes];
+  std::uint8_t lane[most_lanes];
+  std::size_t count = 0;  ///< of the members taken; the first is repeated until vectors are full
+
+  /// @param members       a bit for each that is taken, at least one
+  /// @param ground_start  ground acceleration of each member of the row at the beginning of its segment, and
+  /// @param ground_end    at its end
+  LaneQueue(std::uint64_t members, const double* ground_start, const double* ground_end, const LaneStates& states) {
+    std::size_t next = 0;
+    const auto push = [&](std::size_t i) {
+      displacement[next] = states.displacement[i];
+      velocity[next] = states.velocity[i];
+      start[next] = ground_start[i];
+      end[next] = ground_end[i];
+      peak[next] = states.peak[i];
+      lane[next++] = static_cast<std::uint8_t>(i);
+    };
+    for (; members != 0; members &= members - 1) push(static_cast<std::size_t>(std::countr_zero(members)));
+    count = next;
+    while (next % row_padding != 0) push(lane[0]);
+  }
+
+  /// Writes the states back to the row.
+  void put_back(const LaneStates& states) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      states.displacement[lane[k]] = displacement[k];
+      states.velocity[lane[k]] = velocity[k];
+      states.peak[lane[k]] = peak[k];
+    }
+  }
+};
+
+}  // namespace stickslip::detail

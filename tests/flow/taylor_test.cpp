@@ -1,0 +1,198 @@
+// The Taylor flow, and the first root of its speed.
+#include <numbers>
+
+#include "support/catch.hpp"
+#include "support/motions.hpp"
+
+using namespace stickslip;
+using namespace test;
+
+namespace {
+
+// Coefficients of the product of (1 - t / root) and of (1 - 2 c t + t^2 (c^2 + s^2)), whose roots are not real.
+std::vector<double> polynomial(const std::vector<double>& roots,
+                               const std::vector<std::pair<double, double>>& pairs = {}) {
+  std::vector<long double> w{1};
+  const auto times = [&](const std::vector<long double>& factor) {
+    std::vector<long double> product(w.size() + factor.size() - 1);
+    for (std::size_t i = 0; i < w.size(); ++i)
+      for (std::size_t k = 0; k < factor.size(); ++k) product[i + k] += w[i] * factor[k];
+    w = product;
+  };
+  for (const long double root : roots) times({1, -1 / root});
+  for (const auto& [c, s] : pairs)
+    times({1, -2 * c, static_cast<long double>(c) * c + static_cast<long double>(s) * s});
+  return {w.begin(), w.end()};
+}
+
+double first_root_of(const std::vector<double>& w) {
+  return FirstRoot(w.data(), static_cast<int>(w.size()) - 1).find();
+}
+
+}  // namespace
+
+TEST_CASE("the first of single roots is found to round-off", "[taylor]") {
+  CHECK(first_root_of({1}) == never);
+  CHECK(first_root_of({1, 1}) == never);
+  CHECK(first_root_of({1, -0.5}) == never);
+  CHECK(std::abs(first_root_of({1, -1}) - 1) <= 1e-15);
+  CHECK(first_root_of({1, -2}) == 0.5);
+  CHECK(std::abs(first_root_of({1, -1e9}) - 1e-9) <= 1e-24);
+  CHECK(std::abs(first_root_of(polynomial({0.3, 0.4, 0.9})) - 0.3) <= 1e-14);
+  CHECK(std::abs(first_root_of(polynomial({1.5, 0.7, -3, 0.8, 2})) - 0.7) <= 1e-13);
+  CHECK(std::abs(first_root_of(polynomial({0.999, 1.001})) - 0.999) <= 1e-12);
+  CHECK(std::abs(first_root_of(polynomial({1e-6, 0.5, 0.6})) - 1e-6) <= 1e-20);
+  CHECK(first_root_of(polynomial({1.01, 1.02, -0.5})) == never);
+}
+
+TEST_CASE("two roots close by are told from one, and from none", "[taylor]") {
+  for (const double gap : {0.1, 1e-3, 1e-5}) {
+    CHECK(std::abs(first_root_of(polynomial({0.4, 0.4 + gap})) - 0.4) <= 1e-15 / gap);
+    CHECK(first_root_of(polynomial({}, {{1 / 0.4, gap}})) == never);
+  }
+}
+
+TEST_CASE("a speed that touches zero and rises again goes on", "[taylor]") {
+  // (1 - 2t)^2 in exact numbers: a graze. Seen or not, nothing hangs.
+  CHECK(first_root_of({1, -4, 4}) == never);
+  // Roots that rounding can not part: either answer is right to its square root.
+  const double root = first_root_of(polynomial({0.3, 0.3}));
+  CHECK((root == never || std::abs(root - 0.3) <= 1e-7));
+}
+
+TEST_CASE("a speed that touches zero and then falls through it is caught there", "[taylor]") {
+  // A triple root moves by the cube root of a rounding.
+  for (const double r : {0.5, 0.3, 0.71}) CHECK(std::abs(first_root_of(polynomial({r, r, r})) - r) <= 1e-5);
+}
+
+TEST_CASE("the first root of random polynomials is where long doubles see the first change of sign", "[taylor]") {
+  std::mt19937_64 bits(14);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 3000; ++i) {
+    const auto degree = static_cast<std::size_t>(1 + i % 29);
+    std::vector<double> w{std::abs(normal(bits))};
+    for (std::size_t k = 1; k <= degree; ++k)
+      w.push_back(normal(bits) * (i % 3 == 0 ? 1 : 1.0 / static_cast<double>(k)));
+    const auto value = [&](long double t) {
+      long double sum = 0;
+      for (std::size_t k = w.size(); k-- > 0;) sum = sum * t + w[k];
+      return sum;
+    };
+    double size = 0;
+    for (const double c : w) size += std::abs(c);
+    const double root = first_root_of(w);
+    const double until = std::min(root, 1.0);
+    bool positive = true;
+    for (int s = 1; s < 400; ++s)
+      positive = positive && value(static_cast<long double>(until) * s / 400) > -1e-13 * size;
+    INFO("case " << i << ", root " << root);
+    CHECK(positive);
+    if (root < never) {
+      CHECK(std::abs(value(root)) <= 1e-15 * size * static_cast<double>(degree + 1));
+      CHECK((root > 0 && root <= 1));
+    } else {
+      CHECK(value(1) > -1e-15 * size);
+    }
+  }
+}
+
+TEST_CASE("a constant law in disguise flows as the closed forms say", "[taylor]") {
+  std::mt19937_64 bits(15);
+  std::normal_distribution<double> normal;
+  for (const double natural_frequency : {0.0, 0.5, 1.3, 20.0}) {
+    const Slider slider(Disguised{1}, natural_frequency);
+    for (int i = 0; i < 300; ++i) {
+      const double duration = 0.1 * (1 + i % 5);
+      const Start start{std::abs(normal(bits)), i % 3 == 0 ? 0 : normal(bits), 10 * normal(bits) * duration};
+      const TaylorFlow<Disguised> taylor(slider, Direction::forward, normal(bits), start, duration);
+      const auto agree = [&](const auto& closed) {
+        const double horizon = taylor.horizon();
+        REQUIRE((horizon > 0 && horizon <= duration));
+        const double speed =
+            start.speed + std::abs(start.acceleration) * duration + std::abs(start.gain) * duration / 2;
+        for (const double part : {0.1, 0.5, 0.9, 1.0}) {
+          const Progress t = taylor.at(part * horizon), c = closed.at(part * horizon);
+          CHECK(std::abs(t.distance - c.distance) <= 1e-14 * speed * duration);
+          CHECK(std::abs(t.speed - c.speed) <= 1e-14 * speed);
+          CHECK(std::abs(t.mean_distance - c.mean_distance) <= 1e-14 * speed * duration);
+          // its derivative is a rounding of the largest term, some wn larger
+          CHECK((c.speed == 0 ||
+                 std::abs(t.acceleration - c.acceleration) <= 1e-13 * speed * (1 / duration + natural_frequency)));
+        }
+        const double one = taylor.first_stop(), other = closed.first_stop();
+        if (std::min(one, other) < 0.999 * horizon) {
+          // at a flat crossing, time is known only as well as the speed allows
+          CHECK((one == Approx(other).epsilon(1e-9) || closed.at(std::min(one, other)).speed <= 1e-14 * speed));
+        }
+      };
+      if (natural_frequency == 0) {
+        const Polynomial oscillator;
+        agree(ClosedForm<Polynomial>(oscillator, start, duration));
+      } else {
+        const Harmonic oscillator(natural_frequency);
+        agree(ClosedForm<Harmonic>(oscillator, start, duration));
+      }
+    }
+  }
+}
+
+TEST_CASE("a constant law in disguise slides through records as a block does", "[taylor]") {
+  for (const double natural_frequency : {0.0, 1.3, 30.0})
+    for (const auto interpolation : {Interpolation::linear, Interpolation::constant}) {
+      const GroundMotion motion = record_a(interpolation);
+      const Response block = integrate(Slider(Coulomb(1), natural_frequency), motion);
+      const Response taylor = integrate(Slider(Disguised{1}, natural_frequency), motion);
+      CHECK(difference(block.displacement, taylor.displacement) <= 1e-13 * block.peak);
+      CHECK(difference(block.velocity, taylor.velocity) <= 1e-13 * largest(block.velocity));
+      CHECK(std::abs(block.peak - taylor.peak) <= 1e-13 * block.peak);
+      CHECK(count(block.events) == count(taylor.events));
+    }
+}
+
+TEST_CASE("a caster's flow keeps its energy, from wherever it starts", "[taylor]") {
+  // v^2/2 + work + wn^2 x^2/2 less the work of the load is constant along each flow, to the roundings of its terms
+  // and of x.
+  std::mt19937_64 bits(16);
+  std::normal_distribution<double> normal;
+  for (const double natural_frequency : {0.0, 1.3}) {
+    const double reach = 0.5;
+    const Caster law(1, reach);
+    const Slider slider(law, natural_frequency);
+    for (int i = 0; i < 1000; ++i) {
+      const double x = reach * 2 * normal(bits), u = std::abs(normal(bits)), load = 2 * normal(bits),
+                   rate = 20 * normal(bits);
+      const Direction direction = i % 2 == 0 ? Direction::forward : Direction::backward;
+      const double s = sign(direction);
+      const double net = s * (load - slider.stiffness() * x) - law.level(x, direction);
+      const TaylorFlow<Caster> flow(slider, direction, x, Start{u, net, rate * 0.5}, 0.5);
+      const double stop = flow.first_stop(), t = std::min(stop, flow.horizon());
+      const Progress end = flow.at(t);
+      const double x1 = x + s * end.distance;
+      const double gained = end.speed * end.speed / 2 - u * u / 2 + friction_work(law, x, end.distance, direction) +
+                            slider.stiffness() * (x1 * x1 - x * x) / 2;
+      const double given = s * load * end.distance + rate * t * (end.distance - end.mean_distance);
+      const double terms = u * u + end.speed * end.speed + std::abs(load * end.distance) +
+                           std::abs(rate * t * end.distance) + end.distance + law.level(x, direction) * std::abs(x) +
+                           slider.stiffness() * (x * x + x1 * x1);
+      CHECK(std::abs(gained - given) <= 2e-15 * terms);
+      if (stop <= flow.horizon()) {
+        CHECK(end.speed <= 1e-14 * std::sqrt(terms));
+      }
+    }
+  }
+}
+
+TEST_CASE("a sum of Taylor steps ends where one of the right length does", "[taylor]") {
+  // Cut at random places, a flow is the same flow.
+  const Caster law(1, 0.3);
+  const Slider slider(law, 0.7);
+  State whole = State::at(-0.9, 2.5), parts = whole;
+  advance(slider, Segment{0.8, -1, 2}, whole);
+  double before = 0;
+  for (const double cut : {0.013, 0.2, 0.2000001, 0.55, 0.79, 0.8}) {
+    advance(slider, Segment{cut - before, -1 + 3 * before / 0.8, -1 + 3 * cut / 0.8}, parts);
+    before = cut;
+  }
+  CHECK(std::abs(whole.displacement - parts.displacement) <= 1e-14);
+  CHECK(std::abs(whole.velocity - parts.velocity) <= 1e-14 * 2.5);
+}
