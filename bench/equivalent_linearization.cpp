@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 struct Bump {  // a user's law
   double slip_level, reach;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp;
     return slip_level * exp(-(x / reach) * (x / reach));
   }

@@ -156,7 +156,7 @@ void plain_loop(const std::vector<double>& n, double a, std::vector<double>& x, 
 // A law as a user writes it.
 struct Bump {
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp;
     return slip_level * exp(-(x / reach) * (x / reach));
   }

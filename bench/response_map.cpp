@@ -33,7 +33,7 @@ std::vector<double> geometric(double first, double last) {
 // A law as a user writes it: the caster again.
 struct Own {
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     return 1.0 * sech(x);
   }
 };

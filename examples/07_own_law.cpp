@@ -17,7 +17,7 @@ struct Patch {
   double reach;       // [m]
 
   template <class T>  // a number, or a power series in time: return auto, and let exp be found for either
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp;
     return slip_level * exp(-(x / reach) * (x / reach));
   }

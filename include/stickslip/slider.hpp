@@ -1,4 +1,4 @@
-// The system that moves: a friction law, and a spring if it has one.
+// The system that moves: a friction law, and a spring and a damper if it has them.
 #pragma once
 
 #include <cmath>
@@ -9,21 +9,28 @@
 
 namespace stickslip {
 
-/// A mass on friction, with an optional centering spring:
-///     x'' + level(x) sgn(x') + wn^2 x = -n(t),                                        thesis (2.27), (2.50)
+/// A mass on friction, with an optional centering spring and an optional viscous damper:
+///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),                                   thesis (2.27), (2.50), (4.2)
 /// x the displacement relative to the ground [m], n the ground acceleration [m/s^2]. At rest it stays while
-///     -level_backward <= -(n + wn^2 x) <= level_forward.
+///     -hold_backward <= -(n + wn^2 x) <= hold_forward.
 template <FrictionLaw Law>
 class Slider {
  public:
-  /// @param law                gives the slip level
-  /// @param natural_frequency  wn, of the spring and the mass without friction [rad/s], finite and at least 0; 0 is
-  /// none
+  /// @param law                what holds and what resists
+  /// @param natural_frequency  wn, of the spring and the mass without friction [rad/s], finite and at least 0; 0 is no
+  ///                           spring
+  /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the share of
+  ///                           critical damping
   /// @throws std::invalid_argument naming the value
-  explicit Slider(Law law, double natural_frequency = 0)
-      : law_(std::move(law)), natural_frequency_(natural_frequency), stiffness_(natural_frequency * natural_frequency) {
+  explicit Slider(Law law, double natural_frequency = 0, double damping = 0)
+      : law_(std::move(law)),
+        natural_frequency_(natural_frequency),
+        stiffness_(natural_frequency * natural_frequency),
+        damping_(damping) {
     detail::require(std::isfinite(stiffness_) && natural_frequency >= 0,
                     "Slider: natural_frequency must be finite and at least 0", natural_frequency, "rad/s");
+    detail::require(std::isfinite(damping) && damping >= 0, "Slider: damping must be finite and at least 0", damping,
+                    "1/s");
   }
 
   const Law& law() const noexcept { return law_; }
@@ -32,10 +39,14 @@ class Slider {
   /// wn^2, spring stiffness per unit mass [1/s^2].
   double stiffness() const noexcept { return stiffness_; }
 
+  /// c [1/s].
+  double damping() const noexcept { return damping_; }
+
  private:
   Law law_;
   double natural_frequency_;
   double stiffness_;
+  double damping_;
 };
 
 }  // namespace stickslip

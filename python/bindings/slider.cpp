@@ -56,7 +56,7 @@ Wherever a slider is asked for, a law alone will do: a slider without a spring.)
           [](const AnySlider& self, double displacement, bool backward) {
             return std::visit(
                 [&](const auto& s) -> double {
-                  return s.law().level(displacement, backward ? Direction::backward : Direction::forward);
+                  return s.law().resist(displacement, backward ? Direction::backward : Direction::forward);
                 },
                 self);
           },

@@ -21,9 +21,7 @@ void advance_alone(const CasterLanes& slider, std::size_t lane, const double* st
                    const LaneStates& states) {
   struct Peak {
     double& most;
-    void slide(Direction way, double from, double distance, double, double) const {
-      most = std::max(most, std::abs(from + sign(way) * distance));
-    }
+    void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
     void event(EventKind, double, const State&) const noexcept {}
   } peak{states.peak[lane]};
   State state = State::at(states.displacement[lane], states.velocity[lane]);

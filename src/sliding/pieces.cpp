@@ -121,11 +121,11 @@ class SideBySide {
     });
     const double work = work_[length_ * pieces + piece] - work_[segment * pieces + piece];
     if (event == end || end[-1].kind == EventKind::arrest) {
-      recorder_.slide(Direction::forward, 0, 0, 0, work);
+      recorder_.slide(Slip{Direction::forward, 0, 0, 0, work});
     } else {
       const double from = moved(end[-1].displacement), to = histories_.displacement[begin + length_];
-      recorder_.slide(to < from ? Direction::backward : Direction::forward, from, std::abs(to - from),
-                      ground_.time(begin + length_) - at(end[-1]), work);
+      recorder_.slide(Slip{to < from ? Direction::backward : Direction::forward, from, std::abs(to - from),
+                           ground_.time(begin + length_) - at(end[-1]), work});
     }
   }
 

@@ -163,7 +163,7 @@ TEST_CASE("a caster's flow keeps its energy, from wherever it starts", "[taylor]
                    rate = 20 * normal(bits);
       const Direction direction = i % 2 == 0 ? Direction::forward : Direction::backward;
       const double s = sign(direction);
-      const double net = s * (load - slider.stiffness() * x) - law.level(x, direction);
+      const double net = s * (load - slider.stiffness() * x) - law.resist(x, direction);
       const TaylorFlow<Caster> flow(slider, direction, x, Start{u, net, rate * 0.5}, 0.5);
       const double stop = flow.first_stop(), t = std::min(stop, flow.horizon());
       const Progress end = flow.at(t);
@@ -172,7 +172,7 @@ TEST_CASE("a caster's flow keeps its energy, from wherever it starts", "[taylor]
                             slider.stiffness() * (x1 * x1 - x * x) / 2;
       const double given = s * load * end.distance + rate * t * (end.distance - end.mean_distance);
       const double terms = u * u + end.speed * end.speed + std::abs(load * end.distance) +
-                           std::abs(rate * t * end.distance) + end.distance + law.level(x, direction) * std::abs(x) +
+                           std::abs(rate * t * end.distance) + end.distance + law.resist(x, direction) * std::abs(x) +
                            slider.stiffness() * (x * x + x1 * x1);
       CHECK(std::abs(gained - given) <= 2e-15 * terms);
       if (stop <= flow.horizon()) {

@@ -27,9 +27,9 @@ TEST_CASE("a caster under record A moves as 32 digits say", "[caster]") {
 TEST_CASE("the slip level is the sine of the wheel's angle", "[caster]") {
   const Caster law(2, 0.3);
   for (const auto& [position, sine] : reference::angles)
-    CHECK(std::abs(law.level(position * 0.3, Direction::forward) - 2 * sine) <= 1e-15 * 2 * sine * 4);
-  CHECK(law.level(1e6, Direction::forward) == 0);
-  CHECK(law.level(0.7, Direction::forward) == law.level(-0.7, Direction::backward));
+    CHECK(std::abs(law.resist(position * 0.3, Direction::forward) - 2 * sine) <= 1e-15 * 2 * sine * 4);
+  CHECK(law.resist(1e6, Direction::forward) == 0);
+  CHECK(law.resist(0.7, Direction::forward) == law.resist(-0.7, Direction::backward));
 }
 
 TEST_CASE("the work of a caster is the integral of its level", "[caster]") {

@@ -12,7 +12,7 @@ namespace {
 /// A law with an opinion on direction, and with most of the functions at hand.
 struct Ripple {
   template <class T>
-  auto level(const T& x, Direction direction) const {
+  auto resist(const T& x, Direction direction) const {
     using std::exp, std::sin, std::cos, std::sqrt;
     return (direction == Direction::forward ? 1.0 : 1.5) * (1.2 + 0.3 * sin(3 * x) * exp(-x * x / 9)) /
            sqrt(1 + x * x * 0.01) * (2 + cos(x)) / 3;
@@ -22,7 +22,7 @@ struct Ripple {
 /// A law given by its work as well.
 struct Quadratic {
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     return 1 + x * x;
   }
   double work(double from, double distance, Direction direction) const {
@@ -34,7 +34,7 @@ struct Quadratic {
 /// No number to the left of 0, and no derivative at it.
 struct Root {
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::sqrt;
     return sqrt(x);
   }

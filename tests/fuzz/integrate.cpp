@@ -126,9 +126,9 @@ struct Watcher {
   bool extreme = false;  // may take long
 
   void begin(std::size_t i) { segment = i, slides = at_once = 0; }
-  void slide(Direction, double, double distance, double taken, double) {
-    if (!(distance >= 0)) fail(problem, "a slip of " + hex(distance) + " m");
-    at_once = taken > 0 ? 0 : at_once + 1;
+  void slide(const Slip& slip) {
+    if (!(slip.distance >= 0)) fail(problem, "a slip of " + hex(slip.distance) + " m");
+    at_once = slip.duration > 0 ? 0 : at_once + 1;
     const auto where = [&] { return " in segment " + std::to_string(segment); };
     if (at_once > 100 && !extreme) fail(problem, "slips of no duration without end" + where());
     if (++slides <= most_slides) return;

@@ -38,7 +38,7 @@ std::complex<double> determinant(const Orbit& orbit) {
 /// All that a law may be written with.
 struct Formula {
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp, std::log, std::pow, std::sqrt, std::sin, std::cos, std::sinh, std::cosh, std::tanh;
     return 2 + exp(-x) * sin(x) / (1.5 + cos(x)) - log(x + 1) + pow(x, 1.3) * sqrt(x) + 0.1 * sinh(x) / cosh(x) -
            (1 - tanh(x)) * (-x) / 3 + 1 / (2 - 0.1 * x) + (x - 0.5) * sech(x);
@@ -421,10 +421,11 @@ TEST_CASE("a law's slope is the derivative of its level, by whatever functions i
     for (const double x : {0.3, 0.7, 1.9}) {
       series::Coefficients series;
       series[0] = x;
-      auto slope = series::slope_of(law.level(series::variable(series), Direction::forward));
+      auto slope = series::slope_of(law.resist(series::variable(series), Direction::forward));
       slope.update(0);
       const double h = 1e-5,
-                   difference = (law.level(x + h, Direction::forward) - law.level(x - h, Direction::forward)) / (2 * h);
+                   difference =
+                       (law.resist(x + h, Direction::forward) - law.resist(x - h, Direction::forward)) / (2 * h);
       CHECK(std::abs(slope[0] - difference) <= 1e-8);
     }
   };

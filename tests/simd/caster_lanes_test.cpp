@@ -19,9 +19,7 @@ namespace {
 struct Watch {
   double peak = 0;
   int events = 0;
-  void slide(Direction direction, double from, double distance, double, double) {
-    peak = std::max(peak, std::abs(from + sign(direction) * distance));
-  }
+  void slide(const Slip& slip) { peak = std::max(peak, std::abs(slip.to())); }
   void event(EventKind, double, const State&) { ++events; }
 };
 
@@ -113,7 +111,7 @@ TEST_CASE("a fast caster that crosses the origin within one step is braked there
 
 TEST_CASE("a caster in lanes is held by the level at its place", "[caster_lanes]") {
   const Caster law(1, 1);
-  const double level = law.level(1.5, Direction::forward);
+  const double level = law.resist(1.5, Direction::forward);
   std::vector<double> x(8, 1.5), v(8, 0.0), peak(8), under(8, -0.999 * level), over(8, -1.001 * level);
   detail::advance_lanes(detail::CasterLanes{law, 0.1}, 8, under.data(), under.data(),
                         {x.data(), v.data(), peak.data()});

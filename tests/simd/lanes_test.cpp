@@ -35,9 +35,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 struct Watch {
   double peak = 0, work = 0;
   std::vector<Event> events{};
-  void slide(Direction direction, double from, double distance, double, double work_of_ground) {
-    peak = std::max(peak, std::abs(from + sign(direction) * distance));
-    work += work_of_ground;
+  void slide(const Slip& slip) {
+    peak = std::max(peak, std::abs(slip.to()));
+    work += slip.work;
   }
   void event(EventKind kind, double time, const State& state) {
     events.push_back({time, state.displacement, state.velocity, kind});

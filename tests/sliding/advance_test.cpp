@@ -21,11 +21,11 @@ struct Witness {
   double way = 0, time = 0, input = 0, dissipated = 0, terms = 0;
   bool sound = true;
 
-  void slide(Direction direction, double from, double distance, double duration, double work) {
-    sound = sound && distance >= -1e-15 * (1 + std::abs(from)) && duration >= 0;
-    way += distance, time += duration, input += work;
-    dissipated += friction_work(law, from, std::max(distance, 0.0), direction);
-    terms += std::abs(work);
+  void slide(const Slip& slip) {
+    sound = sound && slip.distance >= -1e-15 * (1 + std::abs(slip.from)) && slip.duration >= 0;
+    way += slip.distance, time += slip.duration, input += slip.work;
+    dissipated += friction_work(law, slip.from, std::max(slip.distance, 0.0), slip.direction);
+    terms += std::abs(slip.work);
   }
   void event(EventKind kind, double t, const State& state) {
     sound = sound && t >= 0 && state.velocity == 0 && (kind == EventKind::arrest) == (state.mode == Mode::stuck);
@@ -204,7 +204,7 @@ TEST_CASE("nothing rough makes a slider hang, vanish, gain energy or lose its or
     const Law& law = slider.law();
     double x = pick({0, 0, 0, 1, -1, 0.5, 3});
     double v = pick({0, 0, 0, 1, -1, 2, 0.5});
-    if (v < 0 && std::isinf(static_cast<double>(law.level(0.0, Direction::backward)))) v = 0;
+    if (v < 0 && std::isinf(static_cast<double>(law.resist(0.0, Direction::backward)))) v = 0;
     State state = State::at(x, v);
     Witness<Law> witness{law, {}};
     if (state.mode != Mode::stuck) witness.events.push_back(EventKind::breakaway);

@@ -133,7 +133,7 @@ inline bool grammatical(const Response& response) {
 struct Disguised {
   double slip_level;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     return x * 0.0 + slip_level;
   }
 };
@@ -142,7 +142,7 @@ struct Disguised {
 struct Bump {
   double slip_level, reach;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp;
     return slip_level * exp(-(x / reach) * (x / reach));
   }

@@ -48,21 +48,21 @@ double apart(const detail::Covariance& found, const detail::Covariance& value) {
 struct AsCoulomb {
   double a;
   template <class T>
-  double level(const T&, Direction) const {
+  double resist(const T&, Direction) const {
     return a;
   }
 };
 struct AsCaster {
   Caster wheel;
   template <class T>
-  auto level(const T& x, Direction direction) const {
-    return wheel.level(x, direction);
+  auto resist(const T& x, Direction direction) const {
+    return wheel.resist(x, direction);
   }
 };
 struct Bell {  // exp(-(x / reach)^2), whose expectations are known
   double a, reach;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp;
     return a * exp(-(x / reach) * (x / reach));
   }
@@ -70,7 +70,7 @@ struct Bell {  // exp(-(x / reach)^2), whose expectations are known
 struct Ramp {  // a slope that steepens: level against forward sliding a + k x, against backward a - k x, |x| < a / k
   double a, k;
   template <class T>
-  auto level(const T& x, Direction direction) const {
+  auto resist(const T& x, Direction direction) const {
     return a + sign(direction) * k * x;
   }
 };
@@ -434,12 +434,12 @@ TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
                     ContainsSubstring("the same both ways, got levels of 1 and 2 m/s^2"));
   CHECK_THROWS_WITH(by_gauss.predict(Ramp{1, -1e-3}, 1.0, std::array<double, 1>{1e4}), ContainsSubstring("at least 0"));
   struct Uphill {
-    double level(double x, Direction) const { return 2 + std::tanh(x); }
+    double resist(double x, Direction) const { return 2 + std::tanh(x); }
   };
   CHECK_THROWS_WITH(by_gauss.predict(Uphill{}, 1.0, one), ContainsSubstring("level(x, forward) = level(-x, backward)"));
   CHECK_THROWS_WITH(by_thesis.predict(AsCoulomb{1}, 1.0, one), ContainsSubstring("that of Coulomb and Caster"));
   struct Kinked {
-    double level(double x, Direction) const { return std::abs(x) < 1 ? 1 : 0.2; }
+    double resist(double x, Direction) const { return std::abs(x) < 1 ? 1 : 0.2; }
   };
   CHECK_THROWS_AS(by_gauss.coefficients(Kinked{}, 1, 0.3, 1), ConvergenceError);
   CHECK_THROWS_WITH(by_gauss.predict(Coulomb(1), Spectrum::band_pass(1, 0, 2), one),

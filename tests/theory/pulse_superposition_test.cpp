@@ -360,7 +360,7 @@ namespace {
 struct Counted {
   static inline std::size_t asked = 0;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     ++asked;
     return 1.0 / (1.0 + x * x / 100.0);
   }

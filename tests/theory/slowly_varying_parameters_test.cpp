@@ -29,7 +29,7 @@ double relative(double value, double expected) { return std::abs(value - expecte
 struct OwnCaster {
   double slip_level, reach;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     return slip_level * sech(x / reach);
   }
 };
@@ -37,7 +37,7 @@ struct OwnCaster {
 struct Patch {
   double slip_level, reach;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::exp;
     return slip_level * exp(-(x / reach) * (x / reach));
   }
@@ -47,7 +47,7 @@ struct Patch {
 struct CoulombWithSpring {
   double slip_level, k;
   template <class T>
-  auto level(const T& x, Direction direction) const {
+  auto resist(const T& x, Direction direction) const {
     return slip_level + sign(direction) * k * x;
   }
 };
@@ -56,7 +56,7 @@ struct CoulombWithSpring {
 struct Ripples {
   double slip_level, reach;
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     using std::cos;
     return slip_level * sech(x / (20 * reach)) * (1 + 0.9 * cos(x / reach));
   }
@@ -64,7 +64,7 @@ struct Ripples {
 
 struct Lopsided {
   template <class T>
-  auto level(const T& x, Direction direction) const {
+  auto resist(const T& x, Direction direction) const {
     using std::exp;
     return 1 + (direction == Direction::forward ? 0.1 : 0.0) * x * x * exp(-x * x);
   }

@@ -62,13 +62,24 @@ class Recorder {
     if (heartbeat_) heartbeat_();
   }
 
-  void slide(Direction direction, double from, double distance, double duration, double work) {
+  /// Work that only a flow knows: on a damper, and against friction that depends on the speed.
+  template <class Flow>
+  void follow(const Flow& flow, double taken) requires SpeedLaw<Law> || requires {
+    flow.damped_work(taken);
+  }
+  {
+    if constexpr (requires { flow.damped_work(taken); }) damped_ += flow.damped_work(taken);
+    if constexpr (SpeedLaw<Law>) dissipated_ += flow.friction_work(taken);
+  }
+
+  void slide(const Slip& slip) {
     if constexpr (in_steps) beat();
-    slip_direction_ = direction;
-    slip_distance_ += distance;
-    time_sliding_ += duration;
-    input_ += work;
-    if constexpr (!LawWithWork<Law>) dissipated_ += friction_work(law_, from, distance, direction);
+    slip_direction_ = slip.direction;
+    slip_distance_ += slip.distance;
+    time_sliding_ += slip.duration;
+    input_ += slip.work;
+    if constexpr (PositionLaw<Law> && !LawWithWork<Law>)
+      dissipated_ += friction_work(law_, slip.from, slip.distance, slip.direction);
   }
 
   void event(EventKind kind, double time, const State& state) {
@@ -125,6 +136,7 @@ class Recorder {
     response.time_sliding = time_sliding_;
     response.energy.input = input_;
     response.energy.dissipated = dissipated_;
+    response.energy.damped = damped_;
   }
 
  private:
@@ -138,7 +150,7 @@ class Recorder {
   double slip_distance_ = 0;
   Direction slip_direction_ = Direction::forward;
   double peak_;
-  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0;
+  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0, damped_ = 0;
   std::vector<Event> events_;
   std::size_t most_events_;
   std::uint32_t beats_ = 0;

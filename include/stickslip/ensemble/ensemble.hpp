@@ -325,9 +325,9 @@ class MemberSimulator final : public Simulator {
 
     double peak() const noexcept { return peak_; }
 
-    void slide(Direction direction, double from, double distance, double, double) {
+    void slide(const Slip& slip) {
       if constexpr (!ConstantLevelLaw<Law>) beat();
-      peak_ = std::max(peak_, std::abs(from + sign(direction) * distance));
+      peak_ = std::max(peak_, std::abs(slip.to()));
     }
     void event(EventKind, double, const State&) {
       beat();
@@ -434,7 +434,7 @@ std::unique_ptr<Simulator> lanes_simulator(const ViscousSlider& slider, const Ga
 template <FrictionLaw Law, Excitation E>
 std::unique_ptr<Simulator> simulator(const Slider<Law>& slider, const E& excitation, std::uint64_t seed, bool settle) {
   if constexpr (requires { lanes_simulator(slider.law(), excitation, seed, settle); })
-    if (slider.stiffness() == 0)
+    if (slider.stiffness() == 0 && slider.damping() == 0)
       if (auto lanes = lanes_simulator(slider.law(), excitation, seed, settle)) return lanes;
   return std::make_unique<MemberSimulator<Law, E>>(slider, excitation, seed, settle);
 }
@@ -454,7 +454,7 @@ template <FrictionLaw Law>
 std::string describe(const Law& law, double natural_frequency) {
   double levels[10];
   for (int i = 0; i < 10; ++i)
-    levels[i] = law.level(0.1 * ((i / 2) - 2), i % 2 == 0 ? Direction::forward : Direction::backward);
+    levels[i] = law.resist(0.1 * ((i / 2) - 2), i % 2 == 0 ? Direction::forward : Direction::backward);
   return describe(typeid(Law).name(), levels, natural_frequency);
 }
 template <FrictionLaw Law>

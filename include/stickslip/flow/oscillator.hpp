@@ -54,6 +54,7 @@ class Harmonic {
 
   /// Pull of the spring per unit mass [m/s^2].
   double pull(double displacement) const noexcept { return w_ * w_ * displacement; }
+  static constexpr double drag(double) noexcept { return 0; }
 
   ClosedForm<Harmonic> flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept {
     return {*this, start, duration};

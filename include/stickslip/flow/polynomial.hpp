@@ -35,6 +35,7 @@ struct Polynomial {
 
   /// No spring pulls.
   static constexpr double pull(double) noexcept { return 0; }
+  static constexpr double drag(double) noexcept { return 0; }
 
   ClosedForm<Polynomial> flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept {
     return {*this, start, duration};

@@ -156,6 +156,7 @@ class Sinusoidal {
 
   /// No spring pulls.
   static constexpr double pull(double) noexcept { return 0; }
+  static constexpr double drag(double) noexcept { return 0; }
 
   SinusoidalFlow flow(Direction, double /*displacement*/, const SinusoidalStart& start,
                       double duration) const noexcept {

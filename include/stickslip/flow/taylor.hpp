@@ -164,8 +164,8 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 
 }  // namespace detail
 
-/// Friction that varies with position: the distance slid is a Taylor series in time, with the coefficients of
-///     d'' = a + g(t) - wn^2 d - [level(x0 +- d) - level(x0)],                            thesis (2.27), (2.50)
+/// Friction that varies with position or speed: the distance slid is a Taylor series in time, with the coefficients of
+///     d'' = a + g(t) - wn^2 d - c (d' - u) - [resist(x0 +- d, d') - resist(x0, u)],      thesis (2.27), (2.50)
 /// where g is what the load gains, linear in time or a cosine's; found order by order (series.hpp).
 ///
 /// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
@@ -181,12 +181,12 @@ class TaylorFlow {
         displacement_(displacement),
         start_(start),
         gain_(detail::gain_series(start, duration)),
-        level_here_(slider.law().level(displacement, direction)),
+        level_here_(resist(slider.law(), displacement, direction, start.speed)),
         horizon_(std::min({duration, longest, gain_.reach(slider.natural_frequency())})) {
     // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
     // the way at most.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
-        slider.law().level(0.0, direction) > vanishing)
+        resist(slider.law(), 0.0, direction, start.speed) > vanishing)
       horizon_ = std::min(horizon_, time_to_half_way());
 
     for (;;) {
@@ -221,20 +221,22 @@ class TaylorFlow {
   /// Net, at the start [m/s^2].
   double acceleration() const noexcept { return start_.acceleration; }
 
-  /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- level'(x)) y from (1, 0) and from (0, 1).
-  std::array<double, 4> variation(double t) const {
+  /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- resist'(x)) y - c y' from (1, 0) and from (0, 1).
+  std::array<double, 4> variation(double t) const requires PositionLaw<Law> {
     constexpr int order = series::highest_order;
     const double h = horizon_;
     series::Coefficients x, stiffness, y[2];
     x[0] = displacement_;
     for (int k = 1; k <= order; ++k) x[k] = k <= order_ ? sign(direction_) * distance_[k - 1] : 0;
-    auto slope = series::slope_of(slider_.law().level(series::variable(x), direction_));
+    auto slope = series::slope_of(slider_.law().resist(series::variable(x), direction_));
     for (const int i : {0, 1}) y[i][i] = 1, y[i][1 - i] = 0;
     for (int k = 0; k + 2 <= order; ++k) {
       slope.update(k);
       stiffness[k] = h * h * (sign(direction_) * slope[k] + (k == 0 ? slider_.stiffness() : 0));
       for (auto& c : y)
-        c[k + 2] = -series::convolve(stiffness, c, 0, k) * (series::reciprocal[k + 1] * series::reciprocal[k + 2]);
+        c[k + 2] =
+            -(series::convolve(stiffness, c, 0, k) * series::reciprocal[k + 1] + h * slider_.damping() * c[k + 1]) *
+            series::reciprocal[k + 2];
     }
     const double s = t / h;
     double value[2] = {0, 0}, rate[2] = {0, 0};
@@ -244,6 +246,18 @@ class TaylorFlow {
         value[i] = value[i] * s + y[i][k];
       }
     return {value[0], value[1] * h, rate[0] / h, rate[1]};
+  }
+
+  /// Work on the damper within t [m^2/s^2].
+  double damped_work(double t) const noexcept {
+    if (slider_.damping() == 0) return 0;
+    return slider_.damping() * integral(t, [](const Progress& at) { return at.speed * at.speed; });
+  }
+  /// Work against friction within t [m^2/s^2].
+  double friction_work(double t) const {
+    return integral(t, [&](const Progress& at) {
+      return resist(slider_.law(), displacement_ + sign(direction_) * at.distance, direction_, at.speed) * at.speed;
+    });
   }
 
   /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
@@ -261,6 +275,25 @@ class TaylorFlow {
   }
 
  private:
+  // Of a function of the motion, within t: Gauss-Legendre quadrature of 20 points is exact for products of two series
+  // that have come down to round-off at their ends.
+  template <class Function>
+  double integral(double t, Function&& of) const {
+    constexpr double nodes[] = {0.076526521133497333755, 0.227785851141645078080, 0.373706088715419560673,
+                                0.510867001950827098004, 0.636053680726515025453, 0.746331906460150792614,
+                                0.839116971822218823395, 0.912234428251325905868, 0.963971927277913791268,
+                                0.993128599185094924786};
+    constexpr double weights[] = {0.152753387130725850698, 0.149172986472603746788, 0.142096109318382051329,
+                                  0.131688638449176626898, 0.118194531961518417312, 0.101930119817240435037,
+                                  0.083276741576704748725, 0.062672048334109063570, 0.040601429800386941331,
+                                  0.017614007139152118312};
+    const double half = t / horizon_ / 2;
+    double sum = 0;
+    for (int i = 0; i < 10; ++i)
+      sum += weights[i] * (of(at_part(half * (1 - nodes[i]))) + of(at_part(half * (1 + nodes[i]))));
+    return t / 2 * sum;
+  }
+
   // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and
   // as it was given.
   Progress at_part(double s) const noexcept {
@@ -287,11 +320,13 @@ class TaylorFlow {
 
   // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
   double expand() {
-    const double s = sign(direction_), h = horizon_, stiffness = slider_.stiffness();
+    const double s = sign(direction_), h = horizon_, stiffness = slider_.stiffness(), damping = slider_.damping();
     series::Coefficients x;
-    auto level = as_series(slider_.law().level(series::Variable{&x}, direction_));
+    series::Coefficients v;  // of the speed, where the law asks for it
+    auto level = as_series(resist(slider_.law(), series::Variable{&x}, direction_, series::Variable{&v}));
     x[0] = displacement_;
     speed_[0] = start_.speed;
+    if constexpr (SpeedLaw<Law>) v[0] = start_.speed;
     distance_[0] = start_.speed * h;
     x[1] = s * distance_[0];
     level.update(0);
@@ -304,10 +339,11 @@ class TaylorFlow {
       double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
-        net = gain(k) - stiffness * distance_[k - 1] - level[k];
+        net = gain(k) - stiffness * distance_[k - 1] - damping * speed_[k] - level[k];
       }
       acceleration_[k] = net;
       speed_[k + 1] = h * net * series::reciprocal[k + 1];
+      if constexpr (SpeedLaw<Law>) v[k + 1] = speed_[k + 1];
       distance_[k + 1] = h * speed_[k + 1] * series::reciprocal[k + 2];
       x[k + 2] = s * distance_[k + 1];
       const double previous = std::exchange(term, std::abs(speed_[k + 1]));
@@ -336,12 +372,14 @@ class TaylorFlow {
   // Whether the equation of motion holds at a part of the horizon, to the round-off of its terms and of the series.
   bool balanced(double part) {
     end_ = at_part(part);
-    const double level_there = slider_.law().level(displacement_ + sign(direction_) * end_.distance, direction_);
-    const double gain = gain_.at(horizon_, part), pull = slider_.stiffness() * end_.distance;
-    const double net = start_.acceleration + gain - pull - (level_there - level_here_);
+    const double level_there =
+        resist(slider_.law(), displacement_ + sign(direction_) * end_.distance, direction_, end_.speed);
+    const double gain = gain_.at(horizon_, part), pull = slider_.stiffness() * end_.distance,
+                 drag = slider_.damping() * (end_.speed - start_.speed);
+    const double net = start_.acceleration + gain - pull - drag - (level_there - level_here_);
     const double terms = std::abs(start_.acceleration) + gain_.largest(horizon_, part) + std::abs(pull) +
-                         std::abs(level_here_) + std::abs(level_there) + slider_.stiffness() * std::abs(displacement_) +
-                         fastest_ / horizon_;
+                         slider_.damping() * fastest_ + std::abs(level_here_) + std::abs(level_there) +
+                         slider_.stiffness() * std::abs(displacement_) + fastest_ / horizon_;
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
@@ -391,6 +429,7 @@ struct Taylor {
   mutable double last_step = never;  // that a flow was shortened to, where pieces of motion are long [s]
 
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
+  double drag(double speed) const noexcept { return slider.damping() * speed; }
 
   TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
     return {slider, direction, displacement, start, duration};

@@ -57,7 +57,7 @@ class Caster {
   double reach() const noexcept { return reach_; }
 
   template <class T>
-  auto level(const T& x, Direction) const {
+  auto resist(const T& x, Direction) const {
     return slip_level_ * sech(x / reach_);
   }
 
@@ -65,7 +65,7 @@ class Caster {
   /// of two Gudermannians, in a form that does not cancel.
   double work(double from, double distance, Direction direction) const noexcept {
     const double half = distance / 2 / reach_;
-    if (half < 0x1p-60) return level(from, direction) * distance;  // which does not change over so short a way
+    if (half < 0x1p-60) return resist(from, direction) * distance;  // which does not change over so short a way
     const double middle = std::abs(from / reach_ + sign(direction) * half);
     const double ratio = std::exp(half - middle) * -std::expm1(-2 * half) / (1 + std::exp(-2 * middle));
     return slip_level_ * (reach_ * (2 * std::atan(ratio)));  // ratio = sinh(half) / cosh(middle)

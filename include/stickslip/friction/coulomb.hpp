@@ -66,13 +66,13 @@ class Coulomb {
   double backward() const noexcept { return backward_; }
 
   template <class T>
-  double level(const T&, Direction direction) const noexcept {
+  double resist(const T&, Direction direction) const noexcept {
     return direction == Direction::forward ? forward_ : backward_;
   }
 
   /// Work per unit mass against friction in sliding `distance` >= 0 [m^2/s^2].
   double work(double, double distance, Direction direction) const noexcept {
-    return distance == 0 ? 0 : level(0, direction) * distance;
+    return distance == 0 ? 0 : resist(0, direction) * distance;
   }
 
  private:

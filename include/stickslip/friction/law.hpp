@@ -8,43 +8,80 @@
 
 namespace stickslip {
 
-/// A friction law gives the slip level: the friction force per unit mass [m/s^2], not negative, by position and
-/// direction. A slider at rest is held while the force on it stays within the two levels at its place; a slider in
-/// motion is braked by the level of its direction.
+/// A friction law answers two questions, both with a friction force per unit mass [m/s^2] that is not negative:
 ///
-/// `level` is a template over its scalar, so that one line serves doubles and power series alike; return `auto`:
+///     resist(x, direction)  or  resist(x, direction, speed)       what resists sliding at x [m] that way, at |x'|
+///     [m/s] hold(x, direction)                                          what holds a slider at rest against sliding
+///     that way
+///
+/// A law without `hold` holds what resists at no speed. `resist` is a template over its scalars, so that one line
+/// serves doubles and power series alike; return `auto`:
 ///
 ///     struct Bump {                            // a slip level that decays as exp(-(x/reach)^2)
 ///       double slip_level, reach;
 ///       template <class T>
-///       auto level(const T& x, Direction) const {
+///       auto resist(const T& x, Direction) const {
 ///         using std::exp;
 ///         return slip_level * exp(-(x / reach) * (x / reach));
 ///       }
 ///     };
 ///
-/// It must be analytic in x (no branches on x). series/series.hpp lists the functions at hand.
+/// It must be analytic in x and speed (no branches on them). series/series.hpp lists the functions at hand.
 template <class Law>
-concept FrictionLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
-  { law.level(x, direction) } -> std::convertible_to<double>;
+concept PositionLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
+  { law.resist(x, direction) } -> std::convertible_to<double>;
 };
 
-/// A law whose level does not change while it slides one way, said by `static constexpr bool constant_while_sliding =
-/// true;` its motion between events is known in closed form.
+/// A law whose resistance depends on the speed, too.
+template <class Law>
+concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
+  { law.resist(x, direction, x) } -> std::convertible_to<double>;
+};
+
+template <class Law>
+concept FrictionLaw = PositionLaw<Law> || SpeedLaw<Law>;
+
+/// A law that holds more at rest than what resists at no speed.
+template <class Law>
+concept LawWithHold = FrictionLaw<Law> && requires(const Law& law, double x, Direction direction) {
+  { law.hold(x, direction) } -> std::convertible_to<double>;
+};
+
+/// What resists sliding, by any law, of numbers or of power series [m/s^2].
+template <class Law, class X, class Speed>
+auto resist(const Law& law, const X& x, Direction direction, const Speed& speed) {
+  if constexpr (SpeedLaw<Law>)
+    return law.resist(x, direction, speed);
+  else
+    return law.resist(x, direction);
+}
+
+/// What any law holds at rest [m/s^2].
+template <FrictionLaw Law>
+double hold(const Law& law, double x, Direction direction) {
+  if constexpr (LawWithHold<Law>)
+    return law.hold(x, direction);
+  else
+    return resist(law, x, direction, 0.0);
+}
+
+/// A law whose resistance does not change while it slides one way, said by `static constexpr bool
+/// constant_while_sliding = true;` its motion between events is known in closed form.
 template <class Law>
 concept ConstantLevelLaw = FrictionLaw<Law> && requires {
   requires Law::constant_while_sliding;
 };
 
 /// A law that knows the work against it in closed form, `work(from, distance, direction)` [m^2/s^2], distance >= 0 slid
-/// from `from`: the integral of the level over the way.
+/// from `from`: the integral of the resistance over the way.
 template <class Law>
-concept LawWithWork = FrictionLaw<Law> && requires(const Law& law, double x, Direction direction) {
+concept LawWithWork = PositionLaw<Law> && requires(const Law& law, double x, Direction direction) {
   { law.work(x, x, direction) } -> std::convertible_to<double>;
 };
 
-/// The work against any law; by Gauss-Legendre quadrature of ten points where it is not known, so over short ways.
-template <FrictionLaw Law>
+/// The work against a law of position; by Gauss-Legendre quadrature of ten points where it is not known, so over short
+/// ways.
+template <PositionLaw Law>
 double friction_work(const Law& law, double from, double distance, Direction direction) {
   if constexpr (LawWithWork<Law>) {
     return law.work(from, distance, direction);
@@ -57,7 +94,7 @@ double friction_work(const Law& law, double from, double distance, Direction dir
     double sum = 0;
     for (int i = 0; i < 5; ++i)
       sum += weights[i] *
-             (law.level(middle - half * nodes[i], direction) + law.level(middle + half * nodes[i], direction));
+             (law.resist(middle - half * nodes[i], direction) + law.resist(middle + half * nodes[i], direction));
     return half * sum;
   }
 }

@@ -97,7 +97,7 @@ class Variation {
     matrix = {xx * m.xx + xv * m.vx, xx * m.xv + xv * m.vv, vx * m.xx + vv * m.vx, vx * m.xv + vv * m.vv};
     last_acceleration_ = flow.at(t).acceleration;
   }
-  void slide(Direction, double, double, double, double) const noexcept {}
+  void slide(const Slip&) const noexcept {}
   void event(EventKind kind, double, const State&) noexcept {
     if (kind == EventKind::arrest) jump(0);
     turned_ = kind == EventKind::reversal;
@@ -121,8 +121,8 @@ struct CycleRecorder {
   std::vector<Event> events{};
   double dissipated = 0;
 
-  void slide(Direction direction, double from, double distance, double, double) {
-    dissipated += friction_work(law, from, std::max(distance, 0.0), direction);
+  void slide(const Slip& slip) {
+    dissipated += friction_work(law, slip.from, std::max(slip.distance, 0.0), slip.direction);
   }
   void event(EventKind kind, double time, const State& state) {
     events.push_back({time, state.displacement, state.velocity, kind});
@@ -269,7 +269,7 @@ class OrbitFinder {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  double level(double displacement) const { return slider_.law().level(displacement, Direction::backward); }
+  double level(double displacement) const { return slider_.law().resist(displacement, Direction::backward); }
 
   static double cycle_part(double cycles) noexcept {
     const double part = cycles - std::floor(cycles);
@@ -511,8 +511,8 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
           who + ": omega must be positive, its square and its period finite", omega, "rad/s");
   const double length = load / (omega * omega + slider.stiffness());
   for (const double x : {0.0, 0.1, 1.0, 10.0}) {
-    const double forward = slider.law().level(x * length, Direction::forward);
-    const double backward = slider.law().level(-x * length, Direction::backward);
+    const double forward = slider.law().resist(x * length, Direction::forward);
+    const double backward = slider.law().resist(-x * length, Direction::backward);
     require(std::isfinite(forward), who + ": the slip level must be finite", forward, "m/s^2");
     require(std::abs(forward - backward) <= 1e-12 * forward,
             who + ": the slip level against forward sliding, " + shortest(forward) +

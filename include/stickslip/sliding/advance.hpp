@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "stickslip/error.hpp"
+#include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/polynomial.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
@@ -22,18 +23,28 @@
 
 namespace stickslip {
 
+/// A slip or a part of one, in one direction and within one segment, as a watcher of the motion sees it.
+struct Slip {
+  Direction direction;
+  double from;      ///< x where it began [m]
+  double distance;  ///< way slid, at least 0 but for round-off [m]
+  double duration;  ///< [s]
+  double work;      ///< of the ground on it [m^2/s^2]
+
+  double to() const noexcept { return from + sign(direction) * distance; }  ///< x where it ended [m]
+};
+
 /// Watches a motion while it is computed: each slip or part of one, and each event. Times count from the beginning of
 /// the segment [s]. One that has `follow(flow, taken)` is also shown each flow and how long it lasts [s].
 template <class Observer>
-concept MotionObserver = requires(Observer& observer, Direction direction, double number, EventKind kind, State state) {
-  /// (direction, x where it began [m], way slid [m], time taken [s], work of the ground on it [m^2/s^2])
-  observer.slide(direction, number, number, number, number);
-  observer.event(kind, number, state);
+concept MotionObserver = requires(Observer& observer, const Slip& slip, double time, EventKind kind, State state) {
+  observer.slide(slip);
+  observer.event(kind, time, state);
 };
 
 /// Watches nothing.
 struct NoObserver {
-  void slide(Direction, double, double, double, double) const noexcept {}
+  void slide(const Slip&) const noexcept {}
   void event(EventKind, double, const State&) const noexcept {}
 };
 
@@ -72,15 +83,15 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
   bool instant = false;                                                 // and whether it took no time
   if (state.mode != Mode::stuck) {
     const Direction direction = direction_of(state.mode);
-    acceleration = sign(direction) * load - law.level(state.displacement, direction);
+    const double speed = std::abs(state.velocity);
+    acceleration = sign(direction) * load - resist(law, state.displacement, direction, speed) - flows.drag(speed);
   }
 
   for (;;) {
     if (state.mode == Mode::stuck) {
-      // It slips when the load outgrows the level it can hold: at once, with what is left over, or later in this
-      // segment, with a net acceleration of exactly zero. At the level itself it holds.
-      const double forward = law.level(state.displacement, Direction::forward);
-      const double backward = law.level(state.displacement, Direction::backward);
+      // It slips when the load outgrows what holds it: at once, or later in this segment. At the level itself it holds.
+      const double forward = hold(law, state.displacement, Direction::forward);
+      const double backward = hold(law, state.displacement, Direction::backward);
       double delay = 0;
       // A slip slows down as it stops: what its load is above the level then is round-off, unless the stop is a graze.
       if (stopped != Mode::stuck) {
@@ -92,18 +103,24 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       }
       if (load > forward) {
         state.mode = Mode::forward;
-        acceleration = load - forward;
       } else if (load < -backward) {
         state.mode = Mode::backward;
-        acceleration = -load - backward;
       } else if (left > 0) {
         const Departure next = segment.departure(load, flows.pull(state.displacement), forward, backward, left);
         if (next.mode != Mode::stuck) {
           state.mode = next.mode;
           delay = next.delay;
-          acceleration = 0;
           load = next.mode == Mode::forward ? forward : -backward;
         }
+      }
+      // With what is left over; nothing, to the last bit, where it was held by what resists now and slips later.
+      if constexpr (LawWithHold<Law>) {
+        if (state.mode != Mode::stuck) {
+          const Direction direction = direction_of(state.mode);
+          acceleration = sign(direction) * load - resist(law, state.displacement, direction, 0.0);
+        }
+      } else {
+        acceleration = state.mode == Mode::forward ? load - forward : -load - backward;
       }
 
       // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
@@ -134,17 +151,18 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       const Progress end = flow.at_horizon();
       const bool whole = taken == left;
       const double gain = start.gain_within(taken, left);
-      observer.slide(direction, state.displacement, end.distance, taken,
-                     start.work(flow, s * ground_load, gain, taken, end));
+      observer.slide(Slip{direction, state.displacement, end.distance, taken,
+                          start.work(flow, s * ground_load, gain, taken, end)});
       state.displacement += s * end.distance;
       state.velocity = s * std::max(end.speed, 0.0);
       if (whole) return;
       standstill.count(flows, taken, left, segment.duration);
       left -= taken;
       load = ground_load + s * gain - flows.pull(state.displacement);
-      acceleration = s * load - law.level(state.displacement, direction);
+      const double speed = std::abs(state.velocity);
+      acceleration = s * load - resist(law, state.displacement, direction, speed) - flows.drag(speed);
       // Where the loads balance to the last digit a slip too slow to move x would creep on for ever.
-      if (std::abs(state.velocity) < std::numeric_limits<double>::min() && acceleration <= 0) {
+      if (speed < std::numeric_limits<double>::min() && acceleration <= 0) {
         state.velocity = 0;
         stopped = std::exchange(state.mode, Mode::stuck);
         instant = false;
@@ -152,8 +170,8 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
     } else {
       const Progress end = flow.at(stop);
       const double gain = start.gain_within(stop, left);
-      observer.slide(direction, state.displacement, end.distance, stop,
-                     start.work(flow, s * ground_load, gain, stop, end));
+      observer.slide(
+          Slip{direction, state.displacement, end.distance, stop, start.work(flow, s * ground_load, gain, stop, end)});
       state.displacement += s * end.distance;
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
@@ -169,7 +187,9 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
 template <FrictionLaw Law, class Work>
 void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
-    if (slider.stiffness() == 0)
+    if (slider.damping() > 0)
+      work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
+    else if (slider.stiffness() == 0)
       work(Polynomial{});
     else
       work(Harmonic{slider.natural_frequency(), usual_duration});
@@ -182,7 +202,7 @@ void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
 template <FrictionLaw Law, class Work>
 void with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
-    if (slider.stiffness() == 0) return work(Sinusoidal{omega, usual_duration});
+    if (slider.stiffness() == 0 && slider.damping() == 0) return work(Sinusoidal{omega, usual_duration});
   }
   work(Taylor<Law>{slider});
 }

@@ -38,7 +38,8 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
   throw ConvergenceError(
       "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
       " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
-      shortest(slider.law().level(state.displacement, direction_of(state.mode))) + " m/s^2 there; use settle = false");
+      shortest(resist(slider.law(), state.displacement, direction_of(state.mode), std::abs(state.velocity))) +
+      " m/s^2 there; use settle = false");
 }
 
 /// Adds the samples from the end of a motion to those at or after a rest: at most nine times as many as the motion has.
@@ -67,7 +68,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
   State state = State::at(options.displacement, options.velocity);
   if (state.mode != Mode::stuck)
-    require(std::isfinite(slider.law().level(state.displacement, direction_of(state.mode))),
+    require(std::isfinite(resist(slider.law(), state.displacement, direction_of(state.mode), std::abs(state.velocity))),
             "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
 
   Response response = std::move(storage);

@@ -24,16 +24,17 @@ struct Event {
   EventKind kind;
 };
 
-/// Where the energy went, per unit mass [J/kg = m^2/s^2]: initial + input = dissipated + kinetic + elastic.
+/// Where the energy went, per unit mass [J/kg = m^2/s^2]: initial + input = dissipated + damped + kinetic + elastic.
 struct Energy {
   double initial = 0;     ///< kinetic and elastic at the start
   double input = 0;       ///< work of the ground on the slider, the integral of -n x' dt
-  double dissipated = 0;  ///< work against friction, the integral of level |x'| dt
+  double dissipated = 0;  ///< work against friction, the integral of resist |x'| dt
+  double damped = 0;      ///< work on the damper, the integral of c x'^2 dt
   double kinetic = 0;     ///< x'^2 / 2 at the end
   double elastic = 0;     ///< wn^2 x^2 / 2 at the end
 
   /// What does not add up [m^2/s^2]: round-off.
-  double imbalance() const noexcept { return initial + input - dissipated - kinetic - elastic; }
+  double imbalance() const noexcept { return initial + input - dissipated - damped - kinetic - elastic; }
 };
 
 /// The motion of a slider under one ground motion.

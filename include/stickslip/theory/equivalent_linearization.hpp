@@ -23,7 +23,7 @@ LinearizedLaw linearized_law(const Law& law) {
   if constexpr (std::same_as<Law, Coulomb> || std::same_as<Law, Caster>)
     return law;
   else
-    return [law](double x, Direction direction) -> double { return law.level(x, direction); };
+    return [law](double x, Direction direction) -> double { return law.resist(x, direction); };
 }
 
 }  // namespace stickslip::detail

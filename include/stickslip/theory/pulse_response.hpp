@@ -74,7 +74,7 @@ template <FrictionLaw Law, class Knot>
 void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot&& knot) {
   struct Watch {
     std::vector<double> times{};
-    void slide(Direction, double, double, double, double) const noexcept {}
+    void slide(const Slip&) const noexcept {}
     void event(EventKind, double time, const State&) { times.push_back(time); }
   } watch;
   State probe = ride.state;
@@ -122,7 +122,7 @@ double coast(const Slider<Law>& slider, Ride& ride) {
   const auto first_step = [&] {
     const Direction direction = direction_of(ride.state.mode);
     const double x = std::abs(ride.state.displacement), v = std::abs(ride.state.velocity);
-    const auto time_to_stop = [&](double place) { return v / slider.law().level(place, direction); };
+    const auto time_to_stop = [&](double place) { return v / slider.law().resist(place, direction); };
     return std::min(time_to_stop(ride.state.displacement), std::max(x / v, time_to_stop(0)));
   };
   double time = 0, step = 0;

@@ -101,7 +101,7 @@ class PulseSuperposition {
   template <FrictionLaw Law>
   static detail::PulseSystem system(const Slider<Law>& slider, const PoissonPulses& pulses) {
     return {ConstantLevelLaw<Law>,
-            [&slider](double x, Direction direction) { return slider.law().level(x, direction); },
+            [&slider](double x, Direction direction) { return slider.law().resist(x, direction); },
             [&slider, &pulses](double b, double x) {
               try {
                 const detail::Ride end = detail::ride(slider, pulses.options().shape, b, pulses.half_width(), x);

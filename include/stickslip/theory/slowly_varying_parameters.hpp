@@ -28,7 +28,7 @@ S as_series(const S& level) noexcept {
 /// A law that takes power series for the place.
 template <class Law>
 concept AnalyticLaw = FrictionLaw<Law> && requires(const Law& law, const series::Variable& x) {
-  as_series(law.level(x, Direction::forward));
+  as_series(law.resist(x, Direction::forward));
 };
 
 /// A law whose S^2 is convex in A^2, so that a curve of response folds once at most. Constant levels have it; and the
@@ -51,10 +51,10 @@ template <AnalyticLaw Law>
 CycledLaw cycled(const Law& law) {
   if constexpr (std::same_as<Law, Caster>)
     if (std::isinf(law.reach())) return cycled(Coulomb(law.slip_level()));
-  CycledLaw result{[law](double x, Direction direction) -> double { return law.level(x, direction); },
+  CycledLaw result{[law](double x, Direction direction) -> double { return law.resist(x, direction); },
                    [law](double x, double scale, Direction direction, std::span<double> coefficients) {
                      series::Coefficients t;
-                     auto level = as_series(law.level(series::Variable{&t}, direction));
+                     auto level = as_series(law.resist(series::Variable{&t}, direction));
                      for (std::size_t k = 0; k < coefficients.size(); ++k) {
                        const int order = static_cast<int>(k);
                        t[order] = order == 0 ? x : order == 1 ? scale : 0;
@@ -65,7 +65,7 @@ CycledLaw cycled(const Law& law) {
                    {},
                    OneFoldLaw<Law>};
   if constexpr (ConstantLevelLaw<Law>)
-    result.mean_level = [level = law.level(0.0, Direction::forward)](double) { return level; };
+    result.mean_level = [level = law.resist(0.0, Direction::forward)](double) { return level; };
   else if constexpr (std::same_as<Law, Caster>)  // its work, at half the price where the amplitude is not small
     result.mean_level = [law](double a) {
       const double y = a / law.reach(), e = std::exp(-y);

@@ -1,0 +1,307 @@
+// Constant friction with a viscous damper, and a spring if there is one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// What a mass on a damper c and a spring wn has come to after a time. From rest under a load of one its velocity is
+/// `impulse`, the solution of y'' + c y' + wn^2 y = 0 that starts at 0 with the slope 1; `decay` is its derivative, the
+/// velocity that is left of one. `step`, `ramp` and `curve` are each the integral of the one before. Under a load that
+/// runs straight, q + s t net of spring and friction at the start,
+///     v(t) = u decay + q impulse + s step,    d(t) = u impulse + q step + s ramp.
+/// All five are entire functions of c t and (wn t)^2: under-, over- and critically damped alike, with or without a
+/// spring, to round-off; a time of many radians costs as many roundings more.
+struct DampedBasis {
+  double duration;  ///< [s]
+  double decay = 1, impulse = 0, step = 0, ramp = 0, curve = 0;
+
+  /// @param damping            c [1/s], at least 0
+  /// @param natural_frequency  wn [rad/s], at least 0
+  DampedBasis(double damping, double natural_frequency, double time) noexcept : duration(time) {
+    const double wn = natural_frequency, half = damping / 2, stiffness = wn * wn;
+    const double apart = half > wn ? 2 * std::sqrt((half - wn) * (half + wn)) : 0;  // of the two rates of decay
+    if (apart * time > 1) {
+      from_rates(half + apart / 2, stiffness / (half + apart / 2), apart);
+      return;
+    }
+    const double size = (damping + wn) * time;
+    const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
+    duration = std::ldexp(time, -doublings);
+    from_series(damping, stiffness);
+    for (int i = 0; i < doublings; ++i) double_time(stiffness);
+    duration = time;
+  }
+
+  /// The same for twice the time.
+  void double_time(double stiffness) noexcept {
+    const double h = duration, position = 1 - stiffness * step;  // of a unit displacement
+    *this = {2 * h,
+             decay * decay - stiffness * impulse * impulse,
+             impulse * (position + decay),
+             position * step + impulse * impulse + step,
+             position * ramp + impulse * step + h * step + ramp,
+             position * curve + impulse * ramp + h * (h / 2 * step + ramp) + curve};
+  }
+
+  double velocity(double u, double q, double s) const noexcept { return u * decay + q * impulse + s * step; }
+  double distance(double u, double q, double s) const noexcept { return u * impulse + q * step + s * ramp; }
+  double integral_of_distance(double u, double q, double s) const noexcept { return u * step + q * ramp + s * curve; }
+
+ private:
+  DampedBasis(double time, double decay_, double impulse_, double step_, double ramp_, double curve_) noexcept
+      : duration(time), decay(decay_), impulse(impulse_), step(step_), ramp(ramp_), curve(curve_) {}
+
+  // Two rates of decay far enough apart: divided differences of e^-y and of its remainders (1 - e^-y) / y, ..., of
+  // which none cancels.
+  void from_rates(double fast, double slow, double apart) noexcept {
+    const double u = duration;
+    const auto remainders = [](double y) {
+      std::array<double, 3> r{};  // the sums of (-y)^k / (k + n)!, n = 1, 2, 3
+      if (y < 1) {
+        double term = 1.0 / 6, sum = 0;
+        for (int k = 4; std::abs(term) > 1e-18; term *= -y / k++) sum += term;
+        r[2] = sum;
+        r[1] = 0.5 - y * r[2];
+        r[0] = 1 - y * r[1];
+      } else {
+        r[0] = -std::expm1(-y) / y;
+        r[1] = (1 - r[0]) / y;
+        r[2] = (0.5 - r[1]) / y;
+      }
+      return r;
+    };
+    const double ys = slow * u, yf = fast * u, es = std::exp(-ys), ef = std::exp(-yf);
+    const auto s = remainders(ys), f = remainders(yf);
+    decay = (fast * ef - slow * es) / apart;
+    impulse = (es - ef) / apart;
+    step = u * (s[0] - f[0]) / apart;
+    ramp = u * u * (s[1] - f[1]) / apart;
+    curve = u * u * u * (s[2] - f[2]) / apart;
+  }
+
+  // curve'' + c curve' + wn^2 curve = t^2 / 2 as a power series, for (c + wn) t <= 1.
+  void from_series(double damping, double stiffness) noexcept {
+    const double u = duration, y = damping * u, q = stiffness * u * u;
+    double before = 0, term = 1.0 / 24;
+    decay = 0;
+    for (int k = 4;; ++k) {
+      curve += term;
+      ramp += k * term;
+      step += k * (k - 1) * term;
+      impulse += k * (k - 1) * (k - 2) * term;
+      decay += k * (k - 1) * (k - 2) * (k - 3) * term;
+      const double next = -(y * term + q * before / k) / (k + 1);
+      before = std::exchange(term, next);
+      if (k * k * k * k * (std::abs(term) + std::abs(before) * q) < 1e-18) break;
+    }
+    impulse *= u;
+    step *= u * u;
+    ramp *= u * u * u;
+    curve *= u * u * u * u;
+  }
+};
+
+/// The integral of v^2 over a time, as a form in (u, q, s) of `DampedBasis`.
+class DampedSquare {
+ public:
+  /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
+  DampedSquare(double damping, double natural_frequency, double duration) noexcept {
+    constexpr double nodes[] = {0.18343464249564980, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
+    constexpr double weights[] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337447, 0.10122853629037626};
+    const double stiffness = natural_frequency * natural_frequency;
+    const double size = (damping + natural_frequency) * duration;
+    const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
+    const double half = std::ldexp(duration, -doublings - 1);
+    for (int i = 0; i < 4; ++i)
+      for (const double side : {-1.0, 1.0}) {
+        const DampedBasis at(damping, natural_frequency, half * (1 + side * nodes[i]));
+        const std::array<double, 3> v{at.decay, at.impulse, at.step};
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b < 3; ++b) form_[a][b] += half * weights[i] * v[a] * v[b];
+      }
+    DampedBasis basis(damping, natural_frequency, 2 * half);
+    for (int i = 0; i < doublings; ++i) {
+      double_time(stiffness, basis);
+      basis.double_time(stiffness);
+    }
+  }
+
+  double of(double u, double q, double s) const noexcept {
+    const std::array<double, 3> z{u, q, s};
+    double sum = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) sum += form_[a][b] * z[a] * z[b];
+    return sum;
+  }
+
+ private:
+  void double_time(double k, const DampedBasis& at) noexcept {
+    // (u, q, s) after the time, of those before it.
+    const double after[3][3] = {
+        {at.decay, at.impulse, at.step}, {-k * at.impulse, 1 - k * at.step, at.duration - k * at.ramp}, {0, 0, 1}};
+    const auto first = form_;
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b)
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 3; ++j) form_[a][b] += after[i][a] * first[i][j] * after[j][b];
+  }
+
+  std::array<std::array<double, 3>, 3> form_{};
+};
+
+class DampedFlow;
+
+/// A damper, and a spring if wn > 0: makes the flows of constant friction.
+class Damped {
+ public:
+  /// @param damping            c [1/s], positive
+  /// @param natural_frequency  wn [rad/s], at least 0
+  /// @param usual_duration     a time whose basis is kept [s], as records have segments of one length
+  Damped(double damping, double natural_frequency,
+         double usual_duration = std::numeric_limits<double>::quiet_NaN()) noexcept
+      : damping_(damping),
+        natural_frequency_(natural_frequency),
+        stiffness_(natural_frequency * natural_frequency),
+        usual_duration_(usual_duration),
+        usual_basis_(usual_duration > 0 ? compute(usual_duration) : compute(0)),
+        usual_square_(damping, natural_frequency, usual_duration > 0 ? usual_duration : 0) {}
+
+  double stiffness() const noexcept { return stiffness_; }
+
+  /// Pull of the spring per unit mass [m/s^2].
+  double pull(double displacement) const noexcept { return stiffness_ * displacement; }
+  /// Drag of the damper per unit mass [m/s^2].
+  double drag(double speed) const noexcept { return damping_ * speed; }
+
+  DampedBasis basis(double t) const noexcept { return t == usual_duration_ ? usual_basis_ : compute(t); }
+
+  /// Work on the damper within t of a slip that starts at the speed u under the load q + s t, net of friction and
+  /// spring at the start [m^2/s^2].
+  double work(double u, double q, double s, double t) const noexcept {
+    return damping_ *
+           (t == usual_duration_ ? usual_square_ : DampedSquare(damping_, natural_frequency_, t)).of(u, q, s);
+  }
+
+  /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` where there is
+  /// none. With the half rate c/2 taken out it is a cosine and a sine, or their hyperbolic like.
+  double turn(double a, double rise) const noexcept {
+    const double half = damping_ / 2, wn = natural_frequency_, slope = a * half - rise;
+    if (wn > half) {
+      const double w = std::sqrt((wn - half) * (wn + half)), angle = std::atan2(w * a, slope);
+      return (angle > 0 ? angle : angle + std::numbers::pi) / w;
+    }
+    const double q = std::sqrt((half - wn) * (half + wn)), ratio = a / slope, z = q * ratio;
+    if (!(ratio > 0 && z < 1)) return never;
+    return z > 0 ? ratio * (std::atanh(z) / z) : ratio;
+  }
+  /// The time from one zero of the acceleration to the next.
+  double half_period() const noexcept {
+    const double half = damping_ / 2, wn = natural_frequency_;
+    return wn > half ? std::numbers::pi / std::sqrt((wn - half) * (wn + half)) : never;
+  }
+
+  DampedFlow flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept;
+
+ private:
+  DampedBasis compute(double t) const noexcept { return {damping_, natural_frequency_, t}; }
+
+  double damping_, natural_frequency_, stiffness_;
+  double usual_duration_;
+  DampedBasis usual_basis_;
+  DampedSquare usual_square_;
+};
+
+/// Constant friction and a damper from a given start, in closed form: x'' + c x' + wn^2 x = p(t) - a, exact but for
+/// round-off. The zeros of the acceleration are known; between two of them the speed runs one way, so that at most one
+/// root is left to be found, in a bracket.
+class DampedFlow {
+ public:
+  DampedFlow(const Damped& damped, const Start& start, double duration) noexcept
+      : damped_(damped),
+        u_(start.speed),
+        a_(start.acceleration),
+        q_(start.acceleration + damped.drag(start.speed)),
+        s_(start.gain / duration),
+        rise_(s_ - damped.stiffness() * u_),
+        duration_(duration),
+        end_(damped.basis(duration)) {}
+
+  double horizon() const noexcept { return duration_; }
+
+  /// As `ClosedForm::first_stop`.
+  double first_stop() const noexcept {
+    const bool rises = a_ > 0 || (a_ == 0 && rise_ > 0);
+    if (u_ == 0 && !rises) return 0;
+    // The speed falls from `begin` to `end`, for the first time; each later time it stays above its first least value.
+    double begin = 0, end = damped_.turn(a_, rise_);
+    if (rises) {
+      if (!(end < duration_)) return never;
+      begin = std::exchange(end, end + damped_.half_period());
+    }
+    const bool whole = !(end < duration_);
+    if (whole) end = duration_;
+    const DampedBasis there = whole ? end_ : damped_.basis(end);
+    const double last = speed(there);
+    if (last > 0) return never;
+    return root(begin, end, last, acceleration(there));
+  }
+
+  Progress at(double t) const noexcept { return progress(damped_.basis(t)); }
+  Progress at_horizon() const noexcept { return progress(end_); }
+
+  /// Work on the damper within t [m^2/s^2].
+  double damped_work(double t) const noexcept { return damped_.work(u_, q_, s_, t); }
+
+ private:
+  double speed(const DampedBasis& b) const noexcept { return b.velocity(u_, q_, s_); }
+  double acceleration(const DampedBasis& b) const noexcept { return a_ * b.decay + rise_ * b.impulse; }
+  Progress progress(const DampedBasis& b) const noexcept {
+    return {b.distance(u_, q_, s_), speed(b), acceleration(b),
+            b.duration > 0 ? b.integral_of_distance(u_, q_, s_) / b.duration : 0};
+  }
+
+  // By Newton's method within the bracket, on which the speed falls from above zero to `last` <= 0. The first guess is
+  // that of the parabola through both ends.
+  double root(double low, double high, double last, double slope) const noexcept {
+    if (last == 0) return high;
+    double t = high, value = last;
+    for (int i = 0; i < 200; ++i) {
+      double next = t - value / slope;
+      if (i == 0) {
+        const double h = high - low, first = low > 0 ? speed(damped_.basis(low)) : u_,
+                     bend = 2 * (first - last + slope * h);
+        next = high - h * first_root(-last, slope * h, -bend);
+      }
+      if (!(next > low && next < high)) next = low + (high - low) / 2;
+      if (next == t || !(next > low && next < high)) return next;
+      const double step = std::abs(next - t);
+      t = next;
+      const DampedBasis b = damped_.basis(t);
+      value = speed(b), slope = acceleration(b);
+      if (value == 0) return t;
+      (value > 0 ? low : high) = t;
+      if (i > 0 && step <= 0x1p-51 * t) return t;
+    }
+    return t;
+  }
+
+  const Damped& damped_;
+  double u_, a_, q_, s_, rise_, duration_;
+  DampedBasis end_;
+};
+
+inline DampedFlow Damped::flow(Direction, double, const Start& start, double duration) const noexcept {
+  return {*this, start, duration};
+}
+
+}  // namespace stickslip

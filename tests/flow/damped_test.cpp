@@ -1,0 +1,166 @@
+// A damper beside friction: reference values, the functions of time, energy, limits.
+#include "stickslip/flow/damped.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "support/catch.hpp"
+#include "support/motions.hpp"
+#include "support/reference_values.hpp"
+
+using namespace stickslip;
+using namespace test;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+/// Holds more at rest than what resists.
+struct Sticky {
+  static constexpr bool constant_while_sliding = true;
+  double held, level;
+  double hold(double, Direction) const { return held; }
+  template <class T>
+  double resist(const T&, Direction) const {
+    return level;
+  }
+};
+
+/// Coulomb friction and a damper as one law of the speed.
+struct Viscous {
+  double slip_level, damping;
+  template <class X, class Speed>
+  auto resist(const X&, Direction, const Speed& speed) const {
+    return slip_level + damping * speed;
+  }
+};
+
+static_assert(FrictionLaw<Viscous> && SpeedLaw<Viscous> && !PositionLaw<Viscous>);
+static_assert(ConstantLevelLaw<Sticky> && LawWithHold<Sticky>);
+
+}  // namespace
+
+TEST_CASE("a damped block on a spring moves as the reference does, by closed form and by power series", "[damped]") {
+  for (const auto& run : reference::damped_runs) {
+    const double c = 2 * run.damping_ratio * run.natural_frequency;
+    const GroundMotion motion = record_a(Interpolation::linear);
+    const int at_once = motion.acceleration()[0] > run.hold;  // the reference counts from the first event after t = 0
+    const auto check = [&](const Response& r, bool by_speed = false) {
+      INFO(run.id);
+      const double x = 1e-12 * run.peak, v = 1e-12 * largest(r.velocity);
+      CHECK(std::abs(r.residual - run.displacement) <= x);
+      CHECK(std::abs(r.state.velocity - run.velocity) <= v);
+      CHECK(std::abs(r.peak - run.peak) <= x);
+      // Friction's; by a law of the speed it is the damper's too, of which the work is not given.
+      if (by_speed)
+        CHECK(r.energy.dissipated > run.dissipated);
+      else
+        CHECK(std::abs(r.energy.dissipated - run.dissipated) <= 1e-12 * run.dissipated);
+      CHECK(std::abs(r.sliding_distance - run.sliding_distance) <= 1e-12 * run.sliding_distance);
+      CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
+      CHECK(count(r.events) == Counts{run.breakaways + at_once, run.arrests, run.reversals});
+      for (const auto& sample : run.samples) {
+        const auto node = static_cast<std::size_t>(sample.node);
+        CHECK(std::abs(r.displacement[node] - sample.displacement) <= x);
+        CHECK(std::abs(r.velocity[node] - sample.velocity) <= v);
+      }
+    };
+    check(integrate(Slider(Sticky{run.hold, run.resist}, run.natural_frequency, c), motion));
+    if (run.hold != run.resist) continue;
+    check(integrate(Slider(Coulomb(run.resist), run.natural_frequency, c), motion));
+    check(integrate(Slider(Disguised{run.resist}, run.natural_frequency, c), motion));
+    check(integrate(Slider(Viscous{run.resist, c}, run.natural_frequency), motion), true);
+    check(integrate(Slider(Viscous{run.resist, c / 4}, run.natural_frequency, 0.75 * c), motion), true);
+  }
+}
+
+TEST_CASE("friction and damper share the energy as their forces do", "[damped]") {
+  // As a law of the speed the damper's work is friction's; the sum is the same.
+  const GroundMotion motion = broadband(5, 300);
+  for (const double wn : {0.0, 1.5, 12.0})
+    for (const double c : {0.01, 0.8, 30.0}) {
+      const Response apart = integrate(Slider(Coulomb(0.4), wn, c), motion),
+                     together = integrate(Slider(Viscous{0.4, c}, wn), motion);
+      const double all = turnover(apart.energy);
+      CHECK(apart.energy.damped > 0);
+      CHECK(together.energy.damped == 0);
+      CHECK(std::abs(apart.energy.dissipated - 0.4 * apart.sliding_distance) <= 1e-13 * all);
+      CHECK(std::abs(apart.energy.dissipated + apart.energy.damped - together.energy.dissipated) <= 1e-11 * all);
+      // Each of 300 samples and its events adds some roundings of the energy.
+      CHECK(std::abs(apart.energy.imbalance()) <= 1e-12 * all);
+      CHECK(std::abs(together.energy.imbalance()) <= 1e-12 * all);
+    }
+}
+
+TEST_CASE("the functions of a damped motion obey its equation, damped little, critically or much", "[damped]") {
+  for (const double c : {1e-9, 0.1, 2.0, 2.0000001, 6.0, 6.0000001, 40.0, 1e5})
+    for (const double wn : {0.0, 1e-6, 1.0, 3.0, 20.0})
+      for (const double t : {1e-7, 0.01, 0.3, 5.0}) {
+        CAPTURE(c, wn, t);
+        const DampedBasis b(c, wn, t);
+        // y'' + c y' + wn^2 y = 0 and its integrals, each term to a few roundings and as many as radians.
+        const double e = (30 + wn * t) * std::numeric_limits<double>::epsilon(), k = wn * wn;
+        CHECK(std::abs(b.decay + c * b.impulse + k * b.step - 1) <= e * (1 + c * b.impulse + k * std::abs(b.step)));
+        CHECK(std::abs(b.impulse + c * b.step + k * b.ramp - t) <= e * (t + c * b.step + k * std::abs(b.ramp)));
+        CHECK(std::abs(b.step + c * b.ramp + k * b.curve - t * t / 2) <= e * (t * t + c * b.ramp + k * b.curve));
+        // Twice the time from one, by its own formula or by doubling.
+        DampedBasis twice = b;
+        twice.double_time(k);
+        const DampedBasis there(c, wn, 2 * t);
+        CHECK(std::abs(twice.impulse - there.impulse) <= 40 * e * 2 * t);
+        CHECK(std::abs(twice.curve - there.curve) <= 40 * e * std::abs(there.curve));
+      }
+}
+
+TEST_CASE("slips on a damper that last for ages stop where they must", "[damped]") {
+  // From 2 m/s against friction and a damper, without ground motion: u exp(-c t) = a (1 - exp(-c t)) / c.
+  for (const double c : {1e-6, 0.3, 50.0, 1e6}) {
+    State state = State::at(0, 2);
+    advance(Slider(Coulomb(0.5), 0, c), Segment{100, 0, 0}, state);
+    CHECK(state.mode == Mode::stuck);
+    const double t = std::log1p(2 * c / 0.5) / c;
+    CHECK(std::abs(state.displacement - (2 - 0.5 * t) / c) <= 1e-15 * (2 + 0.5 * t) / c);
+  }
+  // On a spring it swings until friction holds it, or, damped more than critically, creeps there for ever: where
+  // friction and pull balance at 0.25 m, with the slower of the two rates.
+  for (const double c : {0.02, 1.9, 2.1, 20.0, 500.0}) {
+    State state = State::at(3, 0);
+    advance(Slider(Coulomb(0.25), 1, c), Segment{1000, 0, 0}, state);
+    CHECK((state.mode == Mode::stuck) == (c < 2));
+    const double half = c / 2, root = std::sqrt(std::max(half * half - 1, 0.0)), slow = 1 / (half + root);
+    const double creeping = 2.75 * (half + root) / (2 * root) * std::exp(-slow * 1000);  // the fast rate has died out
+    if (c < 2)
+      CHECK(std::abs(state.displacement) <= 0.25);
+    else
+      CHECK(std::abs(state.displacement - (0.25 + creeping)) <= 1e-14);
+  }
+}
+
+TEST_CASE("the first stop is where the speed first comes down to zero", "[damped]") {
+  // Against samples of the flow itself: nowhere before it is the speed negative, and there it is zero.
+  for (const double c : {0.05, 1.0, 9.0})
+    for (const double wn : {0.0, 2.0, 4.5, 30.0})
+      for (const double u : {0.0, 0.01, 1.0})
+        for (const double a : {-3.0, -0.1, 0.0, 0.4, 3.0})
+          for (const double gain : {-20.0, -1.0, 0.0, 1.0, 20.0}) {
+            CAPTURE(c, wn, u, a, gain);
+            const double duration = 2;
+            const Damped damped(c, wn);
+            const DampedFlow flow(damped, {u, a, gain}, duration);
+            const double stop = flow.first_stop();
+            const double scale = u + std::abs(a) + std::abs(gain);
+            const bool begins = u > 0 || a > 0 || (a == 0 && gain > 0);
+            CHECK((stop > 0) == begins);
+            if (!begins) continue;
+            if (stop < never) CHECK(std::abs(flow.at(stop).speed) <= 1e-14 * scale);
+            for (int i = 0; i <= 1000; ++i) CHECK(flow.at(std::min(stop, duration) * i / 1000).speed >= -1e-14 * scale);
+          }
+}
+
+TEST_CASE("a slider's damping is checked", "[damped][errors]") {
+  CHECK_THROWS_WITH(Slider(Coulomb(1), 0, -2), "Slider: damping must be finite and at least 0, got -2 1/s");
+  CHECK_THROWS_AS(Slider(Coulomb(1), 0, infinity), std::invalid_argument);
+  CHECK_THROWS_AS(Slider(Coulomb(1), 0, not_a_number), std::invalid_argument);
+  CHECK(Slider(Coulomb(1), 2, 3).damping() == 3);
+  CHECK(Slider(Coulomb(1), 2).damping() == 0);
+}
