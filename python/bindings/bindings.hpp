@@ -170,14 +170,15 @@ inline const char* name_of(Interpolation interpolation) {
 }
 
 /// The slip level that was given, either itself or as a coefficient of friction.
-inline double slip_level_of(std::optional<double> mu, std::optional<double> slip_level, const char* law) {
+inline double slip_level_of(std::optional<double> mu, std::optional<double> slip_level, const std::string& law,
+                            const std::string& mu_name = "mu", const std::string& level_name = "slip_level") {
   if (mu.has_value() == slip_level.has_value())
-    throw std::invalid_argument(
-        std::string(law) + ": give either mu or slip_level, got " +
-        (mu ? "both (mu = " + detail::shortest(*mu) + ", slip_level = " + detail::shortest(*slip_level) + " m/s^2)"
-            : "neither"));
+    throw std::invalid_argument(law + ": give either " + mu_name + " or " + level_name + ", got " +
+                                (mu ? "both (" + mu_name + " = " + detail::shortest(*mu) + ", " + level_name + " = " +
+                                          detail::shortest(*slip_level) + " m/s^2)"
+                                    : "neither"));
   if (!mu) return *slip_level;
-  detail::require(std::isfinite(*mu) && *mu >= 0, std::string(law) + ": mu must be finite and at least 0", *mu);
+  detail::require(std::isfinite(*mu) && *mu >= 0, law + ": " + mu_name + " must be finite and at least 0", *mu);
   return *mu * standard_gravity;
 }
 

@@ -44,7 +44,7 @@ inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::ve
 template <>
 inline constexpr auto parts<Event> = std::tuple(&Event::time, &Event::displacement, &Event::velocity, &Event::kind);
 template <>
-inline constexpr auto parts<Energy> = std::tuple(&Energy::initial, &Energy::input, &Energy::dissipated,
+inline constexpr auto parts<Energy> = std::tuple(&Energy::initial, &Energy::input, &Energy::dissipated, &Energy::damped,
                                                  &Energy::kinetic, &Energy::elastic);
 template <>
 inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Response::velocity, &Response::events,

@@ -1,13 +1,50 @@
-#include "bindings.hpp"
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "parts.hpp"
 
 namespace stickslip::python {
 namespace {
 
+std::string given(const char* name, const std::optional<double>& value, const char* unit) {
+  return std::string(name) + " = " + detail::shortest(*value) + unit;
+}
+
+// wn [rad/s], given as such or as a period.
+double natural_frequency_from(std::optional<double> natural_frequency, std::optional<double> period) {
+  if (natural_frequency && period)
+    throw std::invalid_argument("Slider: give natural_frequency or period, got both (" +
+                                given("natural_frequency", natural_frequency, " rad/s, ") +
+                                given("period", period, " s)"));
+  if (!period) return natural_frequency.value_or(0);
+  detail::require(std::isfinite(*period) && *period > 0, "Slider: period must be positive and finite", *period, "s");
+  return 2 * std::numbers::pi / *period;
+}
+
+// c [1/s], given as such or as a part of critical damping.
+double damping_from(std::optional<double> damping, std::optional<double> ratio, double natural_frequency) {
+  if (damping && ratio)
+    throw std::invalid_argument("Slider: give damping or damping_ratio, got both (" +
+                                given("damping", damping, " 1/s, ") + given("damping_ratio", ratio, ")"));
+  if (!ratio) return damping.value_or(0);
+  detail::require(std::isfinite(*ratio) && *ratio >= 0, "Slider: damping_ratio must be finite and at least 0", *ratio);
+  detail::require(natural_frequency > 0, "Slider: damping_ratio needs a spring (natural_frequency or period)", *ratio);
+  return 2 * natural_frequency * *ratio;
+}
+
 template <class Law>
 void add_law(py::class_<AnySlider>& slider) {
-  slider.def(
-      py::init([](const Law& law, double natural_frequency) { return AnySlider(Slider<Law>(law, natural_frequency)); }),
-      py::arg("law"), py::arg("natural_frequency") = 0.0);
+  slider.def(py::init([](const Law& law, std::optional<double> natural_frequency, std::optional<double> damping,
+                         std::optional<double> period, std::optional<double> damping_ratio) {
+               const double wn = natural_frequency_from(natural_frequency, period);
+               return AnySlider(Slider<Law>(law, wn, damping_from(damping, damping_ratio, wn)));
+             }),
+             py::arg("law"), py::arg("natural_frequency") = py::none(), py::arg("damping") = py::none(), py::kw_only(),
+             py::arg("period") = py::none(), py::arg("damping_ratio") = py::none());
   py::implicitly_convertible<Law, AnySlider>();
 }
 
@@ -24,44 +61,60 @@ double natural_frequency_of(const AnySlider& slider) {
   return std::visit([](const auto& s) { return s.natural_frequency(); }, slider);
 }
 
+double damping_of(const AnySlider& slider) {
+  return std::visit([](const auto& s) { return s.damping(); }, slider);
+}
+
+Direction direction_of(bool backward) { return backward ? Direction::backward : Direction::forward; }
+
 }  // namespace
 
 void bind_slider(py::module_& m) {
-  py::class_<AnySlider> slider(m, "Slider", R"(The system that moves: a friction law and an optional centering spring.
+  py::class_<AnySlider> slider(
+      m, "Slider", R"(The system that moves: a friction law, an optional centering spring, an optional damper.
 
-x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (2.27), (2.50): x the displacement relative to the ground [m], n the
-ground acceleration [m/s^2]. At rest it stays while -level_backward <= -(n + wn^2 x) <= level_forward.
+x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (2.27), (2.50), (4.2): x the displacement relative to the ground
+[m], n the ground acceleration [m/s^2]. At rest it stays while -hold_backward <= -(n + wn^2 x) <= hold_forward.
 
 Parameters
 ----------
 law : Coulomb or Caster
-    Gives the slip level.
+    What holds at rest and what resists sliding.
 natural_frequency : float, optional
-    wn of the mass on its spring, without friction [rad/s]; finite and at least 0, 0 is no spring. A period T is
-    2 pi / T.
+    wn of the mass on its spring, without friction [rad/s]; finite and at least 0, 0 is no spring.
+damping : float, optional
+    c of the damper per unit mass [1/s]; finite and at least 0, 0 is none.
+period : float, optional
+    2 pi / wn [s], instead of natural_frequency; positive and finite.
+damping_ratio : float, optional
+    c / (2 wn), the part of critical damping, instead of damping; finite and at least 0. Needs a spring.
 
 Raises
 ------
 ValueError
-    natural_frequency out of its range.
+    A value out of its range; natural_frequency and period, or damping and damping_ratio, both given; a damping_ratio
+    without a spring.
 
 Notes
 -----
-Wherever a slider is asked for, a law alone will do: a slider without a spring.)");
+Wherever a slider is asked for, a law alone will do: a slider without spring and damper.)");
   add_laws(slider, static_cast<const AnySlider*>(nullptr));
   slider.def_property_readonly("law", &law_of, "The friction law.")
       .def_property_readonly("natural_frequency", &natural_frequency_of, "wn [rad/s]; 0 without a spring.")
+      .def_property_readonly("damping", &damping_of, "c [1/s]; 0 without a damper.")
+      .def_property_readonly(
+          "period", [](const AnySlider& self) { return 2 * std::numbers::pi / natural_frequency_of(self); },
+          "2 pi / wn [s]; inf without a spring.")
+      .def_property_readonly(
+          "damping_ratio", [](const AnySlider& self) { return damping_of(self) / (2 * natural_frequency_of(self)); },
+          "c / (2 wn); without a spring inf, or nan without a damper too.")
       .def(
-          "level",
+          "hold",
           [](const AnySlider& self, double displacement, bool backward) {
-            return std::visit(
-                [&](const auto& s) -> double {
-                  return s.law().resist(displacement, backward ? Direction::backward : Direction::forward);
-                },
-                self);
+            return std::visit([&](const auto& s) { return hold(s.law(), displacement, direction_of(backward)); }, self);
           },
           py::arg("displacement") = 0.0, py::kw_only(), py::arg("backward") = false,
-          R"(The slip level at a displacement.
+          R"(What friction holds at rest.
 
 Parameters
 ----------
@@ -74,23 +127,52 @@ Returns
 -------
 float
     Friction force per unit mass [m/s^2].)")
+      .def(
+          "resist",
+          [](const AnySlider& self, double displacement, double speed, bool backward) {
+            return std::visit(
+                [&](const auto& s) -> double { return resist(s.law(), displacement, direction_of(backward), speed); },
+                self);
+          },
+          py::arg("displacement") = 0.0, py::arg("speed") = 0.0, py::kw_only(), py::arg("backward") = false,
+          R"(What friction resists with while it slides.
+
+Parameters
+----------
+displacement : float, optional
+    x [m].
+speed : float, optional
+    |x'| [m/s].
+backward : bool, optional
+    Against backward instead of forward sliding.
+
+Returns
+-------
+float
+    Friction force per unit mass [m/s^2].)")
       .def("__repr__",
            [](const AnySlider& self) {
-             const double wn = natural_frequency_of(self);
+             const double wn = natural_frequency_of(self), c = damping_of(self);
              return "Slider(" + py::repr(law_of(self)).cast<std::string>() +
-                    (wn > 0 ? ", natural_frequency=" + detail::shortest(wn) : "") + ")";
+                    (wn > 0 ? ", natural_frequency=" + detail::shortest(wn) : "") +
+                    (c > 0 ? ", damping=" + detail::shortest(c) : "") + ")";
            })
       .def(
           "__eq__",
           [](const AnySlider& a, const py::object& other) {
             if (!py::isinstance<AnySlider>(other)) return false;  // a law is no slider here
             const auto& b = other.cast<const AnySlider&>();
-            return law_of(a).equal(law_of(b)) && natural_frequency_of(a) == natural_frequency_of(b);
+            return law_of(a).equal(law_of(b)) && natural_frequency_of(a) == natural_frequency_of(b) &&
+                   damping_of(a) == damping_of(b);
           },
           py::is_operator())
-      .def("__hash__", [](const AnySlider& s) { return py::hash(py::make_tuple(law_of(s), natural_frequency_of(s))); })
+      .def("__hash__",
+           [](const AnySlider& s) {
+             return py::hash(py::make_tuple(law_of(s), natural_frequency_of(s), damping_of(s)));
+           })
       .def("__reduce__", [](const py::object& self) {
-        return py::make_tuple(py::type::of(self), py::make_tuple(self.attr("law"), self.attr("natural_frequency")));
+        return py::make_tuple(py::type::of(self),
+                              py::make_tuple(self.attr("law"), self.attr("natural_frequency"), self.attr("damping")));
       });
 }
 

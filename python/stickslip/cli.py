@@ -432,7 +432,7 @@ def _settle(slider: Slider, motion: GroundMotion) -> Response:
 def _row(args: argparse.Namespace, file: Path, mu: float, response: Response) -> dict:
     """One response; keys carry their units."""
     slider = response.slider
-    forward, backward = (slider.level(backward=back) for back in (False, True))
+    forward, backward = (slider.resist(backward=back) for back in (False, True))
     return {
         "file": str(file),
         "record": response.motion.name,

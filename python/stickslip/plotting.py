@@ -538,7 +538,7 @@ def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return np.full(x.shape, -np.inf), np.full(x.shape, np.inf)
     spring = slider.natural_frequency**2 * x
     forward, backward = (
-        np.array([slider.level(at, backward=back) for at in x.tolist()]) for back in (False, True)
+        np.array([slider.resist(at, backward=back) for at in x.tolist()]) for back in (False, True)
     )
     return (-forward - spring) / STANDARD_GRAVITY, (backward - spring) / STANDARD_GRAVITY
 
@@ -563,7 +563,7 @@ def _note_levels(axes: Axes, response: Response) -> None:
     if isinstance(slider, ViscousSlider):
         return
     (lower,), (upper,) = _held(response, np.array([x]))
-    ahead, back = (slider.level(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
+    ahead, back = (slider.resist(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
     if ahead == back:
         notes = [("slip level", ahead, (lower + upper) / 2, "center")]
     elif np.isinf(back):
@@ -643,7 +643,7 @@ def _describe(slider: Any) -> str:
     if isinstance(slider, ViscousSlider):
         words = [f"viscous damping {_digits(slider.damping)} 1/s"]
     else:
-        ahead, back = (slider.level(backward=b) / STANDARD_GRAVITY for b in (False, True))
+        ahead, back = (slider.resist(backward=b) / STANDARD_GRAVITY for b in (False, True))
         words = [f"slip level {_digits(ahead)} g"]
         if back != ahead:
             words[0] += " forward"

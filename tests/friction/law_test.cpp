@@ -40,6 +40,17 @@ struct Root {
   }
 };
 
+/// What CONTRIBUTING.md shows: friction that falls from rest to a kinetic value as the speed grows.
+struct RateDependent {
+  double at_rest, sliding, scale;
+
+  template <class X, class Speed>
+  auto resist(const X&, Direction, const Speed& speed) const {
+    using std::exp;
+    return sliding + (at_rest - sliding) * exp(-speed / scale);
+  }
+};
+
 double bump_work(const Bump& law, double from, double distance) {
   const long double low = from / static_cast<long double>(law.reach);
   const long double high = low + distance / static_cast<long double>(law.reach);
@@ -54,6 +65,7 @@ static_assert(FrictionLaw<Caster> && !ConstantLevelLaw<Caster>);
 static_assert(FrictionLaw<Bump> && !ConstantLevelLaw<Bump>);
 static_assert(FrictionLaw<Ripple> && FrictionLaw<Quadratic> && FrictionLaw<Disguised>);
 static_assert(LawWithWork<Coulomb> && LawWithWork<Caster> && LawWithWork<Quadratic> && !LawWithWork<Bump>);
+static_assert(SpeedLaw<RateDependent> && !PositionLaw<RateDependent> && !LawWithHold<RateDependent>);
 static_assert(!FrictionLaw<double> && !FrictionLaw<State>);
 
 }  // namespace
@@ -132,4 +144,38 @@ TEST_CASE("a law with no finite power series is said to have none", "[law][error
   CHECK_THROWS_AS(integrate(Root{}, held(0, 2), from(1, -3)), ConvergenceError);
   CHECK_THROWS_WITH(integrate(Root{}, held(-1, 2)),
                     Catch::Matchers::ContainsSubstring("no finite power series at x = 0 m"));
+}
+
+TEST_CASE("a law of the speed slows a slip as its equation says", "[law][speed]") {
+  // v' = -(k + d exp(-v/s)) is linear in exp(v/s): (exp(v0/s) + d/k) exp(-k t/s) - d/k, until it is 1.
+  for (const auto& law : {RateDependent{1, 0.4, 0.3}, RateDependent{0.4, 1, 0.3}, RateDependent{2, 1, 0.05}}) {
+    const double k = law.sliding, d = law.at_rest - k, s = law.scale, v0 = 0.7, w0 = std::exp(v0 / s) + d / k;
+    const double stop = s / k * std::log(w0 / (1 + d / k));
+    const GroundMotion still = held(0, 2 * stop);
+    const Response r = integrate(law, still, from(0, -v0));
+    REQUIRE(r.events.size() == 3);
+    CHECK(r.events[1].kind == EventKind::arrest);
+    CHECK(std::abs(r.events[1].time - stop) <= 1e-13 * stop);
+    CHECK(std::abs(r.energy.dissipated - v0 * v0 / 2) <= 1e-14 * v0 * v0);
+    for (const double part : {0.1, 0.5, 0.99}) {
+      State state = State::at(3, v0);
+      advance(Slider(law), Segment{part * stop, 0, 0}, state);
+      CHECK(std::abs(state.velocity - s * std::log(w0 * std::exp(-k * part * stop / s) - d / k)) <= 1e-13 * v0);
+    }
+  }
+}
+
+TEST_CASE("a law of the speed holds at rest what resists at no speed, and its ledger closes", "[law][speed]") {
+  const RateDependent law{1, 0.4, 0.3};
+  const GroundMotion strong = broadband(22, 2'000);
+  const GroundMotion weak = strong.scaled(1 / strong.peak_acceleration() * (1 - 1e-15));
+  CHECK(integrate(law, weak).sliding_distance == 0);
+  for (const auto& slider : {Slider(law), Slider(law, 1.3), Slider(law, 1.3, 0.5)})
+    for (const auto& start : {from(0), from(0.3, 2), from(-0.2, -1)}) {
+      const Response r = integrate(slider, strong, start);
+      CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
+      CHECK(r.energy.dissipated > law.sliding * r.sliding_distance);
+      CHECK(r.energy.dissipated < law.at_rest * r.sliding_distance);
+      CHECK(grammatical(r));
+    }
 }

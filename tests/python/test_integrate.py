@@ -500,7 +500,7 @@ def test_scipy_comes_to_the_same_with_friction_made_smooth(slider, record_a):
     for i in range(samples - 1):
 
         def motion(t, y, first=n[i], last=n[i + 1]):
-            level = slider.level(y[0], backward=y[1] < 0)
+            level = slider.resist(y[0], backward=y[1] < 0)
             ground = first + (last - first) * t / dt
             return [y[1], -ground - wn2 * y[0] - level * math.tanh(y[1] / e)]
 

@@ -55,6 +55,7 @@ def test_a_coefficient_of_friction_becomes_a_slip_level():
 def test_coulomb_friction_is_the_same_both_ways_unless_said_otherwise():
     assert ss.Coulomb(slip_level=1.5).backward == 1.5
     assert ss.Coulomb(mu=0.2).backward == 0.2 * G
+    assert ss.Coulomb(mu=0.2, mu_backward=0.3) == ss.Coulomb(slip_level=0.2 * G, backward=0.3 * G)
     law = ss.Coulomb(slip_level=1.0, backward=1.6)
     assert (law.slip_level, law.backward) == (1.0, 1.6)
     assert ss.Coulomb(slip_level=1.0, backward=float("inf")).backward == INF
@@ -109,13 +110,15 @@ def test_a_real_wheel_never_resists_more_than_its_moment_allows():
 @pytest.mark.parametrize("position, sine", ANGLES)
 def test_the_slip_level_of_a_caster_is_the_sine_of_its_angle(position, sine):
     law = ss.Slider(ss.Caster(slip_level=2.0, reach=0.25))
-    assert law.level(position * 0.25) == pytest.approx(2 * sine, rel=4e-16 * (1 + abs(position)))
-    assert law.level(-position * 0.25) == law.level(position * 0.25, backward=True)
+    assert law.resist(position * 0.25) == pytest.approx(2 * sine, rel=4e-16 * (1 + abs(position)))
+    assert law.resist(-position * 0.25) == law.resist(position * 0.25, backward=True)
 
 
 REFUSED = [
     (lambda: ss.Coulomb(), "give either mu or slip_level, got neither"),
     (lambda: ss.Coulomb(mu=0.2, slip_level=1.5), r"both \(mu = 0\.2, slip_level = 1\.5 m/s\^2\)"),
+    (lambda: ss.Coulomb(mu=0.2, backward=1.0, mu_backward=0.3), r"mu_backward or backward, got both"),
+    (lambda: ss.Coulomb(mu=0.2, mu_backward=-0.3), "mu_backward must be finite .* got -0.3"),
     (lambda: ss.Coulomb(mu=-0.2), "Coulomb: mu must be finite and at least 0, got -0.2"),
     (lambda: ss.Coulomb(mu=NAN), "Coulomb: mu .* got nan"),
     (lambda: ss.Coulomb(mu=INF), "Coulomb: mu .* got inf"),

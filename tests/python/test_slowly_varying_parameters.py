@@ -35,7 +35,7 @@ def test_s_and_c_are_integrals_over_a_cycle(kind):
 
     def force(theta, amplitude, part):
         x = amplitude * math.cos(theta)
-        resisting = -math.copysign(slider.level(x), math.sin(theta))
+        resisting = -math.copysign(slider.resist(x), math.sin(theta))
         return (resisting + wn**2 * x) * part(theta) / math.pi
 
     def over_cycle(amplitude, part):

@@ -339,7 +339,8 @@ class TaylorFlow {
       double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
-        net = gain(k) - stiffness * distance_[k - 1] - damping * speed_[k] - level[k];
+        net = gain(k) - stiffness * distance_[k - 1] - level[k];
+        if (damping > 0) net -= damping * speed_[k];
       }
       acceleration_[k] = net;
       speed_[k + 1] = h * net * series::reciprocal[k + 1];

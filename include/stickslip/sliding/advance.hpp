@@ -183,28 +183,33 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
   }
 }
 
-/// Calls `work` with the flows that fit the slider: closed forms where the level is constant, else Taylor series.
+// Seldom gone: out of the way of what is.
+template <class Work>
+[[gnu::noinline]] auto aside(Work&& work) {
+  return work();
+}
+
+/// What `work` gives with the flows that fit the slider: closed forms where what resists is constant, else Taylor
+/// series.
 template <FrictionLaw Law, class Work>
-void with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
+auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
     if (slider.damping() > 0)
-      work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
-    else if (slider.stiffness() == 0)
-      work(Polynomial{});
-    else
-      work(Harmonic{slider.natural_frequency(), usual_duration});
+      return aside([&] { return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration}); });
+    if (slider.stiffness() > 0) return work(Harmonic{slider.natural_frequency(), usual_duration});
+    return work(Polynomial{});
   } else {
-    work(Taylor<Law>{slider});
+    return work(Taylor<Law>{slider});
   }
 }
 
 /// The same under a load of one frequency.
 template <FrictionLaw Law, class Work>
-void with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
+auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
     if (slider.stiffness() == 0 && slider.damping() == 0) return work(Sinusoidal{omega, usual_duration});
   }
-  work(Taylor<Law>{slider});
+  return work(Taylor<Law>{slider});
 }
 
 /// Whether all are finite, by their sum: numbers near the largest double count as infinite.
@@ -244,8 +249,8 @@ template <class Piece>
 }  // namespace detail
 
 /// Moves a slider over one segment of ground motion:
-///     x'' + level(x) sgn(x') + wn^2 x = -n(t),  n from segment.start to segment.end,     thesis (4.51) to (4.53),
-///     (2.50)
+///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),  n from segment.start to segment.end,
+/// thesis (4.51) to (4.53), (2.50), (4.2),
 /// with every breakaway, reversal and arrest within it. For codes that have a time loop of their own: nothing is
 /// allocated, nothing is remembered but the state.
 ///
@@ -263,12 +268,14 @@ template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
-  State moving = state;  // in registers
-  detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
-                     [&](const auto& flows) { detail::advance(slider.law(), flows, segment, moving, observer); });
-  if (!detail::finite(moving.displacement, moving.velocity)) [[unlikely]]
-    detail::refuse_overflow(moving);
-  state = moving;
+  const State moved = detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
+    State moving = state;  // in registers
+    detail::advance(slider.law(), flows, segment, moving, observer);
+    return moving;
+  });
+  if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
+    detail::refuse_overflow(moved);
+  state = moved;
 }
 
 /// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
@@ -277,13 +284,15 @@ template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver O
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
-  State moving = state;
-  detail::with_harmonic_flows(slider, segment.omega, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
+  const double unusual = std::numeric_limits<double>::quiet_NaN();
+  const State moved = detail::with_harmonic_flows(slider, segment.omega, unusual, [&](const auto& flows) {
+    State moving = state;
     detail::advance(slider.law(), flows, segment, moving, observer);
+    return moving;
   });
-  if (!detail::finite(moving.displacement, moving.velocity)) [[unlikely]]
-    detail::refuse_overflow(moving);
-  state = moving;
+  if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
+    detail::refuse_overflow(moved);
+  state = moved;
 }
 
 }  // namespace stickslip

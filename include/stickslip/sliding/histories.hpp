@@ -27,8 +27,8 @@ struct Histories {
 
 /// What `integrate` gives as displacement and velocity at the samples, from rest at x = 0, without events, peak and
 /// energy:
-///     x'' + level(x) sgn(x') + wn^2 x = -n(t).
-/// @param slider     any law, with or without a spring
+///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t).
+/// @param slider     any law, with or without a spring and a damper
 /// @param motion     the ground acceleration
 /// @param heartbeat  called at least every second or so; may throw to end the work; optional
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles

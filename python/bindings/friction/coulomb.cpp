@@ -19,21 +19,25 @@ slip_level : float, optional
     at least 0.
 backward : float, optional
     Level against backward sliding (x' < 0) [m/s^2]; at least 0, may be inf.
+mu_backward : float, optional
+    Coefficient of friction against backward sliding, instead of `backward`; finite and at least 0.
 
 Raises
 ------
 ValueError
-    A value out of its range, both or neither of mu and slip_level.
+    A value out of its range; both or neither of mu and slip_level; both of backward and mu_backward.
 
 References
 ----------
 N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (1965), 139-160 (one-way sliding).)")
-      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, std::optional<double> backward) {
+      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, std::optional<double> backward,
+                       std::optional<double> mu_backward) {
              const double forward = slip_level_of(mu, slip_level, "Coulomb");
-             return Coulomb(forward, backward.value_or(forward));
+             if (!backward && !mu_backward) return Coulomb(forward);
+             return Coulomb(forward, slip_level_of(mu_backward, backward, "Coulomb", "mu_backward", "backward"));
            }),
            py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(),
-           py::arg("backward") = py::none())
+           py::arg("backward") = py::none(), py::arg("mu_backward") = py::none())
       .def_static("on_slope", &Coulomb::on_slope, py::kw_only(), py::arg("mu"), py::arg("degrees"),
                   R"(A block on an inclined plane; downhill is forward.
 

@@ -23,8 +23,8 @@ void bind_histories(py::module_& m) {
   m.def("histories", &histories_any, py::arg("slider"), py::arg("motion"),
         R"(Displacement and velocity at the samples and nothing else: faster than `integrate`.
 
-x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), from rest at x = 0; without events, peak
-and energy.
+x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), from rest at x = 0; without events,
+peak and energy.
 
 Parameters
 ----------

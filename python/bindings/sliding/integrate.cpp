@@ -49,8 +49,8 @@ void bind_integrate(py::module_& m) {
         py::arg("velocity") = 0.0, py::arg("settle") = false,
         R"(Slides through a whole motion of the ground.
 
-x'' + level(x) sgn(x') + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50); (2.27), (2.28); with all breakaways,
-reversals and arrests, up to two reversals within one straight piece of n(t).
+x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); with all
+breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
 
 Parameters
 ----------

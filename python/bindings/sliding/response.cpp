@@ -95,17 +95,18 @@ inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recor
 void bind_response(py::module_& m) {
   value_class<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
 
-initial + input = dissipated + kinetic + elastic, to round-off.)")
+initial + input = dissipated + damped + kinetic + elastic, to round-off.)")
       .def_readonly("initial", &Energy::initial, "Kinetic and elastic energy at the start.")
       .def_readonly("input", &Energy::input, "Work of the ground on the slider, the integral of -n x' dt.")
-      .def_readonly("dissipated", &Energy::dissipated, "Work against friction, the integral of level |x'| dt.")
+      .def_readonly("dissipated", &Energy::dissipated, "Work against friction, the integral of resist |x'| dt.")
+      .def_readonly("damped", &Energy::damped, "Work on the damper, the integral of c x'^2 dt.")
       .def_readonly("kinetic", &Energy::kinetic, "x'^2 / 2 at the end.")
       .def_readonly("elastic", &Energy::elastic, "wn^2 x^2 / 2 at the end.")
       .def_property_readonly("imbalance", &Energy::imbalance, "What does not add up: round-off.")
       .def("__repr__", [](const Energy& e) {
         return "Energy(initial=" + detail::shortest(e.initial) + ", input=" + detail::shortest(e.input) +
-               ", dissipated=" + detail::shortest(e.dissipated) + ", kinetic=" + detail::shortest(e.kinetic) +
-               ", elastic=" + detail::shortest(e.elastic) + ")";
+               ", dissipated=" + detail::shortest(e.dissipated) + ", damped=" + detail::shortest(e.damped) +
+               ", kinetic=" + detail::shortest(e.kinetic) + ", elastic=" + detail::shortest(e.elastic) + ")";
       });
 
   value_class<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
