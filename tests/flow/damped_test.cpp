@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "support/catch.hpp"
 #include "support/motions.hpp"
@@ -163,4 +165,26 @@ TEST_CASE("a slider's damping is checked", "[damped][errors]") {
   CHECK_THROWS_AS(Slider(Coulomb(1), 0, not_a_number), std::invalid_argument);
   CHECK(Slider(Coulomb(1), 2, 3).damping() == 3);
   CHECK(Slider(Coulomb(1), 2).damping() == 0);
+}
+
+TEST_CASE("closed form and power series agree for dampers and springs of all sizes", "[damped]") {
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> uniform;
+  for (int k = 0; k < 300; ++k) {
+    const double dt = std::pow(10, -3 + 4 * uniform(generator));
+    const double c = std::pow(10, -4 + 6 * uniform(generator)) / dt;
+    const double wn = k % 3 == 0 ? 0 : std::pow(10, -3 + 4.5 * uniform(generator)) / dt;
+    const double level = k % 5 == 0 ? 0 : std::pow(10, -2 + 3 * uniform(generator));
+    CAPTURE(k, dt, c, wn, level);
+    std::vector<double> n = gaussian(static_cast<std::uint64_t>(k), 30, 2);
+    if (k % 4 == 0)
+      for (double& value : n) value = std::round(2 * value) / 2;  // stops and breakaways at samples
+    const GroundMotion motion(n, dt, k % 2 == 0 ? Interpolation::linear : Interpolation::constant);
+    const Response r = integrate(Slider(Coulomb(level), wn, c), motion),
+                   s = integrate(Slider(Disguised{level}, wn, c), motion);
+    // A series is as good as its last check, to some 1e-14 of its terms; 30 segments add up.
+    CHECK(difference(r.displacement, s.displacement) <= 1e-11 * r.peak);
+    CHECK(count(r.events) == count(s.events));
+    CHECK(std::abs(r.energy.imbalance()) <= 1e-11 * turnover(r.energy));
+  }
 }
