@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "stickslip/flow/closed_form.hpp"
+#include "stickslip/series/series.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
@@ -173,9 +174,13 @@ class Damped {
         natural_frequency_(natural_frequency),
         stiffness_(natural_frequency * natural_frequency),
         usual_duration_(usual_duration),
+        half_period_(natural_frequency > damping / 2 ? std::numbers::pi / std::sqrt((natural_frequency - damping / 2) *
+                                                                                    (natural_frequency + damping / 2))
+                                                     : never),
         usual_basis_(usual_duration > 0 ? compute(usual_duration) : compute(0)),
         usual_square_(damping, natural_frequency, usual_duration > 0 ? usual_duration : 0) {}
 
+  double damping() const noexcept { return damping_; }
   double stiffness() const noexcept { return stiffness_; }
 
   /// Pull of the spring per unit mass [m/s^2].
@@ -183,14 +188,14 @@ class Damped {
   /// Drag of the damper per unit mass [m/s^2].
   double drag(double speed) const noexcept { return damping_ * speed; }
 
-  DampedBasis basis(double t) const noexcept { return t == usual_duration_ ? usual_basis_ : compute(t); }
-
-  /// Work on the damper within t of a slip that starts at the speed u under the load q + s t, net of friction and
-  /// spring at the start [m^2/s^2].
-  double work(double u, double q, double s, double t) const noexcept {
-    return damping_ *
-           (t == usual_duration_ ? usual_square_ : DampedSquare(damping_, natural_frequency_, t)).of(u, q, s);
+  bool usual(double t) const noexcept { return t == usual_duration_; }
+  DampedBasis basis(double t) const noexcept { return usual(t) ? usual_basis_ : compute(t); }
+  DampedSquare square(double t) const noexcept {
+    return usual(t) ? usual_square_ : DampedSquare(damping_, natural_frequency_, t);
   }
+
+  /// Whether so little changes within t that a power series tells it soonest.
+  bool soon(double t) const noexcept { return (damping_ + natural_frequency_) * t <= 1; }
 
   /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` where there is
   /// none. With the half rate c/2 taken out it is a cosine and a sine, or their hyperbolic like.
@@ -204,11 +209,8 @@ class Damped {
     if (!(ratio > 0 && z < 1)) return never;
     return z > 0 ? ratio * (std::atanh(z) / z) : ratio;
   }
-  /// The time from one zero of the acceleration to the next.
-  double half_period() const noexcept {
-    const double half = damping_ / 2, wn = natural_frequency_;
-    return wn > half ? std::numbers::pi / std::sqrt((wn - half) * (wn + half)) : never;
-  }
+  /// The time from one zero of the acceleration to the next; `never` where there is one at most.
+  double half_period() const noexcept { return half_period_; }
 
   DampedFlow flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept;
 
@@ -216,14 +218,14 @@ class Damped {
   DampedBasis compute(double t) const noexcept { return {damping_, natural_frequency_, t}; }
 
   double damping_, natural_frequency_, stiffness_;
-  double usual_duration_;
+  double usual_duration_, half_period_;
   DampedBasis usual_basis_;
   DampedSquare usual_square_;
 };
 
 /// Constant friction and a damper from a given start, in closed form: x'' + c x' + wn^2 x = p(t) - a, exact but for
-/// round-off. The zeros of the acceleration are known; between two of them the speed runs one way, so that at most one
-/// root is left to be found, in a bracket.
+/// round-off. Between two zeros of the acceleration, which are known, the speed runs one way: at most one root is left
+/// to be found, in a bracket.
 class DampedFlow {
  public:
   DampedFlow(const Damped& damped, const Start& start, double duration) noexcept
@@ -234,70 +236,112 @@ class DampedFlow {
         s_(start.gain / duration),
         rise_(s_ - damped.stiffness() * u_),
         duration_(duration),
-        end_(damped.basis(duration)) {}
+        soon_(damped.soon(duration)),
+        end_(soon_ && !damped.usual(duration) ? at(duration) : progress(damped.basis(duration))) {}
 
   double horizon() const noexcept { return duration_; }
 
   /// As `ClosedForm::first_stop`.
   double first_stop() const noexcept {
+    const double last = end_.speed;
+    const bool one_arch = duration_ <= damped_.half_period();
+    if (one_arch && last > 0 && (a_ >= 0 || end_.acceleration <= 0)) return never;
     const bool rises = a_ > 0 || (a_ == 0 && rise_ > 0);
     if (u_ == 0 && !rises) return 0;
-    // The speed falls from `begin` to `end`, for the first time; each later time it stays above its first least value.
+    if (one_arch && last <= 0) return root(0, duration_, end_);
+    // It falls from `begin` to `end` for the first time; each later time its least value is higher.
     double begin = 0, end = damped_.turn(a_, rise_);
-    if (rises) {
-      if (!(end < duration_)) return never;
-      begin = std::exchange(end, end + damped_.half_period());
-    }
-    const bool whole = !(end < duration_);
-    if (whole) end = duration_;
-    const DampedBasis there = whole ? end_ : damped_.basis(end);
-    const double last = speed(there);
-    if (last > 0) return never;
-    return root(begin, end, last, acceleration(there));
+    if (rises) begin = std::exchange(end, end + damped_.half_period());
+    if (!(begin < duration_)) return never;
+    const Progress there = end < duration_ ? at(end) : end_;
+    return there.speed > 0 ? never : root(begin, std::min(end, duration_), there);
   }
 
-  Progress at(double t) const noexcept { return progress(damped_.basis(t)); }
-  Progress at_horizon() const noexcept { return progress(end_); }
+  Progress at(double t) const noexcept { return soon_ ? expanded().at(t / duration_) : progress(damped_.basis(t)); }
+  Progress at_horizon() const noexcept { return end_; }
 
   /// Work on the damper within t [m^2/s^2].
-  double damped_work(double t) const noexcept { return damped_.work(u_, q_, s_, t); }
+  double damped_work(double t) const noexcept {
+    return damped_.damping() *
+           (soon_ && !damped_.usual(t) ? expanded().square(t / duration_) : damped_.square(t).of(u_, q_, s_));
+  }
 
  private:
-  double speed(const DampedBasis& b) const noexcept { return b.velocity(u_, q_, s_); }
-  double acceleration(const DampedBasis& b) const noexcept { return a_ * b.decay + rise_ * b.impulse; }
+  /// The speed as a power series, for time in units of the duration: v'' = rise - c v' - wn^2 (v - u).
+  struct Expansion {
+    static constexpr int terms = 20;  // of which the last is below round-off, (c + wn) t being 1 at most
+    double duration;
+    double v[terms];
+
+    Progress at(double part) const noexcept {
+      double speed = v[terms - 1], slope = 0, distance = speed * (1.0 / terms), mean = distance * (1.0 / (terms + 1));
+      for (int k = terms - 2; k >= 0; --k) {
+        const double way = v[k] * series::reciprocal[k + 1];
+        slope = slope * part + speed;
+        speed = speed * part + v[k];
+        distance = distance * part + way;
+        mean = mean * part + way * series::reciprocal[k + 2];
+      }
+      return {distance * part * duration, speed, slope / duration, mean * part * duration};
+    }
+
+    /// The integral of v^2, by Gauss-Legendre quadrature of eight points: off by 1e-18 of it.
+    double square(double part) const noexcept {
+      constexpr double nodes[] = {0.18343464249564980, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
+      constexpr double weights[] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337447, 0.10122853629037626};
+      double value[8];
+      for (double& sum : value) sum = v[terms - 1];
+      for (int k = terms - 2; k >= 0; --k)
+        for (int i = 0; i < 8; ++i)
+          value[i] = value[i] * (part / 2 * (i % 2 == 0 ? 1 - nodes[i / 2] : 1 + nodes[i / 2])) + v[k];
+      double sum = 0;
+      for (int i = 0; i < 8; ++i) sum += weights[i / 2] * value[i] * value[i];
+      return part * duration / 2 * sum;
+    }
+  };
+
+  const Expansion& expanded() const noexcept {
+    if (expansion_.duration == duration_) return expansion_;
+    expansion_.duration = duration_;
+    double* const v = expansion_.v;
+    const double y = damped_.damping() * duration_, z = damped_.stiffness() * duration_ * duration_;
+    v[0] = u_;
+    v[1] = a_ * duration_;
+    v[2] = (rise_ * duration_ * duration_ - y * v[1]) / 2;
+    for (int k = 1; k + 2 < Expansion::terms; ++k)
+      v[k + 2] = -(y * v[k + 1] + z * v[k] * series::reciprocal[k + 1]) * series::reciprocal[k + 2];
+    return expansion_;
+  }
+
   Progress progress(const DampedBasis& b) const noexcept {
-    return {b.distance(u_, q_, s_), speed(b), acceleration(b),
+    return {b.distance(u_, q_, s_), b.velocity(u_, q_, s_), a_ * b.decay + rise_ * b.impulse,
             b.duration > 0 ? b.integral_of_distance(u_, q_, s_) / b.duration : 0};
   }
 
-  // By Newton's method within the bracket, on which the speed falls from above zero to `last` <= 0. The first guess is
-  // that of the parabola through both ends.
-  double root(double low, double high, double last, double slope) const noexcept {
-    if (last == 0) return high;
-    double t = high, value = last;
+  // By Newton's method within the bracket, within which the speed comes through zero once, to `last` <= 0. The first
+  // guess is that of the parabola through both ends.
+  double root(double low, double high, const Progress& last) const noexcept {
+    if (last.speed == 0) return high;
+    const double h = high - low, fall = last.acceleration * h, first = low > 0 ? at(low).speed : u_;
+    double t = high - h * first_root(-last.speed, fall, -2 * (first - last.speed + fall));
     for (int i = 0; i < 200; ++i) {
-      double next = t - value / slope;
-      if (i == 0) {
-        const double h = high - low, first = low > 0 ? speed(damped_.basis(low)) : u_,
-                     bend = 2 * (first - last + slope * h);
-        next = high - h * first_root(-last, slope * h, -bend);
-      }
-      if (!(next > low && next < high)) next = low + (high - low) / 2;
-      if (next == t || !(next > low && next < high)) return next;
-      const double step = std::abs(next - t);
+      if (!(t > low && t < high)) t = low + (high - low) / 2;
+      if (!(t > low && t < high)) return high;
+      const Progress there = at(t);
+      if (there.speed == 0) return t;
+      (there.speed > 0 ? low : high) = t;
+      const double next = t - there.speed / there.acceleration;
+      if (std::abs(next - t) <= 0x1p-52 * t) return t;
       t = next;
-      const DampedBasis b = damped_.basis(t);
-      value = speed(b), slope = acceleration(b);
-      if (value == 0) return t;
-      (value > 0 ? low : high) = t;
-      if (i > 0 && step <= 0x1p-51 * t) return t;
     }
     return t;
   }
 
   const Damped& damped_;
   double u_, a_, q_, s_, rise_, duration_;
-  DampedBasis end_;
+  bool soon_;
+  mutable Expansion expansion_{0, {}};  // made when it is first needed
+  Progress end_;
 };
 
 inline DampedFlow Damped::flow(Direction, double, const Start& start, double duration) const noexcept {
