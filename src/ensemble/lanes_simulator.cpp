@@ -1,3 +1,5 @@
+#include "stickslip/detail/ensemble/lanes_simulator.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,7 +13,6 @@
 #include "simd/pulse_lanes.hpp"
 #include "simd/transpose.hpp"
 #include "simd/viscous_lanes.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -1,7 +1,7 @@
 // The runner: that an ensemble is its members, however they were divided up, and that its errors are what they say.
 //
 // The seeds are fixed. Each statistical check says how often a right program would fail it were the seed drawn anew.
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 
 #include <array>
 #include <atomic>
