@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <span>
-#include <stickslip/ensemble/ensemble.hpp>
+#include <stickslip/ensemble/run.hpp>
 #include <stickslip/stickslip.hpp>
 #include <string>
 #include <string_view>

@@ -11,7 +11,7 @@
 
 #include "simd/instruction_sets.hpp"
 #include "simd/viscous_lanes.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

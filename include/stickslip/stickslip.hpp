@@ -3,7 +3,7 @@
 
 #include "stickslip/build_info.hpp"
 #include "stickslip/core.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "stickslip/excitation/envelope.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/poisson.hpp"
@@ -13,6 +13,7 @@
 #include "stickslip/ground/strong_motion.hpp"
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/sliding/pieces.hpp"
+#include "stickslip/statistics/distribution.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/pulse_chain.hpp"

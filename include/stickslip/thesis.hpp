@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/options.hpp"
 
 namespace stickslip {
 

@@ -46,7 +46,13 @@ PYBIND11_MODULE(_core, m) {
   bind_moments(m);
   bind_strong_motion(m);
   bind_stationary_linearization(m);
+  bind_estimates(m);
+  bind_distributions(m);
+  bind_stationary(m);
+  bind_velocity_spectrum(m);
+  bind_drawn(m);
   bind_ensemble(m);
+  bind_run_ensemble(m);
   bind_slowly_varying_parameters(m);
   bind_white_noise(m);
   bind_equivalent_linearization(m);

@@ -24,6 +24,7 @@ from ._core import (
     Caster,
     ConvergenceError,
     Coulomb,
+    Drawn,
     Energy,
     Ensemble,
     Envelope,
@@ -32,13 +33,16 @@ from ._core import (
     GroundMotion,
     HarmonicMotion,
     Interval,
+    Lognormal,
     Moments,
+    Normal,
     PoissonPulses,
     Response,
     Slider,
     Spectrum,
     Stationary,
     StrongMotion,
+    Uniform,
     VelocitySpectrum,
     ViscousSlider,
     __version__,
@@ -52,7 +56,7 @@ from ._core import (
 TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of this
 if TYPE_CHECKING:
     from .comparison import Comparison, compare
-    from .ensemble import EnsembleError, run_ensemble
+    from .ensemble import EnsembleError, Random, run_ensemble
 
 __all__ = [
     "STANDARD_GRAVITY",
@@ -60,6 +64,7 @@ __all__ = [
     "Comparison",
     "ConvergenceError",
     "Coulomb",
+    "Drawn",
     "Energy",
     "Ensemble",
     "EnsembleError",
@@ -69,13 +74,17 @@ __all__ = [
     "GroundMotion",
     "HarmonicMotion",
     "Interval",
+    "Lognormal",
     "Moments",
+    "Normal",
     "PoissonPulses",
+    "Random",
     "Response",
     "Slider",
     "Spectrum",
     "Stationary",
     "StrongMotion",
+    "Uniform",
     "VelocitySpectrum",
     "ViscousSlider",
     "__version__",
@@ -94,7 +103,7 @@ if not TYPE_CHECKING:
 
     def __getattr__(name):
         # Imported when first asked for: it needs NumPy, which takes ten times as long as the rest.
-        if name in ("EnsembleError", "run_ensemble"):
+        if name in ("EnsembleError", "Random", "run_ensemble"):
             from . import ensemble
 
             return globals().setdefault(name, getattr(ensemble, name))

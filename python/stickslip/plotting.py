@@ -410,7 +410,8 @@ def plot_ensemble(
 ) -> FigureBase:
     """Variances by time, the distribution of the peaks, and the velocity's spectrum.
 
-    Bands are two standard errors either way; about the distribution, 95 % confidence bounds.
+    Bands are two standard errors either way; about the distribution, 95 % confidence bounds. Where
+    ground motions differ in duration, the peaks alone.
 
     Parameters
     ----------
@@ -432,16 +433,21 @@ def plot_ensemble(
     ValueError
         Fewer than two members.
     """
-    e, t, s = ensemble, ensemble.time, ensemble.stationary
+    e, t = ensemble, ensemble.time
+    if t.size == 0:
+        with style():
+            figure = figure or new_figure(6, 4)
+            _entitle_ensemble(figure, e, title)
+            _draw_peaks(figure.subplots(), e)
+        return figure
+    s = e.stationary
     has_spectrum = e.configuration["velocity_spectrum"]
     with style():
         figure = figure or new_figure(9, 6)
         layout = [["way", "peaks"], ["speed", "spectrum" if has_spectrum else "peaks"]]
         axes = figure.subplot_mosaic(layout)
         way, speed, peaks = axes["way"], axes["speed"], axes["peaks"]
-        figure.suptitle(
-            title or _describe_ensemble(e), x=0.01, ha="left", fontsize=10, fontweight="bold"
-        )
+        _entitle_ensemble(figure, e, title)
 
         variance, error = e.displacement_variance, e.displacement_variance_error
         length, unit = _unit(np.sqrt(variance.max()))
@@ -731,10 +737,21 @@ def _with_error(estimate: Estimate, factor: float) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
+def _entitle_ensemble(figure: FigureBase, ensemble: Ensemble, title: str | None) -> None:
+    title = title or _describe_ensemble(ensemble)
+    figure.suptitle(title, x=0.01, ha="left", fontsize=10, fontweight="bold")
+
+
 def _describe_ensemble(ensemble: Ensemble) -> str:
     """As '10,000 members of 60 s, slip level 0.2 g'."""
     slider, times = ensemble.configuration["slider"], ensemble.time
-    words = [f"{ensemble.members:,} members of {times[-1]:.4g} s"]
+    words = [f"{ensemble.members:,} members" + (f" of {times[-1]:.4g} s" if times.size else "")]
+    if not isinstance(slider, dict):  # the words of a source of somebody's own
+        return words[0]
+    if "random" in slider:
+        words.append("random sliders")
+    if "one_of" in slider:
+        words.append(f"{len(slider['one_of'])} sliders")
     if "damping" in slider:
         words.append(f"viscous damping {_digits(slider['damping'])} 1/s")
     if "slip_level" in slider:

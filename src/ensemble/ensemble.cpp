@@ -1,199 +1,27 @@
 #include "stickslip/ensemble/ensemble.hpp"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_sf_bessel.h>
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
-#include <chrono>
-#include <complex>
-#include <condition_variable>
-#include <exception>
+#include <cmath>
 #include <initializer_list>
-#include <mutex>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <thread>
 
-#include "detail/json.hpp"
-#include "numerics/fftw_plan.hpp"
 #include "simd/row_moments.hpp"
+#include "stickslip/error.hpp"
 
 namespace stickslip {
-namespace detail {
-
-// ---- one block
-
-/// Periodograms of the velocities of a block.
-struct Block::Spectrum {
-  explicit Spectrum(std::size_t samples) : window(samples), real(row_padding * samples), complex(samples / 2 + 1) {
-    // Kaiser-Bessel window, thesis (4.62), with a mean square of one.
-    constexpr double beta = 8;
-    const auto half = static_cast<double>(samples) / 2;
-    double squares = 0;
-    for (std::size_t i = 0; i < samples; ++i) {
-      const double from_middle = samples == 1 ? 0 : (static_cast<double>(i) - half) / half;
-      window[i] = gsl_sf_bessel_I0(beta * std::sqrt(1 - from_middle * from_middle));
-      squares += window[i] * window[i];
-    }
-    for (double& w : window) w *= std::sqrt(static_cast<double>(samples) / squares);
-    plan = make_plan([&] {
-      return fftw_plan_dft_r2c_1d(static_cast<int>(samples), real.data(), output(), FFTW_ESTIMATE | FFTW_UNALIGNED);
-    });
-  }
-
-  fftw_complex* output() { return reinterpret_cast<fftw_complex*>(complex.data()); }
-
-  std::vector<double> window, real;
-  std::vector<std::complex<double>> complex;
-  FftwPlan plan;
-};
-
-Block::Block(const EnsembleTimes& times, bool velocity_spectrum, const std::atomic<bool>& stopped)
-    : times_(times),
-      width_(Ensemble::block(times.count)),
-      stopped_(stopped),
-      peak_(width_),
-      residual_(width_),
-      central_(4 * width_),
-      marks_(3 * width_) {
-  if (velocity_spectrum) {
-    spectrum_ = std::make_unique<Spectrum>(times.central());
-    velocities_.resize(times.central() * width_);
-  }
-}
-
-Block::~Block() = default;
-
-void Block::begin(std::size_t members) {
-  members_ = members;
-  tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0);
-  tally_.count = members;
-  std::fill(central_.begin(), central_.end(), 0.0);
-}
-
-void Block::row(std::size_t time, const double* displacement, const double* velocity) {
-  double* const sums = central_.data();
-  const CentralSums central{sums, sums + width_, sums + 2 * width_, sums + 3 * width_};
-  const std::size_t begin = times_.begin(), length = times_.central();
-  const bool is_central = time >= begin && time < begin + length;
-  row_moments(displacement, velocity, members_, tally_.sums().data() + time, times_.count,
-              is_central ? &central : nullptr);
-  if (is_central && spectrum_) std::copy_n(velocity, width_, velocities_.data() + (time - begin) * width_);
-  const std::size_t marks[] = {begin, begin + length / 2, begin + length};
-  for (std::size_t i = 0; i < 3; ++i)
-    if (time == marks[i]) std::copy_n(displacement, width_, marks_.data() + i * width_);
-}
-
-Tally Block::finish() {
-  const auto n = static_cast<double>(members_);
-  const auto length = static_cast<double>(times_.central());
-  const double* const sums = central_.data();
-  const double* const marks = marks_.data();
-
-  double mean_half = 0, mean_whole = 0;
-  for (std::size_t i = 0; i < members_; ++i) {
-    mean_half += (marks[width_ + i] - marks[i]) / n;
-    mean_whole += (marks[2 * width_ + i] - marks[i]) / n;
-  }
-  const double second_half = static_cast<double>(times_.central() - times_.central() / 2) * times_.dt;
-  // Squares about the mean of a few members are too small by this.
-  const double unbiased = n > 1 ? n / (n - 1) : 1;
-  std::vector<std::array<double, features>> values(members_);
-  for (std::size_t i = 0; i < members_; ++i) {
-    const double half = marks[width_ + i] - marks[i], whole = marks[2 * width_ + i] - marks[i];
-    const double e = half - mean_half, f = whole - mean_whole;
-    values[i] = {sums[i] / length,
-                 half,
-                 whole,
-                 unbiased * sums[width_ + i] / length,
-                 unbiased * unbiased * sums[2 * width_ + i] / length,
-                 unbiased * sums[3 * width_ + i] / length,
-                 unbiased * (f * f - e * e) / second_half};
-    for (std::size_t a = 0; a < features; ++a) tally_.mean(a) += values[i][a] / n;
-  }
-  for (const auto& value : values)
-    for (std::size_t a = 0; a < features; ++a)
-      for (std::size_t b = 0; b < features; ++b)
-        tally_.scatter(a, b) += (value[a] - tally_.mean(a)) * (value[b] - tally_.mean(b));
-
-  if (spectrum_) {
-    // Density of one member: |dt DFT|^2 / (2 pi M dt).
-    Spectrum& s = *spectrum_;
-    const double scale = times_.dt / (2 * std::numbers::pi * length);
-    const std::span<double> mean = tally_.density_mean(), scatter = tally_.density_scatter();
-    const std::size_t samples = s.window.size();
-    for (std::size_t first = 0; first < members_; first += row_padding) {
-      for (std::size_t k = 0; k < samples; ++k)  // a line of memory at a time
-        for (std::size_t i = 0; i < row_padding; ++i)
-          s.real[i * samples + k] = s.window[k] * velocities_[k * width_ + first + i];
-      for (std::size_t i = 0; i < std::min(row_padding, members_ - first); ++i) {
-        fftw_execute_dft_r2c(s.plan.get(), &s.real[i * samples], s.output());
-        const double share = 1 / static_cast<double>(first + i + 1), weight = static_cast<double>(first + i) * share;
-        for (std::size_t k = 0; k < mean.size(); ++k) {
-          const double re = s.complex[k].real(), im = s.complex[k].imag();
-          const double density = scale * (re * re + im * im), difference = density - mean[k];
-          mean[k] += share * difference;
-          scatter[k] += weight * difference * difference;
-        }
-      }
-    }
-  }
-  return std::move(tally_);
-}
-
-// ---- the run
 
 namespace {
 
-void check(const EnsembleOptions& options, std::size_t block) {
-  if (options.members == 0) throw std::invalid_argument("run_ensemble: members must be at least 1, got 0");
-  if (options.first_member % block != 0)
-    throw std::invalid_argument("run_ensemble: first_member must be a multiple of " + std::to_string(block) +
-                                ", the members in a block, got " + std::to_string(options.first_member));
-  if (options.members > UINT64_MAX - options.first_member)
-    throw std::invalid_argument("run_ensemble: first_member + members must be less than 2^64, got members = " +
-                                std::to_string(options.members));
-}
+using detail::Tally;
 
-// Threads that are waited for, come what may.
-class Threads {
- public:
-  Threads() = default;
-  ~Threads() { join(); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
-  template <class Work>
-  void start(const Work& work) {
-    threads_.emplace_back(work);
-  }
-  void join() {
-    for (std::thread& thread : threads_) thread.join();
-    threads_.clear();
-  }
-
- private:
-  std::vector<std::thread> threads_;
-};
-
-// Throws where motions are so large that their statistics could overflow.
-void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
-  const auto refuse = [](const std::string& got) {
-    throw std::overflow_error("run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
-                              shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
-  };
-  for (std::size_t i = 0; i < kept.peak.size(); ++i)
-    for (const double x : {kept.peak[i], std::abs(kept.residual[i])})
-      if (!(x <= Tally::max_motion))
-        refuse("a displacement of " + shortest(x) + " m in member " + std::to_string(first + i));
-  const auto time = tally.out_of_range();
-  if (!time) return;
-  const std::string members = "members " + std::to_string(first) + " to " + std::to_string(first + tally.count - 1);
-  if (*time < times.count)
-    refuse("more for " + members + " at " + shortest(static_cast<double>(*time) * times.dt) + " s");
-  throw std::overflow_error("run_ensemble: velocity spectrum or growth rate overflows for " + members);
+void need_two(std::uint64_t members) {
+  if (members < 2)
+    throw std::domain_error("Ensemble: second moments need at least two members, got " + std::to_string(members));
 }
 
 // What two configurations differ in, in words; empty if in nothing.
@@ -207,154 +35,6 @@ std::string differences(const Ensemble::Configuration& a, const Ensemble::Config
     text += (text.empty() ? "" : "; ") + say(a) + " against " + say(b);
   }
   return text;
-}
-
-}  // namespace
-
-EnsembleTimes ensemble_times(double dt, double sample_dt, double duration) {
-  require(std::isfinite(dt) && dt >= 0, "run_ensemble: dt must be finite and at least 0", dt, "s");
-  if (dt == 0) dt = sample_dt > 0 ? sample_dt : duration / 512;
-  require(dt <= duration, "run_ensemble: dt must be at most the duration, " + shortest(duration) + " s", dt, "s");
-  if (sample_dt > 0) {
-    const double samples = std::round(dt / sample_dt);
-    require(samples >= 1 && std::abs(dt / sample_dt - samples) < 1e-9 * samples,
-            "run_ensemble: dt must be a multiple of the excitation's " + shortest(sample_dt) + " s", dt, "s");
-    dt = samples * sample_dt;
-  }
-  constexpr double most = Ensemble::max_times;
-  const double steps = std::floor(duration / dt * (1 + 1e-12));
-  require(steps < most,
-          "run_ensemble: dt must leave at most " + shortest(most) + " times in " + shortest(duration) + " s", dt, "s");
-  return {dt, static_cast<std::size_t>(steps) + 1};
-}
-
-namespace {
-
-std::string describe(const std::string& law, const std::string& parameters, double natural_frequency) {
-  return "{\"law\": \"" + law + "\", " + parameters + ", \"natural_frequency\": " + json(natural_frequency) + "}";
-}
-
-}  // namespace
-
-std::string describe(const Coulomb& law, double natural_frequency) {
-  return describe("Coulomb", "\"slip_level\": " + json(law.forward()) + ", \"backward\": " + json(law.backward()),
-                  natural_frequency);
-}
-
-std::string describe(const Caster& law, double natural_frequency) {
-  return describe("Caster", "\"slip_level\": " + json(law.slip_level()) + ", \"reach\": " + json(law.reach()),
-                  natural_frequency);
-}
-
-std::string describe(const char* type, std::span<const double> levels, double natural_frequency) {
-  return describe(type, "\"levels\": " + json(levels), natural_frequency);
-}
-
-std::string describe(const ViscousSlider& slider) {
-  return describe("viscous", "\"damping\": " + json(slider.damping()), slider.natural_frequency());
-}
-
-Ensemble run_ensemble(const Ensemble::Configuration& configuration, const EnsembleTimes& times,
-                      const EnsembleOptions& options, const Ensemble* start, const MakeSimulator& make_simulator) {
-  const std::size_t block_size = Ensemble::block(times.count);
-  check(options, block_size);
-  Ensemble::Parts empty;
-  empty.configuration = configuration;
-  empty.times = times;
-  empty.velocity_spectrum = options.velocity_spectrum;
-  Ensemble ensemble(std::move(empty));
-  if (start) ensemble.merge(*start);
-
-  const std::uint64_t first_block = options.first_member / block_size;
-  const std::uint64_t blocks = (options.members + block_size - 1) / block_size;
-  const auto members_of = [&](std::uint64_t block) {
-    const std::uint64_t before = (block - first_block) * block_size;
-    return static_cast<std::size_t>(std::min<std::uint64_t>(block_size, options.members - before));
-  };
-  for (const auto& [block, members] : ensemble.parts().cut)
-    if (block >= first_block && block - first_block < blocks && members_of(block) != members)
-      throw std::invalid_argument("run_ensemble: start holds only " + std::to_string(members) + " members from " +
-                                  std::to_string(block * block_size) + " on, part of a block of " +
-                                  std::to_string(block_size) +
-                                  "; what is to be gone on from must end on a whole block");
-
-  std::mutex mutex;  // guards all that follows, and the ensemble
-  std::condition_variable changed;
-  std::atomic<bool> stopped = false;
-  std::exception_ptr failure;
-  std::uint64_t next = 0, done = 0;
-  unsigned working = 0;
-
-  const auto work = [&] {
-    try {
-      const std::unique_ptr<Simulator> simulator = make_simulator();
-      Block block(times, options.velocity_spectrum, stopped);
-      for (;;) {
-        std::uint64_t number = 0;
-        {
-          const std::scoped_lock lock(mutex);
-          while (next < blocks && ensemble.parts().tallies.overlaps({0, first_block + next}))
-            done += members_of(first_block + next++);
-          if (next == blocks || stopped) break;
-          number = first_block + next++;
-        }
-        const std::size_t members = members_of(number);
-        block.begin(members);
-        simulator->simulate(number * block_size, members, block);
-        Tally tally = block.finish();
-        Ensemble::Kept kept;
-        kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
-        kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
-        check_range(kept, tally, times, number * block_size);
-        const std::scoped_lock lock(mutex);
-        ensemble.insert(number, std::move(tally), std::move(kept));
-        done += members;
-      }
-    } catch (const Block::Stopped&) {
-    } catch (...) {
-      const std::scoped_lock lock(mutex);
-      if (!failure) failure = std::current_exception();
-      stopped = true;
-    }
-    const std::scoped_lock lock(mutex);
-    --working;
-    changed.notify_all();
-  };
-
-  const std::uint64_t wanted =
-      options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  working = static_cast<unsigned>(std::min(wanted, blocks));
-  Threads threads;
-  try {
-    const unsigned count = working;
-    for (unsigned i = 0; i < count; ++i) threads.start(work);
-    std::unique_lock lock(mutex);
-    const auto beat = [&] {
-      if (options.heartbeat) options.heartbeat({done, options.members, ensemble});
-    };
-    while (!changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; })) beat();
-    if (!failure) beat();
-  } catch (...) {
-    stopped = true;
-    threads.join();
-    throw;
-  }
-  threads.join();
-  if (failure) std::rethrow_exception(failure);
-  return ensemble;
-}
-
-}  // namespace detail
-
-// ---- the statistics
-
-namespace {
-
-using detail::Tally;
-
-void need_two(std::uint64_t members) {
-  if (members < 2)
-    throw std::domain_error("Ensemble: second moments need at least two members, got " + std::to_string(members));
 }
 
 void check_probability(const char* rule, double value) { detail::require(value > 0 && value < 1, rule, value); }
@@ -372,10 +52,15 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
     if (!holds) throw std::invalid_argument("Ensemble: " + what);
   };
   const EnsembleTimes& times = parts_.times;
-  expect(std::isfinite(times.dt) && times.dt > 0,
-         "dt must be positive and finite, got " + detail::shortest(times.dt) + " s");
-  expect(times.count >= 2 && times.count <= max_times,
-         "times must be 2 to " + std::to_string(max_times) + ", got " + std::to_string(times.count));
+  if (times.count == 0) {
+    expect(times.dt == 0 && !parts_.velocity_spectrum,
+           "without times there is no dt, got " + detail::shortest(times.dt) + " s, and no velocity spectrum");
+  } else {
+    expect(std::isfinite(times.dt) && times.dt > 0,
+           "dt must be positive and finite, got " + detail::shortest(times.dt) + " s");
+    expect(times.count >= 2 && times.count <= max_times,
+           "times must be 0 or 2 to " + std::to_string(max_times) + ", got " + std::to_string(times.count));
+  }
   for (const auto& [name, text] : std::initializer_list<std::pair<std::string, std::string>>{
            {"dt", detail::shortest(times.dt)},
            {"times", std::to_string(times.count)},
@@ -453,7 +138,7 @@ void Ensemble::bound_memory() {
 }
 
 void Ensemble::merge(const Ensemble& other) {
-  const std::string difference = detail::differences(parts_.configuration, other.parts_.configuration);
+  const std::string difference = differences(parts_.configuration, other.parts_.configuration);
   if (!difference.empty()) throw std::invalid_argument("Ensemble: cannot merge what differs: " + difference);
   for (const auto& [place, tally] : other.parts_.tallies.nodes())
     if (parts_.tallies.overlaps(place)) {
@@ -504,22 +189,30 @@ ValueAndVariance covariance_of(double n, double s11, double s20, double s02, dou
 
 }  // namespace
 
-Estimates Ensemble::displacement_mean() const {
+void Ensemble::need_times() const {
+  if (parts_.times.count == 0)
+    throw std::domain_error(
+        "Ensemble: no statistics by time, for the ground motions differ in duration; peak, residual, quantile and "
+        "exceedance are there");
   need_two(members());
+}
+
+Estimates Ensemble::displacement_mean() const {
+  need_times();
   return by_time(parts_.tallies, [](double n, auto moment) {
     return ValueAndVariance{moment(Tally::x), moment(Tally::xx) / (n - 1) / n};
   });
 }
 
 Estimates Ensemble::velocity_mean() const {
-  need_two(members());
+  need_times();
   return by_time(parts_.tallies, [](double n, auto moment) {
     return ValueAndVariance{moment(Tally::v), moment(Tally::vv) / (n - 1) / n};
   });
 }
 
 Estimates Ensemble::displacement_variance() const {
-  need_two(members());
+  need_times();
   return by_time(parts_.tallies, [](double n, auto moment) {
     const double xx = moment(Tally::xx);
     return covariance_of(n, xx, xx, xx, moment(Tally::xxxx));
@@ -527,7 +220,7 @@ Estimates Ensemble::displacement_variance() const {
 }
 
 Estimates Ensemble::velocity_variance() const {
-  need_two(members());
+  need_times();
   return by_time(parts_.tallies, [](double n, auto moment) {
     const double vv = moment(Tally::vv);
     return covariance_of(n, vv, vv, vv, moment(Tally::vvvv));
@@ -535,7 +228,7 @@ Estimates Ensemble::velocity_variance() const {
 }
 
 Estimates Ensemble::covariance() const {
-  need_two(members());
+  need_times();
   return by_time(parts_.tallies, [](double n, auto moment) {
     return covariance_of(n, moment(Tally::xv), moment(Tally::xx), moment(Tally::vv), moment(Tally::xxvv));
   });
@@ -553,7 +246,7 @@ Moments Ensemble::moments() const {
 }
 
 Stationary Ensemble::stationary() const {
-  need_two(members());
+  need_times();
   const Tally total = parts_.tallies.total();
   const auto n = static_cast<double>(total.count);
   const std::size_t begin = parts_.times.begin(), length = parts_.times.central();
@@ -595,7 +288,7 @@ Stationary Ensemble::stationary() const {
 }
 
 VelocitySpectrum Ensemble::velocity_spectrum() const {
-  need_two(members());
+  need_times();
   if (!parts_.velocity_spectrum)
     throw std::domain_error("Ensemble: the velocity's spectrum was not asked for; run with velocity_spectrum = true");
   const Tally total = parts_.tallies.total();

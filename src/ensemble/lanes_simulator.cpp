@@ -1,3 +1,5 @@
+#include "stickslip/detail/ensemble/lanes_simulator.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,7 +13,6 @@
 #include "simd/pulse_lanes.hpp"
 #include "simd/transpose.hpp"
 #include "simd/viscous_lanes.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -67,16 +68,17 @@ class LanesSimulator final : public Simulator {
   }
 
  private:
-  // The ground accelerations of all members, by sample and member.
+  // The ground accelerations of all members, by sample and member; none beyond the last, whatever was there before:
+  // lanes of casters are not the same to the last bit beside others.
   void generate(std::uint64_t first_member, std::size_t members, std::size_t width, Block& block) {
     const std::size_t samples = excitation_.samples();
     if (ground_.size() != width * samples) {
-      ground_.assign(width * samples, 0);
+      ground_.resize(width * samples);
       records_.resize(row_padding * samples);
     }
-    for (std::size_t i = 0; i < members; i += row_padding) {
+    for (std::size_t i = 0; i < width; i += row_padding) {
       block.beat();
-      const std::size_t some = std::min(row_padding, members - i);
+      const std::size_t some = std::min(row_padding, members - std::min(members, i));
       for (std::size_t k = 0; k < some; ++k)
         excitation_.sample(seed_, first_member + i + k, {&records_[k * samples], samples}, workspace_);
       if (some < row_padding)

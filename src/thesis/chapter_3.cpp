@@ -1,5 +1,6 @@
 // White noise: figures 3.1 to 3.3.
 #include <numbers>
+#include <stickslip/ensemble/run.hpp>
 #include <stickslip/excitation/gaussian.hpp>
 #include <stickslip/friction/caster.hpp>
 #include <stickslip/friction/coulomb.hpp>

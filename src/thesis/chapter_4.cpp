@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <numbers>
+#include <stickslip/ensemble/run.hpp>
 #include <stickslip/excitation/gaussian.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/theory/stationary_linearization.hpp>

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <stickslip/ensemble/run.hpp>
 #include <stickslip/excitation/poisson.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/theory/pulse_chain.hpp>

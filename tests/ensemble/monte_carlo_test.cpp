@@ -6,7 +6,7 @@
 // ours, scaled to its number of records: the estimators are the same.
 #include <cmath>
 
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/reference_values.hpp"

@@ -14,7 +14,7 @@
 #include <random>
 #include <vector>
 
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/reference_values.hpp"

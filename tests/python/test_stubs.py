@@ -88,6 +88,16 @@ try:
 except ss.EnsembleError as failure:
     failure.partial.save(f"until-{failure.members.start}.npz")
 
+blocks = ss.Random(ss.Coulomb, mu=ss.Lognormal(median=0.3, beta=np.float64(0.3)))
+floors = ss.Random(ss.Slider, law=blocks, natural_frequency=ss.Normal(2, 0.5, low=1))
+e = ss.run_ensemble(blocks, [quake, quake], members=10, seed=1)
+e = ss.run_ensemble(floors, ss.Drawn([quake]), members=10, seed=1)
+e = ss.run_ensemble([block, cart], quake, members=10, seed=1)
+e = ss.run_ensemble(ss.Drawn([block]), (quake,), members=10, seed=1)
+drawn: ss.GroundMotion = ss.Drawn([quake]).sample(seed=1, member=np.int64(7))
+median: float = ss.Uniform(0, 1).quantile(0.5)
+bounds_of_mu: NDArray[np.float64] = ss.Lognormal(0.3, 0.3).quantile([0.05, 0.95])
+
 damper = ss.ViscousSlider(1, natural_frequency=np.float64(2))
 r = ss.integrate(damper, quake)
 e = ss.run_ensemble(damper, shaking, members=10, seed=1)
@@ -128,7 +138,9 @@ pulses.sample(seed=1, member=0.5)  # type: ignore[arg-type]
 block.slip_level = 2.0  # type: ignore[misc]
 r.peak = 2.0  # type: ignore[misc]
 e.members = 3  # type: ignore[misc]
-ss.run_ensemble(block, quake, members=10, seed=1)  # type: ignore[arg-type]
+ss.run_ensemble(block, soil, members=10, seed=1)  # type: ignore[arg-type]
+ss.run_ensemble([block, quake], quake, members=10, seed=1)  # type: ignore[list-item]
+ss.run_ensemble(block, ss.Drawn([block]), members=10, seed=1)  # type: ignore[list-item]
 ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[arg-type]
 ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-arg]
 ss.theory.StationaryLinearization().predict(wheel, soil)  # type: ignore[arg-type]

@@ -15,7 +15,7 @@
 
 #include "simd/coulomb_lanes.hpp"
 #include "simd/instruction_sets.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/reference_values.hpp"
@@ -284,12 +284,14 @@ TEST_CASE("a whole block of members side by side has the sums of its members one
       std::tuple{301, GaussianOptions{.envelope = Envelope(3, 10, 0.3)}, Coulomb(0.5), 0.1, true, 33},
       std::tuple{2, GaussianOptions{.period = 300}, Coulomb(0.5), 0.1, true, 64});
   const GaussianExcitation excitation(Spectrum::white(1), 0.1, static_cast<std::size_t>(samples), options);
-  const EnsembleTimes times = detail::ensemble_times(dt, excitation.dt(), excitation.duration());
+  const EnsembleTimes times = detail::ensemble_times(dt, TimeBase{excitation.duration(), excitation.dt()});
   const auto count = static_cast<std::size_t>(members);
   on_each_instruction_set([&](const std::string& set) {
     INFO(set << ": " << samples << " samples, " << members << " members");
     const Simulated lanes = simulate(*detail::lanes_simulator(law, excitation, 3, settle), times, 128, count);
-    detail::MemberSimulator<Coulomb, GaussianExcitation> simulator(Slider<Coulomb>(law), excitation, 3, settle);
+    const Slider<Coulomb> slider(law);
+    const PairedMembers members_alone(slider, excitation);
+    detail::MemberSimulator simulator(members_alone, 3, settle);
     const Simulated one_by_one = simulate(simulator, times, 128, count);
     CHECK(relative(lanes.peak, one_by_one.peak) < 7e-13);
     CHECK(relative(lanes.residual, one_by_one.residual) < 7e-13);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "simd/instruction_sets.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "support/catch.hpp"
 
@@ -62,7 +62,9 @@ TEST_CASE("blocks under pulses in lanes end and peak as single ones, on every in
           CHECK(std::abs(block.peak()[i] - response.peak) < 1e-12 * scale);
           CHECK(std::abs(block.residual()[i] - response.residual) < 1e-12 * scale);
         }
-        detail::MemberSimulator<Coulomb, PoissonPulses> alone(Slider<Coulomb>(law), pulses, 5, false);
+        const Slider<Coulomb> slider(law);
+        const PairedMembers members(slider, pulses);
+        detail::MemberSimulator alone(members, 5, false);
         block.begin(37);
         alone.simulate(64, 37, block);
         const detail::Tally expected = block.finish();

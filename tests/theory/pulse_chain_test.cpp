@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"
 #include "support/catch.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "numerics/quadrature.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/theory/stationary_linearization.hpp"
 #include "support/catch.hpp"

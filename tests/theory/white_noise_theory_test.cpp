@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "numerics/quadrature.hpp"
-#include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/run.hpp"
 #include "stickslip/theory/white_noise.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"

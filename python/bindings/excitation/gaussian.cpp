@@ -61,7 +61,7 @@ GaussianExcitation restored(const py::tuple& t) {
   return coarse.refined(t[9].cast<std::size_t>());
 }
 
-std::string repr(const GaussianExcitation& e) {
+std::string repr_of_gaussian(const GaussianExcitation& e) {
   const GaussianOptions& o = e.options();
   const std::size_t samples = (e.samples() - 1) / e.refinement() + 1, period = o.period / e.refinement();
   const auto text_of = [](const auto& object) { return py::repr(py::cast(object)).template cast<std::string>(); };
@@ -216,7 +216,7 @@ ValueError
 1 for white noise, whose variance is infinite.)")
       .def_property_readonly("configuration", &GaussianExcitation::configuration,
                              "All that the motions depend on, as one JSON object.")
-      .def("__repr__", &repr)
+      .def("__repr__", &repr_of_gaussian)
       .def(
           "__eq__", [](const GaussianExcitation& a, const GaussianExcitation& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const GaussianExcitation& e) { return py::hash(py::str(e.configuration())); })

@@ -48,7 +48,7 @@ py::tuple shape_of(const py::object& self) {
   return py::make_tuple(view(shape.times(), self), view(shape.values(), self));
 }
 
-std::string repr(const py::object& self) {
+std::string repr_of_pulses(const py::object& self) {
   const auto& excitation = self.cast<const PoissonPulses&>();
   const PoissonOptions& options = excitation.options();
   std::string text = "PoissonPulses(rate=" + detail::shortest(excitation.rate()) +
@@ -300,7 +300,7 @@ float or ndarray
     Of the same shape [m^2].)")
       .def_property_readonly("configuration", &PoissonPulses::configuration,
                              "All that the motions depend on, as one JSON object; a quantile function by a hash.")
-      .def("__repr__", &repr)
+      .def("__repr__", &repr_of_pulses)
       .def(
           "__eq__", [](const PoissonPulses& a, const PoissonPulses& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const PoissonPulses& p) { return py::hash(py::str(p.configuration())); })

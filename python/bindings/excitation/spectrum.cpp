@@ -82,7 +82,7 @@ Spectrum restored(const std::string& kind, const py::dict& p) {
   throw std::invalid_argument("Spectrum: unknown kind '" + kind + "'");
 }
 
-std::string repr(const Spectrum& spectrum) {
+std::string repr_of_spectrum(const Spectrum& spectrum) {
   if (const auto* table = std::get_if<Spectrum::Table>(&spectrum.form()))
     return "<Spectrum: table of " + std::to_string(table->omega.size()) + " points, " +
            detail::shortest(spectrum.low()) + " to " + detail::shortest(spectrum.high()) + " rad/s>";
@@ -234,7 +234,7 @@ ValueError
     Other limits.)")
       .def_property_readonly("configuration", &Spectrum::configuration,
                              "All of it as one JSON object; a function by a hash of 1024 of its values.")
-      .def("__repr__", &repr)
+      .def("__repr__", &repr_of_spectrum)
       .def(
           "__eq__", [](const Spectrum& a, const Spectrum& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const Spectrum& s) { return py::hash(py::str(s.configuration())); })

@@ -5,7 +5,7 @@
 namespace stickslip::python {
 namespace {
 
-HarmonicMotion make(double amplitude, double omega, double duration, std::optional<double> dt) {
+HarmonicMotion make_harmonic_motion(double amplitude, double omega, double duration, std::optional<double> dt) {
   return dt ? HarmonicMotion(amplitude, omega, duration, *dt) : HarmonicMotion(amplitude, omega, duration);
 }
 
@@ -51,7 +51,8 @@ ValueError
 Notes
 -----
 omega t is reduced to one cycle with 150 bits of pi: the phase is right to round-off after any number of cycles.)")
-      .def(py::init(&make), py::arg("amplitude"), py::arg("omega"), py::arg("duration"), py::arg("dt") = py::none())
+      .def(py::init(&make_harmonic_motion), py::arg("amplitude"), py::arg("omega"), py::arg("duration"),
+           py::arg("dt") = py::none())
       .def_property_readonly("amplitude", &HarmonicMotion::amplitude, "B [m/s^2].")
       .def_property_readonly("omega", &HarmonicMotion::omega, "Angular frequency [rad/s].")
       .def_property_readonly("period", &HarmonicMotion::period, "2 pi / omega [s].")

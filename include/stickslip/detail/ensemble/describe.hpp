@@ -1,0 +1,55 @@
+// What makes sliders and ground motions the same, in words.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <typeinfo>
+#include <variant>
+#include <vector>
+
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/viscous.hpp"
+
+namespace stickslip::detail {
+
+/// The parameters of a law, as members of a JSON object.
+std::string parameters(const Coulomb& law);
+std::string parameters(const Caster& law);
+/// A law of somebody's own: its type and a few of its levels.
+std::string parameters(const char* type, std::span<const double> levels);
+template <FrictionLaw Law>
+std::string parameters(const Law& law) {
+  std::vector<double> levels;
+  for (int i = 0; i < 10; ++i) {
+    const double x = 0.1 * ((i / 2) - 2);
+    const Direction direction = i % 2 == 0 ? Direction::forward : Direction::backward;
+    levels.push_back(resist(law, x, direction, 0.1 * (i / 2)));
+    if constexpr (LawWithHold<Law>) levels.push_back(hold(law, x, direction));
+  }
+  return parameters(typeid(Law).name(), levels);
+}
+
+/// What the motion of a slider depends on, as JSON.
+std::string describe(const std::string& law, double natural_frequency, double damping);
+template <FrictionLaw Law>
+std::string describe(const Slider<Law>& slider) {
+  return describe(parameters(slider.law()), slider.natural_frequency(), slider.damping());
+}
+std::string describe(const ViscousSlider& slider);
+template <class... Sliders>
+std::string describe(const std::variant<Sliders...>& slider) {
+  return std::visit([](const auto& one) { return describe(one); }, slider);
+}
+
+/// Of a list in which a member has one place.
+/// @param order  "in turn" or "drawn"
+std::string describe_list(const std::vector<std::string>& sliders, const char* order);
+/// Motions by their number and a digest of their samples, times and interpolation; names do not matter.
+std::string describe_list(std::span<const GroundMotion> motions, const char* order);
+
+}  // namespace stickslip::detail

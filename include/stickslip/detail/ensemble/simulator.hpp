@@ -1,0 +1,181 @@
+// Simulates the members of an ensemble, block by block.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "stickslip/detail/ensemble/block.hpp"
+#include "stickslip/detail/recorder.hpp"
+#include "stickslip/ensemble/member.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/integrate.hpp"
+
+namespace stickslip::detail {
+
+/// Simulates the members of a block. Each thread has its own.
+class Simulator {
+ public:
+  virtual ~Simulator() = default;
+  virtual void simulate(std::uint64_t first_member, std::size_t members, Block& block) = 0;
+};
+
+/// Does the work; a failure to converge says which member it was.
+template <class Work>
+void naming_member(std::uint64_t member, Work&& work) {
+  try {
+    work();
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError("run_ensemble: member " + std::to_string(member) + ": " + error.what());
+  }
+}
+
+/// Where the motion of one member of a block goes.
+struct MemberPlace {
+  Block& block;
+  std::size_t index;                ///< of the member in the block
+  double *displacement, *velocity;  ///< of all members by time, `block.width()` at each
+
+  void keep(std::size_t time, double x, double v) const noexcept {
+    displacement[time * block.width() + index] = x;
+    velocity[time * block.width() + index] = v;
+  }
+  void end(double peak, double residual) const noexcept {
+    block.peak()[index] = peak;
+    block.residual()[index] = residual;
+  }
+};
+
+/// Through a motion piece by piece: `go` moves over a segment, `keep` is called at each time of the statistics, which
+/// cuts the segment that it lies in.
+template <class Go, class Keep>
+void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& keep_at) {
+  const std::size_t times = block.times().count;
+  const double dt = block.times().dt, begin = motion.time(0);
+  std::size_t next = 0;  // time of the statistics
+  const auto keep = [&] { keep_at(next++); };
+  if (times > 0) keep();
+  double wanted = dt;
+  for (std::size_t i = 0; i < motion.segments(); ++i) {
+    if (i % 1024 == 0) block.beat();
+    Segment segment = motion.segment(i);
+    double from = motion.time(i) - begin;
+    const double to = motion.time(i + 1) - begin;
+    while (next < times && wanted < to) {
+      if (wanted > from) {
+        const double middle = segment.start + (segment.end - segment.start) * ((wanted - from) / segment.duration);
+        go(Segment{wanted - from, segment.start, middle});
+        segment = {to - wanted, middle, segment.end};
+        from = wanted;
+      }
+      keep();
+      wanted = static_cast<double>(next) * dt;
+    }
+    go(segment);
+    if (next < times && wanted == to) {
+      keep();
+      wanted = static_cast<double>(next) * dt;
+    }
+  }
+  while (next < times) keep();  // a last time that rounding put past the end
+}
+
+/// Takes the largest |x| of a member, and beats.
+template <FrictionLaw Law>
+class PeakObserver {
+ public:
+  PeakObserver(const Block& block, std::size_t most_events) : block_(block), most_events_(most_events) {}
+
+  double peak() const noexcept { return peak_; }
+
+  void slide(const Slip& slip) {
+    if constexpr (!ConstantLevelLaw<Law>) beat();
+    peak_ = std::max(peak_, std::abs(slip.to()));
+  }
+  void event(EventKind, double, const State&) {
+    beat();
+    if (++events_ > most_events_) refuse_more_events(most_events_);
+  }
+
+ private:
+  void beat() {
+    if (++beats_ % Recorder<Law>::work_a_beat == 0) block_.beat();
+  }
+  const Block& block_;
+  std::size_t most_events_, events_ = 0;
+  std::uint32_t beats_ = 0;
+  double peak_ = 0;
+};
+
+// One place for all: inlined wherever it is called it would take a compiler minutes.
+template <FrictionLaw Law, class Flows>
+[[gnu::flatten, gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows,
+                                                    const Segment& segment, State& state, PeakObserver<Law>& observer) {
+  advance(slider.law(), flows, segment, state, observer);
+}
+
+/// One member from rest at x = 0, through the event loop of `advance`.
+/// @param settle  goes on without ground acceleration until it rests
+template <FrictionLaw Law>
+void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, const MemberPlace& place) {
+  Block& block = place.block;
+  with_flows(slider, motion.dt(), [&](const auto& flows) {
+    State state;
+    PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
+    go_through(
+        motion, block, [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); },
+        [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); });
+    if (settle)
+      detail::settle(slider, state, [&](double duration) {
+        block.beat();
+        advance_member(slider, flows, Segment{duration, 0, 0}, state, observer);
+      });
+    place.end(observer.peak(), state.displacement);
+  });
+}
+
+/// Whichever slider it is.
+template <class... Sliders>
+void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle,
+                     const MemberPlace& place) {
+  std::visit([&](const auto& one) { simulate_member(one, motion, settle, place); }, slider);
+}
+
+/// Any members, one after the other.
+template <MemberSource Source>
+class MemberSimulator final : public Simulator {
+ public:
+  /// @param source  is referred to
+  MemberSimulator(const Source& source, std::uint64_t seed, bool settle)
+      : source_(source), seed_(seed), settle_(settle) {}
+
+  void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
+    const std::size_t times = block.times().count, width = block.width();
+    displacement_.resize(times * width);
+    velocity_.resize(times * width);
+    for (std::size_t i = 0; i < members; ++i) {
+      const auto& member = source_.member(seed_, first_member + i);
+      naming_member(first_member + i, [&] {
+        const MemberPlace place{block, i, displacement_.data(), velocity_.data()};
+        simulate_member(member.slider, member.motion, settle_, place);
+      });
+    }
+    for (std::size_t k = 0; k < times; ++k) block.row(k, &displacement_[k * width], &velocity_[k * width]);
+  }
+
+ private:
+  const Source& source_;
+  std::uint64_t seed_;
+  bool settle_;
+  std::vector<double> displacement_, velocity_;  // by time and member
+};
+
+}  // namespace stickslip::detail

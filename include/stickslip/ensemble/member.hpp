@@ -1,0 +1,99 @@
+// Where the members of an ensemble come from.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "stickslip/detail/ensemble/describe.hpp"
+#include "stickslip/ensemble/configuration.hpp"
+#include "stickslip/ensemble/times.hpp"
+#include "stickslip/excitation/excitation.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+
+namespace stickslip {
+
+/// A member of an ensemble: what slides, and the motion of the ground under it.
+/// @tparam S, M  a slider and a GroundMotion, or references to what the source keeps
+template <class S, class M>
+struct Member {
+  S slider;
+  M motion;
+};
+
+/// A source of members: (seed, index) names one for ever.
+///
+/// `time_base()` is what all ground motions have in common, or nothing where their durations differ: then there are no
+/// statistics by time. `configuration()` tells all that the members depend on, so that only what belongs together is
+/// merged. The source is asked by many threads at a time.
+template <class T>
+concept MemberSource = requires(const T& source, std::uint64_t number) {
+  source.member(number, number).slider;
+  { source.member(number, number).motion } -> std::convertible_to<const GroundMotion&>;
+  { source.time_base() } -> std::convertible_to<std::optional<TimeBase>>;
+  { source.configuration() } -> std::convertible_to<EnsembleConfiguration>;
+};
+
+/// A source of ground motions: an Excitation, or motions of different durations, as OneOf<GroundMotion>.
+template <class T>
+concept MotionSource = Excitation<T> || requires(const T& motions, std::uint64_t number) {
+  { motions.sample(number, number) } -> std::convertible_to<const GroundMotion&>;
+  { motions.time_base() } -> std::convertible_to<std::optional<TimeBase>>;
+  { motions.configuration() } -> std::convertible_to<std::string>;
+};
+
+/// A source of sliders: RandomSlider, OneOf<Slider<Coulomb>>, or one's own. `configuration()` is what they depend on.
+template <class T>
+concept SliderSource = !MotionSource<T> && requires(const T& sliders, std::uint64_t number) {
+  sliders.sample(number, number);
+  { sliders.configuration() } -> std::convertible_to<std::string>;
+};
+
+/// Members by index: a slider, or one of a source of them, under a motion of a source.
+/// @tparam S  a Slider or ViscousSlider, which all members share, or a SliderSource
+template <class S, MotionSource M>
+class PairedMembers {
+ public:
+  /// Both are referred to, and must outlive this.
+  PairedMembers(const S& sliders, const M& motions) : sliders_(sliders), motions_(motions) {}
+
+  const S& sliders() const noexcept { return sliders_; }
+  const M& motions() const noexcept { return motions_; }
+
+  auto member(std::uint64_t seed, std::uint64_t index) const {
+    using Motion = decltype(motions_.sample(seed, index));
+    if constexpr (SliderSource<S>)
+      return Member<decltype(sliders_.sample(seed, index)), Motion>{sliders_.sample(seed, index),
+                                                                    motions_.sample(seed, index)};
+    else
+      return Member<const S&, Motion>{sliders_, motions_.sample(seed, index)};
+  }
+
+  std::optional<TimeBase> time_base() const {
+    if constexpr (requires { motions_.time_base(); }) {
+      return motions_.time_base();
+    } else {
+      TimeBase base{motions_.duration()};
+      if constexpr (requires { motions_.dt(); }) base.dt = motions_.dt();
+      return base;
+    }
+  }
+
+  EnsembleConfiguration configuration() const {
+    const auto slider = [this] {
+      if constexpr (SliderSource<S>)
+        return sliders_.configuration();
+      else
+        return detail::describe(sliders_);
+    };
+    return {{"slider", slider()}, {"excitation", motions_.configuration()}};
+  }
+
+ private:
+  const S& sliders_;
+  const M& motions_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,78 @@
+// One of a list for each member of an ensemble.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stickslip/detail/ensemble/describe.hpp"
+#include "stickslip/ensemble/times.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+
+namespace stickslip {
+
+/// Which of a list a member has.
+enum class Order {
+  in_turn,  ///< member i has item i modulo the length of the list
+  drawn     ///< each is as likely as any other; (seed, i) fixes it
+};
+
+namespace detail {
+/// The time base of motions of one duration (to 1e-9 of it), with the step that all have, if they have one.
+std::optional<TimeBase> common_time_base(std::span<const GroundMotion> motions);
+/// A place in a list, drawn from a row of random numbers for this purpose alone.
+std::size_t drawn_place(std::uint64_t seed, std::uint64_t member, bool of_motions, std::size_t length);
+}  // namespace detail
+
+/// A list of sliders or of ground motions, of which each member of an ensemble has one. Motions may differ in duration
+/// and step, as recorded ones do; they are kept once, and members refer to them.
+///
+/// A list of sliders and one of motions that are both taken in turn go side by side: where they are of one length,
+/// member i has item i of both.
+/// @tparam T  a slider (which may be a std::variant of several) or GroundMotion
+template <class T>
+class OneOf {
+ public:
+  /// @throws std::invalid_argument  no items
+  explicit OneOf(std::vector<T> items, Order order = Order::in_turn) : items_(std::move(items)), order_(order) {
+    if (items_.empty()) throw std::invalid_argument("OneOf: needs at least one item, got an empty list");
+    const char* const name = order == Order::drawn ? "drawn" : "in turn";
+    if constexpr (of_motions) {
+      time_base_ = detail::common_time_base(items_);
+      configuration_ = detail::describe_list(items_, name);
+    } else {
+      std::vector<std::string> each;
+      for (const T& item : items_) each.push_back(detail::describe(item));
+      configuration_ = detail::describe_list(each, name);
+    }
+  }
+
+  std::span<const T> items() const noexcept { return items_; }
+  Order order() const noexcept { return order_; }
+
+  /// The item of a member.
+  const T& sample(std::uint64_t seed, std::uint64_t member) const {
+    return items_[order_ == Order::drawn ? detail::drawn_place(seed, member, of_motions, items_.size())
+                                         : static_cast<std::size_t>(member % items_.size())];
+  }
+
+  /// What all motions have in common; nothing where their durations differ.
+  std::optional<TimeBase> time_base() const noexcept requires std::same_as<T, GroundMotion> { return time_base_; }
+
+  /// What members depend on, as JSON.
+  const std::string& configuration() const noexcept { return configuration_; }
+
+ private:
+  static constexpr bool of_motions = std::same_as<T, GroundMotion>;
+  std::vector<T> items_;
+  Order order_;
+  std::optional<TimeBase> time_base_;
+  std::string configuration_;
+};
+
+}  // namespace stickslip

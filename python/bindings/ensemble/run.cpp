@@ -1,0 +1,68 @@
+#include "stickslip/ensemble/run.hpp"
+
+#include <atomic>
+#include <memory>
+
+#include "sources.hpp"
+
+namespace stickslip::python {
+namespace {
+
+Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t members, std::uint64_t first_member,
+             std::uint64_t seed, unsigned threads, double dt, bool settle, bool velocity_spectrum,
+             const Ensemble* start, const py::object& heartbeat, const py::object& interrupted) {
+  EnsembleOptions options{members, first_member, seed, threads, dt, settle, velocity_spectrum};
+  std::atomic<bool> ended = false;
+  options.heartbeat = [&](const EnsembleProgress& progress) {
+    const py::gil_scoped_acquire held;
+    // What is there so far is copied only for who asks, and only while it stands still.
+    const auto place = std::make_shared<const Ensemble*>(&progress.so_far);
+    const std::unique_ptr<const Ensemble*, void (*)(const Ensemble**)> shut(place.get(),
+                                                                            [](const Ensemble** p) { *p = nullptr; });
+    const py::cpp_function so_far([place] {
+      if (!*place) throw std::runtime_error("run_ensemble: so_far() is to be called within the heartbeat");
+      return **place;
+    });
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!heartbeat.is_none()) heartbeat(progress.done, progress.members, so_far);
+    } catch (const py::error_already_set&) {
+      ended = true;
+      if (!interrupted.is_none()) interrupted(so_far);
+      throw;
+    }
+  };
+  return with_motions(motions, ended, [&](const auto& these) {
+    return with_sliders(sliders, ended, [&](const auto& those) {
+      const py::gil_scoped_release released;
+      return run_ensemble(those, these, options, start);
+    });
+  });
+}
+
+/// An ensemble of no members yet, for the parts of a run to be merged into.
+Ensemble run_nothing(const py::object& sliders, const py::object& motions, std::uint64_t first_member,
+                     std::uint64_t seed, double dt, bool settle, bool velocity_spectrum) {
+  const py::none nobody;
+  const Ensemble one =  // which tells whether all is as it must be
+      run(sliders, motions, 1, first_member, seed, 1, dt, settle, velocity_spectrum, nullptr, nobody, nobody);
+  const auto& parts = one.parts();
+  return Ensemble(Ensemble::Parts{parts.configuration, parts.times, parts.velocity_spectrum, {}, {}, {}, {}});
+}
+
+}  // namespace
+
+void bind_run_ensemble(py::module_& m) {
+  m.def("run_ensemble", &run, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("members"),
+        py::arg("first_member"), py::arg("seed"), py::arg("threads"), py::arg("dt"), py::arg("settle"),
+        py::arg("velocity_spectrum"), py::arg("start"), py::arg("heartbeat"), py::arg("interrupted"),
+        R"(What `stickslip.run_ensemble` calls, which see.
+
+`heartbeat(done, members, so_far)` is called ten times a second with the interpreter held; `interrupted(so_far)` where
+that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
+  m.def("run_nothing", &run_nothing, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("first_member"),
+        py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("velocity_spectrum"),
+        "The ensemble of a run that has no members yet; simulates one to see that all is as it must be.");
+}
+
+}  // namespace stickslip::python

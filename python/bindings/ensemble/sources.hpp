@@ -1,0 +1,190 @@
+// Where the members of an ensemble come from, as Python has it.
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bindings.hpp"
+#include "drawn.hpp"
+#include "stickslip/detail/ensemble/block.hpp"
+#include "stickslip/ensemble/member.hpp"
+#include "stickslip/ensemble/one_of.hpp"
+
+namespace stickslip::python {
+
+/// A slider of any kind that an ensemble can have.
+using MemberSlider = std::variant<AnySlider, ViscousSlider>;
+
+inline std::string type_of(const py::handle& object) {
+  return py::type::of(object).attr("__name__").cast<std::string>();
+}
+
+/// The slider without a spring that a law makes; nothing if the object is no law.
+template <class... Laws>
+std::optional<AnySlider> slider_of_law(const py::handle& object, const std::variant<Slider<Laws>...>*) {
+  std::optional<AnySlider> slider;
+  const auto take = [&]<class Law>(const Law*) {
+    if (py::isinstance<Law>(object)) slider = Slider<Law>(object.cast<const Law&>());
+  };
+  (take(static_cast<const Laws*>(nullptr)), ...);
+  return slider;
+}
+
+/// The slider that an object is, or that it makes as a law; nothing if it is none. Implicit conversions would need the
+/// frame of a bound function, which threads do not have.
+inline std::optional<MemberSlider> slider_of(const py::handle& object) {
+  if (py::isinstance<ViscousSlider>(object)) return object.cast<const ViscousSlider&>();
+  if (py::isinstance<AnySlider>(object)) return object.cast<const AnySlider&>();
+  if (auto slider = slider_of_law(object, static_cast<const AnySlider*>(nullptr))) return *std::move(slider);
+  return std::nullopt;
+}
+
+/// A source that is written in Python; called by threads that do not hold the interpreter, one at a time. Once the run
+/// has `ended` it is not asked any more.
+class PythonSource {
+ public:
+  /// @param expected  what it must be, for the message if it has no `sample` or `configuration`
+  PythonSource(const py::object& object, const std::atomic<bool>& ended, std::string expected)
+      : expected_(std::move(expected)), sample_(attribute(object, "sample")), ended_(ended) {
+    const py::object configuration = attribute(object, "configuration");
+    configuration_ =
+        py::isinstance<py::str>(configuration)
+            ? configuration.cast<std::string>()
+            : py::module_::import("json").attr("dumps")(configuration, py::arg("sort_keys") = true).cast<std::string>();
+  }
+
+  const std::string& configuration() const noexcept { return configuration_; }
+
+ protected:
+  py::object attribute(const py::object& object, const char* name) const {
+    if (!py::hasattr(object, name))
+      throw py::type_error("run_ensemble: " + expected_ + "; " + type_of(object) + " has no " + name);
+    return object.attr(name);
+  }
+
+  /// What `take` makes of the sample of a member, while the interpreter is held.
+  template <class Take>
+  auto ask(std::uint64_t seed, std::uint64_t member, Take&& take) const {
+    const std::scoped_lock turn(one_at_a_time_);  // before the interpreter's, which whoever is within may let go of
+    if (ended_) throw detail::Block::Stopped{};
+    const py::gil_scoped_acquire held;
+    return take(sample_(py::arg("seed") = seed, py::arg("member") = member));
+  }
+
+ private:
+  std::string expected_;
+  py::object sample_;
+  const std::atomic<bool>& ended_;
+  mutable std::mutex one_at_a_time_;
+  std::string configuration_;
+};
+
+/// Ground motions from Python.
+class PythonMotions : public PythonSource {
+ public:
+  PythonMotions(const py::object& object, const std::atomic<bool>& ended)
+      : PythonSource(object, ended,
+                     "motions must be a GaussianExcitation, PoissonPulses, GroundMotion, a list of GroundMotion, or "
+                     "an object with sample(*, seed, member), duration and configuration") {
+    const py::object duration = attribute(object, "duration");
+    if (duration.is_none()) return;
+    base_ = TimeBase{duration.cast<double>()};
+    detail::require(std::isfinite(base_->duration) && base_->duration > 0,
+                    "run_ensemble: the excitation's duration must be positive and finite", base_->duration, "s");
+    if (py::hasattr(object, "dt") && !object.attr("dt").is_none()) base_->dt = object.attr("dt").cast<double>();
+  }
+
+  GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
+    return ask(seed, member, [&](const py::object& made) {
+      if (!py::isinstance<GroundMotion>(made))
+        throw py::type_error("run_ensemble: the excitation's sample must return a GroundMotion, got " + type_of(made));
+      auto motion = made.cast<GroundMotion>();
+      if (base_ && std::abs(motion.duration() - base_->duration) > 1e-9 * base_->duration)
+        throw std::invalid_argument("run_ensemble: the excitation's motions must last " +
+                                    detail::shortest(base_->duration) + " s, its duration; member " +
+                                    std::to_string(member) + " lasts " + detail::shortest(motion.duration()) + " s");
+      return motion;
+    });
+  }
+
+  std::optional<TimeBase> time_base() const noexcept { return base_; }
+
+ private:
+  std::optional<TimeBase> base_;
+};
+
+/// Sliders from Python.
+class PythonSliders : public PythonSource {
+ public:
+  PythonSliders(const py::object& object, const std::atomic<bool>& ended)
+      : PythonSource(object, ended,
+                     "sliders must be a Slider, Coulomb, Caster or ViscousSlider, a list of these, or an object with "
+                     "sample(*, seed, member) and configuration, as Random") {}
+
+  MemberSlider sample(std::uint64_t seed, std::uint64_t member) const {
+    return ask(seed, member, [&](const py::object& made) {
+      if (auto slider = slider_of(made)) return *std::move(slider);
+      throw py::type_error(
+          "run_ensemble: a sample of sliders must be a Slider, Coulomb, Caster or ViscousSlider; that of member " +
+          std::to_string(member) + " is of type " + type_of(made));
+    });
+  }
+};
+
+/// A list that each member has one of, and whether it is drawn; nothing if the object is neither a list nor Drawn.
+inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& object, const char* name) {
+  if (py::isinstance<Drawn>(object)) return std::pair(py::sequence(object.cast<const Drawn&>().items), Order::drawn);
+  if (!py::isinstance<py::list>(object) && !py::isinstance<py::tuple>(object)) return std::nullopt;
+  if (py::len(object) == 0)
+    throw std::invalid_argument(std::string("run_ensemble: ") + name + " must hold at least one, got an empty list");
+  return std::pair(py::sequence(object), Order::in_turn);
+}
+
+[[noreturn]] inline void refuse_item(const char* name, std::size_t i, const char* expected, const py::handle& item) {
+  throw py::type_error(std::string("run_ensemble: ") + name + "[" + std::to_string(i) + "] must be a " + expected +
+                       ", got " + type_of(item));
+}
+
+/// Calls with the sliders as what they are.
+template <class F>
+auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f) {
+  if (const auto one = slider_of(sliders)) {
+    if (const auto* const viscous = std::get_if<ViscousSlider>(&*one)) return f(*viscous);
+    return std::visit(f, std::get<AnySlider>(*one));
+  }
+  if (const auto list = list_of(sliders, "sliders")) {
+    std::vector<MemberSlider> items;
+    for (const py::handle item : list->first) {
+      auto slider = slider_of(item);
+      if (!slider) refuse_item("sliders", items.size(), "Slider, Coulomb, Caster or ViscousSlider", item);
+      items.push_back(*std::move(slider));
+    }
+    return f(OneOf(std::move(items), list->second));
+  }
+  return f(PythonSliders(sliders, ended));
+}
+
+/// Calls with the ground motions as what they are.
+template <class F>
+auto with_motions(const py::object& motions, const std::atomic<bool>& ended, F&& f) {
+  if (py::isinstance<GaussianExcitation>(motions)) return f(motions.cast<const GaussianExcitation&>());
+  if (py::isinstance<PoissonPulses>(motions)) return f(motions.cast<const PoissonPulses&>());
+  if (py::isinstance<GroundMotion>(motions)) return f(OneOf(std::vector{motions.cast<GroundMotion>()}));
+  if (const auto list = list_of(motions, "motions")) {
+    std::vector<GroundMotion> items;
+    for (const py::handle item : list->first) {
+      if (!py::isinstance<GroundMotion>(item)) refuse_item("motions", items.size(), "GroundMotion", item);
+      items.push_back(item.cast<GroundMotion>());
+    }
+    return f(OneOf(std::move(items), list->second));
+  }
+  return f(PythonMotions(motions, ended));
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,143 @@
+#include "state.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace stickslip::python {
+namespace {
+
+/// What is of another type is refused: converted, it would not be what was saved.
+template <class T>
+py::array_t<T, py::array::c_style> table(const py::dict& state, const char* name, py::ssize_t dimensions) {
+  const py::object value = state[name];
+  if (!py::isinstance<py::array_t<T, 0>>(value) || value.cast<py::array>().ndim() != dimensions)
+    throw std::invalid_argument(std::string("Ensemble: ") + name + " must be an array of " +
+                                std::to_string(dimensions) + " dimensions and type " +
+                                py::str(py::dtype::of<T>()).cast<std::string>());
+  return py::array_t<T, py::array::c_style>::ensure(value);
+}
+
+template <class T>
+std::vector<T> column(const py::dict& state, const char* name) {
+  const auto values = table<T>(state, name, 1);
+  return {values.data(), values.data() + values.size()};
+}
+
+void expect(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("Ensemble: ") + what);
+}
+
+}  // namespace
+
+py::dict state_of(const Ensemble& ensemble) {
+  const Ensemble::Parts& parts = ensemble.parts();
+  const auto& nodes = parts.tallies.nodes();
+  std::vector<std::uint64_t> level, number, count;
+  const std::size_t width = nodes.empty() ? 0 : nodes.begin()->second.sums().size();
+  py::array_t<double> sums({nodes.size(), width});
+  double* row = sums.mutable_data();
+  for (const auto& [place, tally] : nodes) {
+    level.push_back(place.level);
+    number.push_back(place.number);
+    count.push_back(tally.count);
+    row = std::ranges::copy(tally.sums(), row).out;
+  }
+  std::vector<std::uint64_t> cut_block, cut_size, kept_block, kept_size, bin_count;
+  for (const auto& [block, size] : parts.cut) {
+    cut_block.push_back(block);
+    cut_size.push_back(size);
+  }
+  std::vector<double> peak, residual;
+  for (const auto& [block, kept] : parts.kept) {
+    kept_block.push_back(block);
+    kept_size.push_back(kept.peak.size());
+    peak.insert(peak.end(), kept.peak.begin(), kept.peak.end());
+    residual.insert(residual.end(), kept.residual.begin(), kept.residual.end());
+  }
+  std::vector<std::int32_t> bin;
+  for (const auto& [b, n] : parts.peaks.bins()) {
+    bin.push_back(b);
+    bin_count.push_back(n);
+  }
+  py::dict state;
+  state["configuration"] = parts.configuration;
+  state["dt"] = parts.times.dt;
+  state["times"] = parts.times.count;
+  state["velocity_spectrum"] = parts.velocity_spectrum;
+  state["level"] = array_of(std::move(level));
+  state["number"] = array_of(std::move(number));
+  state["count"] = array_of(std::move(count));
+  state["sums"] = sums;
+  state["cut_block"] = array_of(std::move(cut_block));
+  state["cut_size"] = array_of(std::move(cut_size));
+  state["kept_block"] = array_of(std::move(kept_block));
+  state["kept_size"] = array_of(std::move(kept_size));
+  state["peak"] = array_of(std::move(peak));
+  state["residual"] = array_of(std::move(residual));
+  state["bin"] = array_of(std::move(bin));
+  state["bin_count"] = array_of(std::move(bin_count));
+  return state;
+}
+
+Ensemble ensemble_of(const py::dict& state) {
+  Ensemble::Parts parts;
+  parts.configuration = state["configuration"].cast<Ensemble::Configuration>();
+  parts.times = {state["dt"].cast<double>(), state["times"].cast<std::size_t>()};
+  parts.velocity_spectrum = state["velocity_spectrum"].cast<bool>();
+  expect(parts.times.count <= Ensemble::max_times, "there are too many times");
+
+  const auto level = column<std::uint64_t>(state, "level"), number = column<std::uint64_t>(state, "number"),
+             count = column<std::uint64_t>(state, "count");
+  const auto sums = table<double>(state, "sums", 2);
+  const std::size_t frequencies = parts.velocity_spectrum ? parts.times.central() / 2 + 1 : 0;
+  const auto rows = static_cast<std::size_t>(sums.shape(0)), width = static_cast<std::size_t>(sums.shape(1));
+  expect(level.size() == rows && number.size() == rows && count.size() == rows,
+         "level, number, count and sums must go together");
+  // Before any room is made for them.
+  expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies),
+         "sums must have one column for each sum");
+  for (std::size_t i = 0; i < rows; ++i) {
+    constexpr unsigned most = 61;  // blocks have eight members at least
+    expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "a part is at no possible place");
+    const detail::TallyTree::Place place{static_cast<unsigned>(level[i]), number[i]};
+    detail::Tally tally(parts.times.count, frequencies);
+    expect(!parts.tallies.overlaps(place), "two parts hold the same members");
+    tally.count = count[i];
+    std::copy_n(sums.data() + i * width, width, tally.sums().data());
+    parts.tallies.insert(place, std::move(tally));
+  }
+
+  const auto cut_block = column<std::uint64_t>(state, "cut_block"), cut_size = column<std::uint64_t>(state, "cut_size");
+  expect(cut_block.size() == cut_size.size(), "cut_block and cut_size must go together");
+  for (std::size_t i = 0; i < cut_block.size(); ++i) {
+    expect(parts.cut.emplace(cut_block[i], cut_size[i]).second, "a block is cut twice");
+  }
+
+  const auto kept_block = column<std::uint64_t>(state, "kept_block"),
+             kept_size = column<std::uint64_t>(state, "kept_size");
+  const auto peak = column<double>(state, "peak"), residual = column<double>(state, "residual");
+  expect(kept_block.size() == kept_size.size() && peak.size() == residual.size(),
+         "kept_block and kept_size, peak and residual must go together");
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < kept_block.size(); ++i) {
+    expect(kept_size[i] <= peak.size() - from, "a block has more members than peaks");
+    const auto begin = static_cast<std::ptrdiff_t>(from), end = static_cast<std::ptrdiff_t>(from += kept_size[i]);
+    parts.kept.emplace_hint(
+        parts.kept.end(), kept_block[i],
+        Ensemble::Kept{{peak.begin() + begin, peak.begin() + end}, {residual.begin() + begin, residual.begin() + end}});
+  }
+  expect(from == peak.size(), "there are more peaks than members");
+
+  const auto bin = column<std::int32_t>(state, "bin");
+  const auto bin_count = column<std::uint64_t>(state, "bin_count");
+  expect(bin.size() == bin_count.size(), "bin and bin_count must go together");
+  std::map<std::int32_t, std::uint64_t> bins;
+  for (std::size_t i = 0; i < bin.size(); ++i) bins.emplace(bin[i], bin_count[i]);
+  parts.peaks = detail::Sketch::from_bins(std::move(bins));
+  return Ensemble(std::move(parts));
+}
+
+}  // namespace stickslip::python

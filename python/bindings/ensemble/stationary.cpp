@@ -1,0 +1,31 @@
+#include "stickslip/ensemble/stationary.hpp"
+
+#include "parts.hpp"
+#include "statistics/estimate.hpp"
+
+namespace stickslip::python {
+
+void bind_stationary(py::module_& m) {
+  value_class<Stationary>(m, "Stationary",
+                          R"(Averages over the central half of the motions, thesis 4.4, with standard errors.
+
+The errors are those of the scatter between members.)")
+      .def_readonly("begin", &Stationary::begin, "From when on it was averaged [s].")
+      .def_readonly("end", &Stationary::end, "Until when [s].")
+      .def_readonly("velocity_mean", &Stationary::velocity_mean, "Of x' [m/s].")
+      .def_readonly("velocity_variance", &Stationary::velocity_variance, "Of x' [m^2/s^2].")
+      .def_readonly("velocity_kurtosis", &Stationary::velocity_kurtosis,
+                    "Mean fourth power over the variance squared (Gaussian: 3, Laplace: 6); NaN at rest.")
+      .def_readonly("covariance", &Stationary::covariance,
+                    "Of x and x' [m^2/s]: half of the growth rate, thesis (5.59), with more scatter.")
+      .def_readonly("growth_rate", &Stationary::growth_rate,
+                    R"(Growth of the displacement variance [m^2/s].
+
+Of D(t) = Var[x(begin + t) - x(begin)]: (D(T) - D(T/2)) / (T/2), with T from begin to end. What does not grow cancels.)")
+      .def("__repr__", [](const Stationary& s) {
+        return "<Stationary: from " + digits(s.begin) + " to " + digits(s.end) + " s, velocity_variance " +
+               with_error(s.velocity_variance) + " m^2/s^2, growth_rate " + with_error(s.growth_rate) + " m^2/s>";
+      });
+}
+
+}  // namespace stickslip::python

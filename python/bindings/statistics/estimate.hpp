@@ -1,0 +1,16 @@
+// How figures with errors are written.
+#pragma once
+
+#include <string>
+
+#include "stickslip/statistics/tally.hpp"
+
+namespace stickslip::python {
+
+/// A number to four significant digits.
+std::string digits(double value);
+
+/// As "0.59712 +- 0.00021": the error to two digits, the value as far.
+std::string with_error(const Estimate& estimate);
+
+}  // namespace stickslip::python

@@ -1,0 +1,27 @@
+"""The error of a run that broke off."""
+
+from __future__ import annotations
+
+from .._core import Ensemble
+
+
+class EnsembleError(RuntimeError):
+    """A part of an ensemble failed in its executor, or its checkpoint could not be written.
+
+    `__cause__` is the exception raised there.
+
+    Attributes
+    ----------
+    members : range
+        Those that the part was to simulate; none if it was the checkpoint.
+    partial : Ensemble
+        What was done; also in the checkpoint, unless that could not be written.
+    """
+
+    def __init__(self, message: str, members: range, partial: Ensemble) -> None:
+        super().__init__(message)
+        self.members = members
+        self.partial = partial
+
+    def __reduce__(self) -> tuple[type[EnsembleError], tuple[str, range, Ensemble]]:
+        return type(self), (str(self), self.members, self.partial)

@@ -1,0 +1,150 @@
+"""The parts of a run that go to an executor."""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from typing import Any
+
+from .. import _core
+from .._core import Ensemble
+from .checkpoint import Checkpoint
+from .error import EnsembleError
+from .progress import Progress
+from .sources import AnyMotions, AnySliders
+
+
+def _run_part(
+    sliders: AnySliders,
+    motions: AnyMotions,
+    options: dict[str, Any],
+    first: int,
+    members: int,
+) -> tuple[Ensemble, float]:
+    """A part, and how long it took [s]; a function of the module, so that it pickles."""
+    began = time.perf_counter()
+    part = _core.run_ensemble(
+        sliders,
+        motions,
+        members=members,
+        first_member=first,
+        threads=1,
+        start=None,
+        heartbeat=None,
+        interrupted=None,
+        **options,
+    )
+    return part, time.perf_counter() - began
+
+
+class Parts:
+    """The members of a run, cut in parts that go to an executor, and merged as they come back.
+
+    A part is 2^k blocks on a multiple of 2^k, which the sums merge to one set. Its size follows
+    from the time that those before it took, and falls towards the end, so that all end together.
+    """
+
+    SECONDS = 1.0  # that a part is to take
+    MEMORY = 2**29  # bytes that results may take which have not been merged yet
+    MOST = 1024  # parts under way
+
+    def __init__(
+        self,
+        executor: Executor,
+        sliders: AnySliders,
+        motions: AnyMotions,
+        options: dict[str, Any],
+        first: int,
+        members: int,
+        start: Ensemble | None,
+    ) -> None:
+        self.executor = executor
+        self.what = (sliders, motions, options)
+        self.members = members
+        self.whole = _core.run_nothing(sliders, motions, first_member=first, **options)
+        self.block = self.whole.block
+        if start is not None:
+            self.whole.merge(start)
+        self.gaps = self._gaps(first, first + members)
+        self.todo = sum(map(len, self.gaps))
+        self.flying: dict[Future[tuple[Ensemble, float]], range] = {}
+        self.size = 1  # blocks in the next part
+        self.window = 8  # parts under way; opens with each that comes back
+        times = len(self.whole.time)
+        self.bytes_of_part = 8 * times * (13 if options["velocity_spectrum"] else 12)
+
+    def run(self, show: Progress, keeper: Checkpoint) -> Ensemble:
+        try:
+            while self.gaps or self.flying:
+                while self.gaps and len(self.flying) < self.window:
+                    self._submit()
+                finished, _ = wait(self.flying, timeout=0.1, return_when=FIRST_COMPLETED)
+                self._take(finished)
+                show(self.members - self.todo, self.members)
+                keeper.save_if_due(lambda: self.whole)
+        except BaseException:
+            for future in self.flying:
+                future.cancel()
+            keeper.save(self.whole)
+            raise
+        show(self.members, self.members)
+        return self.whole
+
+    def _gaps(self, first: int, past: int) -> list[range]:
+        """The members that are not there yet, the last first."""
+        gaps, at = [], first
+        for begin, end in self.whole.member_ranges:
+            if at < min(begin, past):
+                gaps.append(range(at, min(begin, past)))
+            at = max(at, end)
+        if at < past:
+            gaps.append(range(at, past))
+        for gap in gaps:
+            if gap.start % self.block:
+                raise ValueError(
+                    f"run_ensemble: what is to be gone on from ends at member {gap.start}, within"
+                    f" a block of {self.block}"
+                )
+        return gaps[::-1]
+
+    def _submit(self) -> None:
+        fair = max(1, sum(map(len, self.gaps)) // self.block // 16)
+        gap = self.gaps.pop()
+        place = gap.start // self.block
+        size = min(self.size, place & -place or self.size, 1 << fair.bit_length() - 1)
+        part = gap[: size * self.block]
+        try:
+            future = self.executor.submit(_run_part, *self.what, part.start, len(part))
+        except Exception as error:  # as of a pool whose processes are gone
+            raise self._failed(part, error) from error
+        self.flying[future] = part
+        if len(part) < len(gap):
+            self.gaps.append(gap[len(part) :])
+
+    def _take(self, finished: set[Future[tuple[Ensemble, float]]]) -> None:
+        failed: list[tuple[range, BaseException]] = []
+        for future in finished:
+            members = self.flying.pop(future)
+            try:
+                part, seconds = future.result()
+            except Exception as error:
+                failed.append((members, error))
+                continue
+            self.whole.merge(part)
+            self.todo -= len(members)
+            blocks = -(-len(members) // self.block)
+            wanted = max(1, int(blocks * self.SECONDS / max(seconds, 1e-3)))
+            self.size = min(4 * self.size, 1 << wanted.bit_length() - 1)
+            room = self.MEMORY // (self.bytes_of_part + 16 * self.size * self.block)
+            self.window = max(4, min(self.window + 1, room, self.MOST))
+        for members, error in failed:
+            raise self._failed(members, error) from error
+
+    def _failed(self, members: range, error: BaseException) -> EnsembleError:
+        return EnsembleError(
+            f"run_ensemble: members {members[0]} to {members[-1]} failed in the executor:"
+            f" {type(error).__name__}: {error}; .partial has the {self.whole.members} members that"
+            " are done",
+            members,
+            self.whole,
+        )

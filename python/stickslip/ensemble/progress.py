@@ -1,0 +1,79 @@
+"""How far a run has come, on stderr."""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeAlias
+
+Progress: TypeAlias = Callable[[int, int], object]
+
+
+@contextmanager
+def shown(progress: bool | Progress) -> Iterator[Progress]:
+    if callable(progress):
+        yield progress
+    elif progress not in (True, False, None):
+        raise TypeError(f"run_ensemble: progress must be True, False or callable, got {progress!r}")
+    elif progress and sys.stderr is not None:
+        bar = _Bar()
+        try:
+            yield bar
+        finally:
+            bar.close()
+    else:
+        yield lambda done, total: None
+
+
+class _Bar:
+    """How far a run has come, in one line of stderr, or in lines where that is no terminal."""
+
+    def __init__(self) -> None:
+        self.stream = sys.stderr
+        self.in_place = self.stream.isatty()
+        self.began: tuple[float, int] | None = None  # [s], members
+        self.tenths = 0
+        self.width = 0
+
+    def __call__(self, done: int, total: int) -> None:
+        now = time.monotonic()
+        if self.began is None:  # what a checkpoint had is no speed
+            self.began = now, done
+        seconds, fresh = now - self.began[0], done - self.began[1]
+        line = f"{done:,} of {total:,} members"
+        if seconds > 0 and fresh > 0:
+            speed = fresh / seconds
+            left = (total - done) / speed
+            line += f", {_round(speed)}/s, " + (
+                f"{_span(left)} left" if done < total else _span(seconds)
+            )
+        if self.in_place:
+            filled = 24 * done // total
+            line = f"[{'#' * filled}{'.' * (24 - filled)}] {100 * done // total:3d} %  {line}"
+            self.stream.write("\r" + line.ljust(self.width))
+            self.width = len(line)
+        elif 10 * done // total > self.tenths:
+            self.tenths = 10 * done // total
+            self.stream.write(f"{100 * done // total:3d} %  {line}\n")
+        self.stream.flush()
+
+    def close(self) -> None:
+        if self.width:
+            self.stream.write("\n")
+            self.stream.flush()
+
+
+def _round(speed: float) -> str:
+    """Two digits or so, as 210,000."""
+    step = 10 ** max(0, math.floor(math.log10(max(speed, 1))) - 1)
+    return f"{round(speed / step) * step:,}" if speed >= 10 else f"{speed:.2g}"
+
+
+def _span(seconds: float) -> str:
+    if seconds < 100:
+        return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60:02d} min"

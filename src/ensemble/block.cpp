@@ -1,0 +1,138 @@
+#include "stickslip/detail/ensemble/block.hpp"
+
+#include <fftw3.h>
+#include <gsl/gsl_sf_bessel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+#include "numerics/fftw_plan.hpp"
+#include "simd/row_moments.hpp"
+#include "stickslip/ensemble/ensemble.hpp"
+
+namespace stickslip::detail {
+
+/// Periodograms of the velocities of a block.
+struct Block::Spectrum {
+  explicit Spectrum(std::size_t samples) : window(samples), real(row_padding * samples), complex(samples / 2 + 1) {
+    // Kaiser-Bessel window, thesis (4.62), with a mean square of one.
+    constexpr double beta = 8;
+    const auto half = static_cast<double>(samples) / 2;
+    double squares = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double from_middle = samples == 1 ? 0 : (static_cast<double>(i) - half) / half;
+      window[i] = gsl_sf_bessel_I0(beta * std::sqrt(1 - from_middle * from_middle));
+      squares += window[i] * window[i];
+    }
+    for (double& w : window) w *= std::sqrt(static_cast<double>(samples) / squares);
+    plan = make_plan([&] {
+      return fftw_plan_dft_r2c_1d(static_cast<int>(samples), real.data(), output(), FFTW_ESTIMATE | FFTW_UNALIGNED);
+    });
+  }
+
+  fftw_complex* output() { return reinterpret_cast<fftw_complex*>(complex.data()); }
+
+  std::vector<double> window, real;
+  std::vector<std::complex<double>> complex;
+  FftwPlan plan;
+};
+
+Block::Block(const EnsembleTimes& times, bool velocity_spectrum, const std::atomic<bool>& stopped)
+    : times_(times),
+      width_(Ensemble::block(times.count)),
+      stopped_(stopped),
+      peak_(width_),
+      residual_(width_),
+      central_(4 * width_),
+      marks_(3 * width_) {
+  if (velocity_spectrum) {
+    spectrum_ = std::make_unique<Spectrum>(times.central());
+    velocities_.resize(times.central() * width_);
+  }
+}
+
+Block::~Block() = default;
+
+void Block::begin(std::size_t members) {
+  members_ = members;
+  tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0);
+  tally_.count = members;
+  std::fill(central_.begin(), central_.end(), 0.0);
+}
+
+void Block::row(std::size_t time, const double* displacement, const double* velocity) {
+  double* const sums = central_.data();
+  const CentralSums central{sums, sums + width_, sums + 2 * width_, sums + 3 * width_};
+  const std::size_t begin = times_.begin(), length = times_.central();
+  const bool is_central = time >= begin && time < begin + length;
+  row_moments(displacement, velocity, members_, tally_.sums().data() + time, times_.count,
+              is_central ? &central : nullptr);
+  if (is_central && spectrum_) std::copy_n(velocity, width_, velocities_.data() + (time - begin) * width_);
+  const std::size_t marks[] = {begin, begin + length / 2, begin + length};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (time == marks[i]) std::copy_n(displacement, width_, marks_.data() + i * width_);
+}
+
+Tally Block::finish() {
+  if (times_.count == 0) return std::move(tally_);
+  const auto n = static_cast<double>(members_);
+  const auto length = static_cast<double>(times_.central());
+  const double* const sums = central_.data();
+  const double* const marks = marks_.data();
+
+  double mean_half = 0, mean_whole = 0;
+  for (std::size_t i = 0; i < members_; ++i) {
+    mean_half += (marks[width_ + i] - marks[i]) / n;
+    mean_whole += (marks[2 * width_ + i] - marks[i]) / n;
+  }
+  const double second_half = static_cast<double>(times_.central() - times_.central() / 2) * times_.dt;
+  // Squares about the mean of a few members are too small by this.
+  const double unbiased = n > 1 ? n / (n - 1) : 1;
+  std::vector<std::array<double, features>> values(members_);
+  for (std::size_t i = 0; i < members_; ++i) {
+    const double half = marks[width_ + i] - marks[i], whole = marks[2 * width_ + i] - marks[i];
+    const double e = half - mean_half, f = whole - mean_whole;
+    values[i] = {sums[i] / length,
+                 half,
+                 whole,
+                 unbiased * sums[width_ + i] / length,
+                 unbiased * unbiased * sums[2 * width_ + i] / length,
+                 unbiased * sums[3 * width_ + i] / length,
+                 unbiased * (f * f - e * e) / second_half};
+    for (std::size_t a = 0; a < features; ++a) tally_.mean(a) += values[i][a] / n;
+  }
+  for (const auto& value : values)
+    for (std::size_t a = 0; a < features; ++a)
+      for (std::size_t b = 0; b < features; ++b)
+        tally_.scatter(a, b) += (value[a] - tally_.mean(a)) * (value[b] - tally_.mean(b));
+
+  if (spectrum_) {
+    // Density of one member: |dt DFT|^2 / (2 pi M dt).
+    Spectrum& s = *spectrum_;
+    const double scale = times_.dt / (2 * std::numbers::pi * length);
+    const std::span<double> mean = tally_.density_mean(), scatter = tally_.density_scatter();
+    const std::size_t samples = s.window.size();
+    for (std::size_t first = 0; first < members_; first += row_padding) {
+      for (std::size_t k = 0; k < samples; ++k)  // a line of memory at a time
+        for (std::size_t i = 0; i < row_padding; ++i)
+          s.real[i * samples + k] = s.window[k] * velocities_[k * width_ + first + i];
+      for (std::size_t i = 0; i < std::min(row_padding, members_ - first); ++i) {
+        fftw_execute_dft_r2c(s.plan.get(), &s.real[i * samples], s.output());
+        const double share = 1 / static_cast<double>(first + i + 1), weight = static_cast<double>(first + i) * share;
+        for (std::size_t k = 0; k < mean.size(); ++k) {
+          const double re = s.complex[k].real(), im = s.complex[k].imag();
+          const double density = scale * (re * re + im * im), difference = density - mean[k];
+          mean[k] += share * difference;
+          scatter[k] += weight * difference * difference;
+        }
+      }
+    }
+  }
+  return std::move(tally_);
+}
+
+}  // namespace stickslip::detail

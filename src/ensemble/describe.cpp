@@ -1,0 +1,73 @@
+#include "stickslip/detail/ensemble/describe.hpp"
+
+#include <bit>
+
+#include "detail/json.hpp"
+
+namespace stickslip::detail {
+std::string parameters(const Coulomb& law) {
+  return "\"law\": \"Coulomb\", \"slip_level\": " + json(law.forward()) + ", \"backward\": " + json(law.backward());
+}
+
+std::string parameters(const Caster& law) {
+  return "\"law\": \"Caster\", \"slip_level\": " + json(law.slip_level()) + ", \"reach\": " + json(law.reach());
+}
+
+std::string parameters(const char* type, std::span<const double> levels) {
+  return std::string("\"law\": \"") + type + "\", \"levels\": " + json(levels);
+}
+
+std::string describe(const std::string& law, double natural_frequency, double damping) {
+  return "{" + law + ", \"natural_frequency\": " + json(natural_frequency) +
+         (damping > 0 ? ", \"damping\": " + json(damping) : "") + "}";
+}
+
+std::string describe(const ViscousSlider& slider) {
+  return "{\"law\": \"viscous\", \"damping\": " + json(slider.damping()) +
+         ", \"natural_frequency\": " + json(slider.natural_frequency()) + "}";
+}
+
+namespace {
+
+// A digest of 64 bits, word by word, each mixed as by splitmix64 (Steele, Lea and Flood 2014).
+class Digest {
+ public:
+  void add(std::uint64_t word) noexcept {
+    std::uint64_t z = (hash_ ^ word) + 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    hash_ = z ^ (z >> 31);
+  }
+  void add(double value) noexcept { add(std::bit_cast<std::uint64_t>(value)); }
+
+  std::string text() const {
+    std::string digits;
+    for (int shift = 60; shift >= 0; shift -= 4) digits += "0123456789abcdef"[(hash_ >> shift) & 15];
+    return digits;
+  }
+
+ private:
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace
+
+std::string describe_list(const std::vector<std::string>& sliders, const char* order) {
+  std::string text;
+  for (const std::string& slider : sliders) text += (text.empty() ? "" : ", ") + slider;
+  return "{\"one_of\": [" + text + "], \"order\": \"" + order + "\"}";
+}
+
+std::string describe_list(std::span<const GroundMotion> motions, const char* order) {
+  Digest digest;
+  for (const GroundMotion& motion : motions) {
+    digest.add(std::uint64_t{motion.samples()});
+    digest.add(std::uint64_t{motion.interpolation() == Interpolation::constant});
+    for (const double acceleration : motion.acceleration()) digest.add(acceleration);
+    for (std::size_t i = 0; i < motion.segments(); ++i) digest.add(motion.segment(i).duration);
+  }
+  return "{\"motions\": " + std::to_string(motions.size()) + ", \"digest\": \"" + digest.text() + "\", \"order\": \"" +
+         order + "\"}";
+}
+
+}  // namespace stickslip::detail

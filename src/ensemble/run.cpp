@@ -1,0 +1,157 @@
+#include "stickslip/ensemble/run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace stickslip::detail {
+namespace {
+
+void check(const EnsembleOptions& options, std::size_t block) {
+  if (options.members == 0) throw std::invalid_argument("run_ensemble: members must be at least 1, got 0");
+  if (options.first_member % block != 0)
+    throw std::invalid_argument("run_ensemble: first_member must be a multiple of " + std::to_string(block) +
+                                ", the members in a block, got " + std::to_string(options.first_member));
+  if (options.members > UINT64_MAX - options.first_member)
+    throw std::invalid_argument("run_ensemble: first_member + members must be less than 2^64, got members = " +
+                                std::to_string(options.members));
+}
+
+// Threads that are waited for, come what may.
+class Threads {
+ public:
+  Threads() = default;
+  ~Threads() { join(); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+  template <class Work>
+  void start(const Work& work) {
+    threads_.emplace_back(work);
+  }
+  void join() {
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+  }
+
+ private:
+  std::vector<std::thread> threads_;
+};
+
+// Throws where motions are so large that their statistics could overflow.
+void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
+  const auto refuse = [](const std::string& got) {
+    throw std::overflow_error("run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
+                              shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
+  };
+  for (std::size_t i = 0; i < kept.peak.size(); ++i)
+    for (const double x : {kept.peak[i], std::abs(kept.residual[i])})
+      if (!(x <= Tally::max_motion))
+        refuse("a displacement of " + shortest(x) + " m in member " + std::to_string(first + i));
+  const auto time = tally.out_of_range();
+  if (!time) return;
+  const std::string members = "members " + std::to_string(first) + " to " + std::to_string(first + tally.count - 1);
+  if (*time < times.count)
+    refuse("more for " + members + " at " + shortest(static_cast<double>(*time) * times.dt) + " s");
+  throw std::overflow_error("run_ensemble: velocity spectrum or growth rate overflows for " + members);
+}
+
+}  // namespace
+
+Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& times, const EnsembleOptions& options,
+                      const Ensemble* start, const MakeSimulator& make_simulator) {
+  const std::size_t block_size = Ensemble::block(times.count);
+  check(options, block_size);
+  Ensemble::Parts empty;
+  empty.configuration = std::move(configuration);
+  empty.times = times;
+  empty.velocity_spectrum = options.velocity_spectrum;
+  Ensemble ensemble(std::move(empty));
+  if (start) ensemble.merge(*start);
+
+  const std::uint64_t first_block = options.first_member / block_size;
+  const std::uint64_t blocks = (options.members + block_size - 1) / block_size;
+  const auto members_of = [&](std::uint64_t block) {
+    const std::uint64_t before = (block - first_block) * block_size;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(block_size, options.members - before));
+  };
+  for (const auto& [block, members] : ensemble.parts().cut)
+    if (block >= first_block && block - first_block < blocks && members_of(block) != members)
+      throw std::invalid_argument("run_ensemble: start holds only " + std::to_string(members) + " members from " +
+                                  std::to_string(block * block_size) + " on, part of a block of " +
+                                  std::to_string(block_size) +
+                                  "; what is to be gone on from must end on a whole block");
+
+  std::mutex mutex;  // guards all that follows, and the ensemble
+  std::condition_variable changed;
+  std::atomic<bool> stopped = false;
+  std::exception_ptr failure;
+  std::uint64_t next = 0, done = 0;
+  unsigned working = 0;
+
+  const auto work = [&] {
+    try {
+      const std::unique_ptr<Simulator> simulator = make_simulator();
+      Block block(times, options.velocity_spectrum, stopped);
+      for (;;) {
+        std::uint64_t number = 0;
+        {
+          const std::scoped_lock lock(mutex);
+          while (next < blocks && ensemble.parts().tallies.overlaps({0, first_block + next}))
+            done += members_of(first_block + next++);
+          if (next == blocks || stopped) break;
+          number = first_block + next++;
+        }
+        const std::size_t members = members_of(number);
+        block.begin(members);
+        simulator->simulate(number * block_size, members, block);
+        Tally tally = block.finish();
+        Ensemble::Kept kept;
+        kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
+        kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
+        check_range(kept, tally, times, number * block_size);
+        const std::scoped_lock lock(mutex);
+        ensemble.insert(number, std::move(tally), std::move(kept));
+        done += members;
+      }
+    } catch (const Block::Stopped&) {
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!failure) failure = std::current_exception();
+      stopped = true;
+    }
+    const std::scoped_lock lock(mutex);
+    --working;
+    changed.notify_all();
+  };
+
+  const std::uint64_t wanted =
+      options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  working = static_cast<unsigned>(std::min(wanted, blocks));
+  Threads threads;
+  try {
+    const unsigned count = working;
+    for (unsigned i = 0; i < count; ++i) threads.start(work);
+    std::unique_lock lock(mutex);
+    const auto beat = [&] {
+      if (options.heartbeat) options.heartbeat({done, options.members, ensemble});
+    };
+    while (!changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; })) beat();
+    if (!failure) beat();
+  } catch (...) {
+    stopped = true;
+    threads.join();
+    throw;
+  }
+  threads.join();
+  if (failure) std::rethrow_exception(failure);
+  return ensemble;
+}
+
+}  // namespace stickslip::detail
