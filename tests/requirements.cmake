@@ -1,11 +1,11 @@
-# Compiles each public header by COMPILER with options that stickslip refuses: one #error that says why, and an end.
+# Preprocesses each public header by COMPILER with options that stickslip refuses: one #error that says why, and an end.
 function(expect_refusal reason)
   file(GLOB_RECURSE headers RELATIVE ${INCLUDE} ${INCLUDE}/*.hpp)
   foreach(header IN LISTS headers)
     file(WRITE ${FOLDER}/refused.cpp "#include \"${header}\"\n")
     execute_process(
-      COMMAND ${COMPILER} ${ARGN} -I${INCLUDE} -fsyntax-only ${FOLDER}/refused.cpp
-      RESULT_VARIABLE result ERROR_VARIABLE output)
+      COMMAND ${COMPILER} ${ARGN} -I${INCLUDE} -E ${FOLDER}/refused.cpp
+      RESULT_VARIABLE result ERROR_VARIABLE output OUTPUT_QUIET)
     string(REGEX MATCHALL "error: [^\n]*" errors "${output}")
     list(LENGTH errors count)
     list(GET errors 0 first)

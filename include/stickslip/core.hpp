@@ -8,7 +8,6 @@
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/harmonic/orbits.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/integrate.hpp"

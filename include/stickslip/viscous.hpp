@@ -1,13 +1,13 @@
 // A mass on a viscous damper: the linear system that stands in for a slider on friction.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/sliding/integrate.hpp"

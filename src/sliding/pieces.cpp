@@ -177,3 +177,7 @@ void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state,
 }
 
 }  // namespace stickslip::detail
+
+namespace stickslip {
+template Response integrate_by_pieces(const Slider<Coulomb>&, const GroundMotion&, const IntegrateOptions&, Response);
+}  // namespace stickslip

@@ -6,6 +6,7 @@
 #include <stickslip/friction/caster.hpp>
 #include <stickslip/friction/coulomb.hpp>
 #include <stickslip/ground/harmonic_motion.hpp>
+#include <stickslip/harmonic/continuation.hpp>
 #include <stickslip/harmonic/orbits.hpp>
 #include <stickslip/sliding/integrate.hpp>
 #include <stickslip/theory/slowly_varying_parameters.hpp>

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "ground/harmonic_reference.hpp"
+#include "stickslip/harmonic/continuation.hpp"
+#include "stickslip/harmonic/orbits.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

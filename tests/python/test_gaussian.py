@@ -233,7 +233,8 @@ EXCITATIONS = [
 ]
 
 
-@pytest.mark.parametrize("e", EXCITATIONS, ids=repr)
+# A function's address is another in each process that pytest-xdist starts.
+@pytest.mark.parametrize("e", EXCITATIONS, ids=lambda e: repr(e).split(" at 0x")[0])
 def test_an_excitation_survives_pickling_and_copying(e):
     n = e.sample(seed=5, member=6).acceleration
     for twin in (pickle.loads(pickle.dumps(e)), copy.copy(e), copy.deepcopy(e)):

@@ -14,16 +14,6 @@
 
 #include "stickslip/core.hpp"
 
-// Compiled once, in motions.cpp, not in each of the tests: sanitized, these take tens of seconds.
-namespace stickslip {
-#define STICKSLIP_TEST_INTEGRATE(Law, Motion) \
-  template Response integrate<Law, Motion>(const Slider<Law>&, const Motion&, const IntegrateOptions&, Response)
-extern STICKSLIP_TEST_INTEGRATE(Coulomb, GroundMotion);
-extern STICKSLIP_TEST_INTEGRATE(Coulomb, HarmonicMotion);
-extern STICKSLIP_TEST_INTEGRATE(Caster, GroundMotion);
-extern STICKSLIP_TEST_INTEGRATE(Caster, HarmonicMotion);
-}  // namespace stickslip
-
 namespace test {
 
 using namespace stickslip;

@@ -1,16 +1,16 @@
 // Keeps the account of a motion while it is computed, or none.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/function.hpp"
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/sliding/advance.hpp"

@@ -1,13 +1,13 @@
 // A slider through a whole motion of the ground, piece by piece.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/sliding/advance.hpp"

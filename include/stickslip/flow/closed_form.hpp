@@ -1,10 +1,10 @@
 // Constant friction between two events, in closed form.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/requirements.hpp"
 
 namespace stickslip {
@@ -40,7 +40,7 @@ namespace detail {
 
 /// The roots are formed again from numbers near 1, where their squares leave the range of doubles.
 [[gnu::noinline]] inline double first_root_scaled(double u, double a, double j) noexcept {
-  const double largest = std::max({u, std::abs(a), std::abs(j)});
+  const double largest = std::max(u, std::max(std::abs(a), std::abs(j)));
   const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
   u = std::ldexp(u, exponent), a = std::ldexp(a, exponent), j = std::ldexp(j, exponent);
   const double root = std::sqrt(a * a - 2 * j * u);

@@ -1,11 +1,11 @@
 // Constant friction under a load that is a cosine in time: the displacement is a parabola and a cosine.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/oscillator.hpp"
 #include "stickslip/state.hpp"

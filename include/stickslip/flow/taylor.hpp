@@ -1,13 +1,13 @@
 // Friction that varies with position, by a Taylor series of high order.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
@@ -182,7 +182,7 @@ class TaylorFlow {
         start_(start),
         gain_(detail::gain_series(start, duration)),
         level_here_(resist(slider.law(), displacement, direction, start.speed)),
-        horizon_(std::min({duration, longest, gain_.reach(slider.natural_frequency())})) {
+        horizon_(std::min(std::min(duration, longest), gain_.reach(slider.natural_frequency()))) {
     // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
     // the way at most.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
@@ -352,7 +352,8 @@ class TaylorFlow {
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
       end_series(k + 2);
       // On breaking away x is a cubic, and two of three coefficients of the level are zero.
-      const double recent_level = std::max({std::abs(level[k]), std::abs(level[k - 1]), std::abs(level[k - 2])});
+      const double recent_level =
+          std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
       // From rest, or nearly so, x may also come back to its start at the horizon, where nothing would then be noticed.
       const bool fast = start_.speed > fastest_ / 16;
       if (recent_level <= largest_level && (fast || balanced(0.6)) && balanced(1)) return 1;
@@ -387,8 +388,8 @@ class TaylorFlow {
   // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
   double time_to_half_way() const noexcept {
     const double third = std::abs(displacement_) / 6;
-    return std::min({third / start_.speed, std::sqrt(third / std::abs(start_.acceleration)),
-                     std::cbrt(third) / std::cbrt(gain_.steepest())});
+    return std::min(std::min(third / start_.speed, std::sqrt(third / std::abs(start_.acceleration))),
+                    std::cbrt(third) / std::cbrt(gain_.steepest()));
   }
 
   // 1/k, for k = 1 to twice the highest order.

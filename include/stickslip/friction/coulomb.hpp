@@ -1,11 +1,11 @@
 // Coulomb friction: the same slip level everywhere.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/units.hpp"

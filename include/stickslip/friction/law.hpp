@@ -1,9 +1,9 @@
 // What a friction law is.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {

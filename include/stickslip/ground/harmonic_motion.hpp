@@ -1,13 +1,13 @@
 // The ground that moves with one frequency.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 

@@ -4,10 +4,10 @@
 // rest, and the start of a flow, which knows how the load goes on from there.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/state.hpp"

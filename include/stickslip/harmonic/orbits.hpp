@@ -7,7 +7,6 @@
 #include <complex>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -18,56 +17,13 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
+#include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
-
-/// A periodic motion under -n(t) = B cos(omega t), thesis (2.28), symmetric: x(t + T/2) = -x(t), T = 2 pi / omega.
-struct Orbit {
-  double load;       ///< B, amplitude of the load [m/s^2]
-  double omega;      ///< [rad/s]
-  double amplitude;  ///< half the way from the lowest x to the highest [m]; 0 for the rest at x = 0
-  double phase;      ///< of x = amplitude cos(omega t + phase): -omega times the time at which x first comes to its
-                     ///< highest value, in (-pi, pi] [rad]; NaN at rest. Thesis (2.2), (2.17) as corrected
-
-  int stops_per_cycle;      ///< arrests: times it sticks
-  int reversals_per_cycle;  ///< turns without a stop
-
-  /// Floquet multipliers of the half-period map (x, x') -> -(x, x')(T/2 later), the larger one first: what it makes of
-  /// a small change of the state. One is 0 where the slider stops. Those of the whole period are their squares.
-  std::array<std::complex<double>, 2> half_period_multipliers;
-  std::array<std::complex<double>, 2> multipliers;
-
-  /// Whether no small change grows: no multiplier beyond the unit circle, by more than 1e-10. One on it is neutral:
-  /// Coulomb friction without a spring cares for no mean position, and a rest stays where it is put.
-  bool stable;
-
-  /// Whether the mean position is arbitrary (Coulomb friction without a spring); what is given is the orbit around 0.
-  bool mean_arbitrary;
-
-  State state;                ///< at t = 0; `integrate` started from it stays on the orbit
-  std::vector<Event> events;  ///< of one period from t = 0, without an end
-  double dissipated;          ///< work against friction in a period, as much as the ground's input [m^2/s^2]
-
-  double period() const noexcept { return 2 * std::numbers::pi / omega; }
-  bool at_rest() const noexcept { return amplitude == 0; }
-};
-
-/// Orbits that hang together, along the response curve.
-struct OrbitBranch {
-  std::vector<Orbit> orbits;       ///< in order along the curve
-  std::vector<std::size_t> folds;  ///< indices of the orbits at which the curve turns back in frequency
-};
-
-struct ContinuationOptions {
-  double largest_step = 0.05;  ///< part by which state and frequency may change from orbit to orbit, up to 0.5
-  double largest_amplitude = std::numeric_limits<double>::infinity();  ///< the branch is left beyond it [m]
-  std::size_t most_orbits = 10'000;                                    ///< each way
-  std::function<void()> heartbeat{};  ///< called at each orbit; may throw to end the work
-};
 
 namespace detail {
 
@@ -521,233 +477,6 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
   }
 }
 
-/// Follows one curve of orbits as the frequency changes, by pseudo-arclength: the next orbit is sought on a line across
-/// the way that the last two point, along which the frequency may turn back.
-template <FrictionLaw Law>
-class BranchFollower {
- public:
-  BranchFollower(const Slider<Law>& slider, double load, double low, double high, const ContinuationOptions& options)
-      : slider_(slider), load_(load), low_(low), high_(high), options_(options) {}
-
-  /// Orbits from `first` on, itself left out, with the frequency rising at first (way = 1) or falling (-1).
-  OrbitBranch follow(const Orbit& first, double way) const {
-    OrbitBranch branch;
-    Point last = point_on(first);
-    Vector direction = tangent(last, {0, 0, way});
-    double step = options_.largest_step / 16;
-    while (branch.orbits.size() < options_.most_orbits) {
-      if (options_.heartbeat) options_.heartbeat();
-      const auto next = try_correct(last, direction, step);
-      if (!next) {
-        step /= 2;
-        if (step < shortest_step * options_.largest_step) break;  // here the branch ends, or is not to be followed
-        continue;
-      }
-      const double omega = next->omega();
-      if (omega < low_ || omega > high_) {  // the last orbit is at the end of the range itself
-        if (auto end = at_frequency(*next, std::clamp(omega, low_, high_), last))
-          branch.orbits.push_back(std::move(*end));
-        break;
-      }
-      Orbit orbit = describe(*next);
-      if (!(orbit.amplitude > 0 && orbit.amplitude <= options_.largest_amplitude)) break;
-      const Vector onward = tangent(*next, direction);
-      const double bend = dot(onward, direction);
-      if (bend < 0.95 && step > 0x1p-6 * options_.largest_step) {
-        step /= 2;
-        continue;
-      }
-      if (onward[2] * direction[2] < 0 || (onward[2] == 0 && direction[2] != 0)) {
-        if (auto fold = find_fold(last, direction, step)) {
-          branch.folds.push_back(branch.orbits.size());
-          branch.orbits.push_back(describe(*fold));
-        }
-      }
-      const bool closed = branch.orbits.size() > 8 && close(orbit, first);
-      branch.orbits.push_back(orbit);
-      if (closed) break;
-      // where it turns is not met by the place at which the motion is looked at
-      const Point moved = point_on(orbit);
-      direction = tangent(moved, secant(last, moved));
-      last = moved;
-      if (bend > 0.99) step = std::min(1.5 * step, options_.largest_step);
-    }
-    return branch;
-  }
-
- private:
-  using Vector = std::array<double, 3>;  // x/scale, x'/(omega scale), log omega
-  static constexpr double shortest_step = 1e-6;
-
-  struct Point {
-    double phase, scale;
-    Vector y;
-    double omega() const noexcept { return std::exp(y[2]); }
-    State state() const noexcept { return State::at(y[0] * scale, y[1] * scale * omega()); }
-  };
-
-  static double dot(const Vector& a, const Vector& b) noexcept { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  static Vector cross(const Vector& a, const Vector& b) noexcept {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-
-  template <class Work>
-  auto at(double omega, Work&& work) const {
-    return with_finder(slider_, load_, omega, std::forward<Work>(work));
-  }
-
-  /// The motion a quarter of a period after it has left its highest x.
-  Point point_on(const Orbit& orbit) const {
-    constexpr double quarter = std::numbers::pi / 2;
-    double high = -std::numeric_limits<double>::infinity(), time = 0;
-    for (const Event& e : orbit.events)
-      if (e.kind != EventKind::arrest && e.displacement > high) high = e.displacement, time = e.time;
-    const double phase = orbit.omega * time + quarter;
-    const State state = at(orbit.omega, [&](const auto& finder) { return finder.after({0, orbit.state}, phase); });
-    return {phase,
-            orbit.amplitude,
-            {state.displacement / orbit.amplitude, state.velocity / (orbit.omega * orbit.amplitude),
-             std::log(orbit.omega)}};
-  }
-
-  struct Equations {
-    Vector miss{};        // of x and x'; and 0
-    Vector rows[2] = {};  // what each changes by
-  };
-
-  std::array<double, 2> miss(const Point& point) const {
-    return at(point.omega(), [&](const auto& finder) {
-      const typename std::remove_cvref_t<decltype(finder)>::Place place{point.phase, point.state()};
-      const auto m = finder.miss(place, finder.after(place, std::numbers::pi), point.scale);
-      return std::array{m.x, m.v};
-    });
-  }
-
-  Equations equations(const Point& point) const {
-    Equations result = at(point.omega(), [&](const auto& finder) {
-      const double omega = point.omega();
-      const typename std::remove_cvref_t<decltype(finder)>::Place place{point.phase, point.state()};
-      Variation variation(place.state);
-      const auto m = finder.miss(place, finder.after(place, std::numbers::pi, variation), point.scale);
-      const auto [xx, xv, vx, vv] = variation.matrix;
-      Equations e;
-      e.miss = {m.x, m.v, 0};
-      e.rows[0] = {1 + xx, xv * omega, 0};
-      e.rows[1] = {vx / omega, 1 + vv, 0};
-      return e;
-    });
-    // By differences, for it only says which way to go: where it leads is found by the miss alone.
-    constexpr double little = 1e-6;
-    Point more = point, less = point;
-    more.y[2] += little;
-    less.y[2] -= little;
-    const auto up = miss(more), down = miss(less);
-    for (const std::size_t i : {0u, 1u}) result.rows[i][2] = (up[i] - down[i]) / (2 * little);
-    return result;
-  }
-
-  // Along the curve, to the side of `onward`.
-  Vector tangent(const Point& point, const Vector& onward) const {
-    const Equations e = equations(point);
-    Vector t = cross(e.rows[0], e.rows[1]);
-    const double size = std::copysign(std::sqrt(dot(t, t)), dot(t, onward));
-    for (double& c : t) c /= size;
-    return t;
-  }
-
-  // The orbit on the plane that stands across `direction`, a step away.
-  std::optional<Point> correct(const Point& from, const Vector& direction, double step) const {
-    Point point = from;
-    for (std::size_t i = 0; i < 3; ++i) point.y[i] += step * direction[i];
-    double before = std::numeric_limits<double>::infinity();
-    for (int steps = 0; steps < 12; ++steps) {
-      const Equations e = equations(point);
-      const double size = std::max(std::abs(e.miss[0]), std::abs(e.miss[1]));
-      if (size <= 1e-13 || (size <= 1e-11 && size >= before)) return point;
-      if (!(size < 4 * before)) return std::nullopt;
-      before = size;
-      // rows . change = -miss, direction . change = 0
-      const Vector n = cross(e.rows[0], e.rows[1]), first = cross(e.rows[1], direction),
-                   second = cross(direction, e.rows[0]);
-      const double determinant = dot(n, direction);
-      double length = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double change = -(e.miss[0] * first[i] + e.miss[1] * second[i]) / determinant;
-        point.y[i] += change;
-        length = std::max(length, std::abs(change));
-      }
-      if (!(length <= 2 * step + 1e-9)) return std::nullopt;
-    }
-    return std::nullopt;
-  }
-
-  // Near resonance a caster's orbits go to infinity, where they are not to be computed any more.
-  std::optional<Point> try_correct(const Point& from, const Vector& direction, double step) const {
-    try {
-      return correct(from, direction, step);
-    } catch (const ConvergenceError&) {
-      return std::nullopt;
-    }
-  }
-
-  // Between two orbits of which the curve turns back: where its direction has no part in frequency.
-  std::optional<Point> find_fold(const Point& from, const Vector& direction, double step) const {
-    double low = 0, high = step, low_value = direction[2], high_value = 0;
-    std::optional<Point> best = correct(from, direction, high);
-    if (!best) return std::nullopt;
-    high_value = tangent(*best, direction)[2];
-    for (int i = 0; i < 40 && high - low > 1e-9 * step; ++i) {
-      const double part = std::clamp(low_value / (low_value - high_value), 0.1, 0.9);
-      const double middle = low + (high - low) * part;
-      const auto point = correct(from, direction, middle);
-      if (!point) return std::nullopt;
-      const double value = tangent(*point, direction)[2];
-      ((value > 0) == (low_value > 0) ? low : high) = middle;
-      ((value > 0) == (low_value > 0) ? low_value : high_value) = value;
-      best = point;
-      if (std::abs(value) < 1e-9) break;
-    }
-    return best;
-  }
-
-  std::optional<Orbit> at_frequency(const Point& near, double omega, const Point& last) const {
-    // on the straight line between the two
-    Point point = near;
-    const double part = (std::log(omega) - last.y[2]) / (near.y[2] - last.y[2]);
-    for (std::size_t i = 0; i < 3; ++i) point.y[i] = last.y[i] + part * (near.y[i] - last.y[i]);
-    return at(omega, [&](const auto& finder) -> std::optional<Orbit> {
-      const auto place = finder.shoot({point.phase, point.state()}, point.scale);
-      if (!place) return std::nullopt;
-      return finder.describe(*place);
-    });
-  }
-
-  Orbit describe(const Point& point) const {
-    return at(point.omega(), [&](const auto& finder) { return finder.describe({point.phase, point.state()}); });
-  }
-
-  // From `last` to `point`, both where `point` is looked at.
-  Vector secant(const Point& last, const Point& point) const {
-    const State state = at(last.omega(), [&](const auto& finder) {
-      constexpr double cycle = 2 * std::numbers::pi;
-      const double on = point.phase - last.phase;
-      return finder.after({last.phase, last.state()}, on - cycle * std::floor(on / cycle));
-    });
-    return {point.y[0] - state.displacement / point.scale, point.y[1] - state.velocity / (last.omega() * point.scale),
-            point.y[2] - last.y[2]};
-  }
-
-  bool close(const Orbit& one, const Orbit& other) const noexcept {
-    return std::abs(std::log(one.omega / other.omega)) < options_.largest_step / 2 &&
-           std::abs(one.amplitude / other.amplitude - 1) < options_.largest_step / 2 &&
-           std::abs(std::remainder(one.phase - other.phase, 2 * std::numbers::pi)) < options_.largest_step / 2;
-  }
-
-  const Slider<Law>& slider_;
-  double load_, low_, high_;
-  const ContinuationOptions& options_;
-};
-
 }  // namespace detail
 
 /// The exact symmetric periodic motions of a slider under -n(t) = B cos(omega t),
@@ -812,48 +541,16 @@ std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, cons
   return states;
 }
 
-/// The orbits that hang together with one, along the response curve: by pseudo-arclength continuation over the
-/// frequency, which goes on round folds to the unstable orbits behind them.
-///
-/// @param slider   the one that `from` is an orbit of
-/// @param from     where to begin, not a rest
-/// @param low      least frequency [rad/s], positive; `from` lies between it and `high`
-/// @param high     greatest frequency [rad/s]
-/// @param options  how finely, how far
-/// @return `from` and the orbits on both sides of it, up to where the branch leaves the frequencies asked for, ends, or
-///         closes; the folds are orbits of it
-/// @throws std::invalid_argument  a value out of its range
-/// Takes some fifteen half periods of motion an orbit: 20 to 40 us with constant friction, 1 to 4 ms for a caster.
-/// Reference: H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977).
-template <FrictionLaw Law>
-OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double low, double high,
-                         const ContinuationOptions& options = {}) {
-  detail::check_orbit_arguments(slider, from.load, from.omega, "continuation");
-  detail::require(!from.at_rest(), "continuation: the orbit it begins with must move, its amplitude", from.amplitude,
-                  "m");
-  detail::require(low > 0 && low <= from.omega, "continuation: low must be positive and at most the orbit's omega", low,
-                  "rad/s");
-  detail::require(std::isfinite(high * high) && high >= from.omega,
-                  "continuation: high must be finite and at least the orbit's omega", high, "rad/s");
-  detail::require(options.largest_step > 0 && options.largest_step <= 0.5,
-                  "continuation: largest_step must be positive and at most 0.5", options.largest_step);
-  const detail::BranchFollower<Law> follower(slider, from.load, low, high, options);
-  OrbitBranch falling = follower.follow(from, -1), rising = follower.follow(from, 1), branch;
-  const std::size_t before = falling.orbits.size();
-  for (const std::size_t fold : falling.folds) branch.folds.push_back(before - 1 - fold);
-  std::ranges::reverse(branch.folds);
-  branch.orbits.assign(std::make_move_iterator(falling.orbits.rbegin()),
-                       std::make_move_iterator(falling.orbits.rend()));
-  branch.orbits.push_back(from);
-  for (const std::size_t fold : rising.folds) branch.folds.push_back(before + 1 + fold);
-  std::ranges::move(rising.orbits, std::back_inserter(branch.orbits));
-  return branch;
-}
-
-template <FrictionLaw Law>
-OrbitBranch continuation(const Law& law, const Orbit& from, double low, double high,
-                         const ContinuationOptions& options = {}) {
-  return continuation(Slider<Law>(law), from, low, high, options);
-}
-
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+
+namespace stickslip {
+extern template std::vector<Orbit> orbits(const Slider<Coulomb>&, double, double, const std::function<void()>&);
+extern template std::vector<Orbit> orbits(const Slider<Caster>&, double, double, const std::function<void()>&);
+extern template std::vector<State> states_at(const Slider<Coulomb>&, const Orbit&, const std::vector<double>&);
+extern template std::vector<State> states_at(const Slider<Caster>&, const Orbit&, const std::vector<double>&);
+}  // namespace stickslip
+#endif

@@ -1,7 +1,6 @@
 // The event loop: one slider over one segment of ground motion.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/oscillator.hpp"

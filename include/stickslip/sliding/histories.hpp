@@ -62,3 +62,13 @@ Histories histories(const Law& law, const GroundMotion& motion, const std::funct
 }
 
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+
+namespace stickslip {
+extern template Histories histories(const Slider<Coulomb>&, const GroundMotion&, const std::function<void()>&);
+extern template Histories histories(const Slider<Caster>&, const GroundMotion&, const std::function<void()>&);
+}  // namespace stickslip
+#endif

@@ -1,13 +1,13 @@
 // One slider through one ground motion.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
+#include "stickslip/detail/function.hpp"
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/detail/run.hpp"
 #include "stickslip/error.hpp"
@@ -149,3 +149,15 @@ Response integrate(const Law& law, const M& motion, const IntegrateOptions& opti
 }
 
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+
+namespace stickslip {
+extern template Response integrate(const Slider<Coulomb>&, const GroundMotion&, const IntegrateOptions&, Response);
+extern template Response integrate(const Slider<Coulomb>&, const HarmonicMotion&, const IntegrateOptions&, Response);
+extern template Response integrate(const Slider<Caster>&, const GroundMotion&, const IntegrateOptions&, Response);
+extern template Response integrate(const Slider<Caster>&, const HarmonicMotion&, const IntegrateOptions&, Response);
+}  // namespace stickslip
+#endif

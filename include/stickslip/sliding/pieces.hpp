@@ -66,3 +66,10 @@ Response integrate_by_pieces(const Law& law, const M& motion, const IntegrateOpt
 }
 
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+namespace stickslip {
+extern template Response integrate_by_pieces(const Slider<Coulomb>&, const GroundMotion&, const IntegrateOptions&,
+                                             Response);
+}  // namespace stickslip
+#endif

@@ -1,0 +1,10 @@
+// The usual laws, compiled once.
+#include "stickslip/sliding/histories.hpp"
+#include "stickslip/friction/caster.hpp"
+
+namespace stickslip {
+
+template Histories histories(const Slider<Coulomb>&, const GroundMotion&, const std::function<void()>&);
+template Histories histories(const Slider<Caster>&, const GroundMotion&, const std::function<void()>&);
+
+}  // namespace stickslip
