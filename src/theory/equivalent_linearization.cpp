@@ -66,6 +66,23 @@ EquivalentLinearization::EquivalentLinearization(Options options) : options_(opt
           options.tolerance);
 }
 
+std::string EquivalentLinearization::name() const {
+  switch (options_.force) {
+    case Force::gaussian:
+      return noun;
+    case Force::gaussian_a22:
+      return noun + ", gaussian_a22";
+    case Force::thesis:
+      return noun + ", thesis";
+  }
+  return noun;
+}
+
+void EquivalentLinearization::check(const detail::LinearizedLaw& law, double s0) const {
+  detail::check_start(law, s0, options_.start);
+  detail::expectation(law, options_.force, 0);
+}
+
 Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double s0,
                                          std::span<const double> times, const std::function<void()>& heartbeat) const {
   const auto solution = detail::solve_covariance(law, natural_frequency, s0, times, options_, heartbeat);

@@ -311,25 +311,34 @@ void remark(Moments& moments, const std::string& sentence) {
 
 }  // namespace
 
+std::string PulseSuperposition::name() const {
+  return std::string("PulseSuperposition, ") + (overlap_ == Overlap::none     ? "none"
+                                                : overlap_ == Overlap::thesis ? "thesis"
+                                                                              : "renewal");
+}
+
+void PulseSuperposition::check(bool constant_level, const PoissonPulses& pulses) const {
+  const double overlap = pulses.rate() * pulses.half_width();
+  if (overlap_ != Overlap::none) {
+    require(overlap <= most_overlap,
+            "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
+                shortest(most_overlap),
+            overlap);
+    if (pulses.options().quantile)
+      throw std::invalid_argument(
+          "PulseSuperposition: composites of overlapping pulses are known for Gaussian amplitudes; with a quantile "
+          "function overlap must be none");
+  }
+  if (pulses.options().envelope && !constant_level)
+    throw std::invalid_argument("PulseSuperposition: an envelope is covered for constant slip levels only");
+}
+
 Moments PulseSuperposition::predict(const detail::PulseSystem& system, const PoissonPulses& pulses,
                                     std::span<const double> times, const std::function<void()>& heartbeat) const {
   const double dt = pulses.half_width(), sigma = pulses.sigma(), overlap = pulses.rate() * dt;
   const PoissonOptions& options = pulses.options();
   for (const double time : times)
     require(std::isfinite(time) && time >= 0, "PulseSuperposition: times must be finite and at least 0", time, "s");
-  if (overlap_ != Overlap::none) {
-    require(overlap <= most_overlap,
-            "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
-                shortest(most_overlap),
-            overlap);
-    if (options.quantile)
-      throw std::invalid_argument(
-          "PulseSuperposition: composites of overlapping pulses are known for Gaussian amplitudes; with a quantile "
-          "function overlap must be none");
-  }
-  if (options.envelope && !system.constant_level)
-    throw std::invalid_argument("PulseSuperposition: an envelope is covered for constant slip levels only");
-
   const Pulses law(system, pulses, overlap_, heartbeat);
   const Rates rest = law.rates(0, sigma);
   const double per_composite = overlap_ == Overlap::none ? 1 : 1 + overlap;  // at most: the mean square

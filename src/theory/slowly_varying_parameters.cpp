@@ -13,6 +13,7 @@
 #include "numerics/ode.hpp"
 #include "numerics/quadrature.hpp"
 #include "stickslip/error.hpp"
+#include "theory/theory_moments.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -542,6 +543,21 @@ HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, dou
     return true;
   });
   return result;
+}
+
+Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span<const double> times,
+                                         const std::function<void()>& heartbeat) const {
+  const double omega = motion.omega();
+  const HarmonicTransient path = transient(motion.amplitude(), omega, 0, 0, times, heartbeat);
+  Moments moments = detail::moments_at(times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (path.amplitude[i] == 0) continue;  // its phase is NaN
+    const double angle = motion.phase(times[i]) + path.phase[i];
+    moments.displacement_mean.value[i] = path.amplitude[i] * std::cos(angle);
+    moments.velocity_mean.value[i] = -omega * path.amplitude[i] * std::sin(angle);
+  }
+  moments.growth_rate.value = 0;
+  return moments;
 }
 
 HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, double amplitude, double phase,

@@ -154,16 +154,6 @@ NearZero near_zero(const Spectrum& spectrum, double scale) {
   return {0, spectrum(0)};
 }
 
-void check(const Slider<Coulomb>& slider) {
-  if (slider.law().forward() != slider.law().backward())
-    throw std::invalid_argument(
-        "StationaryLinearization: the slip level must be the same both ways, for what slides one way more easily "
-        "drifts; "
-        "got " +
-        detail::shortest(slider.law().forward()) + " m/s^2 forward and " + detail::shortest(slider.law().backward()) +
-        " m/s^2 backward");
-}
-
 constexpr double critical = 0.79788456080286536;  // sqrt(2/pi), thesis (4.22)
 
 /// sigma_n / a, to be read.
@@ -181,13 +171,26 @@ std::string remark_of(double ratio, double wn, double low_power) {
 
 }  // namespace
 
-double StationaryLinearization::threshold(const Slider<Coulomb>& slider, const Spectrum& spectrum) const {
-  check(slider);
-  return critical * slider.law().forward() / std::sqrt(spectrum.variance());  // thesis (4.22)
+void StationaryLinearization::check(const Slider<Coulomb>& slider) {
+  detail::require_undamped(slider, "StationaryLinearization");
+  if (slider.law().forward() != slider.law().backward())
+    throw std::invalid_argument(
+        "StationaryLinearization: the slip level must be the same both ways, for what slides one way more easily "
+        "drifts; "
+        "got " +
+        detail::shortest(slider.law().forward()) + " m/s^2 forward and " + detail::shortest(slider.law().backward()) +
+        " m/s^2 backward");
 }
 
-StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& slider, const Spectrum& spectrum) const {
+double StationaryLinearization::threshold(const Slider<Coulomb>& slider, const StationaryNoise& noise) const {
   check(slider);
+  return critical * slider.law().forward() / std::sqrt(noise.spectrum().variance());  // thesis (4.22)
+}
+
+StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& slider,
+                                                      const StationaryNoise& noise) const {
+  check(slider);
+  const Spectrum& spectrum = noise.spectrum();
   const double a = slider.law().forward(), wn = slider.natural_frequency(), variance = spectrum.variance();
   const double wanted = 2 / pi * a * a;  // of zeta^2 sigma_v^2, thesis (4.19), (4.20)
   const double excess = variance - wanted, ratio = std::sqrt(variance) / a;

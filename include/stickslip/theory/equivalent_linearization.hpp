@@ -4,6 +4,7 @@
 #include <concepts>
 #include <functional>
 #include <span>
+#include <string>
 #include <variant>
 
 #include "stickslip/friction/caster.hpp"
@@ -11,7 +12,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
-#include "stickslip/theory/white_noise.hpp"
+#include "stickslip/theory/noise.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::detail {
 
@@ -77,6 +79,19 @@ class EquivalentLinearization {
 
   const Options& options() const noexcept { return options_; }
 
+  /// With the force where it is not the usual one.
+  std::string name() const;
+
+  /// A law of your own is looked at where x = 0; `predict` looks at it as far as the slider goes.
+  template <FrictionLaw Law, class E>
+  Coverage covers(const Slider<Law>& slider, const E& excitation) const {
+    return detail::coverage<WhiteLevel>(excitation, "EquivalentLinearization: covers white noise",
+                                        [&](const WhiteLevel& s0) {
+                                          detail::require_undamped(slider, "EquivalentLinearization");
+                                          check(detail::linearized_law(slider.law()), s0.s0());
+                                        });
+  }
+
   /// Covariances by time, from rest. Means are zero.
   ///
   /// Integrated over the logarithm of time, in variables that keep the covariance positive definite: the logarithms of
@@ -84,7 +99,8 @@ class EquivalentLinearization {
   /// slider without friction is answered in closed form.
   ///
   /// @param slider     the law and its spring
-  /// @param s0         level S0 of the white ground acceleration, two-sided [m^2/s^3], or a white Spectrum
+  /// @param s0         level S0 of the white ground acceleration, two-sided [m^2/s^3], a white Spectrum or
+  ///                   GaussianExcitation
   /// @param times      [s], finite, at least 0, increasing
   /// @param heartbeat  called every thousand steps; may throw to end the work; optional
   /// @returns also the growth rate where the velocity becomes stationary: pi^5 S0^3 / (2 a^4) for Coulomb friction,
@@ -95,6 +111,7 @@ class EquivalentLinearization {
   template <FrictionLaw Law>
   Moments predict(const Slider<Law>& slider, WhiteLevel s0, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
+    detail::require_undamped(slider, "EquivalentLinearization");
     return predict(detail::linearized_law(slider.law()), slider.natural_frequency(), s0.s0(), times, heartbeat);
   }
   template <FrictionLaw Law>
@@ -117,6 +134,7 @@ class EquivalentLinearization {
   }
 
  private:
+  void check(const detail::LinearizedLaw& law, double s0) const;
   Moments predict(const detail::LinearizedLaw& law, double natural_frequency, double s0, std::span<const double> times,
                   const std::function<void()>& heartbeat) const;
   LinearFriction coefficients(const detail::LinearizedLaw& law, double q11, double q12, double q22) const;
