@@ -767,7 +767,7 @@ Problem::Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses, boo
   const double level = slider.law().forward();
   const PoissonOptions& options = pulses.options();
   detail::require_no_spring(slider.natural_frequency(), "PulseChain");
-  detail::require_undamped(slider, "PulseChain");
+  detail::require_plain(slider, "PulseChain");
   require(slider.law().backward() == level, "PulseChain: both slip levels must be " + shortest(level) + " m/s^2",
           slider.law().backward(), "m/s^2");
   if (options.envelope) throw std::invalid_argument("PulseChain: an envelope is not covered; PulseSuperposition does");

@@ -172,7 +172,7 @@ std::string remark_of(double ratio, double wn, double low_power) {
 }  // namespace
 
 void StationaryLinearization::check(const Slider<Coulomb>& slider) {
-  detail::require_undamped(slider, "StationaryLinearization");
+  detail::require_plain(slider, "StationaryLinearization");
   if (slider.law().forward() != slider.law().backward())
     throw std::invalid_argument(
         "StationaryLinearization: the slip level must be the same both ways, for what slides one way more easily "

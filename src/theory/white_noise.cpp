@@ -127,7 +127,7 @@ WhiteNoise::WhiteNoise(const Coulomb& law, WhiteLevel s0) : law_(law), s0_(s0.s0
 }
 
 WhiteNoise::WhiteNoise(const Slider<Coulomb>& slider, WhiteLevel s0) : WhiteNoise(slider.law(), s0) {
-  detail::require_undamped(slider, "WhiteNoise");
+  detail::require_plain(slider, "WhiteNoise");
   detail::require(slider.natural_frequency() == 0,
                   "WhiteNoise: nothing exact is known with a spring: natural_frequency must be 0",
                   slider.natural_frequency(), "rad/s");

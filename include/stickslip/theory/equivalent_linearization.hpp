@@ -20,7 +20,7 @@ namespace stickslip::detail {
 /// A law as the library takes it in: the two that it has closed forms for, or the level of any other.
 using LinearizedLaw = std::variant<Coulomb, Caster, std::function<double(double, Direction)>>;
 
-template <FrictionLaw Law>
+template <PositionLaw Law>
 LinearizedLaw linearized_law(const Law& law) {
   if constexpr (std::same_as<Law, Coulomb> || std::same_as<Law, Caster>)
     return law;
@@ -87,8 +87,9 @@ class EquivalentLinearization {
   Coverage covers(const Slider<Law>& slider, const E& excitation) const {
     return detail::coverage<WhiteLevel>(excitation, "EquivalentLinearization: covers white noise",
                                         [&](const WhiteLevel& s0) {
-                                          detail::require_undamped(slider, "EquivalentLinearization");
-                                          check(detail::linearized_law(slider.law()), s0.s0());
+                                          detail::require_plain(slider, "EquivalentLinearization");
+                                          if constexpr (PositionLaw<Law>)
+                                            check(detail::linearized_law(slider.law()), s0.s0());
                                         });
   }
 
@@ -108,13 +109,13 @@ class EquivalentLinearization {
   /// @throws std::invalid_argument for times out of range, a law that is not the same both ways, and what the force
   /// does not cover
   /// @throws ConvergenceError with the time reached where the tolerance is out of reach
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, WhiteLevel s0, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
-    detail::require_undamped(slider, "EquivalentLinearization");
+    detail::require_plain(slider, "EquivalentLinearization");
     return predict(detail::linearized_law(slider.law()), slider.natural_frequency(), s0.s0(), times, heartbeat);
   }
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   Moments predict(const Law& law, WhiteLevel s0, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
     return predict(Slider<Law>(law), s0, times, heartbeat);
@@ -128,7 +129,7 @@ class EquivalentLinearization {
   /// @param q11, q22  variances of x [m^2] and x' [m^2/s^2], positive and finite
   /// @param q12       their covariance [m^2/s], q12^2 < q11 q22
   /// @throws as `predict`
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   LinearFriction coefficients(const Law& law, double q11, double q12, double q22) const {
     return coefficients(detail::linearized_law(law), q11, q12, q22);
   }

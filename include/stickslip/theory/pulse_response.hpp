@@ -18,6 +18,7 @@
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::theory {
 
@@ -202,6 +203,7 @@ PulseResponse pulse_response(const Slider<Law>& slider, double b, double dt, con
                              double position = 0, std::span<const double> times = {}) {
   detail::check_pulse(b, dt, times);
   detail::require_no_spring(slider.natural_frequency(), "pulse_response");
+  detail::require_plain(slider, "pulse_response");
   detail::require(std::isfinite(position), "pulse_response: position must be finite", position, "m");
 
   struct Knot {

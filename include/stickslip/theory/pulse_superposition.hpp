@@ -92,7 +92,7 @@ class PulseSuperposition {
   ///         excitation, whatever the times are
   /// Integrals over the amplitudes to 1e-13, Coulomb; 20 to 60 us. A caster takes 0.1 to 10 s, most where it spreads
   /// far.
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, const PoissonPulses& pulses, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
     check(slider, pulses);
@@ -100,7 +100,7 @@ class PulseSuperposition {
   }
 
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
                    const std::function<void()>& heartbeat = {}) const {
     const double end[] = {pulses.duration()};
@@ -109,7 +109,7 @@ class PulseSuperposition {
   }
 
  private:
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   static detail::PulseSystem system(const Slider<Law>& slider, const PoissonPulses& pulses) {
     return {ConstantLevelLaw<Law>,
             [&slider](double x, Direction direction) { return slider.law().resist(x, direction); },
@@ -126,7 +126,7 @@ class PulseSuperposition {
   template <FrictionLaw Law>
   void check(const Slider<Law>& slider, const PoissonPulses& pulses) const {
     detail::require_no_spring(slider.natural_frequency(), "PulseSuperposition");
-    detail::require_undamped(slider, "PulseSuperposition");
+    detail::require_plain(slider, "PulseSuperposition");
     check(ConstantLevelLaw<Law>, pulses);
   }
   void check(bool constant_level, const PoissonPulses& pulses) const;

@@ -32,7 +32,7 @@ S as_series(const S& level) noexcept {
 
 /// A law that takes power series for the place.
 template <class Law>
-concept AnalyticLaw = FrictionLaw<Law> && requires(const Law& law, const series::Variable& x) {
+concept AnalyticLaw = PositionLaw<Law> && requires(const Law& law, const series::Variable& x) {
   as_series(law.resist(x, Direction::forward));
 };
 
@@ -131,7 +131,7 @@ class SlowlyVaryingParameters {
   template <detail::AnalyticLaw Law>
   explicit SlowlyVaryingParameters(const Slider<Law>& slider)
       : SlowlyVaryingParameters(detail::cycled(slider.law()), slider.natural_frequency()) {
-    detail::require_undamped(slider, "SlowlyVaryingParameters");
+    detail::require_plain(slider, "SlowlyVaryingParameters");
   }
   template <class Law>
   requires(!std::same_as<Law, SlowlyVaryingParameters> &&

@@ -7,6 +7,9 @@
 #include <string>
 
 #include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
 #include "stickslip/statistics/moments.hpp"
 
 namespace stickslip::theory {
@@ -62,12 +65,23 @@ theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   }
 }
 
-/// Refuses a slider with a damper, for all theories: none has one beside friction.
-template <class S>
-void require_undamped(const S& slider, const char* theory) {
-  if constexpr (requires { slider.damping(); })
-    require(slider.damping() == 0, std::string(theory) + ": a slider with a damper is not covered, damping must be 0",
-            slider.damping(), "1/s");
+/// Refuses what no theory covers: a damper beside friction, a resistance that depends on the speed, and static friction
+/// that differs from kinetic. A theory that covers one of them makes its own check instead.
+template <FrictionLaw Law>
+void require_plain(const Slider<Law>& slider, const std::string& theory) {
+  require(slider.damping() == 0, theory + ": a slider with a damper is not covered, damping must be 0",
+          slider.damping(), "1/s");
+  if constexpr (!PositionLaw<Law>) {
+    throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
+  } else if constexpr (LawWithHold<Law>) {
+    for (const Direction direction : {Direction::forward, Direction::backward}) {
+      const double kinetic = slider.law().resist(0.0, direction);
+      require(slider.law().hold(0.0, direction) == kinetic,
+              theory + ": static friction that differs from kinetic is not covered, it must hold " + shortest(kinetic) +
+                  " m/s^2 at x = 0",
+              slider.law().hold(0.0, direction), "m/s^2");
+    }
+  }
 }
 
 }  // namespace stickslip::detail
