@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 
 namespace stickslip::theory {
@@ -55,16 +56,7 @@ std::array<double, 4> lagrange(const double* x, double at) {
   return w;
 }
 
-/// Calls use(x, weight) for the points of a panel: Gauss-Legendre, four points.
-template <class Use>
-void panel(double from, double to, Use use) {
-  constexpr std::array<double, 4> nodes = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
-                                           0.93056815579702629};
-  constexpr std::array<double, 4> weights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                             0.17392742256872693};
-  const double length = to - from;
-  for (std::size_t i = 0; i < 4; ++i) use(from + length * nodes[i], length * weights[i]);
-}
+constexpr std::size_t points = 4;  // of Gauss and Legendre, on each panel
 
 // ---- amplitudes on a lattice
 
@@ -206,7 +198,8 @@ class Pairs {
     const int count = static_cast<int>(steps_.values.size()), most = 2 * count;
     for (double from = 0; from < most;) {
       const double length = from < count ? 0.5 : 1;
-      panel(from, from + length, [&](double offset, double weight) { add_pairs(integral, offset, weight, true); });
+      numerics::gauss_points<points>(from, from + length,
+                                     [&](double offset, double weight) { add_pairs(integral, offset, weight, true); });
       from += length;
     }
     for (int k = 0; k < most * slots; ++k)
@@ -857,7 +850,8 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     const double t = times[i] / step, early = std::min(t, correction.settled());
     double x = correction.late()[0] * (sum(t) - sum(early));
     for (double from = 0; from < early; from += 0.5)
-      panel(from, std::min(from + 0.5, early), [&](double at, double w) { x += w * correction(at)[0] * growth(at); });
+      numerics::gauss_points<points>(from, std::min(from + 0.5, early),
+                                     [&](double at, double w) { x += w * correction(at)[0] * growth(at); });
     const auto [of_growth, of_variance] = correction(t);
     moments.displacement_variance.value[i] = x_unit * x;
     moments.covariance.value[i] = x_unit / step * of_growth * growth(t) / 2;

@@ -14,6 +14,7 @@
 
 #include "numerics/quadrature.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -29,8 +30,7 @@ double detuning(double omega, double wn) {
   return wn == 0 || std::isinf(omega) ? omega : (omega - wn) * ((omega + wn) / omega);
 }
 
-/// Where f, which rises through zero once, has its zero: a bracket by steps that double, then the false position
-/// (Anderson and Bjorck, BIT 13 (1973)).
+/// Where f, which rises through zero once, has its zero: a bracket by steps that double.
 template <class F>
 double rising_root(const F& f, double start) {
   double a = start, fa = f(a), b = a, fb = fa;
@@ -41,21 +41,7 @@ double rising_root(const F& f, double start) {
     fb = f(b);
     if (!(step < 1e4)) throw ConvergenceError("StationaryLinearization: no damping below e^" + detail::shortest(b));
   }
-  for (int i = 0; i < 200 && std::abs(b - a) > 2e-16 * std::max(1.0, std::abs(b)) && std::abs(fb) > 1e-16; ++i) {
-    double c = b - fb * (b - a) / (fb - fa);
-    if (!(c > std::min(a, b) && c < std::max(a, b))) c = a + (b - a) / 2;
-    const double fc = f(c);
-    if ((fc > 0) != (fb > 0)) {
-      a = b;
-      fa = fb;
-    } else {
-      const double shrink = 1 - fc / fb;
-      fa *= shrink > 0 ? shrink : 0.5;
-    }
-    b = c;
-    fb = fc;
-  }
-  return b;
+  return numerics::root(f, a, fa, b, fb, std::numeric_limits<double>::epsilon());
 }
 
 /// The damping with zeta^2 sigma_v^2(zeta) = wanted, as a logarithm. `share` is the left side, which rises with zeta to

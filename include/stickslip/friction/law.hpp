@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
@@ -86,16 +87,8 @@ double friction_work(const Law& law, double from, double distance, Direction dir
   if constexpr (LawWithWork<Law>) {
     return law.work(from, distance, direction);
   } else {
-    constexpr double nodes[] = {0.14887433898163121, 0.43339539412924719, 0.67940956829902441, 0.86506336668898451,
-                                0.97390652851717172};
-    constexpr double weights[] = {0.29552422471475287, 0.26926671930999636, 0.21908636251598204, 0.14945134915058059,
-                                  0.06667134430868814};
-    const double half = distance / 2, middle = from + sign(direction) * half;
-    double sum = 0;
-    for (int i = 0; i < 5; ++i)
-      sum += weights[i] *
-             (law.resist(middle - half * nodes[i], direction) + law.resist(middle + half * nodes[i], direction));
-    return half * sum;
+    const double s = sign(direction);
+    return numerics::gauss_integral<10>(0, distance, [&](double way) { return law.resist(from + s * way, direction); });
   }
 }
 
