@@ -126,8 +126,10 @@ class Comparison:
             lines += ["", _row(heading, (f"t = {t:.4g} s" for t in self.time))]
             lines.append(_row("simulation", map("{:.4g}".format, value)))
             lines.append(_row("standard error", map("{:.1g}".format, error)))
-            for name in self.theories:
-                lines.append(_row("  " + name, map("{:.3f}".format, self.ratio(name, figure)[0])))
+            for name, moments in self.theories.items():
+                if not np.isnan(getattr(moments, figure)).all():  # else it does not predict it
+                    ratio, _ = self.ratio(name, figure)
+                    lines.append(_row("  " + name, map("{:.3f}".format, ratio)))
         growth = self.ensemble.stationary.growth_rate
         lines += [
             "",

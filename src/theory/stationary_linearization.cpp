@@ -14,7 +14,6 @@
 
 #include "numerics/quadrature.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/numerics/root.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -30,7 +29,9 @@ double detuning(double omega, double wn) {
   return wn == 0 || std::isinf(omega) ? omega : (omega - wn) * ((omega + wn) / omega);
 }
 
-/// Where f, which rises through zero once, has its zero: a bracket by steps that double.
+/// Where f, which rises through zero once, has its zero: a bracket by steps that double, then the false position
+/// (Anderson and Bjorck, BIT 13 (1973)). Not `numerics::root`, which halves the bracket first: far from the zero the
+/// integral behind f may not converge.
 template <class F>
 double rising_root(const F& f, double start) {
   double a = start, fa = f(a), b = a, fb = fa;
@@ -41,7 +42,21 @@ double rising_root(const F& f, double start) {
     fb = f(b);
     if (!(step < 1e4)) throw ConvergenceError("StationaryLinearization: no damping below e^" + detail::shortest(b));
   }
-  return numerics::root(f, a, fa, b, fb, std::numeric_limits<double>::epsilon());
+  for (int i = 0; i < 200 && std::abs(b - a) > 2e-16 * std::max(1.0, std::abs(b)) && std::abs(fb) > 1e-16; ++i) {
+    double c = b - fb * (b - a) / (fb - fa);
+    if (!(c > std::min(a, b) && c < std::max(a, b))) c = a + (b - a) / 2;
+    const double fc = f(c);
+    if ((fc > 0) != (fb > 0)) {
+      a = b;
+      fa = fb;
+    } else {
+      const double shrink = 1 - fc / fb;
+      fa *= shrink > 0 ? shrink : 0.5;
+    }
+    b = c;
+    fb = fc;
+  }
+  return b;
 }
 
 /// The damping with zeta^2 sigma_v^2(zeta) = wanted, as a logarithm. `share` is the left side, which rises with zeta to
@@ -173,10 +188,8 @@ double StationaryLinearization::threshold(const Slider<Coulomb>& slider, const S
   return critical * slider.law().forward() / std::sqrt(noise.spectrum().variance());  // thesis (4.22)
 }
 
-StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& slider,
-                                                      const StationaryNoise& noise) const {
+StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& slider, const Spectrum& spectrum) const {
   check(slider);
-  const Spectrum& spectrum = noise.spectrum();
   const double a = slider.law().forward(), wn = slider.natural_frequency(), variance = spectrum.variance();
   const double wanted = 2 / pi * a * a;  // of zeta^2 sigma_v^2, thesis (4.19), (4.20)
   const double excess = variance - wanted, ratio = std::sqrt(variance) / a;

@@ -17,7 +17,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 }  // namespace
 
 TEST_CASE("bisection finds the first number at which a condition holds, to the last bit", "[root]") {
-  CHECK(first_where(1, 2, [](double x) { return x * x >= 2; }) == std::nextafter(std::numbers::sqrt2, 2.0));
+  CHECK(first_where(1, 2, [](double x) { return x * x >= 2; }) == std::numbers::sqrt2);  // rounded up
   CHECK(first_where(0, 1, [](double x) { return x >= 1e-300; }) == 1e-300);
   CHECK(first_where(-3, 5, [](double x) { return x >= 0.1; }) == 0.1);
   CHECK(first_where(0, 1, [](double) { return false; }) == 1);

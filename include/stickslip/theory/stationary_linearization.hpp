@@ -82,15 +82,18 @@ class StationaryLinearization {
         });
   }
 
-  /// @param slider  Coulomb friction, the same level both ways, with or without a spring
-  /// @param noise   the ground acceleration: its Spectrum, a GaussianExcitation, or the level of white noise
+  /// @param slider    Coulomb friction, the same level both ways, with or without a spring
+  /// @param spectrum  of the ground acceleration; or what has one: a GaussianExcitation, the level of white noise
   /// @throws std::invalid_argument  unequal levels: friction then has a mean, and the slider drifts
   /// @throws ConvergenceError       a spectrum that cannot be integrated
   /// Accuracy: round-off for band-pass and white noise without a spring, else that of quadrature, 1e-9. Cost: 1 us, or
   /// 0.1 to 10 ms.
-  StationaryPrediction predict(const Slider<Coulomb>& slider, const StationaryNoise& noise) const;
-  StationaryPrediction predict(const Coulomb& law, const StationaryNoise& noise) const {
-    return predict(Slider(law), noise);
+  StationaryPrediction predict(const Slider<Coulomb>& slider, const Spectrum& spectrum) const;
+  StationaryPrediction predict(const Coulomb& law, const Spectrum& spectrum) const {
+    return predict(Slider(law), spectrum);
+  }
+  StationaryPrediction predict(const Slider<Coulomb>& slider, const StationaryNoise& noise) const {
+    return predict(slider, noise.spectrum());
   }
 
   /// The linear system from rest, `StationaryPrediction::transient`.
@@ -107,9 +110,9 @@ class StationaryLinearization {
   /// Other laws are not covered: what depends on the position has no stationary linearization, for x has no stationary
   /// variance to take it at. (Generalized linearization, in time, covers casters.)
   template <FrictionLaw Law>
-  StationaryPrediction predict(const Slider<Law>&, const StationaryNoise&) const = delete;
+  StationaryPrediction predict(const Slider<Law>&, const Spectrum&) const = delete;
   template <FrictionLaw Law>
-  StationaryPrediction predict(const Law&, const StationaryNoise&) const = delete;
+  StationaryPrediction predict(const Law&, const Spectrum&) const = delete;
 
  private:
   static void check(const Slider<Coulomb>& slider);

@@ -216,7 +216,7 @@ ValueError
 1 for white noise, whose variance is infinite.)")
       .def_property_readonly("configuration", &GaussianExcitation::configuration,
                              "All that the motions depend on, as one JSON object.")
-      .def("__repr__", &repr)
+      .def("__repr__", [](const GaussianExcitation& e) { return repr(e); })
       .def(
           "__eq__", [](const GaussianExcitation& a, const GaussianExcitation& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const GaussianExcitation& e) { return py::hash(py::str(e.configuration())); })

@@ -234,7 +234,7 @@ ValueError
     Other limits.)")
       .def_property_readonly("configuration", &Spectrum::configuration,
                              "All of it as one JSON object; a function by a hash of 1024 of its values.")
-      .def("__repr__", &repr)
+      .def("__repr__", [](const Spectrum& s) { return repr(s); })
       .def(
           "__eq__", [](const Spectrum& a, const Spectrum& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const Spectrum& s) { return py::hash(py::str(s.configuration())); })
