@@ -46,6 +46,7 @@ void bind_viscous(py::module_& m);
 void bind_gaussian(py::module_& m);
 void bind_poisson(py::module_& m);
 void bind_moments(py::module_& m);
+void bind_theory(py::module_& m);
 void bind_stationary_linearization(py::module_& m);
 void bind_estimates(py::module_& m);
 void bind_distributions(py::module_& m);

@@ -83,6 +83,8 @@ inline constexpr auto parts<StrongMotion> = std::tuple(&StrongMotion::arias_inte
                                                        &StrongMotion::centre_frequency_hz);
 
 template <>
+inline constexpr auto parts<theory::Coverage> = std::tuple(&theory::Coverage::reason, &theory::Coverage::excitation);
+template <>
 inline constexpr auto parts<theory::WhiteNoise> = std::tuple(&theory::WhiteNoise::law, &theory::WhiteNoise::s0);
 template <>
 inline constexpr auto parts<theory::EquivalentLinearization::Options> =

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, theory
+from . import _core
 from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses
 from .ensemble import run_ensemble
+from .theory import THEORIES, Coverage
 
 if TYPE_CHECKING:
     from matplotlib.figure import FigureBase
@@ -35,9 +36,9 @@ class Comparison:
     ensemble : Ensemble
         The simulation; it has more times.
     theories : dict of str to Moments
-        What each theory that applies predicts at `time`, the best first.
+        What each theory that applies predicts at `time`, in the order in which they were asked.
     refused : dict of str to str
-        Theories for this kind of excitation that do not cover the slider, and why.
+        Theories for this kind of excitation that do not apply, and why.
     """
 
     def __init__(
@@ -125,8 +126,10 @@ class Comparison:
             lines += ["", _row(heading, (f"t = {t:.4g} s" for t in self.time))]
             lines.append(_row("simulation", map("{:.4g}".format, value)))
             lines.append(_row("standard error", map("{:.1g}".format, error)))
-            for name in self.theories:
-                lines.append(_row("  " + name, map("{:.3f}".format, self.ratio(name, figure)[0])))
+            for name, moments in self.theories.items():
+                if not np.isnan(getattr(moments, figure)).all():  # else it does not predict it
+                    ratio, _ = self.ratio(name, figure)
+                    lines.append(_row("  " + name, map("{:.3f}".format, ratio)))
         growth = self.ensemble.stationary.growth_rate
         lines += [
             "",
@@ -165,6 +168,13 @@ class Comparison:
         return plot_comparison(self, figure, title)
 
 
+class _Theory(Protocol):
+    @property
+    def name(self) -> str: ...
+    def covers(self, slider: Any, excitation: Any, /) -> Coverage | bool: ...
+    def predict(self, slider: Any, excitation: Any, times: Any, /) -> Moments: ...
+
+
 def compare(
     slider: Any,
     excitation: GaussianExcitation | PoissonPulses,
@@ -174,23 +184,27 @@ def compare(
     seed: int = 0,
     threads: int | None = None,
     progress: bool | None = None,
+    theories: Sequence[_Theory] | None = None,
 ) -> Comparison:
     """Every theory that applies, beside an ensemble with its errors.
 
-    Under `PoissonPulses`: the pulse chain and the three superpositions. Under white
-    `GaussianExcitation`: the exact white-noise results and equivalent linearization, with Gaussian
-    expectations and with the thesis's force. Under other stationary `GaussianExcitation`:
-    stationary linearization, from rest.
+    Each theory is asked whether it covers the slider and the excitation.
 
     Parameters
     ----------
     slider : Slider, Coulomb or Caster
     excitation : GaussianExcitation or PoissonPulses
+        Or an excitation of your own, where a theory of your own covers it.
     times : array_like, shape (T,), optional
         Where to compare [s], increasing, above 0, at most the excitation's duration; multiples of
         its dt, or, under pulses, of a common step. Six even ones if not given.
     members, seed, threads, progress
         As of `run_ensemble`.
+    theories : sequence, optional
+        The theories to ask; `stickslip.theory.THEORIES` if not given. Each has a `name`, unlike the
+        others', `covers(slider, excitation)`, which answers with a bool or a
+        `stickslip.theory.Coverage`, and `predict(slider, excitation, times)`, which answers in
+        `Moments` at the times.
 
     Returns
     -------
@@ -200,10 +214,11 @@ def compare(
     Raises
     ------
     ValueError
-        Times out of their range; Gaussian excitation with an envelope, which no theory covers, or
-        white without a line at zero frequency; what `run_ensemble` refuses.
+        Times out of their range; an excitation that no theory covers, as Gaussian excitation with
+        an envelope, or white without a line at zero frequency; two theories of one name; what
+        `run_ensemble` refuses.
     TypeError
-        Another kind of excitation: there is no theory for it.
+        Another kind of excitation, for which no theory is; an object that is no theory.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -212,7 +227,13 @@ def compare(
     Takes what `run_ensemble` takes, and some milliseconds for each theory; a caster under pulses up
     to ten seconds.
     """
-    rivals = _rivals(slider, excitation)
+    asked = {t.name: t for t in (THEORIES if theories is None else map(_checked, theories))}
+    if theories is not None and len(asked) < len(theories):
+        names = ", ".join(t.name for t in theories)
+        raise ValueError(f"compare: theories must have different names, got {names}")
+    answers = {name: _answer(t, slider, excitation) for name, t in asked.items()}
+    if not any(a.excitation for a in answers.values()) or not hasattr(excitation, "sample"):
+        raise _uncovered(excitation, answers)
     time, dt = _times(times, excitation)
     ensemble = run_ensemble(
         slider,
@@ -226,54 +247,53 @@ def compare(
     )
     predictions: dict[str, Moments] = {}
     refused: dict[str, str] = {}
-    for name, predict in rivals.items():
-        try:
-            predictions[name] = predict(time)
-        except (TypeError, ValueError) as error:
-            refused[name] = str(error)
+    for name, answer in answers.items():
+        if answer:
+            try:
+                predictions[name] = _predicted(asked[name], slider, excitation, time)
+            except ValueError as error:  # what only the computation finds
+                refused[name] = str(error)
+        elif answer.excitation:
+            refused[name] = answer.reason
     return Comparison(time, ensemble, predictions, refused)
 
 
-def _rivals(slider: Any, excitation: Any) -> dict[str, Callable[[Any], Moments]]:
-    """The theories for this kind of excitation, the best first."""
-    if isinstance(excitation, PoissonPulses):
-        rivals: dict[str, Any] = {"PulseChain": theory.PulseChain()}
-        for overlap in ("renewal", "thesis", "none"):
-            rivals[f"PulseSuperposition, {overlap}"] = theory.PulseSuperposition(overlap=overlap)
-        return {
-            name: lambda time, rival=rival: rival.predict(slider, excitation, time)
-            for name, rival in rivals.items()
-        }
-    if not isinstance(excitation, GaussianExcitation):
+def _checked(theory: Any) -> _Theory:
+    for part in ("name", "covers", "predict"):
+        if not hasattr(theory, part):
+            raise TypeError(f"compare: a theory must have `{part}`, got {theory!r}")
+    return theory
+
+
+def _answer(theory: _Theory, slider: Any, excitation: Any) -> Coverage:
+    answer = theory.covers(slider, excitation)
+    if isinstance(answer, Coverage):
+        return answer
+    if not isinstance(answer, (bool, np.bool_)):
         raise TypeError(
+            f"compare: covers of {theory.name} must answer a bool or a Coverage, got {answer!r}"
+        )
+    return Coverage() if answer else Coverage(f"{theory.name}: does not cover them")
+
+
+def _predicted(theory: _Theory, slider: Any, excitation: Any, time: NDArray[np.float64]) -> Moments:
+    moments = theory.predict(slider, excitation, time)
+    if not isinstance(moments, Moments):
+        raise TypeError(f"compare: predict of {theory.name} must answer Moments, got {moments!r}")
+    if not np.array_equal(moments.time, time):
+        raise ValueError(f"{theory.name} answers at other times than those asked for")
+    return moments
+
+
+def _uncovered(excitation: Any, answers: dict[str, Coverage]) -> Exception:
+    """What is raised where no theory is for this kind of excitation, or it makes no motions."""
+    if not isinstance(excitation, (GaussianExcitation, PoissonPulses)):
+        return TypeError(
             "compare: excitation must be GaussianExcitation or PoissonPulses, got "
             f"{type(excitation).__name__}"
         )
-    if excitation.envelope is not None:
-        raise ValueError(
-            "compare: no theory covers Gaussian excitation with an envelope, envelope must be None"
-        )
-    spectrum = excitation.spectrum
-    if spectrum.kind != "white":
-        return {
-            "StationaryLinearization": lambda time: (
-                theory.StationaryLinearization().predict(slider, spectrum).transient(time)
-            )
-        }
-    if not excitation.zero_frequency:
-        raise ValueError(
-            "compare: white noise has a line at zero frequency, without which the ground comes "
-            "back to where it was; zero_frequency must be True"
-        )
-    return {
-        "WhiteNoise": lambda time: theory.WhiteNoise(slider, spectrum).predict(time),
-        "EquivalentLinearization": lambda time: theory.EquivalentLinearization().predict(
-            slider, spectrum, time
-        ),
-        "EquivalentLinearization, thesis": lambda time: theory.EquivalentLinearization(
-            force="thesis"
-        ).predict(slider, spectrum, time),
-    }
+    reasons = dict.fromkeys(answer.reason for answer in answers.values())
+    return ValueError("compare: no theory covers this excitation. " + ". ".join(reasons))
 
 
 def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:

@@ -9,9 +9,9 @@ from __future__ import annotations
 import io
 import os
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -25,10 +25,17 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
-from ._core import STANDARD_GRAVITY, Ensemble, Estimate, GroundMotion, Response, ViscousSlider
+from ._core import (
+    STANDARD_GRAVITY,
+    Ensemble,
+    Estimate,
+    GroundMotion,
+    Moments,
+    Response,
+    ViscousSlider,
+)
 from ._files import replacing
 from ._text import printable
-from .comparison import Comparison
 
 __all__ = [
     "plot_comparison",
@@ -350,8 +357,16 @@ def plot_friction_sweep(
     return figure
 
 
+class _Comparison(Protocol):
+    """What is drawn of a `Comparison`, which draws itself by this module."""
+
+    time: np.ndarray
+    ensemble: Ensemble
+    theories: Mapping[str, Moments]
+
+
 def plot_comparison(
-    comparison: Comparison, figure: FigureBase | None = None, title: str | None = None
+    comparison: _Comparison, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
     """Variances by time: the ensemble with its errors, and every theory as a line of its own.
 

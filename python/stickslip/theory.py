@@ -1,10 +1,14 @@
 """Theories: they predict without simulating what `integrate` and `run_ensemble` find.
 
-Each takes the sliders and the sources of motion that a simulation takes, says what it covers, and
-refuses the rest.
+Each has a `name`, `covers(slider, excitation)`, which says whether it applies and, if not, why,
+and `predict(slider, excitation, times)`, which answers in `Moments` from rest on. Objects of your
+own with these three are theories too: `stickslip.compare` asks them like the rest.
+
+`THEORIES` lists those that `compare` asks, the best first.
 """
 
 from ._core import (
+    Coverage,
     EquivalentLinearization,
     HarmonicSolution,
     PulseChain,
@@ -23,6 +27,8 @@ from ._core import (
 )
 
 __all__ = [
+    "THEORIES",
+    "Coverage",
     "EquivalentLinearization",
     "HarmonicSolution",
     "PulseChain",
@@ -39,3 +45,16 @@ __all__ = [
     "viscous_damping_for",
     "viscous_pulse_response",
 ]
+
+#: Every theory that `compare` asks if none are named, the best first.
+THEORIES = (
+    WhiteNoise(),
+    EquivalentLinearization(),
+    EquivalentLinearization(force="thesis"),
+    StationaryLinearization(),
+    PulseChain(),
+    PulseSuperposition(overlap="renewal"),
+    PulseSuperposition(overlap="thesis"),
+    PulseSuperposition(overlap="none"),
+    SlowlyVaryingParameters(),
+)

@@ -12,6 +12,7 @@
 
 #include "simd/row_moments.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
 
 namespace stickslip {
 
@@ -371,14 +372,9 @@ Interval Ensemble::exceedance(double level, double confidence) const {
   const auto k = static_cast<double>(exceeding), n = static_cast<double>(members_all);
   const double tail = (1 - confidence) / 2;
   // GSL's own inverse of the beta law fails to converge for one count in ten of 20,000, and would end the process.
-  const auto root = [](auto&& is_below) {
-    double low = 0, high = 1;
-    for (double middle = 0.5; low < middle && middle < high; middle = low + (high - low) / 2)
-      (is_below(middle) ? low : high) = middle;
-    return high;
-  };
-  return {k / n, k == 0 ? 0 : root([&](double p) { return gsl_cdf_beta_P(p, k, n - k + 1) < tail; }),
-          k == n ? 1 : root([&](double p) { return gsl_cdf_beta_Q(p, k + 1, n - k) > tail; })};
+  const auto low = [&](double p) { return !(gsl_cdf_beta_P(p, k, n - k + 1) < tail); };
+  const auto high = [&](double p) { return !(gsl_cdf_beta_Q(p, k + 1, n - k) > tail); };
+  return {k / n, k == 0 ? 0 : numerics::first_where(0, 1, low), k == n ? 1 : numerics::first_where(0, 1, high)};
 }
 
 }  // namespace stickslip

@@ -1,12 +1,13 @@
 #include "stickslip/ground/strong_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/numerics/root.hpp"
 #include "stickslip/units.hpp"
 
 namespace stickslip {
@@ -49,10 +50,8 @@ StrongMotion strong_motion(const GroundMotion& motion) {
       if (!(s.duration > 0)) continue;
       const double here = intensity(s, s.duration);
       if (sum + here >= share * total) {
-        double low = 0, high = s.duration;
-        for (double t = low + (high - low) / 2; t > low && t < high; t = low + (high - low) / 2)
-          (sum + intensity(s, t) < share * total ? low : high) = t;
-        return unit.time(i) + high;
+        const auto reached = [&](double t) { return !(sum + intensity(s, t) < share * total); };
+        return unit.time(i) + numerics::first_where(0, s.duration, reached);
       }
       sum += here;
     }
@@ -66,16 +65,13 @@ StrongMotion strong_motion(const GroundMotion& motion) {
   result.rms_acceleration = std::sqrt(0.9 * total / duration) * peak;
 
   // The velocity's mean square about c0 + c1 s, s = 2 (t - begin) / duration - 1 (Legendre: 1 and s are orthogonal).
-  constexpr std::array nodes{-0.77459666924148338, 0.0, 0.77459666924148338};  // exact to the fifth power
-  constexpr std::array weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
   const auto mean = [&](auto&& f) {
     double sum = 0, velocity = 0;
     for_each_piece(unit, result.begin, result.end, [&](double from, const Segment& s) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double t = s.duration * (1 + nodes[k]) / 2, slope = (s.end - s.start) / s.duration;
-        const double place = 2 * (from + t - result.begin) / duration - 1;
-        sum += weights[k] * s.duration * f(velocity + t * (s.start + slope * t / 2), place);
-      }
+      const double slope = (s.end - s.start) / s.duration;
+      sum += numerics::gauss_integral<3>(0, s.duration, [&](double t) {  // exact to the fifth power
+        return f(velocity + t * (s.start + slope * t / 2), 2 * (from + t - result.begin) / duration - 1);
+      });
       velocity += s.duration * (s.start + s.end) / 2;
     });
     return sum / duration;

@@ -139,6 +139,14 @@ Covariance frictionless_covariance(double natural_frequency, double s0, double t
   return {free.q11 * (1.5 * less / angle / angle), free.q12 * phase * phase, free.q22 * (1 - less / 2)};
 }
 
+void check_start(const LinearizedLaw& law, double s0, Start start) {
+  const double a = level_at_rest(law), unit = s0 / a / a;
+  if (start == Start::thesis)
+    require(std::isfinite(unit * unit * unit * s0) && unit > 0,
+            noun + ": (3.38) to (3.40) need friction: slip_level must be positive, and not too far from s0", a,
+            "m/s^2");
+}
+
 CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_frequency, double s0,
                                     std::span<const double> times,
                                     const theory::EquivalentLinearization::Options& options,
@@ -146,13 +154,10 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   check_times(noun, times);
   CovarianceSolution solution;
   if (times.empty()) return solution;
+  check_start(law, s0, options.start);
   const double a = level_at_rest(law), last = times.back();
   const double unit = s0 / a / a;
   const bool rest = options.start == Start::rest;
-  if (!rest)
-    require(std::isfinite(unit * unit * unit * s0) && unit > 0,
-            noun + ": (3.38) to (3.40) need friction: slip_level must be positive, and not too far from s0", a,
-            "m/s^2");
   const auto keep = [&](const Covariance& q, double time) {
     check_range(noun, time, q.q11 + q.q22 + std::abs(q.q12));
     solution.covariance.push_back(q);

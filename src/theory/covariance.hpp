@@ -18,6 +18,9 @@ struct CovarianceSolution {
   long steps = 0, evaluations = 0;
 };
 
+/// Refuses a law that a start does not go with.
+void check_start(const LinearizedLaw& law, double s0, theory::EquivalentLinearization::Start start);
+
 CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_frequency, double s0,
                                     std::span<const double> times,
                                     const theory::EquivalentLinearization::Options& options,

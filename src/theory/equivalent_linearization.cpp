@@ -66,6 +66,23 @@ EquivalentLinearization::EquivalentLinearization(Options options) : options_(opt
           options.tolerance);
 }
 
+std::string EquivalentLinearization::name() const {
+  switch (options_.force) {
+    case Force::gaussian:
+      return noun;
+    case Force::gaussian_a22:
+      return noun + ", gaussian_a22";
+    case Force::thesis:
+      return noun + ", thesis";
+  }
+  return noun;
+}
+
+void EquivalentLinearization::check(const detail::LinearizedLaw& law, double s0) const {
+  detail::check_start(law, s0, options_.start);
+  detail::expectation(law, options_.force, 0);
+}
+
 Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double s0,
                                          std::span<const double> times, const std::function<void()>& heartbeat) const {
   const auto solution = detail::solve_covariance(law, natural_frequency, s0, times, options_, heartbeat);
@@ -97,6 +114,7 @@ TransitionTime transition_time(const Slider<Caster>& slider, WhiteLevel s0) {
   require(slider.natural_frequency() == 0,
           "transition_time: covers casters without a spring: natural_frequency must be 0", slider.natural_frequency(),
           "rad/s");
+  detail::require_plain(slider, "transition_time");
   const double a = slider.law().slip_level(), reach = slider.law().reach();
   require(a > 0, "transition_time: without friction there is no transition: slip_level must be positive", a, "m/s^2");
   const double unit = s0.s0() / a / a, loose = reach / (s0.s0() / a) / unit;     // 1 / gamma

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 
 namespace stickslip::theory {
@@ -55,16 +56,7 @@ std::array<double, 4> lagrange(const double* x, double at) {
   return w;
 }
 
-/// Calls use(x, weight) for the points of a panel: Gauss-Legendre, four points.
-template <class Use>
-void panel(double from, double to, Use use) {
-  constexpr std::array<double, 4> nodes = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
-                                           0.93056815579702629};
-  constexpr std::array<double, 4> weights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                             0.17392742256872693};
-  const double length = to - from;
-  for (std::size_t i = 0; i < 4; ++i) use(from + length * nodes[i], length * weights[i]);
-}
+constexpr std::size_t points = 4;  // of Gauss and Legendre, on each panel
 
 // ---- amplitudes on a lattice
 
@@ -87,9 +79,10 @@ Weights gaussian(double sigma, double spacing, int reach, int count) {
   return law;
 }
 
-/// Any law by its quantiles, each spread over the four nodes next to it.
-Weights by_quantiles(const std::function<void(std::span<double>)>& quantile, double sigma, double spacing, int reach) {
-  Weights law{spacing, reach, std::vector<double>(static_cast<std::size_t>(2 * reach + 1))};
+using Quantile = std::function<void(std::span<double>)>;
+
+/// The amplitudes in the middle of equal parts of a law.
+std::vector<double> amplitudes(const Quantile& quantile) {
   constexpr std::size_t count = 1 << 14;
   std::vector<double> u(count);
   for (std::size_t i = 0; i < count; ++i) u[i] = (static_cast<double>(i) + 0.5) / count;
@@ -97,12 +90,20 @@ Weights by_quantiles(const std::function<void(std::span<double>)>& quantile, dou
   for (std::size_t i = 0; i < count; ++i)
     require(std::abs(u[i] + u[count - 1 - i]) <= 1e-9 * (1 + std::abs(u[i])),
             "PulseChain: amplitudes must be symmetric, quantile(u) = -quantile(1 - u)", u[i]);
-  for (const double q : u) {
+  return u;
+}
+
+/// Any law by its quantiles, each spread over the four nodes next to it.
+Weights by_quantiles(const Quantile& quantile, double sigma, double spacing, int reach) {
+  Weights law{spacing, reach, std::vector<double>(static_cast<std::size_t>(2 * reach + 1))};
+  const std::vector<double> all = amplitudes(quantile);
+  for (const double q : all) {
     const double place = std::clamp(sigma * q / spacing, -reach + 1.0, reach - 1.0);
     const int cell = std::clamp(static_cast<int>(std::floor(place)), 1 - reach, reach - 2);
     const double nodes[] = {cell - 1.0, cell + 0.0, cell + 1.0, cell + 2.0};
     const auto share = lagrange(nodes, place);
-    for (int i = 0; i < 4; ++i) law[cell - 1 + i] += share[static_cast<std::size_t>(i)] / count;
+    for (int i = 0; i < 4; ++i)
+      law[cell - 1 + i] += share[static_cast<std::size_t>(i)] / static_cast<double>(all.size());
   }
   return law;
 }
@@ -119,7 +120,7 @@ Weights convolved(const Weights& a, const Weights& b) {
 struct Arrivals {
   double rate;   ///< pulses to a step
   double sigma;  ///< rms amplitude
-  std::function<void(std::span<double>)> quantile{};
+  Quantile quantile{};
 
   Weights single(double spacing, int reach) const {
     return quantile ? by_quantiles(quantile, sigma, spacing, reach) : gaussian(sigma, spacing, reach, 1);
@@ -197,7 +198,8 @@ class Pairs {
     const int count = static_cast<int>(steps_.values.size()), most = 2 * count;
     for (double from = 0; from < most;) {
       const double length = from < count ? 0.5 : 1;
-      panel(from, from + length, [&](double offset, double weight) { add_pairs(integral, offset, weight, true); });
+      numerics::gauss_points<points>(from, from + length,
+                                     [&](double offset, double weight) { add_pairs(integral, offset, weight, true); });
       from += length;
     }
     for (int k = 0; k < most * slots; ++k)
@@ -740,28 +742,36 @@ double chance_to_slip(const Arrivals& arrivals, double length) {
   return sum;
 }
 
-void remark(Moments& moments, const std::string& sentence) {
-  moments.remark += (moments.remark.empty() ? "" : " ") + sentence;
-}
+/// A slider under pulses, in the units of the chain.
+struct Problem {
+  double step;   ///< of the pulse [s]
+  double push;   ///< rms of the largest acceleration of a pulse [m/s^2]
+  double sigma;  ///< the same in slip levels; the chain's own, in `arrivals`, is at most `strongest`
+  int slots;     ///< to a step
+  Steps steps;
+  Arrivals arrivals;
+  double chance;  ///< that anything slips, or more; 1 where sigma is not below `weakest`
 
-}  // namespace
+  /// @throws std::invalid_argument for what the chain does not cover
+  Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses, bool refined);
+};
 
-Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
-                            const std::function<void()>& heartbeat) const {
+Problem::Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses, bool refined) {
   const double level = slider.law().forward();
   const PoissonOptions& options = pulses.options();
   detail::require_no_spring(slider.natural_frequency(), "PulseChain");
+  detail::require_plain(slider, "PulseChain");
   require(slider.law().backward() == level, "PulseChain: both slip levels must be " + shortest(level) + " m/s^2",
           slider.law().backward(), "m/s^2");
   if (options.envelope) throw std::invalid_argument("PulseChain: an envelope is not covered; PulseSuperposition does");
-  for (const double time : times)
-    require(std::isfinite(time) && time >= 0, "PulseChain: times must be finite and at least 0", time, "s");
   double largest = 0;
   for (const double value : options.shape.values()) largest = std::max(largest, std::abs(value));
-  const double step = options.shape.times()[1] * pulses.half_width(), sigma = pulses.sigma() * largest / level;
-  const int slots = refined_ && sigma <= 1 ? 2 : 1;  // above, the coarser grid errs by more than one slot to a step
-  const Steps steps = steps_of(options.shape, slots);
-  const Arrivals arrivals{pulses.rate() * step, std::min(sigma, strongest), options.quantile};
+  step = options.shape.times()[1] * pulses.half_width();
+  push = pulses.sigma() * largest;
+  sigma = push / level;
+  slots = refined && sigma <= 1 ? 2 : 1;  // above, the coarser grid errs by more than one slot to a step
+  steps = steps_of(options.shape, slots);
+  arrivals = {pulses.rate() * step, std::min(sigma, strongest), options.quantile};
   require(arrivals.rate <= most_arrivals, "PulseChain: pulses to a step of the pulse must be at most 50",
           arrivals.rate);
   if (sigma > strongest)
@@ -771,6 +781,31 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
                 "of friction, 1000 exp(3 x " +
                 shortest(arrivals.rate) + ")",
             sigma);
+  chance =
+      options.quantile || sigma >= weakest ? 1 : chance_to_slip(arrivals, static_cast<double>(steps.values.size()));
+  if (sigma < weakest)
+    require(chance < 1e-12,
+            "PulseChain: sigma must be at least a twentieth of the slip level where pulses are this many", sigma);
+}
+
+void remark(Moments& moments, const std::string& sentence) {
+  moments.remark += (moments.remark.empty() ? "" : " ") + sentence;
+}
+
+}  // namespace
+
+void PulseChain::check(const Slider<Coulomb>& slider, const PoissonPulses& pulses) const {
+  const Problem problem(slider, pulses, refined_);
+  if (problem.arrivals.quantile) amplitudes(problem.arrivals.quantile);
+}
+
+Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
+                            const std::function<void()>& heartbeat) const {
+  const Problem problem(slider, pulses, refined_);
+  const auto& [step, push, sigma, slots, steps, arrivals, chance] = problem;
+  const PoissonOptions& options = pulses.options();
+  for (const double time : times)
+    require(std::isfinite(time) && time >= 0, "PulseChain: times must be finite and at least 0", time, "s");
   const bool drifting = strength_of(arrivals) > 3;
   Moments moments;
   const std::size_t count = times.size();
@@ -781,9 +816,6 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     e->error.assign(count, 0);
   }
   if (sigma < weakest) {
-    const double chance = options.quantile ? 1 : chance_to_slip(arrivals, static_cast<double>(steps.values.size()));
-    require(chance < 1e-12,
-            "PulseChain: sigma must be at least a twentieth of the slip level where pulses are this many", sigma);
     remark(moments, "Nothing slips: the slip level is " + shortest(1 / sigma) +
                         " times sigma, and the chance that the ground's acceleration exceeds it is " +
                         shortest(chance) + ".");
@@ -806,7 +838,7 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     solution.growth = part * solution.growth + (1 - part) * free.growth;
     solution.variance = part * solution.variance + (1 - part) * free.variance;
   }
-  const double acceleration = pulses.sigma() * largest / arrivals.sigma;  // the slip level, unless it is too small
+  const double acceleration = push / arrivals.sigma;  // the slip level, unless it is too small
   const double v_unit = std::pow(acceleration * step, 2), x_unit = v_unit * step * step;
 
   // Of a lattice with a random phase, pulses begin at t = phase, phase + h, ...: means over the slot before t.
@@ -818,7 +850,8 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     const double t = times[i] / step, early = std::min(t, correction.settled());
     double x = correction.late()[0] * (sum(t) - sum(early));
     for (double from = 0; from < early; from += 0.5)
-      panel(from, std::min(from + 0.5, early), [&](double at, double w) { x += w * correction(at)[0] * growth(at); });
+      numerics::gauss_points<points>(from, std::min(from + 0.5, early),
+                                     [&](double at, double w) { x += w * correction(at)[0] * growth(at); });
     const auto [of_growth, of_variance] = correction(t);
     moments.displacement_variance.value[i] = x_unit * x;
     moments.covariance.value[i] = x_unit / step * of_growth * growth(t) / 2;

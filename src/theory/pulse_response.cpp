@@ -4,6 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/numerics/root.hpp"
+
 namespace stickslip::theory {
 namespace {
 
@@ -53,18 +56,10 @@ double viscous_square(double z, double window) {
       const double c = -n / z, d = v + n / z;
       return c * c * length + 2 * c * d * length * phi1(z * length) + d * d * length * phi1(2 * z * length);
     }
-    constexpr std::array<double, 5> nodes = {0.14887433898163121, 0.43339539412924719, 0.67940956829902441,
-                                             0.86506336668898451, 0.97390652851717172};
-    constexpr std::array<double, 5> weights = {0.29552422471475287, 0.26926671930999636, 0.21908636251598204,
-                                               0.14945134915058059, 0.06667134430868814};
-    double sum = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (const double side : {-1.0, 1.0}) {
-        const double s = length * (1 + side * nodes[i]) / 2;
-        const double at = v * std::exp(-z * s) - n * s * phi1(z * s);
-        sum += weights[i] * at * at;
-      }
-    return sum * length / 2;
+    return numerics::gauss_integral<10>(0, length, [&](double s) {
+      const double at = v * std::exp(-z * s) - n * s * phi1(z * s);
+      return at * at;
+    });
   };
   double square = piece(0, std::min(window, 1.0)) + piece(1, std::min(window, 2.0) - 1);
   if (window > 2 && z > 0) {
@@ -114,13 +109,10 @@ double viscous_damping_for(double velocity_square, double b, double dt, double w
                   "viscous_damping_for: velocity_square must lie between 0 and the " +
                       detail::shortest(most * b * b * dt * dt * dt) + " m^2/s of no damping",
                   velocity_square, "m^2/s");
-  double low = 0, high = 1;  // the integral falls as the damping rises
-  while (viscous_square(high, until) > square) high *= 2;
-  for (;;) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) return middle / dt;
-    (viscous_square(middle, until) > square ? low : high) = middle;
-  }
+  const auto below = [&](double z) { return viscous_square(z, until) <= square; };  // it falls as the damping rises
+  double high = 1;
+  while (!below(high)) high *= 2;
+  return numerics::first_where(0, high, below) / dt;
 }
 
 }  // namespace stickslip::theory

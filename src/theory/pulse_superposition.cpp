@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "stickslip/friction/coulomb.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/numerics/root.hpp"
 #include "stickslip/theory/pulse_chain.hpp"
 
 namespace stickslip::theory {
@@ -31,21 +33,7 @@ struct Node {
   double weight;
 };
 
-/// Gauss-Legendre, sixteen points on [-1, 1].
-constexpr std::array<double, 8> abscissae = {0.095012509837637440, 0.28160355077925891, 0.45801677765722739,
-                                             0.61787624440264375,  0.75540440835500303, 0.86563120238783174,
-                                             0.94457502307323258,  0.98940093499164993};
-constexpr std::array<double, 8> weights = {0.18945061045506850,  0.18260341504492359, 0.16915651939500254,
-                                           0.14959598881657673,  0.12462897125553387, 0.095158511682492785,
-                                           0.062253523938647893, 0.027152459411754095};
-
-/// Calls use(x, weight) for the points of a panel.
-template <class Use>
-void panel(double from, double to, Use use) {
-  const double half = (to - from) / 2, middle = (to + from) / 2;
-  for (std::size_t i = 0; i < abscissae.size(); ++i)
-    for (const double side : {-1.0, 1.0}) use(middle + side * half * abscissae[i], half * weights[i]);
-}
+constexpr std::size_t points = 16;  // of Gauss and Legendre, on each panel
 
 /// Amplitudes of one sign at which a step of the pulse just moves the slider, ascending.
 std::vector<double> thresholds(const PulseShape& shape, double forward, double backward, double sign) {
@@ -102,7 +90,7 @@ void add_gaussian(std::vector<Node>& nodes, const std::vector<Component>& compon
     for (double from = edges[i]; from < end; width = std::min(2 * width, std::max(2 * narrow, from / 5))) {
       const double to = std::min(from + width, end);
       if (!(to > from)) break;  // steps below the last digit: nothing slips
-      panel(from, to, [&](double b, double weight) {
+      numerics::gauss_points<points>(from, to, [&](double b, double weight) {
         double density = 0;
         for (const Component& c : components) {
           const double z = b / c.sigma;
@@ -121,15 +109,11 @@ void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double
                    const std::vector<double>& down) {
   const auto& quantile = pulses.options().quantile;
   std::vector<double> edges = {0, 0.5, 1};
-  const auto place = [&](double b) {  // of an amplitude, by bisection
-    double low = 0, high = 1;
-    while (true) {
-      double middle = low + (high - low) / 2;
-      if (middle <= low || middle >= high || middle < 1e-17) return high;
-      double value = middle;
-      quantile({&value, 1});
-      (sigma * value < b ? low : high) = middle;
-    }
+  const auto place = [&](double b) {  // of an amplitude; what is below 1e-17 counts for nothing
+    return numerics::first_where(1e-17, 1, [&](double u) {
+      quantile({&u, 1});
+      return !(sigma * u < b);
+    });
   };
   for (const double b : up) edges.push_back(place(b));
   for (const double b : down) edges.push_back(place(-b));
@@ -138,7 +122,7 @@ void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double
   std::vector<double> u, w;
   const auto add = [&](double from, double to) {
     if (to > from)
-      panel(from, to, [&](double x, double weight) {
+      numerics::gauss_points<points>(from, to, [&](double x, double weight) {
         u.push_back(x);
         w.push_back(weight);
       });
@@ -266,9 +250,7 @@ double reach_of(const detail::PulseSystem& system, double step) {
   double high = step;
   for (int i = 0; i < 60 && !far(high); ++i) high *= 2;
   if (!far(high)) return infinity;
-  double low = 0;
-  for (int i = 0; i < 20; ++i) (far((low + high) / 2) ? high : low) = (low + high) / 2;
-  return high;
+  return numerics::first_where(0, high, far);
 }
 
 /// What overlaps do that the theory leaves out, at the level where the slider lies before: rms displacement of a block
@@ -311,25 +293,34 @@ void remark(Moments& moments, const std::string& sentence) {
 
 }  // namespace
 
+std::string PulseSuperposition::name() const {
+  return std::string("PulseSuperposition, ") + (overlap_ == Overlap::none     ? "none"
+                                                : overlap_ == Overlap::thesis ? "thesis"
+                                                                              : "renewal");
+}
+
+void PulseSuperposition::check(bool constant_level, const PoissonPulses& pulses) const {
+  const double overlap = pulses.rate() * pulses.half_width();
+  if (overlap_ != Overlap::none) {
+    require(overlap <= most_overlap,
+            "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
+                shortest(most_overlap),
+            overlap);
+    if (pulses.options().quantile)
+      throw std::invalid_argument(
+          "PulseSuperposition: composites of overlapping pulses are known for Gaussian amplitudes; with a quantile "
+          "function overlap must be none");
+  }
+  if (pulses.options().envelope && !constant_level)
+    throw std::invalid_argument("PulseSuperposition: an envelope is covered for constant slip levels only");
+}
+
 Moments PulseSuperposition::predict(const detail::PulseSystem& system, const PoissonPulses& pulses,
                                     std::span<const double> times, const std::function<void()>& heartbeat) const {
   const double dt = pulses.half_width(), sigma = pulses.sigma(), overlap = pulses.rate() * dt;
   const PoissonOptions& options = pulses.options();
   for (const double time : times)
     require(std::isfinite(time) && time >= 0, "PulseSuperposition: times must be finite and at least 0", time, "s");
-  if (overlap_ != Overlap::none) {
-    require(overlap <= most_overlap,
-            "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
-                shortest(most_overlap),
-            overlap);
-    if (options.quantile)
-      throw std::invalid_argument(
-          "PulseSuperposition: composites of overlapping pulses are known for Gaussian amplitudes; with a quantile "
-          "function overlap must be none");
-  }
-  if (options.envelope && !system.constant_level)
-    throw std::invalid_argument("PulseSuperposition: an envelope is covered for constant slip levels only");
-
   const Pulses law(system, pulses, overlap_, heartbeat);
   const Rates rest = law.rates(0, sigma);
   const double per_composite = overlap_ == Overlap::none ? 1 : 1 + overlap;  // at most: the mean square
@@ -365,7 +356,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
     for (const std::size_t i : order) {
       while (now < times[i]) {
         const double to = std::min(times[i], now + longest);
-        panel(now, to, [&](double t, double weight) {
+        numerics::gauss_points<points>(now, to, [&](double t, double weight) {
           const double strength = sigma * (*options.envelope)(t);
           if (strength == 0) return;
           const Rates rates = law.rates(0, strength);
@@ -516,14 +507,10 @@ double peak_from_growth(double growth_rate, double duration, double probability)
     return 2 * sum;
   };
   const bool rare = probability > 0.5;
-  double low = 0, high = 1;
   const auto reached = [&](double z) { return rare ? above(z) <= 1 - probability : below(z) >= probability; };
+  double high = 1;
   while (!reached(high)) high *= 2;
-  for (;;) {
-    const double middle = low + (high - low) / 2;
-    if (middle <= low || middle >= high) return high * spread;
-    (reached(middle) ? high : low) = middle;
-  }
+  return numerics::first_where(0, high, reached) * spread;
 }
 
 }  // namespace stickslip::theory

@@ -13,6 +13,8 @@
 #include "numerics/ode.hpp"
 #include "numerics/quadrature.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
+#include "theory/theory_moments.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -45,30 +47,6 @@ void check_amplitude(double amplitude) {
 void check_cycle(double amplitude) {
   require(std::isfinite(amplitude) && amplitude >= 0,
           "SlowlyVaryingParameters: amplitude must be finite and at least 0", amplitude, "m");
-}
-
-/// Where f, of opposite signs at `a` and `b`, is zero, to round-off.
-/// T. R. Chandrupatla, Advances in Engineering Software 28 (1997), 145-149.
-template <class F>
-double root(const F& f, double b, double fb, double a, double fa) {
-  for (double part = 0.5;;) {
-    const double x = a + part * (b - a), fx = f(x);
-    double c = a, fc = fa;
-    if ((fx > 0) != (fa > 0)) {
-      c = std::exchange(b, a);
-      fc = std::exchange(fb, fa);
-    }
-    a = x;
-    fa = fx;
-    const double best = std::abs(fa) < std::abs(fb) ? a : b;
-    const double least = (2 * round_off * best + std::numeric_limits<double>::min()) / std::abs(b - a);
-    if (least > 0.5 || fa == 0) return best;
-    const double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
-    part = 0.5;  // or by inverse quadratic interpolation, where that stays inside
-    if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)
-      part = fa / (fb - fa) * (fc / (fb - fc)) + (c - a) / (b - a) * (fa / (fc - fa)) * (fb / (fc - fb));
-    part = std::clamp(part, least, 1 - least);
-  }
 }
 
 /// sum c_j z^j.
@@ -321,7 +299,7 @@ std::vector<HarmonicSolution> SlowlyVaryingParameters::response(double B, double
   std::vector<HarmonicSolution> found;
   const auto look = [&](const Balance::Sides& low, const Balance::Sides& high) {
     if ((low.value > 0) != (high.value > 0))
-      found.push_back(balance.solution(root(balance, low.amplitude, low.value, high.amplitude, high.value)));
+      found.push_back(balance.solution(numerics::root(balance, low.amplitude, low.value, high.amplitude, high.value)));
   };
   const auto determinant = [&](double amplitude) { return balance.determinant(amplitude); };
   const std::vector<double> amplitudes = balance.amplitudes();
@@ -331,7 +309,7 @@ std::vector<HarmonicSolution> SlowlyVaryingParameters::response(double B, double
     const Balance::Sides high = balance.sides(amplitude);
     if (low.amplitude > 0 && (low.determinant > 0) != (high.determinant > 0)) {
       const Balance::Sides fold =
-          balance.sides(root(determinant, low.amplitude, low.determinant, high.amplitude, high.determinant));
+          balance.sides(numerics::root(determinant, low.amplitude, low.determinant, high.amplitude, high.determinant));
       look(low, fold);
       look(fold, high);
     } else {
@@ -376,7 +354,7 @@ double SlowlyVaryingParameters::least_amplitude(double B) const {
     if (!(high <= last)) return infinity;
     high_value = shortage(high);
   }
-  return root(shortage, low, low_value, high, high_value);
+  return numerics::root(shortage, low, low_value, high, high_value);
 }
 
 bool SlowlyVaryingParameters::rests(double B) const {
@@ -542,6 +520,21 @@ HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, dou
     return true;
   });
   return result;
+}
+
+Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span<const double> times,
+                                         const std::function<void()>& heartbeat) const {
+  const double omega = motion.omega();
+  const HarmonicTransient path = transient(motion.amplitude(), omega, 0, 0, times, heartbeat);
+  Moments moments = detail::moments_at(times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (path.amplitude[i] == 0) continue;  // its phase is NaN
+    const double angle = motion.phase(times[i]) + path.phase[i];
+    moments.displacement_mean.value[i] = path.amplitude[i] * std::cos(angle);
+    moments.velocity_mean.value[i] = -omega * path.amplitude[i] * std::sin(angle);
+  }
+  moments.growth_rate.value = 0;
+  return moments;
 }
 
 HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, double amplitude, double phase,

@@ -30,7 +30,8 @@ double detuning(double omega, double wn) {
 }
 
 /// Where f, which rises through zero once, has its zero: a bracket by steps that double, then the false position
-/// (Anderson and Bjorck, BIT 13 (1973)).
+/// (Anderson and Bjorck, BIT 13 (1973)). Not `numerics::root`, which halves the bracket first: far from the zero the
+/// integral behind f may not converge.
 template <class F>
 double rising_root(const F& f, double start) {
   double a = start, fa = f(a), b = a, fb = fa;
@@ -154,16 +155,6 @@ NearZero near_zero(const Spectrum& spectrum, double scale) {
   return {0, spectrum(0)};
 }
 
-void check(const Slider<Coulomb>& slider) {
-  if (slider.law().forward() != slider.law().backward())
-    throw std::invalid_argument(
-        "StationaryLinearization: the slip level must be the same both ways, for what slides one way more easily "
-        "drifts; "
-        "got " +
-        detail::shortest(slider.law().forward()) + " m/s^2 forward and " + detail::shortest(slider.law().backward()) +
-        " m/s^2 backward");
-}
-
 constexpr double critical = 0.79788456080286536;  // sqrt(2/pi), thesis (4.22)
 
 /// sigma_n / a, to be read.
@@ -181,9 +172,20 @@ std::string remark_of(double ratio, double wn, double low_power) {
 
 }  // namespace
 
-double StationaryLinearization::threshold(const Slider<Coulomb>& slider, const Spectrum& spectrum) const {
+void StationaryLinearization::check(const Slider<Coulomb>& slider) {
+  detail::require_plain(slider, "StationaryLinearization");
+  if (slider.law().forward() != slider.law().backward())
+    throw std::invalid_argument(
+        "StationaryLinearization: the slip level must be the same both ways, for what slides one way more easily "
+        "drifts; "
+        "got " +
+        detail::shortest(slider.law().forward()) + " m/s^2 forward and " + detail::shortest(slider.law().backward()) +
+        " m/s^2 backward");
+}
+
+double StationaryLinearization::threshold(const Slider<Coulomb>& slider, const StationaryNoise& noise) const {
   check(slider);
-  return critical * slider.law().forward() / std::sqrt(spectrum.variance());  // thesis (4.22)
+  return critical * slider.law().forward() / std::sqrt(noise.spectrum().variance());  // thesis (4.22)
 }
 
 StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& slider, const Spectrum& spectrum) const {

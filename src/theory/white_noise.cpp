@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numbers>
 #include <string>
-#include <variant>
 
 #include "stickslip/error.hpp"
 #include "theory/theory_moments.hpp"
@@ -115,17 +114,6 @@ double equal_level(const Coulomb& law, const std::string& what) {
 
 }  // namespace
 
-WhiteLevel::WhiteLevel(double s0) : s0_(s0) {
-  detail::require(std::isfinite(s0) && s0 > 0, "WhiteNoise: s0 must be positive and finite", s0, "m^2/s^3");
-}
-
-WhiteLevel::WhiteLevel(const Spectrum& spectrum) : s0_(0) {
-  const auto* const white = std::get_if<Spectrum::White>(&spectrum.form());
-  if (white == nullptr)
-    throw std::invalid_argument("WhiteNoise: covers white noise only, got the spectrum " + spectrum.configuration());
-  s0_ = white->s0;
-}
-
 WhiteNoise::WhiteNoise(const Coulomb& law, WhiteLevel s0) : law_(law), s0_(s0.s0()) {
   for (const double level : {law.forward(), law.backward()}) {
     const double velocity = pi * s0_ / level;
@@ -139,6 +127,7 @@ WhiteNoise::WhiteNoise(const Coulomb& law, WhiteLevel s0) : law_(law), s0_(s0.s0
 }
 
 WhiteNoise::WhiteNoise(const Slider<Coulomb>& slider, WhiteLevel s0) : WhiteNoise(slider.law(), s0) {
+  detail::require_plain(slider, "WhiteNoise");
   detail::require(slider.natural_frequency() == 0,
                   "WhiteNoise: nothing exact is known with a spring: natural_frequency must be 0",
                   slider.natural_frequency(), "rad/s");

@@ -8,6 +8,7 @@
 #include <stickslip/ground/harmonic_motion.hpp>
 #include <stickslip/harmonic/continuation.hpp>
 #include <stickslip/harmonic/orbits.hpp>
+#include <stickslip/numerics/root.hpp>
 #include <stickslip/sliding/integrate.hpp>
 #include <stickslip/theory/slowly_varying_parameters.hpp>
 
@@ -320,13 +321,11 @@ ThesisFigure figure_2_6(Thesis& thesis) {
   panel.y_limits = {0, 8};
   // (2.48), (2.53): more than without the spring where |omega^2 - wn^2| < omega^2.
   const SlowlyVaryingParameters spring(Slider<Coulomb>(Coulomb(1.0), 1.0)), none(Coulomb(1.0));
-  double low = 0.5, high = 0.95;
-  while (high - low > 1e-9) {
-    const double omega = (low + high) / 2;
-    (spring.response(4, omega).back().amplitude > none.response(4, omega).back().amplitude ? high : low) = omega;
-  }
+  const double begin = numerics::first_where(0.5, 0.95, [&](double omega) {
+    return spring.response(4, omega).back().amplitude > none.response(4, omega).back().amplitude;
+  });
   figure.statements.push_back(about("after (2.48)", "the spring makes the amplitude larger above ω/ω_n =", 1, 0.01,
-                                    {high}, "already from 1/√2 on"));
+                                    {begin}, "already from 1/√2 on"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }

@@ -5,6 +5,7 @@
 #include <stickslip/ensemble/run.hpp>
 #include <stickslip/excitation/gaussian.hpp>
 #include <stickslip/friction/coulomb.hpp>
+#include <stickslip/numerics/root.hpp>
 #include <stickslip/theory/stationary_linearization.hpp>
 #include <stickslip/theory/white_noise.hpp>
 #include <stickslip/viscous.hpp>
@@ -107,12 +108,8 @@ ThesisFigure figure_4_1(Thesis&) {
                                     {std::sqrt(theory::WhiteNoise(block, 1.0).variance())},
                                     "it bounds linearization's; exact is √2 π"));
   // (4.22) from below and above.
-  double low = 0.2, high = 0.5;
-  while (high - low > 1e-9) {
-    const double width = (low + high) / 2;
-    (linearized(1, width) > 0 ? high : low) = width;
-  }
-  figure.statements.push_back(about("(4.39)", "no motion by linearization below ΔΩ =", 1 / pi, 1e-6, {high}));
+  const double least = numerics::first_where(0.2, 0.5, [](double width) { return linearized(1, width) > 0; });
+  figure.statements.push_back(about("(4.39)", "no motion by linearization below ΔΩ =", 1 / pi, 1e-6, {least}));
   double z = 1e6;  // (4.41) as printed, 50 steps
   for (int i = 0; i < 50; ++i) z = 1 / (pi * std::atan(z * 0.35 / (z * z + 1.35)));
   figure.statements.push_back(about("(4.41)", "50 steps from 1e6 suffice: Z_eq for Ω1 = 1, ΔΩ = 0.35", z, 0.01,

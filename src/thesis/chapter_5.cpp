@@ -5,6 +5,7 @@
 #include <stickslip/ensemble/run.hpp>
 #include <stickslip/excitation/poisson.hpp>
 #include <stickslip/friction/coulomb.hpp>
+#include <stickslip/numerics/root.hpp>
 #include <stickslip/theory/pulse_chain.hpp>
 #include <stickslip/theory/pulse_response.hpp>
 #include <stickslip/theory/pulse_superposition.hpp>
@@ -64,12 +65,8 @@ ThesisFigure figure_5_2(Thesis&) {
   sum += 2 * 2 * pi / last * std::pow(1 / pi, 2) * 3.0 / 8;
   figure.statements.push_back(about("(5.6), (5.20)", "integral of the pulses' density over their variance (5.19)", 1,
                                     1e-3, {sum / pulses.variance()}, "(5.6) has half of the amplitude"));
-  double low = 2, high = 2.6;  // tan x = 2 x, x = w dt / 2
-  while (high - low > 1e-12) {
-    const double w = (low + high) / 2;
-    (std::tan(w / 2) < w ? low : high) = w;
-  }
-  figure.statements.push_back(about("(5.60)", "the spectrum's peak, ωΔt", pi, 0.05, {high},
+  const double peak = numerics::first_where(2, 2.6, [](double w) { return std::tan(w / 2) >= w; });
+  figure.statements.push_back(about("(5.60)", "the spectrum's peak, ωΔt", pi, 0.05, {peak},
                                     "π/Δt is a definition of the centre frequency, not its peak"));
   return figure;
 }

@@ -59,6 +59,7 @@ def test_white_noise_brings_the_exact_answer_and_linearization():
         "WhiteNoise",
         "EquivalentLinearization",
         "EquivalentLinearization, thesis",
+        "StationaryLinearization",
     ]
     ratio, error = c.ratio("WhiteNoise", "velocity_variance")
     assert np.all(np.abs(ratio - 1) < 0.02 + 3 * error)

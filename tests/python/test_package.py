@@ -1,10 +1,13 @@
 """What the package shows of itself in a fresh interpreter."""
 
+import ast
 import importlib
 import subprocess
 import sys
+from graphlib import TopologicalSorter
 
 import pytest
+from pages import ROOT
 
 
 def shown(module):
@@ -33,3 +36,17 @@ def test_a_module_shows_its_public_names_and_nothing_else(module):
 def test_a_submodule_shows_once_it_is_imported():
     script = "import stickslip, stickslip.thesis; print('thesis' in dir(stickslip))"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True).stdout == b"True\n"
+
+
+def test_modules_do_not_import_each_other_in_a_circle():
+    """Not within functions either, nor for type checkers alone."""
+    files = {file.stem: file for file in (ROOT / "python" / "stickslip").glob("*.py")}
+    imports = {}
+    for name, file in files.items():
+        imports[name] = set()
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.level == 1:
+                names = [node.module] if node.module else [alias.name for alias in node.names]
+                imports[name].update(set(names) & files.keys())
+    assert imports["comparison"] >= {"plotting", "theory"}  # else they are not read as written
+    list(TopologicalSorter(imports).static_order())  # raises CycleError

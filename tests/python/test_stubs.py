@@ -108,6 +108,20 @@ linearized = ss.theory.StationaryLinearization().predict(ss.Slider(block, 2), so
 spread: float = linearized.velocity_std + linearized.velocity_spectrum(3)
 moments: ss.Moments = linearized.transient([1, 2])
 
+class MyTheory:
+    name = "mine"
+
+    def covers(self, slider: object, excitation: object) -> ss.theory.Coverage:
+        return ss.theory.Coverage("mine covers pulses", excitation=False)
+
+    def predict(self, slider: object, excitation: object, times: NDArray[np.float64]) -> ss.Moments:
+        return ss.Moments(times, velocity_variance=times**2, growth_rate=3)
+
+compared = ss.compare(block, pulses, members=10, theories=[*ss.theory.THEORIES, MyTheory()])
+answer: bool = bool(ss.theory.PulseChain().covers(wheel, pulses))
+moments = ss.theory.PulseChain().predict(block, pulses, [1, 2])
+moments = ss.theory.StationaryLinearization().predict(block, 0.1, [1, 2])
+
 try:
     r.plot(title="Kobe")
 except ss.ConvergenceError as error:
@@ -143,7 +157,7 @@ ss.run_ensemble([block, quake], quake, members=10, seed=1)  # type: ignore[list-
 ss.run_ensemble(block, ss.Drawn([block]), members=10, seed=1)  # type: ignore[list-item]
 ss.run_ensemble(block, Mine(), members=1e3, seed=1)  # type: ignore[arg-type]
 ss.run_ensemble(block, Mine(), members=10)  # type: ignore[call-arg]
-ss.theory.StationaryLinearization().predict(wheel, soil)  # type: ignore[arg-type]
+ss.theory.StationaryLinearization().predict(wheel, soil)  # type: ignore[call-overload]
 ss.nothing  # type: ignore[attr-defined]
 """
 

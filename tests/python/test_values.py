@@ -114,6 +114,11 @@ EXAMPLES = {
         BRANCH,
         harmonic.continuation(WHEEL, BRANCH[0], 0.9, 1.1, largest_step=0.1),
     ],
+    theory.Coverage: [
+        theory.Coverage(),
+        theory.PulseChain().covers(WHEEL, PULSES),
+        theory.PulseChain().covers(WHEEL, WHITE),
+    ],
     theory.EquivalentLinearization: [
         theory.EquivalentLinearization(),
         theory.EquivalentLinearization("thesis", start="thesis"),
@@ -135,7 +140,11 @@ EXAMPLES = {
     theory.StationaryLinearization: [theory.StationaryLinearization()],
     theory.StationaryPrediction: LINEARIZED,
     theory.TransitionTime: [theory.transition_time(WHEEL, s0) for s0 in (0.01, 0.02)],
-    theory.WhiteNoise: [theory.WhiteNoise(BLOCK, WHITE), theory.WhiteNoise(BLOCK, 2)],
+    theory.WhiteNoise: [
+        theory.WhiteNoise(),
+        theory.WhiteNoise(BLOCK, WHITE),
+        theory.WhiteNoise(BLOCK, 2),
+    ],
     thesis.ThesisCheck: FIGURES[0].check(100)[:2],
     thesis.ThesisCurve: [c for figure in FIGURES for panel in figure.panels for c in panel.curves],
     thesis.ThesisFigure: FIGURES,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "stickslip/flow/closed_form.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/state.hpp"
 
@@ -117,20 +118,17 @@ class DampedSquare {
  public:
   /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
   DampedSquare(double damping, double natural_frequency, double duration) noexcept {
-    constexpr double nodes[] = {0.18343464249564980, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
-    constexpr double weights[] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337447, 0.10122853629037626};
     const double stiffness = natural_frequency * natural_frequency;
     const double size = (damping + natural_frequency) * duration;
     const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
-    const double half = std::ldexp(duration, -doublings - 1);
-    for (int i = 0; i < 4; ++i)
-      for (const double side : {-1.0, 1.0}) {
-        const DampedBasis at(damping, natural_frequency, half * (1 + side * nodes[i]));
-        const std::array<double, 3> v{at.decay, at.impulse, at.step};
-        for (std::size_t a = 0; a < 3; ++a)
-          for (std::size_t b = 0; b < 3; ++b) form_[a][b] += half * weights[i] * v[a] * v[b];
-      }
-    DampedBasis basis(damping, natural_frequency, 2 * half);
+    const double part = std::ldexp(duration, -doublings);
+    numerics::gauss_points<8>(0, part, [&](double time, double weight) {
+      const DampedBasis at(damping, natural_frequency, time);
+      const std::array<double, 3> v{at.decay, at.impulse, at.step};
+      for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t b = 0; b < 3; ++b) form_[a][b] += weight * v[a] * v[b];
+    });
+    DampedBasis basis(damping, natural_frequency, part);
     for (int i = 0; i < doublings; ++i) {
       double_time(stiffness, basis);
       basis.double_time(stiffness);
@@ -318,8 +316,8 @@ class DampedFlow {
             b.duration > 0 ? b.integral_of_distance(u_, q_, s_) / b.duration : 0};
   }
 
-  // By Newton's method within the bracket, within which the speed comes through zero once, to `last` <= 0. The first
-  // guess is that of the parabola through both ends.
+  // By Newton's method, for whose slope nothing is evaluated anew, within the bracket, in which the speed comes through
+  // zero once, to `last` <= 0. The first guess is that of the parabola through both ends.
   double root(double low, double high, const Progress& last) const noexcept {
     if (last.speed == 0) return high;
     const double h = high - low, fall = last.acceleration * h, first = low > 0 ? at(low).speed : u_;

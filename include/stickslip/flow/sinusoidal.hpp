@@ -126,7 +126,8 @@ class SinusoidalFlow {
             0};
   }
 
-  // The zero of a speed that falls from `low` to `high` and has come to zero there, by Newton's method in a bracket.
+  // The zero of a speed that falls from `low` to `high` and has come to zero there, by Newton's method in a bracket:
+  // the slope is there already, which `numerics::root` has no use for.
   double polish(double low, double high) const noexcept {
     for (double t = low + (high - low) / 2;;) {
       const Harmonic::Basis b = oscillator_.basis(t);

@@ -12,6 +12,7 @@
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/series/dual.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
@@ -279,19 +280,7 @@ class TaylorFlow {
   // that have come down to round-off at their ends.
   template <class Function>
   double integral(double t, Function&& of) const {
-    constexpr double nodes[] = {0.076526521133497333755, 0.227785851141645078080, 0.373706088715419560673,
-                                0.510867001950827098004, 0.636053680726515025453, 0.746331906460150792614,
-                                0.839116971822218823395, 0.912234428251325905868, 0.963971927277913791268,
-                                0.993128599185094924786};
-    constexpr double weights[] = {0.152753387130725850698, 0.149172986472603746788, 0.142096109318382051329,
-                                  0.131688638449176626898, 0.118194531961518417312, 0.101930119817240435037,
-                                  0.083276741576704748725, 0.062672048334109063570, 0.040601429800386941331,
-                                  0.017614007139152118312};
-    const double half = t / horizon_ / 2;
-    double sum = 0;
-    for (int i = 0; i < 10; ++i)
-      sum += weights[i] * (of(at_part(half * (1 - nodes[i]))) + of(at_part(half * (1 + nodes[i]))));
-    return t / 2 * sum;
+    return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s)); });
   }
 
   // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and

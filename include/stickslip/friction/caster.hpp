@@ -6,6 +6,7 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/numerics/root.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/units.hpp"
 
@@ -82,18 +83,13 @@ class Caster {
   // With B = 1 / sinh y the balance of moments is 4 (l/w) y sinh y = sinh y cosh y - y, free of cancellation but for
   // its right side at small y; it rises with y from 0 (a broad wheel) to infinity (a thin one), as 2 y / 3 at first.
   static double contact_angle(double trail_over_width) {
-    const auto excess = [&](double y) {
+    const auto exceeds = [&](double y) {
       const double z = 2 * y, z2 = z * z;
       const double series =
           z * z2 / 12 * (1 + z2 / 20 * (1 + z2 / 42 * (1 + z2 / 72 * (1 + z2 / 110 * (1 + z2 / 156)))));
-      return (z < 0.5 ? series : (std::sinh(z) - z) / 2) / (y * std::sinh(y)) - 4 * trail_over_width;
+      return !((z < 0.5 ? series : (std::sinh(z) - z) / 2) / (y * std::sinh(y)) < 4 * trail_over_width);
     };
-    double low = 0, high = 6 * trail_over_width;
-    for (;;) {
-      const double middle = low + (high - low) / 2;
-      if (middle <= low || middle >= high) return high;
-      (excess(middle) < 0 ? low : high) = middle;
-    }
+    return numerics::first_where(0, 6 * trail_over_width, exceeds);
   }
 
   double slip_level_;

@@ -4,15 +4,15 @@
 #include <concepts>
 
 #include "stickslip/detail/min_max.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
 
 /// A friction law answers two questions, both with a friction force per unit mass [m/s^2] that is not negative:
 ///
-///     resist(x, direction)  or  resist(x, direction, speed)       what resists sliding at x [m] that way, at |x'|
-///     [m/s] hold(x, direction)                                          what holds a slider at rest against sliding
-///     that way
+///     resist(x, direction) or resist(x, direction, speed)    // what resists sliding at x [m] that way, at |x'| [m/s]
+///     hold(x, direction)                                     // what holds it at rest against sliding that way
 ///
 /// A law without `hold` holds what resists at no speed. `resist` is a template over its scalars, so that one line
 /// serves doubles and power series alike; return `auto`:
@@ -86,16 +86,8 @@ double friction_work(const Law& law, double from, double distance, Direction dir
   if constexpr (LawWithWork<Law>) {
     return law.work(from, distance, direction);
   } else {
-    constexpr double nodes[] = {0.14887433898163121, 0.43339539412924719, 0.67940956829902441, 0.86506336668898451,
-                                0.97390652851717172};
-    constexpr double weights[] = {0.29552422471475287, 0.26926671930999636, 0.21908636251598204, 0.14945134915058059,
-                                  0.06667134430868814};
-    const double half = distance / 2, middle = from + sign(direction) * half;
-    double sum = 0;
-    for (int i = 0; i < 5; ++i)
-      sum += weights[i] *
-             (law.resist(middle - half * nodes[i], direction) + law.resist(middle + half * nodes[i], direction));
-    return half * sum;
+    const double s = sign(direction);
+    return numerics::gauss_integral<10>(0, distance, [&](double way) { return law.resist(from + s * way, direction); });
   }
 }
 

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <functional>
 #include <span>
+#include <string>
 #include <variant>
 
 #include "stickslip/friction/caster.hpp"
@@ -11,14 +12,15 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
-#include "stickslip/theory/white_noise.hpp"
+#include "stickslip/theory/noise.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::detail {
 
 /// A law as the library takes it in: the two that it has closed forms for, or the level of any other.
 using LinearizedLaw = std::variant<Coulomb, Caster, std::function<double(double, Direction)>>;
 
-template <FrictionLaw Law>
+template <PositionLaw Law>
 LinearizedLaw linearized_law(const Law& law) {
   if constexpr (std::same_as<Law, Coulomb> || std::same_as<Law, Caster>)
     return law;
@@ -77,6 +79,20 @@ class EquivalentLinearization {
 
   const Options& options() const noexcept { return options_; }
 
+  /// With the force where it is not the usual one.
+  std::string name() const;
+
+  /// A law of your own is looked at where x = 0; `predict` looks at it as far as the slider goes.
+  template <FrictionLaw Law, class E>
+  Coverage covers(const Slider<Law>& slider, const E& excitation) const {
+    return detail::coverage<WhiteLevel>(excitation, "EquivalentLinearization: covers white noise",
+                                        [&](const WhiteLevel& s0) {
+                                          detail::require_plain(slider, "EquivalentLinearization");
+                                          if constexpr (PositionLaw<Law>)
+                                            check(detail::linearized_law(slider.law()), s0.s0());
+                                        });
+  }
+
   /// Covariances by time, from rest. Means are zero.
   ///
   /// Integrated over the logarithm of time, in variables that keep the covariance positive definite: the logarithms of
@@ -84,7 +100,8 @@ class EquivalentLinearization {
   /// slider without friction is answered in closed form.
   ///
   /// @param slider     the law and its spring
-  /// @param s0         level S0 of the white ground acceleration, two-sided [m^2/s^3], or a white Spectrum
+  /// @param s0         level S0 of the white ground acceleration, two-sided [m^2/s^3], a white Spectrum or
+  ///                   GaussianExcitation
   /// @param times      [s], finite, at least 0, increasing
   /// @param heartbeat  called every thousand steps; may throw to end the work; optional
   /// @returns also the growth rate where the velocity becomes stationary: pi^5 S0^3 / (2 a^4) for Coulomb friction,
@@ -92,12 +109,13 @@ class EquivalentLinearization {
   /// @throws std::invalid_argument for times out of range, a law that is not the same both ways, and what the force
   /// does not cover
   /// @throws ConvergenceError with the time reached where the tolerance is out of reach
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, WhiteLevel s0, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
+    detail::require_plain(slider, "EquivalentLinearization");
     return predict(detail::linearized_law(slider.law()), slider.natural_frequency(), s0.s0(), times, heartbeat);
   }
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   Moments predict(const Law& law, WhiteLevel s0, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
     return predict(Slider<Law>(law), s0, times, heartbeat);
@@ -111,12 +129,13 @@ class EquivalentLinearization {
   /// @param q11, q22  variances of x [m^2] and x' [m^2/s^2], positive and finite
   /// @param q12       their covariance [m^2/s], q12^2 < q11 q22
   /// @throws as `predict`
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   LinearFriction coefficients(const Law& law, double q11, double q12, double q22) const {
     return coefficients(detail::linearized_law(law), q11, q12, q22);
   }
 
  private:
+  void check(const detail::LinearizedLaw& law, double s0) const;
   Moments predict(const detail::LinearizedLaw& law, double natural_frequency, double s0, std::span<const double> times,
                   const std::function<void()>& heartbeat) const;
   LinearFriction coefficients(const detail::LinearizedLaw& law, double q11, double q12, double q22) const;

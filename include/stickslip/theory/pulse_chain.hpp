@@ -1,13 +1,17 @@
 // Poisson pulses that arrive in step: a theory that knows what one pulse leaves to the next.
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::theory {
 
@@ -36,6 +40,20 @@ class PulseChain {
 
   bool refined() const noexcept { return refined_; }
 
+  std::string name() const { return refined_ ? "PulseChain, refined" : "PulseChain"; }
+
+  /// A law of amplitudes by its quantile function is asked for 16384 of them.
+  template <FrictionLaw Law, class E>
+  Coverage covers(const Slider<Law>& slider, const E& excitation) const {
+    return detail::coverage<PoissonPulses>(
+        excitation, "PulseChain: covers PoissonPulses", [&](const PoissonPulses& pulses) {
+          if constexpr (std::same_as<Law, Coulomb>)
+            check(slider, pulses);
+          else
+            throw std::invalid_argument("PulseChain: covers Coulomb friction; PulseSuperposition covers other laws");
+        });
+  }
+
   /// @param slider  equal slip levels, no spring
   /// @param pulses  the excitation, without an envelope; from rest as if no pulse had arrived before time zero
   /// @param times   where to answer [s], finite, at least 0
@@ -52,6 +70,8 @@ class PulseChain {
                    const std::function<void()>& heartbeat = {}) const;
 
  private:
+  void check(const Slider<Coulomb>& slider, const PoissonPulses& pulses) const;
+
   bool refined_;
 };
 

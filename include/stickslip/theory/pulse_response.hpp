@@ -15,9 +15,11 @@
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::theory {
 
@@ -81,11 +83,6 @@ void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot
   advance(slider, Segment{duration, n, n}, probe, watch);
   watch.times.push_back(duration);
 
-  constexpr std::array<double, 8> nodes = {0.019855071751231884, 0.10166676129318664, 0.23723379504183550,
-                                           0.40828267875217510,  0.59171732124782490, 0.76276620495816450,
-                                           0.89833323870681336,  0.98014492824876812};
-  constexpr std::array<double, 4> weights = {0.050614268145188130, 0.11119051722668724, 0.15685332293894364,
-                                             0.18134189168918100};
   double from = 0;
   for (const double to : watch.times) {
     double now = from;
@@ -94,10 +91,7 @@ void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot
       now = time;
       return ride.state.velocity * ride.state.velocity;
     };
-    double sum = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      sum += weights[i < 4 ? i : 7 - i] * go(from + nodes[i] * (to - from));
-    ride.velocity_square += sum * (to - from);
+    ride.velocity_square += numerics::gauss_integral<8>(from, to, go);
     go(to);
     if (to < duration) knot(to, ride);
     from = to;
@@ -202,6 +196,7 @@ PulseResponse pulse_response(const Slider<Law>& slider, double b, double dt, con
                              double position = 0, std::span<const double> times = {}) {
   detail::check_pulse(b, dt, times);
   detail::require_no_spring(slider.natural_frequency(), "pulse_response");
+  detail::require_plain(slider, "pulse_response");
   detail::require(std::isfinite(position), "pulse_response: position must be finite", position, "m");
 
   struct Knot {

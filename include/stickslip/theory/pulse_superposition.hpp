@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <string>
 
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/law.hpp"
@@ -12,6 +13,7 @@
 #include "stickslip/state.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/pulse_response.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::detail {
 
@@ -70,6 +72,15 @@ class PulseSuperposition {
 
   Overlap overlap() const noexcept { return overlap_; }
 
+  std::string name() const;
+
+  /// Whether a caster escapes is found by `predict` alone.
+  template <FrictionLaw Law, class E>
+  Coverage covers(const Slider<Law>& slider, const E& excitation) const {
+    return detail::coverage<PoissonPulses>(excitation, "PulseSuperposition: covers PoissonPulses",
+                                           [&](const PoissonPulses& pulses) { check(slider, pulses); });
+  }
+
   /// @param slider  without a spring
   /// @param pulses  the excitation
   /// @param times   where to answer [s], finite, at least 0
@@ -81,15 +92,15 @@ class PulseSuperposition {
   ///         excitation, whatever the times are
   /// Integrals over the amplitudes to 1e-13, Coulomb; 20 to 60 us. A caster takes 0.1 to 10 s, most where it spreads
   /// far.
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, const PoissonPulses& pulses, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {
-    detail::require_no_spring(slider.natural_frequency(), "PulseSuperposition");
+    check(slider, pulses);
     return predict(system(slider, pulses), pulses, times, heartbeat);
   }
 
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
                    const std::function<void()>& heartbeat = {}) const {
     const double end[] = {pulses.duration()};
@@ -98,7 +109,7 @@ class PulseSuperposition {
   }
 
  private:
-  template <FrictionLaw Law>
+  template <PositionLaw Law>
   static detail::PulseSystem system(const Slider<Law>& slider, const PoissonPulses& pulses) {
     return {ConstantLevelLaw<Law>,
             [&slider](double x, Direction direction) { return slider.law().resist(x, direction); },
@@ -112,6 +123,13 @@ class PulseSuperposition {
             }};
   }
 
+  template <FrictionLaw Law>
+  void check(const Slider<Law>& slider, const PoissonPulses& pulses) const {
+    detail::require_no_spring(slider.natural_frequency(), "PulseSuperposition");
+    detail::require_plain(slider, "PulseSuperposition");
+    check(ConstantLevelLaw<Law>, pulses);
+  }
+  void check(bool constant_level, const PoissonPulses& pulses) const;
   Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
                   const std::function<void()>& heartbeat) const;
 

@@ -7,13 +7,18 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip {
 
@@ -27,7 +32,7 @@ S as_series(const S& level) noexcept {
 
 /// A law that takes power series for the place.
 template <class Law>
-concept AnalyticLaw = FrictionLaw<Law> && requires(const Law& law, const series::Variable& x) {
+concept AnalyticLaw = PositionLaw<Law> && requires(const Law& law, const series::Variable& x) {
   as_series(law.resist(x, Direction::forward));
 };
 
@@ -118,11 +123,16 @@ struct HarmonicTransient {
 /// Reference: the thesis's chapter 2; N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).
 class SlowlyVaryingParameters {
  public:
+  /// Of Coulomb friction of 1 m/s^2 without a spring.
+  SlowlyVaryingParameters() : SlowlyVaryingParameters(Coulomb(1)) {}
+
   /// @param slider  any law of equal resistance both ways, with or without a spring; a law alone will do
   /// @throws std::invalid_argument  the levels forward and backward, seen from both sides of x = 0, differ on average
   template <detail::AnalyticLaw Law>
   explicit SlowlyVaryingParameters(const Slider<Law>& slider)
-      : SlowlyVaryingParameters(detail::cycled(slider.law()), slider.natural_frequency()) {}
+      : SlowlyVaryingParameters(detail::cycled(slider.law()), slider.natural_frequency()) {
+    detail::require_plain(slider, "SlowlyVaryingParameters");
+  }
   template <class Law>
   requires(!std::same_as<Law, SlowlyVaryingParameters> &&
            detail::AnalyticLaw<Law>) explicit SlowlyVaryingParameters(const Law& law)
@@ -218,6 +228,31 @@ class SlowlyVaryingParameters {
   ///                           boundary between two solutions
   HarmonicSolution settles_on(double B, double omega, double amplitude, double phase,
                               const std::function<void()>& heartbeat = {}) const;
+
+  /// x and x' by time from rest, by `transient`, whose parameters and exceptions they are: means without scatter.
+  Moments predict(const HarmonicMotion& motion, std::span<const double> times,
+                  const std::function<void()>& heartbeat = {}) const;
+
+  /// As a `Theory`, of any slider, whatever this one is of.
+  static std::string name() { return "SlowlyVaryingParameters"; }
+
+  template <FrictionLaw Law, class E>
+  static Coverage covers(const Slider<Law>& slider, const E& excitation) {
+    const auto check = [&](const HarmonicMotion&) {
+      if constexpr (detail::AnalyticLaw<Law>)
+        SlowlyVaryingParameters{slider};
+      else
+        throw std::invalid_argument("SlowlyVaryingParameters: covers laws that take power series");
+    };
+    return detail::coverage<HarmonicMotion>(excitation, "SlowlyVaryingParameters: covers HarmonicMotion", check);
+  }
+
+  /// As of `SlowlyVaryingParameters(slider)`.
+  template <detail::AnalyticLaw Law>
+  static Moments predict(const Slider<Law>& slider, const HarmonicMotion& motion, std::span<const double> times,
+                         const std::function<void()>& heartbeat = {}) {
+    return SlowlyVaryingParameters(slider).predict(motion, times, heartbeat);
+  }
 
  private:
   struct Balance;

@@ -1,8 +1,10 @@
 // Coulomb friction under filtered noise, by a viscous damper that stands in for it.
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "stickslip/excitation/spectrum.hpp"
@@ -10,6 +12,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/noise.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::theory {
 
@@ -62,8 +66,24 @@ struct StationaryPrediction {
 /// Reference: thesis 4.3; C. K. Constantinou, I. G. Tadjbakhsh, J. Struct. Eng. 110 (1984).
 class StationaryLinearization {
  public:
+  static std::string name() { return "StationaryLinearization"; }
+
+  template <FrictionLaw Law, class E>
+  Coverage covers(const Slider<Law>& slider, const E& excitation) const {
+    return detail::coverage<StationaryNoise>(
+        excitation, "StationaryLinearization: covers stationary Gaussian ground acceleration",
+        [&](const StationaryNoise&) {
+          if constexpr (std::same_as<Law, Coulomb>)
+            check(slider);
+          else
+            throw std::invalid_argument(
+                "StationaryLinearization: covers Coulomb friction, with or without a spring; a level that depends on "
+                "the position has no stationary one");
+        });
+  }
+
   /// @param slider    Coulomb friction, the same level both ways, with or without a spring
-  /// @param spectrum  of the ground acceleration
+  /// @param spectrum  of the ground acceleration; or what has one: a GaussianExcitation, the level of white noise
   /// @throws std::invalid_argument  unequal levels: friction then has a mean, and the slider drifts
   /// @throws ConvergenceError       a spectrum that cannot be integrated
   /// Accuracy: round-off for band-pass and white noise without a spring, else that of quadrature, 1e-9. Cost: 1 us, or
@@ -72,11 +92,20 @@ class StationaryLinearization {
   StationaryPrediction predict(const Coulomb& law, const Spectrum& spectrum) const {
     return predict(Slider(law), spectrum);
   }
+  StationaryPrediction predict(const Slider<Coulomb>& slider, const StationaryNoise& noise) const {
+    return predict(slider, noise.spectrum());
+  }
+
+  /// The linear system from rest, `StationaryPrediction::transient`.
+  Moments predict(const Slider<Coulomb>& slider, const StationaryNoise& noise, std::span<const double> times,
+                  const std::function<void()>& heartbeat = {}) const {
+    return predict(slider, noise).transient(times, heartbeat);
+  }
 
   /// The factor by which the ground acceleration would have to be multiplied to be at the threshold of motion,
   /// sqrt(2/pi) a / sigma_n, thesis (4.22): where it is 1 or more the method predicts no motion; 0 for white noise.
-  double threshold(const Slider<Coulomb>& slider, const Spectrum& spectrum) const;
-  double threshold(const Coulomb& law, const Spectrum& spectrum) const { return threshold(Slider(law), spectrum); }
+  double threshold(const Slider<Coulomb>& slider, const StationaryNoise& noise) const;
+  double threshold(const Coulomb& law, const StationaryNoise& noise) const { return threshold(Slider(law), noise); }
 
   /// Other laws are not covered: what depends on the position has no stationary linearization, for x has no stationary
   /// variance to take it at. (Generalized linearization, in time, covers casters.)
@@ -84,6 +113,9 @@ class StationaryLinearization {
   StationaryPrediction predict(const Slider<Law>&, const Spectrum&) const = delete;
   template <FrictionLaw Law>
   StationaryPrediction predict(const Law&, const Spectrum&) const = delete;
+
+ private:
+  static void check(const Slider<Coulomb>& slider);
 };
 
 }  // namespace stickslip::theory

@@ -1,31 +1,18 @@
 // White noise, of which everything is known where friction is Coulomb's: densities, transient moments, drift.
 #pragma once
 
+#include <concepts>
 #include <span>
+#include <stdexcept>
+#include <string>
 
-#include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/noise.hpp"
+#include "stickslip/theory/theory.hpp"
 
 namespace stickslip::theory {
-
-/// The level S0 of white noise, two-sided, R(t) = 2 pi S0 delta(t): a number, or the white spectrum that an ensemble
-/// takes.
-class WhiteLevel {
- public:
-  /// @param s0  [m^2/s^3], positive and finite
-  /// @throws std::invalid_argument naming the value
-  WhiteLevel(double s0);
-
-  /// @throws std::invalid_argument unless the spectrum is white
-  WhiteLevel(const Spectrum& spectrum);
-
-  double s0() const noexcept { return s0_; }
-
- private:
-  double s0_;
-};
 
 /// Coulomb friction without a spring under white noise, exactly: the velocity is a diffusion towards rest,
 ///
@@ -43,6 +30,9 @@ class WhiteLevel {
 /// 2342-2362.
 class WhiteNoise {
  public:
+  /// In the units of the slip level and the noise: a = 1 m/s^2, S0 = 1 m^2/s^3.
+  WhiteNoise() : WhiteNoise(Coulomb(1), 1.0) {}
+
   /// @param law  Coulomb friction; the two levels may differ
   /// @param s0   level S0 of the white ground acceleration, two-sided [m^2/s^3], positive and finite, or a white
   ///             Spectrum
@@ -103,6 +93,24 @@ class WhiteNoise {
   /// @param times  [s], finite, at least 0, increasing
   /// @throws std::invalid_argument naming the value, and where a figure exceeds the range of doubles
   Moments predict(std::span<const double> times) const;
+
+  /// As a `Theory`, of any slider and noise, whatever this one is of.
+  static std::string name() { return "WhiteNoise"; }
+
+  template <FrictionLaw Law, class E>
+  static Coverage covers(const Slider<Law>& slider, const E& excitation) {
+    return detail::coverage<WhiteLevel>(excitation, "WhiteNoise: covers white noise", [&](const WhiteLevel& s0) {
+      if constexpr (std::same_as<Law, Coulomb>)
+        WhiteNoise(slider, s0);
+      else
+        throw std::invalid_argument("WhiteNoise: covers Coulomb friction without a spring");
+    });
+  }
+
+  /// As of `WhiteNoise(slider, s0)`.
+  static Moments predict(const Slider<Coulomb>& slider, WhiteLevel s0, std::span<const double> times) {
+    return WhiteNoise(slider, s0).predict(times);
+  }
 
  private:
   Coulomb law_;

@@ -1,4 +1,6 @@
 #include "stickslip/statistics/moments.hpp"
+#include <limits>
+
 #include "parts.hpp"
 
 namespace stickslip::python {
@@ -9,13 +11,60 @@ py::array_t<double> by_time(const py::object& self) {
   return view(self.cast<const Moments&>().*figure.*part, self);
 }
 
+/// Those of a theory of the user's own.
+Moments of_theory(const py::object& time, const py::object& displacement_mean, const py::object& displacement_variance,
+                  const py::object& covariance, const py::object& velocity_mean, const py::object& velocity_variance,
+                  double growth_rate, std::string remark) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> at = to_vector(time, "Moments: time");
+  const std::size_t count = at.size();
+  const auto figure = [count](const py::object& given, const std::string& name, double otherwise) -> Estimates {
+    std::vector<double> value =
+        given.is_none() ? std::vector<double>(count, otherwise) : to_vector(given, "Moments: " + name);
+    detail::require(value.size() == count,
+                    "Moments: " + name + " must have as many values as there are times, " + std::to_string(count),
+                    static_cast<double>(value.size()));
+    return {std::move(value), std::vector<double>(count)};
+  };
+  return {std::move(at),
+          figure(displacement_mean, "displacement_mean", 0),
+          figure(displacement_variance, "displacement_variance", unknown),
+          figure(covariance, "covariance", unknown),
+          figure(velocity_mean, "velocity_mean", 0),
+          figure(velocity_variance, "velocity_variance", unknown),
+          {growth_rate, 0},
+          std::move(remark)};
+}
+
 }  // namespace
 
 void bind_moments(py::module_& m) {
   value_class<Moments>(m, "Moments", R"(Means and covariances of displacement and velocity by time.
 
 What each theory's `predict` answers, and `Ensemble.moments`. Arrays are of shape (T,) and read-only. The errors are
-standard errors of an ensemble; those of a theory are zero: it has no scatter, and is wrong by what it neglects.)")
+standard errors of an ensemble; those of a theory are zero: it has no scatter, and is wrong by what it neglects.
+
+Parameters
+----------
+time : array_like, shape (T,)
+    [s].
+displacement_mean, velocity_mean : array_like, shape (T,), optional
+    [m] and [m/s]; zeros if not given.
+displacement_variance, covariance, velocity_variance : array_like, shape (T,), optional
+    [m^2], [m^2/s] and [m^2/s^2]; NaN if not given: not predicted.
+growth_rate : float, optional
+    Of the displacement variance once the velocity is stationary [m^2/s]; NaN if not given.
+remark : str, optional
+    What to know before trusting the figures.
+
+Raises
+------
+ValueError
+    Another number of values than of times.)")
+      .def(py::init(&of_theory), py::arg("time"), py::kw_only(), py::arg("displacement_mean") = py::none(),
+           py::arg("displacement_variance") = py::none(), py::arg("covariance") = py::none(),
+           py::arg("velocity_mean") = py::none(), py::arg("velocity_variance") = py::none(),
+           py::arg("growth_rate") = std::numeric_limits<double>::quiet_NaN(), py::arg("remark") = "")
       .def_property_readonly(
           "time", [](const py::object& self) { return view(self.cast<const Moments&>().time, self); }, "Times [s].")
       .def_property_readonly("displacement_mean", &by_time<&Moments::displacement_mean, &Estimates::value>,

@@ -1,7 +1,7 @@
 #include "stickslip/theory/equivalent_linearization.hpp"
 
 #include "parts.hpp"
-#include "theory/white_level.hpp"
+#include "theory/theory.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -29,15 +29,15 @@ const char* which_of(const std::pair<const char*, T> (&all)[n], T value) {
   return "";
 }
 
-Moments predict(const EquivalentLinearization& self, const AnySlider& slider, const AnyLevel& s0,
+Moments predict(const EquivalentLinearization& self, const AnySlider& slider, const AnyNoise& excitation,
                 const py::object& times) {
   const std::vector<double> t = to_vector(times, "EquivalentLinearization: times");
-  const theory::WhiteLevel level = white_level(s0);
+  const theory::WhiteLevel level = white_level(excitation);
   const py::gil_scoped_release released;
   return std::visit([&](const auto& s) { return self.predict(s, level, t, check_for_interrupt); }, slider);
 }
 
-TransitionTime transition(const AnySlider& slider, const AnyLevel& s0) {
+TransitionTime transition(const AnySlider& slider, const AnyNoise& s0) {
   const auto* const caster = std::get_if<Slider<Caster>>(&slider);
   if (caster == nullptr) throw py::type_error("transition_time: covers casters without a spring, got Coulomb");
   return theory::transition_time(*caster, white_level(s0));
@@ -46,8 +46,10 @@ TransitionTime transition(const AnySlider& slider, const AnyLevel& s0) {
 }  // namespace
 
 void bind_equivalent_linearization(py::module_& m) {
-  value_class<EquivalentLinearization>(m, "EquivalentLinearization",
-                                       R"(Generalized equivalent linearization under white noise, thesis 3.3 and 3.4.
+  auto type =
+      value_class<EquivalentLinearization>(
+          m, "EquivalentLinearization",
+          R"(Generalized equivalent linearization under white noise, thesis 3.3 and 3.4.
 
 At each time the friction is replaced by the linear force nearest to it in the mean square, a21 x + a22 x', the response
 taken as Gaussian. The covariance then follows
@@ -86,23 +88,23 @@ References
 ----------
 W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik, S. Utku, Earthq. Eng. Struct. Dyn. 4
 (1976), 411-420.)")
-      .def(py::init([](const std::string& force, const std::string& start, double tolerance) {
-             return EquivalentLinearization(
-                 {.force = named(forces, force, "force must be 'gaussian', 'gaussian_a22' or 'thesis'"),
-                  .start = named(starts, start, "start must be 'rest' or 'thesis'"),
-                  .tolerance = tolerance});
-           }),
-           py::arg("force") = "gaussian", py::kw_only(), py::arg("start") = "rest", py::arg("tolerance") = 1e-10)
-      .def_property_readonly(
-          "force", [](const EquivalentLinearization& self) { return which_of(forces, self.options().force); },
-          "What stands for friction.")
-      .def_property_readonly(
-          "start", [](const EquivalentLinearization& self) { return which_of(starts, self.options().start); },
-          "Where the covariance starts.")
-      .def_property_readonly(
-          "tolerance", [](const EquivalentLinearization& self) { return self.options().tolerance; },
-          "About the relative error of the answers.")
-      .def("predict", &predict, py::arg("slider"), py::arg("s0"), py::arg("times"), R"(Covariances by time.
+          .def(py::init([](const std::string& force, const std::string& start, double tolerance) {
+                 return EquivalentLinearization(
+                     {.force = named(forces, force, "force must be 'gaussian', 'gaussian_a22' or 'thesis'"),
+                      .start = named(starts, start, "start must be 'rest' or 'thesis'"),
+                      .tolerance = tolerance});
+               }),
+               py::arg("force") = "gaussian", py::kw_only(), py::arg("start") = "rest", py::arg("tolerance") = 1e-10)
+          .def_property_readonly(
+              "force", [](const EquivalentLinearization& self) { return which_of(forces, self.options().force); },
+              "What stands for friction.")
+          .def_property_readonly(
+              "start", [](const EquivalentLinearization& self) { return which_of(starts, self.options().start); },
+              "Where the covariance starts.")
+          .def_property_readonly(
+              "tolerance", [](const EquivalentLinearization& self) { return self.options().tolerance; },
+              "About the relative error of the answers.")
+          .def("predict", &predict, py::arg("slider"), py::arg("excitation"), py::arg("times"), R"(Covariances by time.
 
 Means are zero. Integrated over the logarithm of time, in variables that keep the covariance positive definite, so any
 scale will do. A slider without friction is answered in closed form.
@@ -111,9 +113,8 @@ Parameters
 ----------
 slider : Slider, Coulomb or Caster
     What slides; a law alone is a slider without a spring.
-s0 : float or Spectrum
-    Level S0 of the white ground acceleration, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite; or a
-    white Spectrum.
+excitation : float, Spectrum or GaussianExcitation
+    White noise: its level S0, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite, or what has one.
 times : array_like of shape (T,)
     [s], finite, at least 0, increasing.
 
@@ -133,14 +134,15 @@ ConvergenceError
 Notes
 -----
 About 1 ms; with a spring that swings for long some 0.1 ms a period. The interpreter is not held meanwhile.)")
-      .def(
-          "coefficients",
-          [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {
-            const auto f = std::visit([&](const auto& s) { return self.coefficients(s.law(), q11, q12, q22); }, slider);
-            return std::pair(f.a21, f.a22);
-          },
-          py::arg("slider"), py::arg("q11"), py::arg("q12"), py::arg("q22"),
-          R"(The equivalent linear friction where displacement and velocity have the covariance given.
+          .def(
+              "coefficients",
+              [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {
+                const auto f =
+                    std::visit([&](const auto& s) { return self.coefficients(s.law(), q11, q12, q22); }, slider);
+                return std::pair(f.a21, f.a22);
+              },
+              py::arg("slider"), py::arg("q11"), py::arg("q12"), py::arg("q22"),
+              R"(The equivalent linear friction where displacement and velocity have the covariance given.
 
 a21 = -E[level'(x) sgn(x')], (3.22), and a22 = -sqrt(2 / (pi q22)) E[level(x) | x' = 0], (3.25); 0 and (3.29) by the
 thesis's force. Good to 1e-12.
@@ -163,11 +165,12 @@ Raises
 ------
 ValueError
     A value out of its range, levels that differ.)")
-      .def("__repr__", [](const EquivalentLinearization& self) {
-        return "EquivalentLinearization(force='" + std::string(which_of(forces, self.options().force)) + "', start='" +
-               which_of(starts, self.options().start) + "', tolerance=" + detail::shortest(self.options().tolerance) +
-               ")";
-      });
+          .def("__repr__", [](const EquivalentLinearization& self) {
+            return "EquivalentLinearization(force='" + std::string(which_of(forces, self.options().force)) +
+                   "', start='" + which_of(starts, self.options().start) +
+                   "', tolerance=" + detail::shortest(self.options().tolerance) + ")";
+          });
+  def_theory(type);
 
   value_class<TransitionTime>(m, "TransitionTime", "When a caster under white noise breaks loose; see transition_time.")
       .def_readonly("thesis", &TransitionTime::thesis, "(3.51): S0 / a^2 (1 / (pi^5 gamma^2) + pi^2 / 4) [s].")
@@ -187,8 +190,8 @@ Parameters
 slider : Slider or Caster
     A caster without a spring, of some friction. gamma = S0^2 / (reach a^3); (3.51) counts on a stationary velocity, and
     says little for gamma over 0.02. An infinite reach never breaks loose.
-s0 : float or Spectrum
-    Level of the white noise [m^2/s^3], positive and finite; or a white Spectrum.
+s0 : float, Spectrum or GaussianExcitation
+    Level of the white noise [m^2/s^3], positive and finite; or a white spectrum or excitation.
 
 Returns
 -------

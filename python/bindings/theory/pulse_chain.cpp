@@ -1,6 +1,7 @@
 #include "stickslip/theory/pulse_chain.hpp"
 
 #include "parts.hpp"
+#include "theory/theory.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -27,7 +28,9 @@ double chain_rms(const PulseChain& self, const AnySlider& slider, const PoissonP
 }  // namespace
 
 void bind_pulse_chain(py::module_& m) {
-  value_class<PulseChain>(m, "PulseChain", R"(Poisson pulses that arrive in step: the pulse theory for Coulomb friction.
+  auto type =
+      value_class<PulseChain>(m, "PulseChain",
+                              R"(Poisson pulses that arrive in step: the pulse theory for Coulomb friction.
 
 Pulses may begin at the nodes of a lattice alone, as many as Poisson's law gives to each: ground acceleration is then
 constant over slots, and velocity and the last few batches are a Markov chain, which is solved on a grid, from rest on.
@@ -51,17 +54,17 @@ within 12 %.
 
 Covers equal slip levels without a spring; pulses of two to four equal steps, two if refined, whose values are multiples
 of a common unit and which leave no net velocity; symmetric laws of amplitudes.)")
-      .def(py::init<bool>(), py::kw_only(), py::arg("refined") = false)
-      .def_property_readonly("refined", &PulseChain::refined, "Whether there are two slots to a step of the pulse.")
-      .def("predict", &chain_moments, py::arg("slider"), py::arg("pulses"), py::arg("times"),
-           R"(Moments by time, from rest on.
+          .def(py::init<bool>(), py::kw_only(), py::arg("refined") = false)
+          .def_property_readonly("refined", &PulseChain::refined, "Whether there are two slots to a step of the pulse.")
+          .def("predict", &chain_moments, py::arg("slider"), py::arg("excitation"), py::arg("times"),
+               R"(Moments by time, from rest on.
 
 Parameters
 ----------
 slider : Slider or Coulomb
     Equal slip levels, no spring.
-pulses : PoissonPulses
-    The excitation, without an envelope; from rest as if no pulse had arrived before time zero.
+excitation : PoissonPulses
+    Without an envelope; from rest as if no pulse had arrived before time zero.
 times : array_like
     Where to answer [s], shape (T,), finite, at least 0.
 
@@ -80,8 +83,8 @@ ConvergenceError
 Notes
 -----
 Takes 3 to 100 ms, refined 0.1 to 5 s.)")
-      .def("final_rms", &chain_rms, py::arg("slider"), py::arg("pulses"),
-           R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis figure 5.7.
+          .def("final_rms", &chain_rms, py::arg("slider"), py::arg("pulses"),
+               R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis figure 5.7.
 
 Parameters
 ----------
@@ -99,8 +102,10 @@ Raises
 ------
 ValueError, ConvergenceError
     As for `predict`.)")
-      .def("__repr__",
-           [](const PulseChain& t) { return std::string("PulseChain(refined=") + (t.refined() ? "True)" : "False)"); });
+          .def("__repr__", [](const PulseChain& t) {
+            return std::string("PulseChain(refined=") + (t.refined() ? "True)" : "False)");
+          });
+  def_theory(type);
 }
 
 }  // namespace stickslip::python

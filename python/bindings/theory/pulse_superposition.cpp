@@ -1,6 +1,7 @@
 #include "stickslip/theory/pulse_superposition.hpp"
 
 #include "parts.hpp"
+#include "theory/theory.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -39,7 +40,8 @@ double superposition_rms(const PulseSuperposition& self, const AnySlider& slider
 }  // namespace
 
 void bind_pulse_superposition(py::module_& m) {
-  value_class<PulseSuperposition>(m, "PulseSuperposition", R"(Poisson pulses as if each found the slider at rest.
+  auto type =
+      value_class<PulseSuperposition>(m, "PulseSuperposition", R"(Poisson pulses as if each found the slider at rest.
 
 E[x'^2] = lambda E[int v^2], d/dt Var[x] = lambda E[dx^2], d/dt E[x] = lambda E[dx], thesis (5.25), (5.28): v and dx are
 what one pulse does.
@@ -76,17 +78,17 @@ factor.
 References
 ----------
 Thesis 5.3 with the errata to (5.52); Y. K. Lin, Probabilistic Theory of Structural Dynamics (1967), 87-94.)")
-      .def(py::init(&theory_of), py::arg("overlap") = "renewal")
-      .def_property_readonly("overlap", &overlap_of, "'none', 'thesis' or 'renewal'.")
-      .def("predict", &superposition_moments, py::arg("slider"), py::arg("pulses"), py::arg("times"),
-           R"(Moments by time.
+          .def(py::init(&theory_of), py::arg("overlap") = "renewal")
+          .def_property_readonly("overlap", &overlap_of, "'none', 'thesis' or 'renewal'.")
+          .def("predict", &superposition_moments, py::arg("slider"), py::arg("excitation"), py::arg("times"),
+               R"(Moments by time.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
     Without a spring.
-pulses : PoissonPulses
-    The excitation.
+excitation : PoissonPulses
+    The pulses, with an envelope or without.
 times : array_like
     Where to answer [s], shape (T,), finite, at least 0.
 
@@ -105,8 +107,8 @@ Notes
 -----
 Integrals over the amplitudes to 1e-12 for Coulomb friction, 60 us. A caster takes 0.1 to 10 s, most where it spreads
 far; Ctrl-C ends it.)")
-      .def("final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
-           R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis 5.6 and figure 5.7.
+          .def("final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
+               R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis 5.6 and figure 5.7.
 
 Parameters
 ----------
@@ -124,8 +126,9 @@ Raises
 ------
 ValueError
     As for `predict`.)")
-      .def("__repr__",
-           [](const PulseSuperposition& t) { return "PulseSuperposition(overlap='" + overlap_of(t) + "')"; });
+          .def("__repr__",
+               [](const PulseSuperposition& t) { return "PulseSuperposition(overlap='" + overlap_of(t) + "')"; });
+  def_theory(type);
 
   m.def("peak_from_growth", &theory::peak_from_growth, py::arg("growth_rate"), py::arg("duration"),
         py::arg("probability"),

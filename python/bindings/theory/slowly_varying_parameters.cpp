@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "parts.hpp"
+#include "theory/theory.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -67,9 +68,10 @@ void bind_slowly_varying_parameters(py::module_& m) {
                detail::shortest(s.phase) + " rad, " + (s.stable ? "stable" : "unstable") + ">";
       });
 
-  value_class<SlowlyVaryingParameters>(
-      m, "SlowlyVaryingParameters",
-      R"(Harmonic response by the method of slowly varying parameters, thesis 2.2 and 2.3.
+  auto type =
+      value_class<SlowlyVaryingParameters>(
+          m, "SlowlyVaryingParameters",
+          R"(Harmonic response by the method of slowly varying parameters, thesis 2.2 and 2.3.
 
 With the signs put right::
 
@@ -83,8 +85,9 @@ of amplitude A does the work W(A) against friction: S = -W / (pi A), which is -4
 
 Parameters
 ----------
-slider : Slider, Coulomb or Caster
-    What slides; a law alone is a slider without a spring. Coulomb friction of equal levels.
+slider : Slider, Coulomb or Caster, optional
+    What slides; a law alone is a slider without a spring. Coulomb friction of equal levels. A slip level of 1 m/s^2
+    without a spring if not given.
 
 Raises
 ------
@@ -101,11 +104,12 @@ those of Coulomb friction and of the ground, (2.34), is said of these amplitudes
 References
 ----------
 N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).)")
-      .def(py::init<AnySlider>(), py::arg("slider"))
-      .def_property_readonly(
-          "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "What slides.")
-      .def("dissipative", &by_amplitude<&SlowlyVaryingParameters::dissipative>, py::arg("amplitude"),
-           R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates.
+          .def(py::init([] { return SlowlyVaryingParameters(Slider(Coulomb(1))); }))
+          .def(py::init<AnySlider>(), py::arg("slider"))
+          .def_property_readonly(
+              "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "What slides.")
+          .def("dissipative", &by_amplitude<&SlowlyVaryingParameters::dissipative>, py::arg("amplitude"),
+               R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates.
 
 Parameters
 ----------
@@ -125,8 +129,8 @@ ValueError
 Notes
 -----
 To round-off for every A / 3l; some 100 ns.)")
-      .def("dissipative_slope", &by_amplitude<&SlowlyVaryingParameters::dissipative_slope>, py::arg("amplitude"),
-           R"(S'(A), thesis (2.38).
+          .def("dissipative_slope", &by_amplitude<&SlowlyVaryingParameters::dissipative_slope>, py::arg("amplitude"),
+               R"(S'(A), thesis (2.38).
 
 Parameters
 ----------
@@ -142,9 +146,9 @@ Raises
 ------
 ValueError
     Another amplitude.)")
-      .def(
-          "in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
-          R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): what acts in phase with x, the spring.
+          .def(
+              "in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
+              R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): what acts in phase with x, the spring.
 
 Parameters
 ----------
@@ -160,8 +164,8 @@ Raises
 ------
 ValueError
     Another amplitude.)")
-      .def("in_phase_slope", &by_amplitude<&SlowlyVaryingParameters::in_phase_slope>, py::arg("amplitude"),
-           R"(C'(A), thesis (2.39).
+          .def("in_phase_slope", &by_amplitude<&SlowlyVaryingParameters::in_phase_slope>, py::arg("amplitude"),
+               R"(C'(A), thesis (2.39).
 
 Parameters
 ----------
@@ -177,9 +181,9 @@ Raises
 ------
 ValueError
     Another amplitude.)")
-      .def("response", &SlowlyVaryingParameters::response, py::arg("B"), py::arg("omega"),
-           py::call_guard<py::gil_scoped_release>(),
-           R"(Every periodic solution other than rest, by increasing amplitude.
+          .def("response", &SlowlyVaryingParameters::response, py::arg("B"), py::arg("omega"),
+               py::call_guard<py::gil_scoped_release>(),
+               R"(Every periodic solution other than rest, by increasing amplitude.
 
 S^2 + (C - omega^2 A)^2 = B^2, thesis (2.16); phi = atan2(S, C - omega^2 A), (2.17) corrected. Stable where
 S' + S/A <= 0, (2.18) corrected, which friction always meets, and (C/A - omega^2) (C' - omega^2) + S S'/A > 0, (2.19).
@@ -209,13 +213,13 @@ OverflowError
 Notes
 -----
 All of them, amplitudes to round-off; 1 to 10 us.)")
-      .def(
-          "frequency",
-          [](const SlowlyVaryingParameters& self, double B, const py::object& amplitude) {
-            return branches(amplitude, [&](double a) { return self.frequency(B, a); });
-          },
-          py::arg("B"), py::arg("amplitude"),
-          R"(The two frequencies at which the amplitude is A: both branches of (2.48), (2.53), and (2.25), (2.32).
+          .def(
+              "frequency",
+              [](const SlowlyVaryingParameters& self, double B, const py::object& amplitude) {
+                return branches(amplitude, [&](double a) { return self.frequency(B, a); });
+              },
+              py::arg("B"), py::arg("amplitude"),
+              R"(The two frequencies at which the amplitude is A: both branches of (2.48), (2.53), and (2.25), (2.32).
 
 omega^2 = C/A -+ sqrt(B^2 - S^2) / A.
 
@@ -236,13 +240,13 @@ Raises
 ------
 ValueError
     A value out of its range.)")
-      .def(
-          "stability_boundary",
-          [](const SlowlyVaryingParameters& self, const py::object& amplitude) {
-            return branches(amplitude, [&](double a) { return self.stability_boundary(a); });
-          },
-          py::arg("amplitude"),
-          R"(The frequencies between which solutions of amplitude A are unstable, whatever their B.
+          .def(
+              "stability_boundary",
+              [](const SlowlyVaryingParameters& self, const py::object& amplitude) {
+                return branches(amplitude, [&](double a) { return self.stability_boundary(a); });
+              },
+              py::arg("amplitude"),
+              R"(The frequencies between which solutions of amplitude A are unstable, whatever their B.
 
 The locus of vertical tangencies, (2.19) as an equation, thesis (2.41), (2.42), on both sides of wn.
 
@@ -261,9 +265,9 @@ Raises
 ------
 ValueError
     Another amplitude.)")
-      .def(
-          "least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
-          R"(The least amplitude of any solution, whatever the frequency: -S(A) = B, thesis (2.36), (2.37), by bracketing.
+          .def(
+              "least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
+              R"(The least amplitude of any solution, whatever the frequency: -S(A) = B, thesis (2.36), (2.37), by bracketing.
 
 Parameters
 ----------
@@ -279,8 +283,8 @@ Raises
 ------
 ValueError
     Another B.)")
-      .def("rests", &SlowlyVaryingParameters::rests, py::arg("B"),
-           R"(Whether a small motion dies down to rest: B <= -S(0), which is 4 a / pi.
+          .def("rests", &SlowlyVaryingParameters::rests, py::arg("B"),
+               R"(Whether a small motion dies down to rest: B <= -S(0), which is 4 a / pi.
 
 The exact motion rests only for B <= a; from there to 4 a / pi it is a small one that sticks twice a cycle.
 
@@ -297,20 +301,20 @@ Raises
 ------
 ValueError
     Another B.)")
-      .def(
-          "transient",
-          [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase,
-             const py::object& times) {
-            const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times");
-            theory::HarmonicTransient found;
-            {
-              const py::gil_scoped_release released;
-              found = self.transient(B, omega, amplitude, phase, at, check_for_interrupt);
-            }
-            return py::make_tuple(array_of(std::move(found.amplitude)), array_of(std::move(found.phase)));
-          },
-          py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"), py::arg("times"),
-          R"(Amplitude and phase on their way, from the averaged equations (2.10) corrected and (2.11).
+          .def(
+              "transient",
+              [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase,
+                 const py::object& times) {
+                const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times");
+                theory::HarmonicTransient found;
+                {
+                  const py::gil_scoped_release released;
+                  found = self.transient(B, omega, amplitude, phase, at, check_for_interrupt);
+                }
+                return py::make_tuple(array_of(std::move(found.amplitude)), array_of(std::move(found.phase)));
+              },
+              py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"), py::arg("times"),
+              R"(Amplitude and phase on their way, from the averaged equations (2.10) corrected and (2.11).
 
 A motion that dies down stays at rest where `rests`.
 
@@ -340,14 +344,14 @@ ConvergenceError
 Notes
 -----
 By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B / omega^2.)")
-      .def(
-          "settles_on",
-          [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase) {
-            const py::gil_scoped_release released;
-            return self.settles_on(B, omega, amplitude, phase, check_for_interrupt);
-          },
-          py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"),
-          R"(The solution that a motion comes to in the end.
+          .def(
+              "settles_on",
+              [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase) {
+                const py::gil_scoped_release released;
+                return self.settles_on(B, omega, amplitude, phase, check_for_interrupt);
+              },
+              py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"),
+              R"(The solution that a motion comes to in the end.
 
 The averaged equations contract areas, by (S' + S/A) / (2 omega), so that they have no closed orbits, and a motion which
 turns about a stable solution once, with all others outside, can't leave it.
@@ -373,9 +377,42 @@ ConvergenceError
 Notes
 -----
 Some milliseconds where several are stable.)")
-      .def("__repr__", [](const SlowlyVaryingParameters& self) {
-        return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
-      });
+          .def(
+              "predict",
+              [](const SlowlyVaryingParameters&, const AnySlider& slider, const HarmonicMotion& excitation,
+                 const py::object& times) {
+                const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times");
+                const SlowlyVaryingParameters theory(slider);
+                const py::gil_scoped_release released;
+                return theory.theory::SlowlyVaryingParameters::predict(excitation, at, check_for_interrupt);
+              },
+              py::arg("slider"), py::arg("excitation"), py::arg("times"),
+              R"(x and x' by time from rest, as every theory: of any slider, by `transient`.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides.
+excitation : HarmonicMotion
+    The ground.
+times : array_like, shape (T,)
+    [s], increasing, from 0 on.
+
+Returns
+-------
+Moments
+    Means without scatter: x = A cos(omega t + phi), x' = -omega A sin(omega t + phi).
+
+Raises
+------
+ValueError
+    A value out of its range; unlike levels forward and backward.
+ConvergenceError
+    After a million steps, with the time reached.)")
+          .def("__repr__", [](const SlowlyVaryingParameters& self) {
+            return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
+          });
+  def_theory(type);
 }
 
 }  // namespace stickslip::python

@@ -1,6 +1,7 @@
 #include "stickslip/theory/stationary_linearization.hpp"
 
 #include "parts.hpp"
+#include "theory/theory.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -98,8 +99,9 @@ Accuracy 1e-8 of the values at most; some 0.3 to 2 ms for each time, however lat
                (p.remark.empty() ? "" : "; " + p.remark) + ">";
       });
 
-  value_class<StationaryLinearization>(m, "StationaryLinearization",
-                                       R"(Stationary equivalent linearization of Coulomb friction, thesis 4.3.
+  auto type =
+      value_class<StationaryLinearization>(m, "StationaryLinearization",
+                                           R"(Stationary equivalent linearization of Coulomb friction, thesis 4.3.
 
 x'' + a sgn(x') + wn^2 x = -n(t) by x'' + zeta x' + wn^2 x = -n(t), thesis (4.1), (4.2), with
 
@@ -117,22 +119,23 @@ the displacement is too small until sigma_n is some four times a. docs/filtered_
 References
 ----------
 Thesis 4.3; C. K. Constantinou, I. G. Tadjbakhsh, J. Struct. Eng. 110 (1984).)")
-      .def(py::init<>())
-      .def(
-          "predict",
-          [](const StationaryLinearization& self, const AnySlider& slider, const Spectrum& spectrum) {
-            const Slider<Coulomb>& friction = coulomb(slider);
-            const py::gil_scoped_release released;
-            return self.predict(friction, spectrum);
-          },
-          py::arg("slider"), py::arg("spectrum"), R"(Damping and stationary response.
+          .def(py::init<>())
+          .def(
+              "predict",
+              [](const StationaryLinearization& self, const AnySlider& slider, const AnyNoise& excitation) {
+                const Slider<Coulomb>& friction = coulomb(slider);
+                const theory::StationaryNoise noise = stationary_noise(excitation);
+                const py::gil_scoped_release released;
+                return self.predict(friction, noise);
+              },
+              py::arg("slider"), py::arg("excitation"), R"(Damping and stationary response.
 
 Parameters
 ----------
 slider : Slider or Coulomb
     Coulomb friction, the same level both ways, with or without a spring.
-spectrum : Spectrum
-    Of the ground acceleration.
+excitation : Spectrum, GaussianExcitation or float
+    Stationary ground acceleration; a number is the level S0 of white noise [m^2/s^3].
 
 Returns
 -------
@@ -143,26 +146,55 @@ Raises
 TypeError
     A caster.
 ValueError
-    Unequal levels: friction then has a mean, and the slider drifts.
+    Unequal levels: friction then has a mean, and the slider drifts. An envelope; white noise without a line at zero
+    frequency.
 ConvergenceError
     A spectrum that cannot be integrated.
 
 Notes
 -----
 Round-off for band-pass and white noise without a spring, in 1 us; else quadrature, to 1e-9, in 0.1 to 10 ms.)")
-      .def(
-          "threshold",
-          [](const StationaryLinearization& self, const AnySlider& slider, const Spectrum& spectrum) {
-            return self.threshold(coulomb(slider), spectrum);
-          },
-          py::arg("slider"), py::arg("spectrum"), R"(The factor on the ground acceleration at which motion begins.
+          .def(
+              "predict",
+              [](const StationaryLinearization& self, const AnySlider& slider, const AnyNoise& excitation,
+                 const py::object& times) {
+                const std::vector<double> at = to_vector(times, "StationaryLinearization: times");
+                const Slider<Coulomb>& friction = coulomb(slider);
+                const theory::StationaryNoise noise = stationary_noise(excitation);
+                const py::gil_scoped_release released;
+                return self.predict(friction, noise, at, check_for_interrupt);
+              },
+              py::arg("slider"), py::arg("excitation"), py::arg("times"),
+              R"(The linear system from rest, as every theory: `StationaryPrediction.transient`.
+
+Parameters
+----------
+slider, excitation
+    As above.
+times : array_like, shape (T,)
+    [s], finite and at least 0, in any order.
+
+Returns
+-------
+Moments
+
+Raises
+------
+TypeError, ValueError, ConvergenceError
+    As above; a time out of its range.)")
+          .def(
+              "threshold",
+              [](const StationaryLinearization& self, const AnySlider& slider, const AnyNoise& excitation) {
+                return self.threshold(coulomb(slider), stationary_noise(excitation));
+              },
+              py::arg("slider"), py::arg("excitation"), R"(The factor on the ground acceleration at which motion begins.
 
 sqrt(2/pi) a / sigma_n, thesis (4.22): where it is 1 or more the method predicts no motion, which in truth is rare and
 small but not nil.
 
 Parameters
 ----------
-slider, spectrum
+slider, excitation
     As for `predict`.
 
 Returns
@@ -174,7 +206,8 @@ Raises
 ------
 TypeError, ValueError
     As for `predict`.)")
-      .def("__repr__", [](const StationaryLinearization&) { return "StationaryLinearization()"; });
+          .def("__repr__", [](const StationaryLinearization&) { return "StationaryLinearization()"; });
+  def_theory(type);
 }
 
 }  // namespace stickslip::python

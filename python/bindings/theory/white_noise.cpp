@@ -1,7 +1,7 @@
 #include "stickslip/theory/white_noise.hpp"
 
 #include "parts.hpp"
-#include "theory/white_level.hpp"
+#include "theory/theory.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -14,7 +14,7 @@ auto by_one(const char* name, double (WhiteNoise::*f)(double) const) {
   };
 }
 
-WhiteNoise of_slider(const AnySlider& slider, const AnyLevel& s0) {
+WhiteNoise of_slider(const AnySlider& slider, const AnyNoise& s0) {
   const auto* const coulomb = std::get_if<Slider<Coulomb>>(&slider);
   if (coulomb == nullptr) throw py::type_error("WhiteNoise: covers Coulomb friction without a spring, got a Caster");
   return {*coulomb, white_level(s0)};
@@ -23,23 +23,25 @@ WhiteNoise of_slider(const AnySlider& slider, const AnyLevel& s0) {
 }  // namespace
 
 void bind_white_noise(py::module_& m) {
-  value_class<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
+  auto type =
+      value_class<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
 
 The velocity is a diffusion towards rest: dv = -a sgn(v) dt + sqrt(2 D) dW, D = pi S0, dx = v dt, thesis (3.48), (3.49);
 with a level of its own each way where the two differ. For other laws, and with a spring, nothing exact is known.
 
 Parameters
 ----------
-slider : Slider or Coulomb
-    Coulomb friction; the two levels may differ. An infinite backward level never slides backward.
-s0 : float or Spectrum
+slider : Slider or Coulomb, optional
+    Coulomb friction; the two levels may differ. An infinite backward level never slides backward. A slip level of
+    1 m/s^2 if not given.
+s0 : float, Spectrum or GaussianExcitation, optional
     Level S0 of the white ground acceleration, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite; or a
-    white Spectrum.
+    white spectrum or excitation. 1 if not given.
 
 Raises
 ------
 ValueError
-    s0 out of its range, a spectrum that is not white, a spring.
+    s0 out of its range, noise that is not white, a spring.
 TypeError
     Another law.
 
@@ -52,33 +54,34 @@ References
 ----------
 T. K. Caughey, J. K. Dienes, J. Appl. Phys. 32 (1961), 2476-2479; I. Karatzas, S. E. Shreve, Ann. Probab. 12 (1984),
 819-828; transforms by the contour of J. A. C. Weideman, SIAM J. Numer. Anal. 44 (2006), 2342-2362.)")
-      .def(py::init(&of_slider), py::arg("slider"), py::arg("s0"))
-      .def_static(
-          "coulomb",
-          [](double slip_level, const AnyLevel& s0) { return WhiteNoise::coulomb(slip_level, white_level(s0)); },
-          py::arg("slip_level"), py::arg("s0"), R"(The same slip level both ways.
+          .def(py::init<>())
+          .def(py::init(&of_slider), py::arg("slider"), py::arg("s0"))
+          .def_static(
+              "coulomb",
+              [](double slip_level, const AnyNoise& s0) { return WhiteNoise::coulomb(slip_level, white_level(s0)); },
+              py::arg("slip_level"), py::arg("s0"), R"(The same slip level both ways.
 
 Parameters
 ----------
 slip_level : float
     a [m/s^2], finite and at least 0.
-s0 : float or Spectrum
+s0 : float, Spectrum or GaussianExcitation
     As above.)")
-      .def_property_readonly("law", &WhiteNoise::law, "The friction law.")
-      .def_property_readonly("s0", &WhiteNoise::s0, "Level of the white noise [m^2/s^3].")
-      .def_property_readonly("mean", &WhiteNoise::mean,
-                             "Stationary mean velocity, the drift: D / a - D / b [m/s], a and b the levels against "
-                             "forward and backward sliding.")
-      .def_property_readonly("variance", &WhiteNoise::variance,
-                             "Stationary variance of the velocity: D^2 (1 / a^2 + 1 / b^2), which is 2 pi^2 S0^2 / "
-                             "a^2, thesis (3.48) [m^2/s^2].")
-      .def_property_readonly(
-          "growth_rate", &WhiteNoise::growth_rate,
-          "Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 "
-          "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a "
-          "level is 0: the variance then grows as t^3, and `predict` leaves its growth rate NaN.")
-      .def("density", by_one("velocity", &WhiteNoise::density), py::arg("velocity"),
-           R"(Stationary probability density of the velocity.
+          .def_property_readonly("law", &WhiteNoise::law, "The friction law.")
+          .def_property_readonly("s0", &WhiteNoise::s0, "Level of the white noise [m^2/s^3].")
+          .def_property_readonly("mean", &WhiteNoise::mean,
+                                 "Stationary mean velocity, the drift: D / a - D / b [m/s], a and b the levels against "
+                                 "forward and backward sliding.")
+          .def_property_readonly("variance", &WhiteNoise::variance,
+                                 "Stationary variance of the velocity: D^2 (1 / a^2 + 1 / b^2), which is 2 pi^2 S0^2 / "
+                                 "a^2, thesis (3.48) [m^2/s^2].")
+          .def_property_readonly(
+              "growth_rate", &WhiteNoise::growth_rate,
+              "Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 "
+              "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a "
+              "level is 0: the variance then grows as t^3, and `predict` leaves its growth rate NaN.")
+          .def("density", by_one("velocity", &WhiteNoise::density), py::arg("velocity"),
+               R"(Stationary probability density of the velocity.
 
 Two exponentials that meet at rest: p(v) = exp(-a v / D) / (D / a + D / b) for v > 0, exp(b v / D) / (D / a + D / b) for
 v < 0; a / (2 D) exp(-a |v| / D) where the levels are equal. 0 where a level is 0.
@@ -92,15 +95,16 @@ Returns
 -------
 float or numpy.ndarray
     [s/m], of the shape of velocity.)")
-      .def(
-          "transition_density",
-          [](const WhiteNoise& self, const py::object& velocity, const py::object& time, const py::object& start) {
-            return py::vectorize([&self](double v, double t, double v0) { return self.transition_density(v, t, v0); })(
-                to_numbers(velocity, "WhiteNoise: velocity"), to_numbers(time, "WhiteNoise: time"),
-                to_numbers(start, "WhiteNoise: start"));
-          },
-          py::arg("velocity"), py::arg("time"), py::arg("start") = 0.0,
-          R"(Probability density of the velocity at a time, from the velocity at time 0.
+          .def(
+              "transition_density",
+              [](const WhiteNoise& self, const py::object& velocity, const py::object& time, const py::object& start) {
+                return py::vectorize([&self](double v, double t, double v0) {
+                  return self.transition_density(v, t, v0);
+                })(to_numbers(velocity, "WhiteNoise: velocity"), to_numbers(time, "WhiteNoise: time"),
+                   to_numbers(start, "WhiteNoise: start"));
+              },
+              py::arg("velocity"), py::arg("time"), py::arg("start") = 0.0,
+              R"(Probability density of the velocity at a time, from the velocity at time 0.
 
 With y = |v|, y0 = |v0|: exp(-(y - y0 + a t)^2 / 4 D t) / sqrt(4 pi D t) + q on the side of the start, exp(-a y / D)
 exp(-(y + y0 - a t)^2 / 4 D t) / sqrt(4 pi D t) + q beyond rest, q = a / (4 D) exp(-a y / D) erfc((y + y0 - a t) /
@@ -124,8 +128,9 @@ Raises
 ------
 ValueError
     A value out of its range; or unequal levels, for which no closed form is known.)")
-      .def("velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
-           R"(Two-sided spectral density of the stationary velocity; its variance is the integral over the whole line.
+          .def(
+              "velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
+              R"(Two-sided spectral density of the stationary velocity; its variance is the integral over the whole line.
 
 S(w) = D^3 / (pi a^4) Re[(2 k^2 + 2 k + 1) / k^4], 2 k = 1 + sqrt(1 + 4 i w D / a^2).
 
@@ -143,13 +148,13 @@ Raises
 ------
 ValueError
     Levels that differ, or are 0.)")
-      .def(
-          "absolute_moment",
-          [](const WhiteNoise& self, int order, const py::object& time) {
-            return of_each(time, "WhiteNoise: time", [&](double t) { return self.absolute_moment(order, t); });
-          },
-          py::arg("order"), py::arg("time"),
-          R"(E|v|^n at a time, from rest.
+          .def(
+              "absolute_moment",
+              [](const WhiteNoise& self, int order, const py::object& time) {
+                return of_each(time, "WhiteNoise: time", [&](double t) { return self.absolute_moment(order, t); });
+              },
+              py::arg("order"), py::arg("time"),
+              R"(E|v|^n at a time, from rest.
 
 By the transform n! (1/k^(n+1) + 1/m^(n+1)) / (s (1/k + 1/m)), 2 D k = a + sqrt(a^2 + 4 D s), m as k, of b.
 
@@ -169,14 +174,14 @@ Raises
 ------
 ValueError
     A value out of its range.)")
-      .def(
-          "predict",
-          [](const WhiteNoise& self, const py::object& times) {
-            const std::vector<double> t = to_vector(times, "WhiteNoise: times");
-            const py::gil_scoped_release released;
-            return self.predict(t);
-          },
-          py::arg("times"), R"(Means and covariances by time, from rest.
+          .def(
+              "predict",
+              [](const WhiteNoise& self, const py::object& times) {
+                const std::vector<double> t = to_vector(times, "WhiteNoise: times");
+                const py::gil_scoped_release released;
+                return self.predict(t);
+              },
+              py::arg("times"), R"(Means and covariances by time, from rest.
 
 E[x v] and E[x^2] by their transforms too: where the levels are equal, in units of D and a, 3 / ((k - 1) (2 k - 1) k^4)
 + 2 / ((k - 1) (2 k - 1)^2 k^3), and 2 / (k (k - 1)) times that.
@@ -194,10 +199,41 @@ Raises
 ------
 ValueError
     Times out of range; a figure beyond the range of doubles.)")
-      .def("__repr__", [](const WhiteNoise& self) {
-        return "WhiteNoise(" + py::repr(py::cast(self.law())).cast<std::string>() +
-               ", s0=" + detail::shortest(self.s0()) + ")";
-      });
+          .def(
+              "predict",
+              [](const WhiteNoise&, const AnySlider& slider, const AnyNoise& excitation, const py::object& times) {
+                const std::vector<double> t = to_vector(times, "WhiteNoise: times");
+                const WhiteNoise theory = of_slider(slider, excitation);
+                const py::gil_scoped_release released;
+                return theory.predict(t);
+              },
+              py::arg("slider"), py::arg("excitation"), py::arg("times"),
+              R"(As every theory: of any slider and white noise, as of ``WhiteNoise(slider, excitation)``.
+
+Parameters
+----------
+slider : Slider or Coulomb
+    Coulomb friction without a spring.
+excitation : float, Spectrum or GaussianExcitation
+    White noise: its level S0 [m^2/s^3], or what has one.
+times : array_like of shape (T,)
+    [s], finite, at least 0, increasing.
+
+Returns
+-------
+Moments
+
+Raises
+------
+ValueError
+    As above, and what `WhiteNoise` raises.
+TypeError
+    Another law; an excitation of another kind.)")
+          .def("__repr__", [](const WhiteNoise& self) {
+            return "WhiteNoise(" + py::repr(py::cast(self.law())).cast<std::string>() +
+                   ", s0=" + detail::shortest(self.s0()) + ")";
+          });
+  def_theory(type);
 }
 
 }  // namespace stickslip::python

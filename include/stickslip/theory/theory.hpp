@@ -1,0 +1,87 @@
+// What a theory is: it says whether it covers a slider under an excitation, and predicts the moments of the motion.
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
+#include "stickslip/statistics/moments.hpp"
+
+namespace stickslip::theory {
+
+/// Whether a theory covers a slider under an excitation and, if not, why.
+struct Coverage {
+  std::string reason{};    ///< why not, in one sentence; empty where it does
+  bool excitation = true;  ///< false where the theory is for excitations of another kind, whatever slides
+
+  explicit operator bool() const noexcept { return reason.empty(); }
+};
+
+/// A theory T predicts the moments of a slider S under an excitation E without simulating it. It has
+///
+///     name()                                the name, with the options that tell it from its variants
+///     covers(slider, excitation)            a Coverage, from the slider and the excitation alone, in microseconds
+///     predict(slider, excitation, times)    Moments at `times` [s] from rest on
+///
+/// `covers` can be asked about any slider and excitation. Where it says no, `predict` does not compile or throws
+/// std::invalid_argument with the same reason. Where it says yes, `predict` may still throw what only the computation
+/// finds: std::invalid_argument for times out of range or a caster that escapes, ConvergenceError.
+///
+/// An excitation is white noise by its level S0 [m^2/s^3], a `Spectrum`, a `GaussianExcitation`, `PoissonPulses` or a
+/// `HarmonicMotion`.
+template <class T, class S, class E>
+concept Theory = requires(const T& theory, const S& slider, const E& excitation, std::span<const double> times) {
+  { theory.name() } -> std::convertible_to<std::string>;
+  { theory.covers(slider, excitation) } -> std::same_as<Coverage>;
+  { theory.predict(slider, excitation, times) } -> std::same_as<Moments>;
+};
+
+}  // namespace stickslip::theory
+
+namespace stickslip::detail {
+
+/// What a theory that takes an `Excitation` answers about an excitation `e` of any type: no where `e` cannot be one,
+/// else what `check` throws.
+/// @param other  says what is covered instead
+template <class Excitation, class E, class Check>
+theory::Coverage coverage(const E& e, const char* other, const Check& check) {
+  if constexpr (!std::convertible_to<const E&, const Excitation&>) {
+    return {other, false};
+  } else {
+    bool converted = false;
+    try {
+      const Excitation& excitation = e;
+      converted = true;
+      check(excitation);
+    } catch (const std::invalid_argument& refusal) {
+      return {refusal.what(), converted};
+    }
+    return {};
+  }
+}
+
+/// Refuses what no theory covers: a damper beside friction, a resistance that depends on the speed, and static friction
+/// that differs from kinetic. A theory that covers one of them makes its own check instead.
+template <FrictionLaw Law>
+void require_plain(const Slider<Law>& slider, const std::string& theory) {
+  require(slider.damping() == 0, theory + ": a slider with a damper is not covered, damping must be 0",
+          slider.damping(), "1/s");
+  if constexpr (!PositionLaw<Law>) {
+    throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
+  } else if constexpr (LawWithHold<Law>) {
+    for (const Direction direction : {Direction::forward, Direction::backward}) {
+      const double kinetic = slider.law().resist(0.0, direction);
+      require(slider.law().hold(0.0, direction) == kinetic,
+              theory + ": static friction that differs from kinetic is not covered, it must hold " + shortest(kinetic) +
+                  " m/s^2 at x = 0",
+              slider.law().hold(0.0, direction), "m/s^2");
+    }
+  }
+}
+
+}  // namespace stickslip::detail

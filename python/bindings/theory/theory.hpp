@@ -1,0 +1,77 @@
+// What the bindings of all theories share: the excitation as Python gives it, `covers` and `name`.
+#pragma once
+
+#include <pybind11/stl.h>
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+/// White noise, and any stationary noise: a number is the level S0.
+using AnyNoise = std::variant<double, Spectrum, GaussianExcitation>;
+
+inline theory::WhiteLevel white_level(const AnyNoise& noise) {
+  return std::visit([](const auto& any) { return theory::WhiteLevel(any); }, noise);
+}
+
+inline theory::StationaryNoise stationary_noise(const AnyNoise& noise) {
+  return std::visit([](const auto& any) { return theory::StationaryNoise(any); }, noise);
+}
+
+/// An excitation that the library does not know.
+struct OwnExcitation {};
+
+/// Calls `use` with the excitation in its own type.
+template <class Use>
+auto with_excitation(const py::object& excitation, const Use& use) {
+  if (py::isinstance<Spectrum>(excitation)) return use(excitation.cast<const Spectrum&>());
+  if (py::isinstance<GaussianExcitation>(excitation)) return use(excitation.cast<const GaussianExcitation&>());
+  if (py::isinstance<PoissonPulses>(excitation)) return use(excitation.cast<const PoissonPulses&>());
+  if (py::isinstance<HarmonicMotion>(excitation)) return use(excitation.cast<const HarmonicMotion&>());
+  py::detail::make_caster<double> number;
+  if (number.load(excitation, true)) return use(py::detail::cast_op<double>(number));
+  return use(OwnExcitation());
+}
+
+/// `name` and `covers`.
+template <class T>
+void def_theory(py::class_<T>& theory) {
+  theory
+      .def_property_readonly(
+          "name", [](const T& self) { return self.name(); }, "Its name in a `Comparison`.")
+      .def(
+          "covers",
+          [](const T& self, const py::object& slider, const py::object& excitation) -> theory::Coverage {
+            py::detail::make_caster<AnySlider> any;
+            const bool known = any.load(slider, true);
+            const AnySlider friction = known ? py::detail::cast_op<const AnySlider&>(any) : Slider(Coulomb(1));
+            theory::Coverage coverage = with_excitation(excitation, [&](const auto& e) {
+              return std::visit([&](const auto& s) -> theory::Coverage { return self.covers(s, e); }, friction);
+            });
+            if (!known && coverage.excitation)
+              coverage.reason = std::string(self.name()) + ": covers sliders on friction, got " +
+                                py::type::of(slider).attr("__name__").template cast<std::string>();
+            return coverage;
+          },
+          py::arg("slider"), py::arg("excitation"), R"(Whether the theory covers a slider under an excitation.
+
+Looks at both alone, in microseconds; what only the computation finds `predict` raises.
+
+Parameters
+----------
+slider : Slider, Coulomb or Caster
+    What slides. Of anything else the answer is no.
+excitation : float, Spectrum, GaussianExcitation, PoissonPulses or HarmonicMotion
+    A number is the level S0 of white noise [m^2/s^3]. Of anything else the answer is no.
+
+Returns
+-------
+Coverage
+    True or False by itself, with the reason.)");
+}
+
+}  // namespace stickslip::python
