@@ -24,8 +24,8 @@ class Random:
     ----------
     kind : callable
         What makes the slider or the law: `Coulomb`, `Caster`, `Slider`, `ViscousSlider`, one of
-        their other constructors, as `Coulomb.on_slope`, or a function, which must pickle to go to
-        other processes.
+        their other constructors, as `Coulomb.on_slope`, or a function. To go to other processes it
+        must pickle, which classes and the functions of a module do.
     **parameters
         Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is drawn for each member; a
         `Random` is made for each member, as the law of a slider; all else is passed on as it is.
@@ -50,7 +50,7 @@ class Random:
     Parameter j, counted in the order of the arguments that are numbers or distributions, takes the
     quantile at the j-th of the member's own uniform random numbers (Philox), in C++ as in Python.
     What the law refuses, as a negative mu, ends a run with a ValueError that names the member and
-    the value: give a `Normal` bounds. A member costs a few microseconds, one thread at a time.
+    the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
     """
 
     def __init__(self, kind: Callable[..., AnySlider], /, **parameters: Any) -> None:
@@ -58,9 +58,10 @@ class Random:
             raise TypeError(f"Random: kind must be callable, as Coulomb, got {kind!r}")
         self._kind = kind
         self._parameters = parameters
+        self._drawn = list(self._distributions())
         # A function has no name that tells what it does: what it makes stands for it.
         self._quartiles = [
-            repr(self._make(_core.quantile(one, p) for one in self._distributions()))
+            repr(self._make(_core.quantile(one, p) for one in self._drawn))
             for p in (0.25, 0.5, 0.75)
         ]
 
@@ -99,7 +100,7 @@ class Random:
             Parameters that the law refuses; names the member and the value.
         """
         number = operator.index(member)
-        values = _core.draw(list(self._distributions()), seed=operator.index(seed), member=number)
+        values = _core.draw(self._drawn, seed=operator.index(seed), member=number)
         try:
             return self._make(iter(values))
         except ValueError as error:
@@ -130,9 +131,9 @@ class Random:
         return hash((self._kind, tuple(self._parameters.items())))
 
     def __repr__(self) -> str:
-        name = getattr(self._kind, "__qualname__", None) or repr(self._kind)
+        kind = getattr(self._kind, "__name__", None) or repr(self._kind)
         arguments = "".join(f", {name}={value!r}" for name, value in self._parameters.items())
-        return f"Random({name}{arguments})"
+        return f"Random({kind}{arguments})"
 
 
 def _is_distribution(value: Any) -> bool:
