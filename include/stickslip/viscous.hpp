@@ -10,6 +10,7 @@
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
@@ -130,22 +131,18 @@ struct ViscousEnergy {
 
   /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
   ViscousEnergy(const ViscousSlider& slider, double duration) {
-    constexpr double nodes[] = {0.18343464249564980, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
-    constexpr double weights[] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337447, 0.10122853629037626};
     const double size = (slider.damping() + slider.natural_frequency()) * duration;
     const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
-    const double half = std::ldexp(duration, -doublings - 1);
-    for (int i = 0; i < 4; ++i)
-      for (const double side : {-1.0, 1.0}) {
-        const double time = half * (1 + side * nodes[i]);
-        const ViscousStep at(slider, time);
-        const std::array<double, 3> v{at.decay, at.impulse, at.step};
-        for (std::size_t a = 0; a < 3; ++a) {
-          moment[a] += half * weights[i] * time * v[a];
-          for (std::size_t b = 0; b < 3; ++b) square[a][b] += half * weights[i] * v[a] * v[b];
-        }
+    const double part = std::ldexp(duration, -doublings);
+    numerics::gauss_points<8>(0, part, [&](double time, double weight) {
+      const ViscousStep at(slider, time);
+      const std::array<double, 3> v{at.decay, at.impulse, at.step};
+      for (std::size_t a = 0; a < 3; ++a) {
+        moment[a] += weight * time * v[a];
+        for (std::size_t b = 0; b < 3; ++b) square[a][b] += weight * v[a] * v[b];
       }
-    ViscousStep step(slider, 2 * half);
+    });
+    ViscousStep step(slider, part);
     for (int i = 0; i < doublings; ++i) {
       double_time(slider, step);
       step.double_time(slider);

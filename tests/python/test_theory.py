@@ -68,6 +68,9 @@ class Mine:
         (BLOCK, Sweep(), "", ""),
         (BLOCK, "white", "", ""),
         (ss.ViscousSlider(0.5), PULSES, "", "Crtn"),
+        (ss.Slider(BLOCK, damping=0.3), PULSES, "", "Crtn"),
+        (ss.Slider(BLOCK, damping=0.3), SHAKING, "", "WESs"),
+        (ss.Slider(CART, damping=0.3), HARMONIC, "", "V"),
         ("block", HARMONIC, "", "V"),
     ],
 )
@@ -92,6 +95,7 @@ def test_each_theory_says_what_it_covers(slider, excitation, covering, refusing)
         (theory.StationaryLinearization(), SLOPE, BAND, "same both ways"),
         (theory.PulseChain(), CART, PULSES, "PulseSuperposition covers other laws"),
         (theory.PulseChain(), ss.ViscousSlider(0.5), PULSES, "got ViscousSlider"),
+        (theory.PulseChain(), ss.Slider(BLOCK, damping=0.3), PULSES, "damping must be 0, got 0.3"),
         (theory.PulseSuperposition(), SPRUNG, PULSES, "natural_frequency must be 0, got 2 rad/s"),
         (theory.SlowlyVaryingParameters(), SLOPE, HARMONIC, "resist both ways alike"),
         (theory.SlowlyVaryingParameters(), BLOCK, PULSES, "covers HarmonicMotion"),

@@ -283,18 +283,17 @@ class DampedFlow {
       return {distance * part * duration, speed, slope / duration, mean * part * duration};
     }
 
-    /// The integral of v^2, by Gauss-Legendre quadrature of eight points: off by 1e-18 of it.
+    /// The integral of v^2, by Gauss-Legendre quadrature of eight points, which go through the series side by side: off
+    /// by 1e-18 of it.
     double square(double part) const noexcept {
-      constexpr double nodes[] = {0.18343464249564980, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
-      constexpr double weights[] = {0.36268378337836198, 0.31370664587788729, 0.22238103445337447, 0.10122853629037626};
+      constexpr const auto& rule = numerics::gauss_legendre<8>;
       double value[8];
       for (double& sum : value) sum = v[terms - 1];
       for (int k = terms - 2; k >= 0; --k)
-        for (int i = 0; i < 8; ++i)
-          value[i] = value[i] * (part / 2 * (i % 2 == 0 ? 1 - nodes[i / 2] : 1 + nodes[i / 2])) + v[k];
+        for (std::size_t i = 0; i < 8; ++i) value[i] = value[i] * (part * rule.nodes[i]) + v[k];
       double sum = 0;
-      for (int i = 0; i < 8; ++i) sum += weights[i / 2] * value[i] * value[i];
-      return part * duration / 2 * sum;
+      for (std::size_t i = 0; i < 8; ++i) sum += rule.weights[i] * value[i] * value[i];
+      return part * duration * sum;
     }
   };
 
