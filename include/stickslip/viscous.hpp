@@ -178,7 +178,8 @@ struct ViscousEnergy {
   }
 };
 
-/// Where a function that has one zero between `low` and `high` has it, to 1e-9, by Newton's method within the bracket.
+/// Where a function that has one zero between `low` and `high` has it, to 1e-9, by Newton's method within the bracket,
+/// as the slope is at hand.
 /// @param f  gives value and slope; of opposite signs at both ends
 template <class F>
 double crossing(double low, double high, const F& f) {

@@ -77,8 +77,8 @@ class FirstRoot {
     return root < never ? root : search(b, left + width / 2, width / 2);
   }
 
-  // Newton's method, from where a parabola through the start would be zero; even and odd powers go apart, as an
-  // addition must wait for what it adds.
+  // Newton's method, as the slope comes with the value, from where a parabola through the start would be zero; even
+  // and odd powers go apart, as an addition must wait for what it adds.
   double polish(double low, double high) const noexcept {
     const double guess = degree_ < 2 ? 1 : first_root(w_[0], w_[1], 2 * w_[2]);
     double t = guess > low && guess < high ? guess : low + (high - low) / 2;
