@@ -34,8 +34,6 @@ inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::b
 template <>
 inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach);
 template <>
-inline constexpr auto parts<ViscousSlider> = std::tuple(&ViscousSlider::damping, &ViscousSlider::natural_frequency);
-template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
                                                          &HarmonicMotion::duration, &HarmonicMotion::dt);
 

@@ -32,7 +32,6 @@ from ._core import (
     GroundMotion,
     Moments,
     Response,
-    ViscousSlider,
 )
 from ._files import replacing
 from ._text import printable
@@ -139,8 +138,6 @@ def sticks(response: Response) -> np.ndarray:
     ndarray, shape (S, 2)
         Begin and end of each stick [s], in order of time; the last may end with the response.
     """
-    if isinstance(response.slider, ViscousSlider):
-        return np.empty((0, 2))
     events = response.events
     kinds, times = events["kind"], events["time"]
     begins = np.append(response.time[0], times[kinds == "arrest"])
@@ -204,7 +201,7 @@ def plot_response(
         if not v.any():
             speed.set_ylim(-1, 1)
         speed.set_ylabel(f"relative velocity\n[{fast_unit}/s]")
-        if not isinstance(response.slider, ViscousSlider):
+        if _has_friction(response.slider):
             speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
 
         way.plot(t, x * length, color=BLUE, linewidth=1.4)
@@ -555,7 +552,7 @@ def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     Infinite, which draws nothing, where there is none.
     """
     slider = response.slider
-    if isinstance(slider, ViscousSlider):
+    if not _has_friction(slider):
         return np.full(x.shape, -np.inf), np.full(x.shape, np.inf)
     spring = slider.natural_frequency**2 * x
     forward, backward = (
@@ -581,7 +578,7 @@ def _draw_ground(axes: Axes, response: Response) -> None:
 def _note_levels(axes: Axes, response: Response) -> None:
     """Names the slip levels at the right edge, at the height where they end."""
     slider, x = response.slider, response.residual
-    if isinstance(slider, ViscousSlider):
+    if not _has_friction(slider):
         return
     (lower,), (upper,) = _held(response, np.array([x]))
     ahead, back = (slider.resist(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
@@ -658,17 +655,25 @@ def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: st
     )
 
 
+def _has_friction(slider: Any) -> bool:
+    return bool(slider.hold() > 0 or slider.hold(backward=True) > 0)
+
+
 def _describe(slider: Any) -> str:
     """A slider in a few words, as 'slip level 0.06 g, period 3 s'."""
     wn = slider.natural_frequency
-    if isinstance(slider, ViscousSlider):
-        words = [f"viscous damping {_digits(slider.damping)} 1/s"]
+    words = []
+    if slider.damping > 0:
+        words.append(f"viscous damping {_digits(slider.damping)} 1/s")
+    if not _has_friction(slider):
+        words.insert(0, "no friction")
     else:
         ahead, back = (slider.resist(backward=b) / STANDARD_GRAVITY for b in (False, True))
-        words = [f"slip level {_digits(ahead)} g"]
+        levels = [f"slip level {_digits(ahead)} g"]
         if back != ahead:
-            words[0] += " forward"
-            words.append("never backward" if np.isinf(back) else f"{_digits(back)} g backward")
+            levels[0] += " forward"
+            levels.append("never backward" if np.isinf(back) else f"{_digits(back)} g backward")
+        words = levels + words
         if hasattr(slider.law, "reach"):
             words.append(f"caster, reach {_digits(slider.law.reach * 100)} cm")
     if wn > 0:
@@ -769,7 +774,9 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
         words.append(f"{len(slider['one_of'])} sliders")
     if "damping" in slider:
         words.append(f"viscous damping {_digits(slider['damping'])} 1/s")
-    if "slip_level" in slider:
+    if slider.get("slip_level") == 0 == slider.get("backward"):
+        words.append("no friction")
+    elif "slip_level" in slider:
         ahead = slider["slip_level"] / STANDARD_GRAVITY
         words.append(f"slip level {_digits(ahead)} g")
         back = slider.get("backward", slider["slip_level"])

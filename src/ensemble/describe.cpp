@@ -22,11 +22,6 @@ std::string describe(const std::string& law, double natural_frequency, double da
          (damping > 0 ? ", \"damping\": " + json(damping) : "") + "}";
 }
 
-std::string describe(const ViscousSlider& slider) {
-  return "{\"law\": \"viscous\", \"damping\": " + json(slider.damping()) +
-         ", \"natural_frequency\": " + json(slider.natural_frequency()) + "}";
-}
-
 namespace {
 
 // A digest of 64 bits, word by word, each mixed as by splitmix64 (Steele, Lea and Flood 2014).

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "simd/caster_lanes.hpp"
@@ -17,14 +18,19 @@
 namespace stickslip::detail {
 namespace {
 
-CoulombLanes lanes_of(const Coulomb& law, double duration) { return {law.forward(), law.backward(), duration}; }
-CasterLanes lanes_of(const Caster& law, double duration) { return {law, duration}; }
-ViscousLanes lanes_of(const ViscousSlider& slider, double duration) { return {slider, ViscousStep(slider, duration)}; }
+CoulombLanes coulomb_lanes(const Slider<Coulomb>& slider, double duration) {
+  return {slider.law().forward(), slider.law().backward(), duration};
+}
+CasterLanes caster_lanes(const Slider<Caster>& slider, double duration) { return {slider.law(), duration}; }
+ViscousLanes viscous_lanes(const Slider<Coulomb>& slider, double duration) {
+  return {slider, DampedBasis(slider.damping(), slider.natural_frequency(), duration)};
+}
+
+bool has_friction_alone(const auto& slider) { return slider.stiffness() == 0 && slider.damping() == 0; }
 
 // Without ground acceleration until they rest.
 template <class Law>
-void settle_all(const Law& law, const LaneStates& states, std::uint64_t first_member, std::size_t members) {
-  const Slider<Law> slider(law);
+void settle_all(const Slider<Law>& slider, const LaneStates& states, std::uint64_t first_member, std::size_t members) {
   for (std::size_t i = 0; i < members; ++i) {
     State state = State::at(states.displacement[i], states.velocity[i]);
     naming_member(first_member + i, [&] {
@@ -35,15 +41,13 @@ void settle_all(const Law& law, const LaneStates& states, std::uint64_t first_me
   }
 }
 
-void settle_all(const ViscousSlider&, const LaneStates&, std::uint64_t, std::size_t) {}  // refused before
-
 /// Under a Gaussian excitation, whose members share their times.
-/// @tparam Law  or the viscous slider
-template <class Law>
+template <class Law, class Lanes>
 class LanesSimulator final : public Simulator {
  public:
-  LanesSimulator(const Law& law, const GaussianExcitation& excitation, std::uint64_t seed, bool settle)
-      : law_(law), excitation_(excitation), seed_(seed), settle_(settle) {}
+  LanesSimulator(const Slider<Law>& slider, const Lanes& lanes, const GaussianExcitation& excitation,
+                 std::uint64_t seed, bool settle)
+      : slider_(slider), lanes_(lanes), excitation_(excitation), seed_(seed), settle_(settle) {}
 
   void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
     const std::size_t width = block.width(), samples = excitation_.samples();
@@ -51,7 +55,6 @@ class LanesSimulator final : public Simulator {
 
     const auto every = static_cast<std::size_t>(std::round(block.times().dt / excitation_.dt()));
     const bool linear = excitation_.interpolation() == Interpolation::linear;
-    const auto slider = lanes_of(law_, excitation_.dt());
     displacement_.assign(width, 0);
     velocity_.assign(width, 0);
     std::fill(block.peak().begin(), block.peak().end(), 0.0);
@@ -59,11 +62,11 @@ class LanesSimulator final : public Simulator {
     block.row(0, displacement_.data(), velocity_.data());
     for (std::size_t i = 1; i < samples; ++i) {
       const double* const start = &ground_[(i - 1) * width];
-      advance_lanes(slider, width, start, linear ? start + width : start, states);
+      advance_lanes(lanes_, width, start, linear ? start + width : start, states);
       if (i % every == 0) block.row(i / every, displacement_.data(), velocity_.data());
       if (i % 256 == 0) block.beat();
     }
-    if (settle_) settle_all(law_, states, first_member, members);
+    if (settle_) settle_all(slider_, states, first_member, members);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
@@ -87,7 +90,8 @@ class LanesSimulator final : public Simulator {
     }
   }
 
-  Law law_;
+  Slider<Law> slider_;
+  Lanes lanes_;
   const GaussianExcitation& excitation_;
   std::uint64_t seed_;
   bool settle_;
@@ -126,7 +130,7 @@ class PulseSimulator final : public Simulator {
     advance_lanes(lanes_, excitation_.duration(), pulses_,
                   {block.times().dt, times, displacements_.data(), velocities_.data()}, states);
     for (std::size_t k = 0; k < times; ++k) block.row(k, &displacements_[k * width], &velocities_[k * width]);
-    if (settle_) settle_all(law_, states, first_member, members);
+    if (settle_) settle_all(Slider(law_), states, first_member, members);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
@@ -160,31 +164,37 @@ class PulseSimulator final : public Simulator {
 
 }  // namespace
 
-std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed,
-                                           bool settle) {
+std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation,
+                                           std::uint64_t seed, bool settle) {
   const std::size_t edges = excitation.options().shape.times().size();
   // Blocks so long that they could not be interrupted within a blink go member by member.
-  if (edges > most_edges || excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
+  if (!has_friction_alone(slider) || edges > most_edges ||
+      excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
     return nullptr;
-  return std::make_unique<PulseSimulator>(law, excitation, seed, settle);
+  return std::make_unique<PulseSimulator>(slider.law(), excitation, seed, settle);
 }
 
-std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const GaussianExcitation& excitation, std::uint64_t seed,
-                                           bool settle) {
-  return std::make_unique<LanesSimulator<Coulomb>>(law, excitation, seed, settle);
-}
-
-std::unique_ptr<Simulator> lanes_simulator(const Caster& law, const GaussianExcitation& excitation, std::uint64_t seed,
-                                           bool settle) {
-  // The lanes measure lengths in reaches.
-  if (!(law.reach() > 1e-9 && law.reach() < 1e9)) return nullptr;
-  return std::make_unique<LanesSimulator<Caster>>(law, excitation, seed, settle);
-}
-
-std::unique_ptr<Simulator> lanes_simulator(const ViscousSlider& slider, const GaussianExcitation& excitation,
+std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
-  if (!(slider.natural_frequency() * excitation.dt() <= ViscousLanes::longest)) return nullptr;
-  return std::make_unique<LanesSimulator<ViscousSlider>>(slider, excitation, seed, settle);
+  const double dt = excitation.dt();
+  const auto simulator = [&](const auto& lanes) -> std::unique_ptr<Simulator> {
+    return std::make_unique<LanesSimulator<Coulomb, std::remove_cvref_t<decltype(lanes)>>>(slider, lanes, excitation,
+                                                                                           seed, settle);
+  };
+  if (has_friction_alone(slider)) return simulator(coulomb_lanes(slider, dt));
+  if (slider.law().forward() > 0 || slider.law().backward() > 0 ||
+      !(slider.natural_frequency() * dt <= ViscousLanes::longest))
+    return nullptr;
+  return simulator(viscous_lanes(slider, dt));
+}
+
+std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
+                                           std::uint64_t seed, bool settle) {
+  // The lanes measure lengths in reaches.
+  const double reach = slider.law().reach();
+  if (!has_friction_alone(slider) || !(reach > 1e-9 && reach < 1e9)) return nullptr;
+  return std::make_unique<LanesSimulator<Caster, CasterLanes>>(slider, caster_lanes(slider, excitation.dt()),
+                                                               excitation, seed, settle);
 }
 
 }  // namespace stickslip::detail

@@ -1,13 +1,9 @@
-// The usual sliders and excitations, compiled once.
-#include "stickslip/ensemble/ensemble.hpp"
+// The usual sliders as members, compiled once.
+#include "stickslip/detail/ensemble/simulator.hpp"
 
-namespace stickslip {
+namespace stickslip::detail {
 
-template class detail::MemberSimulator<Coulomb, GaussianExcitation>;
-template class detail::MemberSimulator<Coulomb, PoissonPulses>;
-template class detail::MemberSimulator<Caster, GaussianExcitation>;
-template class detail::MemberSimulator<Caster, PoissonPulses>;
-template class detail::ViscousSimulator<GaussianExcitation>;
-template class detail::ViscousSimulator<PoissonPulses>;
+template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, const MemberPlace&);
+template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, const MemberPlace&);
 
-}  // namespace stickslip
+}  // namespace stickslip::detail

@@ -6,9 +6,27 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "simd/pack-inl.hpp"
+#include "stickslip/sliding/advance.hpp"
+
+#ifndef STICKSLIP_VISCOUS_LANES_ONCE
+#define STICKSLIP_VISCOUS_LANES_ONCE
+namespace stickslip::detail {
+namespace {
+
+// Keeps the largest |x|.
+struct PeakOf {
+  double& most;
+  void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
+  void event(EventKind, double, const State&) const noexcept {}
+};
+
+}  // namespace
+}  // namespace stickslip::detail
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
@@ -18,8 +36,8 @@ using Bool = Real::Mask;
 
 void AdvanceViscous(const ViscousLanes& all, std::size_t members, const double* start, const double* end,
                     const LaneStates& states) {
-  const ViscousStep& step = all.step;
-  const ViscousSlider& slider = all.slider;
+  const DampedBasis& step = all.step;
+  const Slider<Coulomb>& slider = all.slider;
   const double h = step.duration;
   const Real zeta = slider.damping(), stiffness = slider.stiffness(), decay = step.decay, impulse = step.impulse,
              by_step = step.step, ramp = step.ramp, rate = 1 / h;
@@ -48,9 +66,9 @@ void AdvanceViscous(const ViscousLanes& all, std::size_t members, const double* 
   }
   for (; turning != 0; turning &= turning - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(turning));
-    ViscousMotion moving(slider, displacement[i], velocity[i]);
-    moving.advance(step, -start[i], (start[i] - end[i]) / h);
-    states.peak[i] = std::max(states.peak[i], moving.peak());
+    PeakOf peak{states.peak[i]};
+    State state = State::at(displacement[i], velocity[i]);
+    stickslip::advance(slider, Segment{h, start[i], end[i]}, state, peak);
   }
 }
 

@@ -4,13 +4,15 @@
 #include <cstddef>
 
 #include "simd/lane_queue.hpp"
-#include "stickslip/viscous.hpp"
+#include "stickslip/flow/damped.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/slider.hpp"
 
 namespace stickslip::detail {
 
 struct ViscousLanes {
-  ViscousSlider slider;
-  ViscousStep step;  ///< of each segment
+  Slider<Coulomb> slider;  ///< without friction
+  DampedBasis step;        ///< of each segment
 
   /// In units of 1 / wn: the accelerations at both ends of a segment bound those between.
   static constexpr double longest = 1;

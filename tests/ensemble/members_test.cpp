@@ -228,7 +228,7 @@ TEST_CASE("a list holds sliders of any kind", "[ensemble]") {
   }
   EnsembleOptions o = options(21);
   o.settle = true;
-  CHECK_THROWS_WITH(run_ensemble(sliders, motions, o), ContainsSubstring("settle must be false, a ViscousSlider"));
+  CHECK_THROWS_WITH(run_ensemble(sliders, motions, o), ContainsSubstring("does not come to rest"));
 }
 
 TEST_CASE("a source of members of one's own runs as the built-in ones do", "[ensemble]") {

@@ -405,6 +405,7 @@ TEST_CASE("orbits and continuation name what they refuse", "[orbits][errors]") {
   }
   CHECK_THROWS_WITH(orbits(Coulomb(1), -1, 1), "orbits: B must be positive and at most 1e100 m/s^2, got -1 m/s^2");
   CHECK_THROWS_WITH(orbits(Coulomb(1, 1.5), 2, 1), ContainsSubstring("else the slider drifts, got 1.5 m/s^2"));
+  CHECK_THROWS_WITH(orbits(Slider(Coulomb(1), 2, 0.5), 2, 1), ContainsSubstring("damping must be 0, got 0.5 1/s"));
   CHECK_THROWS_WITH(orbits(Coulomb(1, infinity), 2, 1), ContainsSubstring("else the slider drifts"));
   const Orbit orbit = orbits(Coulomb(1), 3, 1)[0], rest = orbits(Coulomb(1), 0.5, 1)[0];
   CHECK_THROWS_WITH(continuation(Coulomb(1), rest, 0.5, 2), ContainsSubstring("must move"));

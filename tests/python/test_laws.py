@@ -117,7 +117,10 @@ def test_the_slip_level_of_a_caster_is_the_sine_of_its_angle(position, sine):
 REFUSED = [
     (lambda: ss.Coulomb(), "give either mu or slip_level, got neither"),
     (lambda: ss.Coulomb(mu=0.2, slip_level=1.5), r"both \(mu = 0\.2, slip_level = 1\.5 m/s\^2\)"),
-    (lambda: ss.Coulomb(mu=0.2, backward=1.0, mu_backward=0.3), r"mu_backward or backward, got both"),
+    (
+        lambda: ss.Coulomb(mu=0.2, backward=1.0, mu_backward=0.3),
+        r"mu_backward or backward, got both",
+    ),
     (lambda: ss.Coulomb(mu=0.2, mu_backward=-0.3), "mu_backward must be finite .* got -0.3"),
     (lambda: ss.Coulomb(mu=-0.2), "Coulomb: mu must be finite and at least 0, got -0.2"),
     (lambda: ss.Coulomb(mu=NAN), "Coulomb: mu .* got nan"),

@@ -234,7 +234,7 @@ REFUSED = {
         ss.Random(lambda mu: mu, mu=ss.Uniform(0, 1)),
         RECORDS,
         TypeError,
-        "a sample of sliders must be a Slider, Coulomb, Caster or ViscousSlider; that of member",
+        "a sample of sliders must be a Slider, Coulomb or Caster; that of member",
     ),
 }
 

@@ -94,7 +94,7 @@ def test_each_theory_says_what_it_covers(slider, excitation, covering, refusing)
         (theory.EquivalentLinearization(), SLOPE, 1.0, "levels of 1 and 1.5 m/s^2"),
         (theory.StationaryLinearization(), SLOPE, BAND, "same both ways"),
         (theory.PulseChain(), CART, PULSES, "PulseSuperposition covers other laws"),
-        (theory.PulseChain(), ss.ViscousSlider(0.5), PULSES, "got ViscousSlider"),
+        (theory.PulseChain(), ss.ViscousSlider(0.5), PULSES, "damping must be 0, got 0.5"),
         (theory.PulseChain(), ss.Slider(BLOCK, damping=0.3), PULSES, "damping must be 0, got 0.3"),
         (theory.PulseSuperposition(), SPRUNG, PULSES, "natural_frequency must be 0, got 2 rad/s"),
         (theory.SlowlyVaryingParameters(), SLOPE, HARMONIC, "resist both ways alike"),

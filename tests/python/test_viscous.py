@@ -38,9 +38,9 @@ def test_it_moves_as_its_equation_says(damping, wn):
     # The kinks between samples cost the solver the digits.
     assert np.abs(solution.y[0] - r.displacement).max() < 1e-5 * r.peak
     assert np.abs(solution.y[1] - r.velocity).max() < 1e-5 * np.abs(r.velocity).max()
-    assert r.events["kind"].tolist() == ["end"]
-    assert r.slips == 0
-    assert abs(r.energy.imbalance) < 1e-11 * max(r.energy.dissipated, abs(r.energy.input))
+    assert "arrest" not in r.events["kind"]
+    assert r.energy.dissipated == 0
+    assert abs(r.energy.imbalance) < 1e-11 * max(r.energy.damped, abs(r.energy.input))
 
 
 def test_a_response_knows_its_viscous_slider():
@@ -50,8 +50,8 @@ def test_a_response_knows_its_viscous_slider():
     assert not r.at_rest
     assert slider.damping == 1.5
     assert slider.natural_frequency == 2.0
-    assert repr(slider) == "ViscousSlider(damping=1.5, natural_frequency=2)"
-    assert repr(ss.ViscousSlider(2)) == "ViscousSlider(damping=2)"
+    assert repr(slider) == "Slider(Coulomb(slip_level=0), natural_frequency=2, damping=1.5)"
+    assert slider == ss.Slider(ss.Coulomb(slip_level=0), 2, 1.5)
     assert slider != ss.ViscousSlider(1.5)
     assert slider != ss.Slider(ss.Coulomb(slip_level=1.5), 2.0)
     for again in (copy.copy(slider), pickle.loads(pickle.dumps(slider))):
@@ -67,7 +67,13 @@ def test_an_ensemble_of_it_is_its_members_anywhere():
     member = ss.integrate(slider, shaking.sample(seed=5, member=77))
     assert e.peak[77] == pytest.approx(member.peak, rel=1e-12)
     assert e.residual[77] == pytest.approx(member.residual, abs=1e-12)
-    assert e.configuration["slider"] == {"law": "viscous", "damping": 0.7, "natural_frequency": 0}
+    assert e.configuration["slider"] == {
+        "law": "Coulomb",
+        "slip_level": 0,
+        "backward": 0,
+        "natural_frequency": 0,
+        "damping": 0.7,
+    }
     with ProcessPoolExecutor(1) as pool:
         elsewhere = ss.run_ensemble(slider, shaking, members=130, seed=5, executor=pool)
     assert np.array_equal(elsewhere.velocity_variance, e.velocity_variance)
@@ -106,20 +112,20 @@ def texts(figure):
 
 def test_what_it_cannot_be_or_do_is_refused():
     for damping, wn in ((-1, 0), (NAN, 0), (INF, 0), (1, -1), (1, NAN), (1, 1e200)):
-        with pytest.raises(ValueError, match="ViscousSlider"):
+        with pytest.raises(ValueError, match="Slider"):
             ss.ViscousSlider(damping, wn)
     with pytest.raises(TypeError):
         ss.ViscousSlider("1")
     slider = ss.ViscousSlider(1)
-    with pytest.raises(ValueError, match="never comes to rest"):
+    with pytest.raises(ss.ConvergenceError, match="does not come to rest"):
         ss.integrate(slider, quake(), settle=True)
     with pytest.raises(TypeError, match="GroundMotion"):
         ss.integrate(slider, [1, 2])
-    with pytest.raises(ValueError, match="never comes to rest"):
+    with pytest.raises(ss.ConvergenceError, match="does not come to rest"):
         ss.run_ensemble(
             slider, ss.PoissonPulses.event("great near field"), members=2, seed=1, settle=True
         )
-    with pytest.raises(ss.ConvergenceError, match="half periods"):
+    with pytest.raises(ss.ConvergenceError, match="events"):
         ss.integrate(ss.ViscousSlider(0, 1e9), quake())
-    with pytest.raises(TypeError):
-        ss.histories(slider, quake())
+    histories = ss.histories(slider, quake())
+    assert np.array_equal(histories[0], ss.integrate(slider, quake()).displacement)

@@ -288,7 +288,7 @@ TEST_CASE("a whole block of members side by side has the sums of its members one
   const auto count = static_cast<std::size_t>(members);
   on_each_instruction_set([&](const std::string& set) {
     INFO(set << ": " << samples << " samples, " << members << " members");
-    const Simulated lanes = simulate(*detail::lanes_simulator(law, excitation, 3, settle), times, 128, count);
+    const Simulated lanes = simulate(*detail::lanes_simulator(Slider(law), excitation, 3, settle), times, 128, count);
     const Slider<Coulomb> slider(law);
     const PairedMembers members_alone(slider, excitation);
     detail::MemberSimulator simulator(members_alone, 3, settle);

@@ -45,7 +45,7 @@ TEST_CASE("blocks under pulses in lanes end and peak as single ones, on every in
         const EnsembleTimes times{0.25, 81};
         const std::atomic<bool> stopped = false;
         detail::Block block(times, false, stopped);
-        const auto lanes = detail::lanes_simulator(law, pulses, 5, false);
+        const auto lanes = detail::lanes_simulator(Slider(law), pulses, 5, false);
         if (pulses.options().shape.times().size() > 16) {
           CHECK(lanes == nullptr);
           continue;

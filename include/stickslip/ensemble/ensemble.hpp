@@ -131,14 +131,3 @@ class Ensemble {
 };
 
 }  // namespace stickslip
-
-#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
-namespace stickslip {
-extern template class detail::MemberSimulator<Coulomb, GaussianExcitation>;
-extern template class detail::MemberSimulator<Coulomb, PoissonPulses>;
-extern template class detail::MemberSimulator<Caster, GaussianExcitation>;
-extern template class detail::MemberSimulator<Caster, PoissonPulses>;
-extern template class detail::ViscousSimulator<GaussianExcitation>;
-extern template class detail::ViscousSimulator<PoissonPulses>;
-}  // namespace stickslip
-#endif

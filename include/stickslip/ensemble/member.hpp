@@ -52,7 +52,7 @@ concept SliderSource = !MotionSource<T> && requires(const T& sliders, std::uint6
 };
 
 /// Members by index: a slider, or one of a source of them, under a motion of a source.
-/// @tparam S  a Slider or ViscousSlider, which all members share, or a SliderSource
+/// @tparam S  a Slider, which all members share, or a SliderSource
 template <class S, MotionSource M>
 class PairedMembers {
  public:

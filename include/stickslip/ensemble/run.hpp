@@ -8,7 +8,6 @@
 
 #include "stickslip/detail/ensemble/lanes_simulator.hpp"
 #include "stickslip/detail/ensemble/simulator.hpp"
-#include "stickslip/detail/ensemble/viscous_member.hpp"
 #include "stickslip/ensemble/ensemble.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"
@@ -18,7 +17,6 @@
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/viscous.hpp"
 
 namespace stickslip {
 
@@ -29,20 +27,11 @@ template <MemberSource Source>
 std::unique_ptr<Simulator> simulator(const Source& source, std::uint64_t seed, bool settle) {
   return std::make_unique<MemberSimulator<Source>>(source, seed, settle);
 }
-template <FrictionLaw Law, MotionSource M>
-std::unique_ptr<Simulator> simulator(const PairedMembers<Slider<Law>, M>& source, std::uint64_t seed, bool settle) {
-  const Slider<Law>& slider = source.sliders();
-  if constexpr (requires { lanes_simulator(slider.law(), source.motions(), seed, settle); })
-    if (slider.stiffness() == 0 && slider.damping() == 0)
-      if (auto lanes = lanes_simulator(slider.law(), source.motions(), seed, settle)) return lanes;
-  return std::make_unique<MemberSimulator<PairedMembers<Slider<Law>, M>>>(source, seed, settle);
-}
-template <MotionSource M>
-std::unique_ptr<Simulator> simulator(const PairedMembers<ViscousSlider, M>& source, std::uint64_t seed, bool settle) {
-  refuse_to_settle(source.sliders(), settle);
-  if constexpr (requires { lanes_simulator(source.sliders(), source.motions(), seed, false); })
-    if (auto lanes = lanes_simulator(source.sliders(), source.motions(), seed, false)) return lanes;
-  return std::make_unique<MemberSimulator<PairedMembers<ViscousSlider, M>>>(source, seed, false);
+template <class S, MotionSource M>
+std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, std::uint64_t seed, bool settle) {
+  if constexpr (requires { lanes_simulator(source.sliders(), source.motions(), seed, settle); })
+    if (auto lanes = lanes_simulator(source.sliders(), source.motions(), seed, settle)) return lanes;
+  return std::make_unique<MemberSimulator<PairedMembers<S, M>>>(source, seed, settle);
 }
 
 }  // namespace detail
@@ -89,15 +78,15 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
 ///     run_ensemble(RandomSlider([](double mu) { return Coulomb::from_friction(mu); }, Lognormal(0.3, 0.3)),
 ///                  OneOf(std::vector{kobe, chi_chi}), {.members = 1000});
 ///
-/// @param sliders  a Slider with any law, with or without a spring; a law alone; a ViscousSlider, whose members never
-///                 come to rest (`settle` is refused); or a SliderSource: a RandomSlider, OneOf a list
+/// @param sliders  a Slider with any law, spring and damper; a law alone; or a SliderSource: a RandomSlider, OneOf a
+/// list
 /// @param motions  an Excitation, or OneOf<GroundMotion>. Where motions differ in duration, there are no statistics by
 ///                 time
 ///
 /// Cost on one thread, the motions and the statistics included (2.5 GHz, AVX2): one slider for all without a spring,
-/// Coulomb friction 6 to 7 ns a sample, viscous sliders 9 (with steps of less than 1 / wn) and casters 70 under
-/// Gaussian excitation, Coulomb friction 10 ns a step under pulses; else as `integrate`, and some 10 ns. Casters in
-/// vector lanes are within 1e-9 of those by `integrate`, all else is exact to round-off.
+/// Coulomb friction 6 to 7 ns a sample, spring and damper without friction 9 (with steps of less than 1 / wn) and
+/// casters 70 under Gaussian excitation, Coulomb friction 10 ns a step under pulses; else as `integrate`, and some 10
+/// ns. Casters in vector lanes are within 1e-9 of those by `integrate`, all else is exact to round-off.
 template <class S, MotionSource M>
 requires(!FrictionLaw<S>) Ensemble run_ensemble(const S& sliders, const M& motions, const EnsembleOptions& options = {},
                                                 const Ensemble* start = nullptr) {

@@ -30,7 +30,11 @@ namespace detail {
 /// Goes on without ground acceleration until the slider rests; `go(duration)` moves it.
 template <FrictionLaw Law, class Go>
 void settle(const Slider<Law>& slider, const State& state, Go&& go) {
-  constexpr double longest = 0x1p40;  // [s], some 35,000 years
+  double longest = 0x1p40;  // [s], some 35,000 years
+  if constexpr (ConstantLevelLaw<Law>) {
+    const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };
+    if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
+  }
   for (double duration = 1; duration <= longest; duration *= 2) {
     go(duration);
     if (state.mode == Mode::stuck) return;

@@ -16,7 +16,7 @@ independently of each other.
 
 Parameters
 ----------
-items : iterable of GroundMotion, or of Slider, Coulomb, Caster and ViscousSlider
+items : iterable of GroundMotion, or of Slider, Coulomb and Caster
     At least one.
 
 Raises

@@ -18,9 +18,6 @@
 
 namespace stickslip::python {
 
-/// A slider of any kind that an ensemble can have.
-using MemberSlider = std::variant<AnySlider, ViscousSlider>;
-
 inline std::string type_of(const py::handle& object) {
   return py::type::of(object).attr("__name__").cast<std::string>();
 }
@@ -38,11 +35,9 @@ std::optional<AnySlider> slider_of_law(const py::handle& object, const std::vari
 
 /// The slider that an object is, or that it makes as a law; nothing if it is none. Implicit conversions would need the
 /// frame of a bound function, which threads do not have.
-inline std::optional<MemberSlider> slider_of(const py::handle& object) {
-  if (py::isinstance<ViscousSlider>(object)) return object.cast<const ViscousSlider&>();
+inline std::optional<AnySlider> slider_of(const py::handle& object) {
   if (py::isinstance<AnySlider>(object)) return object.cast<const AnySlider&>();
-  if (auto slider = slider_of_law(object, static_cast<const AnySlider*>(nullptr))) return *std::move(slider);
-  return std::nullopt;
+  return slider_of_law(object, static_cast<const AnySlider*>(nullptr));
 }
 
 /// A source that is written in Python; called by threads that do not hold the interpreter, one at a time. Once the run
@@ -124,15 +119,14 @@ class PythonSliders : public PythonSource {
  public:
   PythonSliders(const py::object& object, const std::atomic<bool>& ended)
       : PythonSource(object, ended,
-                     "sliders must be a Slider, Coulomb, Caster or ViscousSlider, a list of these, or an object with "
+                     "sliders must be a Slider, Coulomb or Caster, a list of these, or an object with "
                      "sample(*, seed, member) and configuration, as Random") {}
 
-  MemberSlider sample(std::uint64_t seed, std::uint64_t member) const {
+  AnySlider sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
       if (auto slider = slider_of(made)) return *std::move(slider);
-      throw py::type_error(
-          "run_ensemble: a sample of sliders must be a Slider, Coulomb, Caster or ViscousSlider; that of member " +
-          std::to_string(member) + " is of type " + type_of(made));
+      throw py::type_error("run_ensemble: a sample of sliders must be a Slider, Coulomb or Caster; that of member " +
+                           std::to_string(member) + " is of type " + type_of(made));
     });
   }
 };
@@ -154,15 +148,12 @@ inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& o
 /// Calls with the sliders as what they are.
 template <class F>
 auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f) {
-  if (const auto one = slider_of(sliders)) {
-    if (const auto* const viscous = std::get_if<ViscousSlider>(&*one)) return f(*viscous);
-    return std::visit(f, std::get<AnySlider>(*one));
-  }
+  if (const auto one = slider_of(sliders)) return std::visit(f, *one);
   if (const auto list = list_of(sliders, "sliders")) {
-    std::vector<MemberSlider> items;
+    std::vector<AnySlider> items;
     for (const py::handle item : list->first) {
       auto slider = slider_of(item);
-      if (!slider) refuse_item("sliders", items.size(), "Slider, Coulomb, Caster or ViscousSlider", item);
+      if (!slider) refuse_item("sliders", items.size(), "Slider, Coulomb or Caster", item);
       items.push_back(*std::move(slider));
     }
     return f(OneOf(std::move(items), list->second));

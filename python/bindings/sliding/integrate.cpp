@@ -21,25 +21,14 @@ Recording integrate_under(const S& slider, const py::object& motion, const Integ
   return {std::move(response), py::cast(slider), motion};
 }
 
-[[noreturn]] void refuse(const char* motions, const py::object& motion) {
-  throw py::type_error(std::string("integrate: motion must be ") + motions + ", got " +
-                       py::type::of(motion).attr("__name__").cast<std::string>());
-}
-
 Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
                         bool settle) {
   const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
   if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
   if (py::isinstance<HarmonicMotion>(motion))
     return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
-  refuse("a GroundMotion or a HarmonicMotion", motion);
-}
-
-Recording integrate_viscous(const ViscousSlider& slider, const py::object& motion, double displacement, double velocity,
-                            bool settle) {
-  if (!py::isinstance<GroundMotion>(motion)) refuse("a GroundMotion", motion);
-  return integrate_under<ViscousSlider, GroundMotion>(slider, motion,
-                                                      {displacement, velocity, settle, check_for_interrupt});
+  throw py::type_error("integrate: motion must be a GroundMotion or a HarmonicMotion, got " +
+                       py::type::of(motion).attr("__name__").cast<std::string>());
 }
 
 }  // namespace
@@ -83,7 +72,7 @@ ConvergenceError
 Notes
 -----
 Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 13 to 25 ns a
-sample, 28 to 57 with a spring. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
+sample, 28 to 57 with a spring; with a damper 1e-12 and some 0.3 us. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
 motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
 power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
 adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
@@ -91,13 +80,6 @@ adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
 A long record of even steps is cut in pieces which, with Coulomb friction and no spring, move side by side from rest, in
 vector lanes; each is then done again from where the one before has come to, until both are stuck and so move alike.
 Nothing is lost by it but the last bits, and what they decide: whether a velocity that only touches zero stops there.)");
-  m.def("integrate", &integrate_viscous, py::arg("slider"), py::arg("motion"), py::kw_only(),
-        py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("settle") = false,
-        R"(The same for the linear system, x'' + zeta x' + wn^2 x = -n(t), thesis (4.2), (5.2).
-
-Parameters, answers and errors are those of a slider on friction. There are no events but the end; what is dissipated is
-the integral of zeta x'^2 dt; settle must be False, for it never comes to rest. Exact to round-off for any damping and
-step; some 150 ns a sample at even steps, 1.2 us where they are uneven.)");
 }
 
 }  // namespace stickslip::python

@@ -91,7 +91,7 @@ class Random:
 
         Returns
         -------
-        Slider, Coulomb, Caster or ViscousSlider
+        Slider, Coulomb or Caster
             What `kind` made.
 
         Raises

@@ -40,7 +40,7 @@ def run_ensemble(
 
     Parameters
     ----------
-    sliders : Slider, Coulomb, Caster, ViscousSlider, a list of these, Drawn, Random or SliderSource
+    sliders : Slider, Coulomb, Caster, a list of these, Drawn, Random or SliderSource
         What slides; a law alone is a slider without a spring. Of a list of m sliders member i has
         the one at i modulo m, of `Drawn(list)` one drawn at random; `Random` has random parameters.
         A source of your own: `stickslip.ensemble.SliderSource`.
@@ -62,8 +62,8 @@ def run_ensemble(
         given, or 1/512 of the duration where they have none in common. ValueError where durations
         differ.
     settle : bool, optional
-        Residuals and peaks after the slider has come to rest without ground acceleration, which a
-        ViscousSlider never does: ValueError.
+        Residuals and peaks after the slider has come to rest without ground acceleration, which
+        it never does without friction: ConvergenceError.
     velocity_spectrum : bool, optional
         The velocity's spectral density too, at an FFT a member, where durations are the same.
     progress : bool or callable, optional
@@ -110,11 +110,12 @@ def run_ensemble(
     Notes
     -----
     On one thread, the motions and the statistics included (2.5 GHz, AVX2): without a spring,
-    Coulomb friction takes 6 to 7 ns a sample, viscous sliders 9 and casters 70 under Gaussian
-    excitation, Coulomb friction 10 ns a step under pulses, the velocity's spectrum 2 ns a sample;
-    others, and lists and random sliders, take what `integrate` takes, and some 10 ns. Memory: 16
-    bytes a member, and for each thread 1 kB a time; above 2^24 members peaks are counted in bins. A
-    call costs 0.1 ms, and copies a list of records; so does each part that goes to an executor.
+    Coulomb friction takes 6 to 7 ns a sample, spring and damper without friction 9 and casters 70
+    under Gaussian excitation, Coulomb friction 10 ns a step under pulses, the velocity's spectrum 2
+    ns a sample; others, and lists and random sliders, take what `integrate` takes, and some 10 ns.
+    Memory: 16 bytes a member, and for each thread 1 kB a time; above 2^24 members peaks are counted
+    in bins. A call costs 0.1 ms, and copies a list of records; so does each part that goes to an
+    executor.
 
     References
     ----------

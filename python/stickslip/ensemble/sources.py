@@ -13,7 +13,6 @@ from .._core import (
     GroundMotion,
     PoissonPulses,
     Slider,
-    ViscousSlider,
 )
 
 
@@ -50,7 +49,7 @@ class SliderSource(Protocol):
         """The slider of that name, the same for ever."""
 
 
-AnySlider: TypeAlias = "Slider | Coulomb | Caster | ViscousSlider"
+AnySlider: TypeAlias = "Slider | Coulomb | Caster"
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 AnyMotions: TypeAlias = (
     "GaussianExcitation | PoissonPulses | GroundMotion"

@@ -13,7 +13,6 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/viscous.hpp"
 
 namespace stickslip::detail {
 
@@ -40,7 +39,6 @@ template <FrictionLaw Law>
 std::string describe(const Slider<Law>& slider) {
   return describe(parameters(slider.law()), slider.natural_frequency(), slider.damping());
 }
-std::string describe(const ViscousSlider& slider);
 template <class... Sliders>
 std::string describe(const std::variant<Sliders...>& slider) {
   return std::visit([](const auto& one) { return describe(one); }, slider);

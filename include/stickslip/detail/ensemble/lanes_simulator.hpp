@@ -9,18 +9,17 @@
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
-#include "stickslip/viscous.hpp"
+#include "stickslip/slider.hpp"
 
 namespace stickslip::detail {
 
-/// Many members side by side, by vector instructions, for sliders without a spring; null where that does not pay.
-std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const GaussianExcitation& excitation, std::uint64_t seed,
-                                           bool settle);
-std::unique_ptr<Simulator> lanes_simulator(const Caster& law, const GaussianExcitation& excitation, std::uint64_t seed,
-                                           bool settle);
-std::unique_ptr<Simulator> lanes_simulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed,
-                                           bool settle);
-std::unique_ptr<Simulator> lanes_simulator(const ViscousSlider& slider, const GaussianExcitation& excitation,
+/// Many members side by side, by vector instructions: friction alone, or spring and damper alone; null where that is
+/// not so or does not pay.
+std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
+                                           std::uint64_t seed, bool settle);
+std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
+                                           std::uint64_t seed, bool settle);
+std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation,
                                            std::uint64_t seed, bool settle);
 
 }  // namespace stickslip::detail

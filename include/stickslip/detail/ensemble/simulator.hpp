@@ -14,6 +14,8 @@
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
@@ -179,3 +181,10 @@ class MemberSimulator final : public Simulator {
 };
 
 }  // namespace stickslip::detail
+
+#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+namespace stickslip::detail {
+extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, const MemberPlace&);
+extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, const MemberPlace&);
+}  // namespace stickslip::detail
+#endif
