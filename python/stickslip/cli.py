@@ -321,6 +321,7 @@ def _add_slider(parser: argparse.ArgumentParser) -> None:
     )
     add("--wheel-width", type=float, metavar="M", help="caster: width of a wheel [m]; with --trail")
     add("--period", type=float, metavar="S", help="period of the mass on its spring [s]")
+    add("--damping-ratio", type=float, metavar="Z", help="part of critical damping; with --period")
     add("--slope", type=float, metavar="DEGREES", help="inclined plane; downhill is forward")
 
 
@@ -415,11 +416,17 @@ def _slider(args: argparse.Namespace, mu: float) -> Slider:
         law = Coulomb(mu=mu) if args.slope is None else Coulomb.on_slope(mu=mu, degrees=args.slope)
         if args.law == "one-way":
             law = Coulomb(slip_level=law.slip_level, backward=math.inf)
+    ratio = args.damping_ratio
+    if ratio is not None and not 0 <= ratio < math.inf:
+        raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
     if args.period is None:
+        if ratio is not None:
+            raise ValueError(f"--damping-ratio goes with --period, got {ratio:g} alone")
         return Slider(law)
     if not args.period > 0:
         raise ValueError(f"--period must be positive, got {args.period:g} s")
-    return Slider(law, natural_frequency=2 * math.pi / args.period)
+    natural_frequency = 2 * math.pi / args.period
+    return Slider(law, natural_frequency, 2 * natural_frequency * (ratio or 0))
 
 
 def _settle(slider: Slider, motion: GroundMotion) -> Response:
@@ -445,6 +452,7 @@ def _row(args: argparse.Namespace, file: Path, mu: float, response: Response) ->
         "reach_m": getattr(slider.law, "reach", None),
         "slope_degrees": args.slope,
         "period_s": args.period,
+        "damping_ratio": args.damping_ratio,
         "peak_m": response.peak,
         "residual_m": response.residual,
         "sliding_distance_m": response.sliding_distance,

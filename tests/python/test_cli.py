@@ -75,6 +75,10 @@ CASES = {
         ["--mu", 0.06, "--period", 2.5],
         ss.Slider(ss.Coulomb(mu=0.06), natural_frequency=2 * math.pi / 2.5),
     ),
+    "spring and damper": (
+        ["--mu", 0.06, "--period", 2.5, "--damping-ratio", 0.1],
+        ss.Slider(ss.Coulomb(mu=0.06), period=2.5, damping_ratio=0.1),
+    ),
 }
 
 
@@ -156,6 +160,14 @@ REFUSED = {
     "too steep": (["RECORD", "--mu", 0.1, "--slope", 45], "45 degrees"),
     "no period": (["RECORD", "--mu", 0.1, "--period", 0], "got 0 s"),
     "NaN period": (["RECORD", "--mu", 0.1, "--period", "nan"], "got nan s"),
+    "damping without a spring": (
+        ["RECORD", "--mu", 0.1, "--damping-ratio", 0.1],
+        "--damping-ratio goes with --period, got 0.1 alone",
+    ),
+    "negative damping": (
+        ["RECORD", "--mu", 0.1, "--period", 2, "--damping-ratio", -0.1],
+        "--damping-ratio must be finite and at least 0, got -0.1",
+    ),
     "infinite scale": (
         ["RECORD", "--mu", 0.1, "--scale", "inf"],
         "--scale must be finite, got inf",
