@@ -1,11 +1,12 @@
 // Where a function is zero, or a condition begins to hold, within a bracket.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
 #include <utility>
+
+#include "stickslip/detail/min_max.hpp"
 
 namespace stickslip::numerics {
 
@@ -47,7 +48,7 @@ double root(F&& f, double a, double fa, double b, double fb, double tolerance = 
     part = 0.5;
     if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)
       part = fa / (fb - fa) * (fc / (fb - fc)) + (c - a) / (b - a) * (fa / (fc - fa)) * (fb / (fc - fb));
-    part = std::clamp(part, least, 1 - least);
+    part = std::max(least, std::min(part, 1 - least));
   }
 }
 
