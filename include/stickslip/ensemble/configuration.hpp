@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// What the members of an ensemble depend on: names, and values as JSON.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 class Ensemble;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// The time that all ground motions of an ensemble have in common.

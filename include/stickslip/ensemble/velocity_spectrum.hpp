@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip {
 
 /// Spectral density of the velocity in the central half of the motion: Kaiser-Bessel window (4.62) with beta = 8 and a

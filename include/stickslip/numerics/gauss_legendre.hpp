@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip::numerics {
 
 /// Nodes, ascending, and weights of Gauss and Legendre's rule on [0, 1]: exact for polynomials up to degree
