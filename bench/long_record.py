@@ -142,7 +142,7 @@ class Run:
             energy = r.energy.dissipated + np.max(r.velocity**2) / 2
             require(f"{name}: energy that does not add up", abs(r.energy.imbalance), 1e-11 * energy)
             require(f"{name}: halved segments", error(r.displacement, fine), 1e-9 * r.peak)
-            if name in SPRINGS and slider.level() == slider.level(1.0):
+            if name in SPRINGS and slider.hold() == slider.hold(1.0):
                 self.references[name] = long_double(n[:REFERENCE_SAMPLES], SPRINGS[name])
             else:
                 self.references[name] = fine

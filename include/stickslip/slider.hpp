@@ -1,4 +1,4 @@
-// The system that moves: a friction law, and a spring and a damper if it has them.
+// A mass on friction, with an optional spring and an optional damper.
 #pragma once
 
 #include <cmath>
@@ -19,14 +19,14 @@ class Slider {
   /// @param law                what holds and what resists
   /// @param natural_frequency  wn, of the spring and the mass without friction [rad/s], finite and at least 0; 0 is no
   ///                           spring
-  /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the share of
-  ///                           critical damping
+  /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the damping
+  /// ratio
   /// @throws std::invalid_argument naming the value
   explicit Slider(Law law, double natural_frequency = 0, double damping = 0)
       : law_(std::move(law)),
-        natural_frequency_(natural_frequency),
+        natural_frequency_(natural_frequency + 0.0),  // minus zero is zero
         stiffness_(natural_frequency * natural_frequency),
-        damping_(damping) {
+        damping_(damping + 0.0) {
     detail::require(std::isfinite(stiffness_) && natural_frequency >= 0,
                     "Slider: natural_frequency must be finite and at least 0", natural_frequency, "rad/s");
     detail::require(std::isfinite(damping) && damping >= 0, "Slider: damping must be finite and at least 0", damping,

@@ -14,7 +14,8 @@ void bind_viscous(py::module_& m) {
       R"(A slider on a damper without friction: the linear system that stands in for a slider on friction.
 
 x'' + c x' + wn^2 x = -n(t), thesis (4.2), (5.2), which writes zeta for c: x the displacement relative to the ground [m],
-n the ground acceleration [m/s^2]. It never sticks but where nothing moves it, and never comes to rest.
+n the ground acceleration [m/s^2]. It is stuck only at rest under zero load,
+and never comes to rest.
 
 Parameters
 ----------

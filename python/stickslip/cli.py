@@ -321,7 +321,7 @@ def _add_slider(parser: argparse.ArgumentParser) -> None:
     )
     add("--wheel-width", type=float, metavar="M", help="caster: width of a wheel [m]; with --trail")
     add("--period", type=float, metavar="S", help="period of the mass on its spring [s]")
-    add("--damping-ratio", type=float, metavar="Z", help="part of critical damping; with --period")
+    add("--damping-ratio", type=float, metavar="Z", help="damping ratio; with --period")
     add("--slope", type=float, metavar="DEGREES", help="inclined plane; downhill is forward")
 
 
@@ -419,9 +419,9 @@ def _slider(args: argparse.Namespace, mu: float) -> Slider:
     ratio = args.damping_ratio
     if ratio is not None and not 0 <= ratio < math.inf:
         raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
+    if ratio is not None and args.period in (None, math.inf):
+        raise ValueError(f"--damping-ratio goes with a finite --period, got {ratio:g} without")
     if args.period is None:
-        if ratio is not None:
-            raise ValueError(f"--damping-ratio goes with --period, got {ratio:g} alone")
         return Slider(law)
     if not args.period > 0:
         raise ValueError(f"--period must be positive, got {args.period:g} s")

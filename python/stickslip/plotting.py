@@ -519,7 +519,8 @@ def _render(figure: Figure, kind: str) -> bytes:
 def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times [s], displacements [m] and velocities [m/s] to draw: samples, events and the tail.
 
-    Between the events of the tail a cubic through x and x' is drawn; without a spring it is exact.
+    Between the events of the tail a cubic through x and x' is drawn; without spring and damper it
+    is exact.
     """
     events, last = response.events, response.time[-1]
     t = np.concatenate([response.time, events["time"]])
@@ -556,7 +557,7 @@ def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return np.full(x.shape, -np.inf), np.full(x.shape, np.inf)
     spring = slider.natural_frequency**2 * x
     forward, backward = (
-        np.array([slider.resist(at, backward=back) for at in x.tolist()]) for back in (False, True)
+        np.array([slider.hold(at, backward=back) for at in x.tolist()]) for back in (False, True)
     )
     return (-forward - spring) / STANDARD_GRAVITY, (backward - spring) / STANDARD_GRAVITY
 

@@ -188,3 +188,13 @@ TEST_CASE("closed form and power series agree for dampers and springs of all siz
     CHECK(std::abs(r.energy.imbalance()) <= 1e-11 * turnover(r.energy));
   }
 }
+
+TEST_CASE("what holds at rest is at least what resists at no speed", "[damped][law]") {
+  // Rounded apart, as mu_s g and mu_k g are: a block at the level itself holds, and does not slip for no time for ever.
+  const double level = 0.3 * 9.80665;
+  const Sticky law{std::nextafter(level, 0), level};
+  CHECK(hold(law, 0, Direction::forward) == level);
+  const Response r = integrate(law, GroundMotion({-level, -level, -level, -2 * level, 0}, 0.1), from(0, 0, true));
+  CHECK(r.events.front().kind == EventKind::breakaway);
+  CHECK(std::abs(r.events.front().time - 0.2) <= 1e-15);
+}

@@ -18,6 +18,16 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
+/// Holds more at rest than what resists.
+struct Sticky {
+  static constexpr bool constant_while_sliding = true;
+  double hold(double, Direction) const { return 1.5; }
+  template <class T>
+  double resist(const T&, Direction) const {
+    return 1;
+  }
+};
+
 constexpr double pi = std::numbers::pi;
 
 /// The orbit of that amplitude, or one of amplitude NaN.
@@ -406,6 +416,7 @@ TEST_CASE("orbits and continuation name what they refuse", "[orbits][errors]") {
   CHECK_THROWS_WITH(orbits(Coulomb(1), -1, 1), "orbits: B must be positive and at most 1e100 m/s^2, got -1 m/s^2");
   CHECK_THROWS_WITH(orbits(Coulomb(1, 1.5), 2, 1), ContainsSubstring("else the slider drifts, got 1.5 m/s^2"));
   CHECK_THROWS_WITH(orbits(Slider(Coulomb(1), 2, 0.5), 2, 1), ContainsSubstring("damping must be 0, got 0.5 1/s"));
+  CHECK_THROWS_WITH(orbits(Slider(Sticky(), 3), 1.2, 2), ContainsSubstring("it must hold 1 m/s^2, got 1.5 m/s^2"));
   CHECK_THROWS_WITH(orbits(Coulomb(1, infinity), 2, 1), ContainsSubstring("else the slider drifts"));
   const Orbit orbit = orbits(Coulomb(1), 3, 1)[0], rest = orbits(Coulomb(1), 0.5, 1)[0];
   CHECK_THROWS_WITH(continuation(Coulomb(1), rest, 0.5, 2), ContainsSubstring("must move"));

@@ -162,7 +162,7 @@ REFUSED = {
     "NaN period": (["RECORD", "--mu", 0.1, "--period", "nan"], "got nan s"),
     "damping without a spring": (
         ["RECORD", "--mu", 0.1, "--damping-ratio", 0.1],
-        "--damping-ratio goes with --period, got 0.1 alone",
+        "--damping-ratio goes with a finite --period, got 0.1 without",
     ),
     "negative damping": (
         ["RECORD", "--mu", 0.1, "--period", 2, "--damping-ratio", -0.1],

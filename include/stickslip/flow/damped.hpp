@@ -118,6 +118,7 @@ class DampedSquare {
  public:
   /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
   DampedSquare(double damping, double natural_frequency, double duration) noexcept {
+    if (duration == 0) return;
     const double stiffness = natural_frequency * natural_frequency;
     const double size = (damping + natural_frequency) * duration;
     const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
@@ -192,7 +193,7 @@ class Damped {
     return usual(t) ? usual_square_ : DampedSquare(damping_, natural_frequency_, t);
   }
 
-  /// Whether so little changes within t that a power series tells it soonest.
+  /// Whether so little changes within t that a power series is fastest.
   bool soon(double t) const noexcept { return (damping_ + natural_frequency_) * t <= 1; }
 
   /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` where there is

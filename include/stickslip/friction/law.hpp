@@ -26,7 +26,7 @@ namespace stickslip {
 ///       }
 ///     };
 ///
-/// It must be analytic in x and speed (no branches on them). series/series.hpp lists the functions at hand.
+/// It must be analytic in x and speed (no branches on them). series/series.hpp lists the available functions.
 template <class Law>
 concept PositionLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
   { law.resist(x, direction) } -> std::convertible_to<double>;
@@ -56,13 +56,15 @@ auto resist(const Law& law, const X& x, Direction direction, const Speed& speed)
     return law.resist(x, direction);
 }
 
-/// What any law holds at rest [m/s^2].
+/// What any law holds at rest [m/s^2]; at least what resists at no speed, for a slip that it could not begin would end
+/// where it begins.
 template <FrictionLaw Law>
 double hold(const Law& law, double x, Direction direction) {
+  const double resists = resist(law, x, direction, 0.0);
   if constexpr (LawWithHold<Law>)
-    return law.hold(x, direction);
+    return std::max<double>(law.hold(x, direction), resists);
   else
-    return resist(law, x, direction, 0.0);
+    return resists;
 }
 
 /// A law whose resistance does not change while it slides one way, said by `static constexpr bool

@@ -461,6 +461,7 @@ auto with_finder(const Slider<Law>& slider, double load, double omega, Work&& wo
 
 template <FrictionLaw Law>
 void check_orbit_arguments(const Slider<Law>& slider, double load, double omega, const std::string& who) {
+  static_assert(PositionLaw<Law>, "orbits: a resistance that depends on the speed is not covered");
   require(slider.damping() == 0, who + ": a slider with a damper is not covered, damping must be 0", slider.damping(),
           "1/s");
   require(load > 0 && load <= GroundMotion::largest_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
@@ -472,6 +473,13 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
     const double forward = slider.law().resist(x * length, Direction::forward);
     const double backward = slider.law().resist(-x * length, Direction::backward);
     require(std::isfinite(forward), who + ": the slip level must be finite", forward, "m/s^2");
+    if constexpr (LawWithHold<Law>) {
+      const double held = hold(slider.law(), x * length, Direction::forward);
+      require(held == forward,
+              who + ": static friction that differs from kinetic is not covered, it must hold " + shortest(forward) +
+                  " m/s^2",
+              held, "m/s^2");
+    }
     require(std::abs(forward - backward) <= 1e-12 * forward,
             who + ": the slip level against forward sliding, " + shortest(forward) +
                 " m/s^2, must be that of the mirrored slip, for else the slider drifts",
@@ -482,8 +490,9 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
 }  // namespace detail
 
 /// The exact symmetric periodic motions of a slider under -n(t) = B cos(omega t),
-///     x'' + level(x) sgn(x') + wn^2 x = B cos(omega t),                           thesis (2.27), (2.28), (2.50)
-/// of which slowly varying parameters, (2.16), give an approximation.
+///     x'' + resist(x) sgn(x') + wn^2 x = B cos(omega t),                          thesis (2.27), (2.28), (2.50)
+/// of which slowly varying parameters, (2.16), give an approximation. A damper, static friction that differs from
+/// kinetic, and friction that depends on the speed are not covered.
 ///
 /// Constant friction: one orbit if B > a. Without stops it is Den Hartog's, in closed form; without a spring that is
 /// A = sqrt(B^2 - (pi a/2)^2) / omega^2 for B/a >= sqrt(1 + pi^2/4), and below it stops twice a cycle. At resonance, wn

@@ -183,7 +183,7 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
   }
 }
 
-// Seldom gone: out of the way of what is.
+// Rarely taken; kept out of line so that the common path stays small.
 template <class Work>
 [[gnu::noinline]] auto aside(Work&& work) {
   return work();
@@ -263,7 +263,8 @@ template <class Piece>
 /// @throws ConvergenceError      events follow each other faster than the time within the segment can be resolved (a
 ///         spring of far more than 1e15 cycles a segment); a law has no finite power series where it is needed (Caster
 ///         only under extreme accelerations or stiffness)
-/// Constant friction is exact to round-off, other laws to near round-off. Takes 12 to 30 ns without a spring.
+/// Constant friction is exact to round-off (with a damper to 1e-12 of the scale), other laws to near round-off. Takes
+/// 12 to 30 ns without spring and damper, some 0.2 us with a damper.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
   if (!detail::finite(segment, state)) [[unlikely]]

@@ -134,10 +134,10 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
 ///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic
 ///                                motion (a spring that swings that often within the pieces of the motion)
 /// Constant friction: exact to round-off, 1e-13 of the scale of x; 20 to 42 ns a sample, 30 to 61 with a spring; with a
-/// damper 1e-12 and some 0.3 us. Other
-/// laws: Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic motion constant friction without a
-/// spring is in closed form, all else in power series: 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us
-/// for other laws; each sample adds 0.1 to 0.2 us.
+/// damper 1e-12 and some 0.3 us. Other laws: Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
+/// motion constant friction without spring and damper is in closed form, all else in power series: 1.5 us a cycle with
+/// Coulomb friction, 6 us with a spring, 50 us for other laws; each sample adds 0.1 to 0.2 us. A power series takes
+/// steps of some 3 / c where there is a damper c.
 template <FrictionLaw Law, Motion M>
 Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                    Response storage = {}) {

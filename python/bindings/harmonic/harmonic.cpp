@@ -183,7 +183,7 @@ What `harmonic.continuation` returns. Arrays are over the orbits, read-only.)")
   m.def("orbits", &orbits_of, py::arg("slider"), py::arg("B"), py::arg("omega"),
         R"(The exact symmetric periodic motions of a slider under -n(t) = B cos(omega t).
 
-x'' + level(x) sgn(x') + wn^2 x = B cos(omega t), thesis (2.27), (2.28), (2.50), of which slowly varying parameters,
+x'' + resist(x) sgn(x') + wn^2 x = B cos(omega t), thesis (2.27), (2.28), (2.50), of which slowly varying parameters,
 (2.16), give an approximation.
 
 Constant friction: one orbit if B > a. Without stops it is Den Hartog's, in closed form; without a spring that is

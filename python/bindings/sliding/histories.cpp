@@ -29,7 +29,7 @@ peak and energy.
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    What slides; a law alone is a slider without a spring.
+    What slides; a law alone is a slider without spring and damper.
 motion : GroundMotion
     The ground acceleration.
 

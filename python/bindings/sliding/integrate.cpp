@@ -44,7 +44,7 @@ breakaways, reversals and arrests, up to two reversals within one straight piece
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    What slides; a law alone is a slider without a spring.
+    What slides; a law alone is a slider without spring and damper.
 motion : GroundMotion or HarmonicMotion
     The ground acceleration.
 displacement : float, optional
@@ -72,9 +72,9 @@ ConvergenceError
 Notes
 -----
 Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 13 to 25 ns a
-sample, 28 to 57 with a spring; with a damper 1e-12 and some 0.3 us. The caster by Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic
-motion nothing is sampled: the times of events are those of the cosine itself, in closed form without a spring, else by
-power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
+sample, 28 to 57 with a spring; with a damper 1e-12 and some 0.3 us. The caster by Taylor series, to near round-off; 200
+to 850 ns a sample. Under a harmonic motion nothing is sampled: the times of events are those of the cosine itself, in
+closed form without spring and damper, else by power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
 adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
 
 A long record of even steps is cut in pieces which, with Coulomb friction and no spring, move side by side from rest, in

@@ -112,7 +112,7 @@ scale will do. A slider without friction is answered in closed form.
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    What slides; a law alone is a slider without a spring.
+    What slides; a law alone is a slider without spring and damper.
 excitation : float, Spectrum or GaussianExcitation
     White noise: its level S0, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite, or what has one.
 times : array_like of shape (T,)

@@ -86,7 +86,7 @@ of amplitude A does the work W(A) against friction: S = -W / (pi A), which is -4
 Parameters
 ----------
 slider : Slider, Coulomb or Caster, optional
-    What slides; a law alone is a slider without a spring. Coulomb friction of equal levels. A slip level of 1 m/s^2
+    What slides; a law alone is a slider without spring and damper. Coulomb friction of equal levels. A slip level of 1 m/s^2
     without a spring if not given.
 
 Raises

@@ -41,9 +41,9 @@ def run_ensemble(
     Parameters
     ----------
     sliders : Slider, Coulomb, Caster, a list of these, Drawn, Random or SliderSource
-        What slides; a law alone is a slider without a spring. Of a list of m sliders member i has
-        the one at i modulo m, of `Drawn(list)` one drawn at random; `Random` has random parameters.
-        A source of your own: `stickslip.ensemble.SliderSource`.
+        What slides; a law alone is a slider without spring and damper. Of a list of m sliders
+        member i has the one at i modulo m, of `Drawn(list)` one drawn at random; `Random` has
+        random parameters. A source of your own: `stickslip.ensemble.SliderSource`.
     motions : GaussianExcitation, PoissonPulses, GroundMotion or list of it, Drawn or Excitation
         What the ground does: a random source; or records, of different lengths and time steps, of
         which member i has the one at i modulo n, or of `Drawn(list)` one drawn at random. A source

@@ -24,12 +24,13 @@ std::string parameters(const char* type, std::span<const double> levels);
 template <FrictionLaw Law>
 std::string parameters(const Law& law) {
   std::vector<double> levels;
-  for (int i = 0; i < 10; ++i) {
-    const double x = 0.1 * ((i / 2) - 2);
-    const Direction direction = i % 2 == 0 ? Direction::forward : Direction::backward;
-    levels.push_back(resist(law, x, direction, 0.1 * (i / 2)));
-    if constexpr (LawWithHold<Law>) levels.push_back(hold(law, x, direction));
-  }
+  for (const Direction direction : {Direction::forward, Direction::backward})
+    for (const double x : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
+      levels.push_back(resist(law, x, direction, 0.0));
+      if constexpr (SpeedLaw<Law>)
+        for (double speed = 1e-6; speed < 20; speed *= 10) levels.push_back(resist(law, x, direction, speed));
+      if constexpr (LawWithHold<Law>) levels.push_back(hold(law, x, direction));
+    }
   return parameters(typeid(Law).name(), levels);
 }
 

@@ -13,8 +13,8 @@
 
 namespace stickslip::detail {
 
-/// Many members side by side, by vector instructions: friction alone, or spring and damper alone; null where that is
-/// not so or does not pay.
+/// Many members side by side, by vector instructions: friction alone, or, of Coulomb sliders, spring and damper alone;
+/// null where it is neither, or does not pay.
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle);
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
