@@ -425,8 +425,9 @@ def _slider(args: argparse.Namespace, mu: float) -> Slider:
         return Slider(law)
     if not args.period > 0:
         raise ValueError(f"--period must be positive, got {args.period:g} s")
-    natural_frequency = 2 * math.pi / args.period
-    return Slider(law, natural_frequency, 2 * natural_frequency * (ratio or 0))
+    if args.period == math.inf:
+        return Slider(law)
+    return Slider(law, period=args.period, damping_ratio=ratio)
 
 
 def _settle(slider: Slider, motion: GroundMotion) -> Response:

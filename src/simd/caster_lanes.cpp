@@ -19,11 +19,7 @@ namespace {
 // One caster by the event loop for single ones.
 void advance_alone(const CasterLanes& slider, std::size_t lane, const double* start, const double* end,
                    const LaneStates& states) {
-  struct Peak {
-    double& most;
-    void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
-    void event(EventKind, double, const State&) const noexcept {}
-  } peak{states.peak[lane]};
+  PeakOf peak{states.peak[lane]};
   State state = State::at(states.displacement[lane], states.velocity[lane]);
   advance(Slider<Caster>(slider.law), Segment{slider.duration, start[lane], end[lane]}, state, peak);
   states.displacement[lane] = state.displacement;

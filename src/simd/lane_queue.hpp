@@ -1,11 +1,14 @@
 // The members of a row that need more than the rest, packed so that whole vectors can take them.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "simd/row_moments.hpp"
+#include "stickslip/sliding/advance.hpp"
 
 namespace stickslip::detail {
 
@@ -18,6 +21,13 @@ struct LaneStates {
   double* displacement;  ///< x [m]
   double* velocity;      ///< x' [m/s]
   double* peak;          ///< largest |x| so far [m]
+};
+
+/// Watches a slider that moves alone: keeps the largest |x|.
+struct PeakOf {
+  double& most;
+  void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
+  void event(EventKind, double, const State&) const noexcept {}
 };
 
 struct LaneQueue {

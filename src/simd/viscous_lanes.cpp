@@ -12,22 +12,6 @@
 #include "simd/pack-inl.hpp"
 #include "stickslip/sliding/advance.hpp"
 
-#ifndef STICKSLIP_VISCOUS_LANES_ONCE
-#define STICKSLIP_VISCOUS_LANES_ONCE
-namespace stickslip::detail {
-namespace {
-
-// Keeps the largest |x|.
-struct PeakOf {
-  double& most;
-  void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
-  void event(EventKind, double, const State&) const noexcept {}
-};
-
-}  // namespace
-}  // namespace stickslip::detail
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
 

@@ -29,6 +29,10 @@ constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'0
                          ": the spring is too stiff, or the slip level too low, for segments this long");
 }
 
+/// A flow that can have a damper.
+template <class Flow>
+concept FlowWithDamper = requires(const Flow& flow, double time) { flow.damped_work(time); };
+
 /// Sums up slips and keeps events.
 /// @tparam in_steps  slips come in many steps, of which a segment may have so many that they must beat
 template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>>
@@ -64,11 +68,8 @@ class Recorder {
 
   /// Work that only a flow knows: on a damper, and against friction that depends on the speed.
   template <class Flow>
-  void follow(const Flow& flow, double taken) requires SpeedLaw<Law> || requires {
-    flow.damped_work(taken);
-  }
-  {
-    if constexpr (requires { flow.damped_work(taken); }) damped_ += flow.damped_work(taken);
+  requires(SpeedLaw<Law> || FlowWithDamper<Flow>) void follow(const Flow& flow, double taken) {
+    if constexpr (FlowWithDamper<Flow>) damped_ += flow.damped_work(taken);
     if constexpr (SpeedLaw<Law>) dissipated_ += flow.friction_work(taken);
   }
 

@@ -173,10 +173,9 @@ class Damped {
         natural_frequency_(natural_frequency),
         stiffness_(natural_frequency * natural_frequency),
         usual_duration_(usual_duration),
-        half_period_(natural_frequency > damping / 2 ? std::numbers::pi / std::sqrt((natural_frequency - damping / 2) *
-                                                                                    (natural_frequency + damping / 2))
-                                                     : never),
-        usual_basis_(usual_duration > 0 ? compute(usual_duration) : compute(0)),
+        swings_(natural_frequency > damping / 2),
+        rate_(std::sqrt(std::abs((natural_frequency - damping / 2) * (natural_frequency + damping / 2)))),
+        usual_basis_(compute(usual_duration > 0 ? usual_duration : 0)),
         usual_square_(damping, natural_frequency, usual_duration > 0 ? usual_duration : 0) {}
 
   double damping() const noexcept { return damping_; }
@@ -199,17 +198,17 @@ class Damped {
   /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` where there is
   /// none. With the half rate c/2 taken out it is a cosine and a sine, or their hyperbolic like.
   double turn(double a, double rise) const noexcept {
-    const double half = damping_ / 2, wn = natural_frequency_, slope = a * half - rise;
-    if (wn > half) {
-      const double w = std::sqrt((wn - half) * (wn + half)), angle = std::atan2(w * a, slope);
-      return (angle > 0 ? angle : angle + std::numbers::pi) / w;
+    const double slope = a * (damping_ / 2) - rise;
+    if (swings_) {
+      const double angle = std::atan2(rate_ * a, slope);
+      return (angle > 0 ? angle : angle + std::numbers::pi) / rate_;
     }
-    const double q = std::sqrt((half - wn) * (half + wn)), ratio = a / slope, z = q * ratio;
+    const double ratio = a / slope, z = rate_ * ratio;
     if (!(ratio > 0 && z < 1)) return never;
     return z > 0 ? ratio * (std::atanh(z) / z) : ratio;
   }
   /// The time from one zero of the acceleration to the next; `never` where there is one at most.
-  double half_period() const noexcept { return half_period_; }
+  double half_period() const noexcept { return swings_ ? std::numbers::pi / rate_ : never; }
 
   DampedFlow flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept;
 
@@ -217,7 +216,9 @@ class Damped {
   DampedBasis compute(double t) const noexcept { return {damping_, natural_frequency_, t}; }
 
   double damping_, natural_frequency_, stiffness_;
-  double usual_duration_, half_period_;
+  double usual_duration_;
+  bool swings_;
+  double rate_;  // of the swing [rad/s], or half the difference of the two rates of decay [1/s]
   DampedBasis usual_basis_;
   DampedSquare usual_square_;
 };

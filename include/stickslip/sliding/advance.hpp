@@ -78,14 +78,14 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
   double left = segment.duration;
   Standstill standstill;
   double load = segment.first_load() - flows.pull(state.displacement);  // all but friction
-  double acceleration = 0;                                              // net, in the direction of sliding
   Mode stopped = Mode::stuck;                                           // the mode of a slip that stopped just now,
   bool instant = false;                                                 // and whether it took no time
-  if (state.mode != Mode::stuck) {
-    const Direction direction = direction_of(state.mode);
+  // Net, in the direction of sliding. From rest it is what the load is above what resists: nothing, to the last bit,
+  // where that held it until the load grew to it.
+  const auto acceleration = [&](Direction direction) {
     const double speed = std::abs(state.velocity);
-    acceleration = sign(direction) * load - resist(law, state.displacement, direction, speed) - flows.drag(speed);
-  }
+    return sign(direction) * load - resist(law, state.displacement, direction, speed) - flows.drag(speed);
+  };
 
   for (;;) {
     if (state.mode == Mode::stuck) {
@@ -113,15 +113,6 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
           load = next.mode == Mode::forward ? forward : -backward;
         }
       }
-      // With what is left over; nothing, to the last bit, where it was held by what resists now and slips later.
-      if constexpr (LawWithHold<Law>) {
-        if (state.mode != Mode::stuck) {
-          const Direction direction = direction_of(state.mode);
-          acceleration = sign(direction) * load - resist(law, state.displacement, direction, 0.0);
-        }
-      } else {
-        acceleration = state.mode == Mode::forward ? load - forward : -load - backward;
-      }
 
       // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
       const bool sticks = state.mode == Mode::stuck || delay > 0;
@@ -140,7 +131,7 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
     const Direction direction = direction_of(state.mode);
     const double s = sign(direction);
     const double ground_load = load + flows.pull(state.displacement);
-    const auto start = segment.slip(s, std::abs(state.velocity), acceleration, ground_load, left);
+    const auto start = segment.slip(s, std::abs(state.velocity), acceleration(direction), ground_load, left);
     const auto flow = flows.flow(direction, state.displacement, start, left);
     const double stop = flow.first_stop();
     if constexpr (requires { observer.follow(flow, stop); })
@@ -159,10 +150,8 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
       standstill.count(flows, taken, left, segment.duration);
       left -= taken;
       load = ground_load + s * gain - flows.pull(state.displacement);
-      const double speed = std::abs(state.velocity);
-      acceleration = s * load - resist(law, state.displacement, direction, speed) - flows.drag(speed);
-      // Where the loads balance to the last digit a slip too slow to move x would creep on for ever.
-      if (speed < std::numeric_limits<double>::min() && acceleration <= 0) {
+      // Where the loads balance to the last digit a slip too slow to move x would never end.
+      if (std::abs(state.velocity) < std::numeric_limits<double>::min() && acceleration(direction) <= 0) {
         state.velocity = 0;
         stopped = std::exchange(state.mode, Mode::stuck);
         instant = false;

@@ -10,9 +10,7 @@
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/statistics/tally.hpp"
 
-namespace stickslip {
-
-namespace detail {
+namespace stickslip::detail {
 
 /// The members of one block, while they are simulated: takes their motion row by row.
 class Block {
@@ -56,6 +54,4 @@ class Block {
   Tally tally_;
 };
 
-}  // namespace detail
-
-}  // namespace stickslip
+}  // namespace stickslip::detail
