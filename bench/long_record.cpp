@@ -228,13 +228,13 @@ void check(const Input& input) {
   });
 
   std::vector<double> x(samples), v(samples);
-  const Response response = integrate(Coulomb(slip_level), motion);
+  const Response response = detail::integrate_in_order(Slider(Coulomb(slip_level)), motion);
   plain_loop(n, slip_level, x, v);
   bench::require_below("plain loop" + title + ": x from integrate's", largest_difference(x, response.displacement),
                        1e-12 * response.peak);
   advance_loop(Slider(Coulomb(slip_level)), n, x, v);
   bench::require_below("advance" + title + ": x from integrate's", largest_difference(x, response.displacement), 0);
-  const Response by_pieces = integrate_by_pieces(Coulomb(slip_level), motion);
+  const Response by_pieces = integrate(Coulomb(slip_level), motion);
   bench::require_below("pieces" + title + ": x from integrate's",
                        largest_difference(by_pieces.displacement, response.displacement), 1e-12 * response.peak);
   bench::require_below("pieces" + title + ": energy that does not add up", std::abs(by_pieces.energy.imbalance()),
@@ -277,9 +277,10 @@ std::vector<bench::Timing> time(const Input& input, int rounds) {
     response = integrate(Coulomb(slip_level), motion, {}, std::move(response));
     bench::keep(response);
   });
-  bench.add("integrate_by_pieces: Coulomb", [&] { bench::keep(integrate_by_pieces(Coulomb(slip_level), motion)); });
-  bench.add("integrate_by_pieces: Coulomb, memory used again", [&motion, response = Response()]() mutable {
-    response = integrate_by_pieces(Coulomb(slip_level), motion, {}, std::move(response));
+  bench.add("integrate, header-only: Coulomb",
+            [&] { bench::keep(detail::integrate_in_order(Slider(Coulomb(slip_level)), motion)); });
+  bench.add("integrate, header-only: Coulomb, memory used again", [&motion, response = Response()]() mutable {
+    response = detail::integrate_in_order(Slider(Coulomb(slip_level)), motion, {}, std::move(response));
     bench::keep(response);
   });
   bench.add("histories: Coulomb", [&] { bench::keep(histories(Coulomb(slip_level), motion)); });

@@ -15,7 +15,6 @@
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/harmonic/orbits.hpp"
 #include "stickslip/sliding/histories.hpp"
-#include "stickslip/sliding/pieces.hpp"
 #include "stickslip/statistics/distribution.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"

@@ -12,8 +12,8 @@
 #include "simd/caster_lanes.hpp"
 #include "simd/coulomb_lanes.hpp"
 #include "simd/pulse_lanes.hpp"
-#include "simd/transpose.hpp"
 #include "simd/viscous_lanes.hpp"
+#include "stickslip/detail/lanes/transpose.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -28,86 +28,25 @@ ViscousLanes viscous_lanes(const Slider<Coulomb>& slider, double duration) {
 
 bool has_friction_alone(const auto& slider) { return slider.stiffness() == 0 && slider.damping() == 0; }
 
-// Without ground acceleration until they rest.
 template <class Law>
-void settle_all(const Slider<Law>& slider, const LaneStates& states, std::uint64_t first_member, std::size_t members) {
-  for (std::size_t i = 0; i < members; ++i) {
-    State state = State::at(states.displacement[i], states.velocity[i]);
-    naming_member(first_member + i, [&] {
-      settle(slider, state, [&](double duration) { advance(slider, Segment{duration, 0, 0}, state); });
-    });
-    states.displacement[i] = state.displacement;
-    states.peak[i] = std::max(states.peak[i], std::abs(state.displacement));
-  }
+std::unique_ptr<Simulator> series_simulator(const Slider<Law>& slider, const GaussianExcitation& excitation,
+                                            std::uint64_t seed, bool settle) {
+#ifdef STICKSLIP_VECTORS
+  return lanes_simulator<Law>(slider, excitation, seed, settle);
+#else
+  return nullptr;
+#endif
 }
-
-/// Under a Gaussian excitation, whose members share their times.
-template <class Law, class Lanes>
-class LanesSimulator final : public Simulator {
- public:
-  LanesSimulator(const Slider<Law>& slider, const Lanes& lanes, const GaussianExcitation& excitation,
-                 std::uint64_t seed, bool settle)
-      : slider_(slider), lanes_(lanes), excitation_(excitation), seed_(seed), settle_(settle) {}
-
-  void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
-    const std::size_t width = block.width(), samples = excitation_.samples();
-    generate(first_member, members, width, block);
-
-    const auto every = static_cast<std::size_t>(std::round(block.times().dt / excitation_.dt()));
-    const bool linear = excitation_.interpolation() == Interpolation::linear;
-    displacement_.assign(width, 0);
-    velocity_.assign(width, 0);
-    std::fill(block.peak().begin(), block.peak().end(), 0.0);
-    const LaneStates states{displacement_.data(), velocity_.data(), block.peak().data()};
-    block.row(0, displacement_.data(), velocity_.data());
-    for (std::size_t i = 1; i < samples; ++i) {
-      const double* const start = &ground_[(i - 1) * width];
-      advance_lanes(lanes_, width, start, linear ? start + width : start, states);
-      if (i % every == 0) block.row(i / every, displacement_.data(), velocity_.data());
-      if (i % 256 == 0) block.beat();
-    }
-    if (settle_) settle_all(slider_, states, first_member, members);
-    std::copy_n(displacement_.begin(), width, block.residual().begin());
-  }
-
- private:
-  // The ground accelerations of all members, by sample and member; none beyond the last, whatever was there before:
-  // lanes of casters are not the same to the last bit beside others.
-  void generate(std::uint64_t first_member, std::size_t members, std::size_t width, Block& block) {
-    const std::size_t samples = excitation_.samples();
-    if (ground_.size() != width * samples) {
-      ground_.resize(width * samples);
-      records_.resize(row_padding * samples);
-    }
-    for (std::size_t i = 0; i < width; i += row_padding) {
-      block.beat();
-      const std::size_t some = std::min(row_padding, members - std::min(members, i));
-      for (std::size_t k = 0; k < some; ++k)
-        excitation_.sample(seed_, first_member + i + k, {&records_[k * samples], samples}, workspace_);
-      if (some < row_padding)
-        std::fill(records_.begin() + static_cast<std::ptrdiff_t>(some * samples), records_.end(), 0.0);
-      transpose(records_.data(), row_padding, samples, samples, &ground_[i], width);
-    }
-  }
-
-  Slider<Law> slider_;
-  Lanes lanes_;
-  const GaussianExcitation& excitation_;
-  std::uint64_t seed_;
-  bool settle_;
-  GaussianExcitation::Workspace workspace_;
-  std::vector<double> records_, ground_, displacement_, velocity_;
-};
 
 /// Under pulses, of which each member has its own, at its own times.
 class PulseSimulator final : public Simulator {
  public:
-  PulseSimulator(const Coulomb& law, const PoissonPulses& excitation, std::uint64_t seed, bool settle)
-      : law_(law),
+  PulseSimulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation, std::uint64_t seed, bool settle)
+      : slider_(slider),
         excitation_(excitation),
         seed_(seed),
         settle_(settle),
-        lanes_{law.forward(), law.backward(), {}, {}} {
+        lanes_{slider.law().forward(), slider.law().backward(), {}, {}} {
     const PulseShape& shape = excitation.options().shape;
     double before = 0;
     for (std::size_t i = 0; i < shape.times().size(); ++i) {
@@ -130,7 +69,7 @@ class PulseSimulator final : public Simulator {
     advance_lanes(lanes_, excitation_.duration(), pulses_,
                   {block.times().dt, times, displacements_.data(), velocities_.data()}, states);
     for (std::size_t k = 0; k < times; ++k) block.row(k, &displacements_[k * width], &velocities_[k * width]);
-    if (settle_) settle_all(Slider(law_), states, first_member, members);
+    if (settle_) settle_all(slider_, states, first_member, members, 0, block);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
   }
 
@@ -153,7 +92,7 @@ class PulseSimulator final : public Simulator {
     pulses_.arrivals.push_back(never);
   }
 
-  Coulomb law_;
+  Slider<Coulomb> slider_;
   const PoissonPulses& excitation_;
   std::uint64_t seed_;
   bool settle_;
@@ -171,7 +110,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
   if (!has_friction_alone(slider) || edges > most_edges ||
       excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
     return nullptr;
-  return std::make_unique<PulseSimulator>(slider.law(), excitation, seed, settle);
+  return std::make_unique<PulseSimulator>(slider, excitation, seed, settle);
 }
 
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
@@ -182,9 +121,9 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
                                                                                            seed, settle);
   };
   if (has_friction_alone(slider)) return simulator(coulomb_lanes(slider, dt));
-  if (slider.law().forward() > 0 || slider.law().backward() > 0 ||
-      !(slider.natural_frequency() * dt <= ViscousLanes::longest))
-    return nullptr;
+  if (slider.law().forward() > 0 || slider.law().backward() > 0)
+    return series_simulator(slider, excitation, seed, settle);
+  if (!(slider.natural_frequency() * dt <= ViscousLanes::longest)) return nullptr;
   return simulator(viscous_lanes(slider, dt));
 }
 
@@ -192,7 +131,8 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const G
                                            std::uint64_t seed, bool settle) {
   // The lanes measure lengths in reaches.
   const double reach = slider.law().reach();
-  if (!has_friction_alone(slider) || !(reach > 1e-9 && reach < 1e9)) return nullptr;
+  if (!has_friction_alone(slider)) return series_simulator(slider, excitation, seed, settle);
+  if (!(reach > 1e-9 && reach < 1e9)) return nullptr;
   return std::make_unique<LanesSimulator<Caster, CasterLanes>>(slider, caster_lanes(slider, excitation.dt()),
                                                                excitation, seed, settle);
 }

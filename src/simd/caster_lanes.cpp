@@ -11,25 +11,6 @@
 #include "simd/pack-inl.hpp"
 #include "stickslip/sliding/advance.hpp"
 
-#ifndef STICKSLIP_CASTER_LANES_ONCE
-#define STICKSLIP_CASTER_LANES_ONCE
-namespace stickslip::detail {
-namespace {
-
-// One caster by the event loop for single ones.
-void advance_alone(const CasterLanes& slider, std::size_t lane, const double* start, const double* end,
-                   const LaneStates& states) {
-  PeakOf peak{states.peak[lane]};
-  State state = State::at(states.displacement[lane], states.velocity[lane]);
-  advance(Slider<Caster>(slider.law), Segment{slider.duration, start[lane], end[lane]}, state, peak);
-  states.displacement[lane] = state.displacement;
-  states.velocity[lane] = state.velocity;
-}
-
-}  // namespace
-}  // namespace stickslip::detail
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
 
@@ -305,7 +286,9 @@ void AdvanceCasters(const CasterLanes& slider, std::size_t members, const double
     }
     queue.put_back(states);
     for (std::size_t k = 0; k < queue.count; ++k)
-      if ((open >> k & 1) != 0) advance_alone(slider, queue.lane[k], start, end, states);
+      if ((open >> k & 1) != 0)
+        advance_alone(Slider<Caster>(slider.law), Segment{h, queue.start[k], queue.end[k]},
+                      State::at(queue.displacement[k], queue.velocity[k]), states, queue.lane[k]);
   };
   work_off(eventful, [friction](Real& y, Real& w, const Real& load, const Real& slope, Real& peak)
                          HWY_ATTR { return move(friction, y, w, load, slope, peak); });

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simd/lane_queue.hpp"
+#include "stickslip/detail/lanes/row.hpp"
 
 namespace stickslip::detail {
 

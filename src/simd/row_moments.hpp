@@ -3,10 +3,9 @@
 
 #include <cstddef>
 
-namespace stickslip::detail {
+#include "stickslip/detail/lanes/row.hpp"
 
-/// Rows are padded to a multiple of this many members, so that any instruction set can take whole vectors.
-inline constexpr std::size_t row_padding = 8;
+namespace stickslip::detail {
 
 /// What the central part of the motion adds up for each member of a block (padded like the rows).
 struct CentralSums {

@@ -1,6 +1,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/transpose.cpp"
-#include "simd/transpose.hpp"
+#include "stickslip/detail/lanes/transpose.hpp"
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>

@@ -50,9 +50,8 @@ void AdvanceViscous(const ViscousLanes& all, std::size_t members, const double* 
   }
   for (; turning != 0; turning &= turning - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(turning));
-    PeakOf peak{states.peak[i]};
-    State state = State::at(displacement[i], velocity[i]);
-    stickslip::advance(slider, Segment{h, start[i], end[i]}, state, peak);
+    const LaneStates none{displacement, velocity, states.peak};
+    advance_alone(slider, Segment{h, start[i], end[i]}, State::at(displacement[i], velocity[i]), none, i);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "simd/lane_queue.hpp"
+#include "stickslip/detail/lanes/row.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/slider.hpp"

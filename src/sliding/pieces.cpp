@@ -1,4 +1,4 @@
-#include "stickslip/sliding/pieces.hpp"
+#include "stickslip/detail/pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 #include <memory>
 
 #include "simd/coulomb_lanes.hpp"
-#include "simd/transpose.hpp"
+#include "stickslip/detail/lanes/transpose.hpp"
+#include "stickslip/detail/run.hpp"
 #include "stickslip/sliding/advance.hpp"
 
 namespace stickslip::detail {
@@ -177,7 +178,3 @@ void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state,
 }
 
 }  // namespace stickslip::detail
-
-namespace stickslip {
-template Response integrate_by_pieces(const Slider<Coulomb>&, const GroundMotion&, const IntegrateOptions&, Response);
-}  // namespace stickslip

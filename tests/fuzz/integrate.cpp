@@ -17,7 +17,6 @@
 #include "fuzz.hpp"
 #include "stickslip/core.hpp"
 #include "stickslip/sliding/histories.hpp"
-#include "stickslip/sliding/pieces.hpp"
 #include "support/independent_slider.hpp"
 
 using namespace stickslip;
@@ -214,17 +213,17 @@ class Check {
     }
   }
 
-  /// A long record: `integrate` and what goes by pieces.
+  /// A long record: in order, and by pieces where `integrate` does that.
   void run_long() {
     const IndependentSlider independent = compare_samples();
     if (!(independent.largest < 1e290L)) return;
     p_.settle = p_.settle && settles_soon(p_, independent);
-    const Response one = integrate(slider_, motion_, options_of(p_)),
-                   other = integrate_by_pieces(slider_, motion_, options_of(p_));
+    const Response one = detail::integrate_in_order(slider_, motion_, options_of(p_)),
+                   other = integrate(slider_, motion_, options_of(p_));
     check_events(p_, one, motion_.time(0));
     check_events(p_, other, motion_.time(0));
-    samples("integrate", one.displacement, one.velocity);
-    samples("integrate_by_pieces", other.displacement, other.velocity);
+    samples("integrate in order", one.displacement, one.velocity);
+    samples("integrate", other.displacement, other.velocity);
     account(one, independent);
     account(other, independent);
     if (p_.displacement != 0 || p_.velocity != 0) return;

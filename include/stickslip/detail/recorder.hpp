@@ -31,7 +31,9 @@ constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'0
 
 /// A flow that can have a damper.
 template <class Flow>
-concept FlowWithDamper = requires(const Flow& flow, double time) { flow.damped_work(time); };
+concept FlowWithDamper = requires(const Flow& flow, double time) {
+  flow.damped_work(time);
+};
 
 /// Sums up slips and keeps events.
 /// @tparam in_steps  slips come in many steps, of which a segment may have so many that they must beat

@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "stickslip/detail/min_max.hpp"
+#ifdef STICKSLIP_LIBRARY
+#include "stickslip/detail/pieces.hpp"
+#endif
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/sliding/advance.hpp"
@@ -93,8 +96,19 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
 
 /// The same with the flows that fit the slider.
 template <FrictionLaw Law, Motion M, class Recording>
-void run(const Slider<Law>& slider, const M& motion, State& state, Recording& recorder, const HistorySpans& histories) {
+void run_in_order(const Slider<Law>& slider, const M& motion, State& state, Recording& recorder,
+                  const HistorySpans& histories) {
   with_flows(slider, motion, [&](const auto& flows) { run(slider.law(), flows, motion, state, recorder, histories); });
+}
+
+/// The same by the quickest way there is.
+template <FrictionLaw Law, Motion M, class Recording>
+void run(const Slider<Law>& slider, const M& motion, State& state, Recording& recorder, const HistorySpans& histories) {
+#ifdef STICKSLIP_LIBRARY
+  if constexpr (std::same_as<Law, Coulomb> && std::same_as<M, GroundMotion>)
+    if (worth_pieces(slider, motion)) return run_by_pieces(slider.law(), motion, state, recorder, histories);
+#endif
+  run_in_order(slider, motion, state, recorder, histories);
 }
 
 }  // namespace stickslip::detail

@@ -83,10 +83,12 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
 /// @param motions  an Excitation, or OneOf<GroundMotion>. Where motions differ in duration, there are no statistics by
 ///                 time
 ///
-/// Cost on one thread, the motions and the statistics included (2.5 GHz, AVX2): one slider for all without a spring,
-/// Coulomb friction 6 to 7 ns a sample, spring and damper without friction 9 (with steps of less than 1 / wn) and
-/// casters 70 under Gaussian excitation, Coulomb friction 10 ns a step under pulses; else as `integrate`, and some 10
-/// ns. Casters in vector lanes are within 1e-9 of those by `integrate`, all else is exact to round-off.
+/// Cost on one thread, the motions and the statistics included (2.5 GHz, AVX2): one slider for all under Gaussian
+/// excitation goes in vector lanes: Coulomb friction alone 6 to 7 ns a sample, with a spring or a damper 40, spring and
+/// damper without friction 9 (with steps of less than 1 / wn), casters alone 70, any other law, with or without spring
+/// and damper, 100 to 300. Coulomb friction takes 10 ns a step under pulses. All else goes as by `integrate`, and some 10
+/// ns. In lanes, laws whose resistance changes while they slide are within 1e-9 of `integrate`, by series of tolerance
+/// 1e-14 a step; the rest is exact to round-off.
 template <class S, MotionSource M>
 requires(!FrictionLaw<S>) Ensemble run_ensemble(const S& sliders, const M& motions, const EnsembleOptions& options = {},
                                                 const Ensemble* start = nullptr) {

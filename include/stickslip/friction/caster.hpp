@@ -19,6 +19,8 @@ namespace stickslip {
 /// sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
 class Caster {
  public:
+  static constexpr bool symmetric = true;
+
   /// @param slip_level  a, force per unit mass at x = 0, the wheel across the motion [m/s^2], finite and at least 0
   /// @param reach       the distance over which the level falls off [m], positive; infinite is Coulomb friction
   /// @throws std::invalid_argument naming the value

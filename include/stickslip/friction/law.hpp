@@ -74,6 +74,13 @@ concept ConstantLevelLaw = FrictionLaw<Law> && requires {
   requires Law::constant_while_sliding;
 };
 
+/// A law that resists both ways alike, said by `static constexpr bool symmetric = true;` it saves ensembles half of the
+/// work.
+template <class Law>
+concept SymmetricLaw = FrictionLaw<Law> && requires {
+  requires Law::symmetric;
+};
+
 /// A law that knows the work against it in closed form, `work(from, distance, direction)` [m^2/s^2], distance >= 0 slid
 /// from `from`: the integral of the resistance over the way.
 template <class Law>

@@ -1,9 +1,11 @@
 // Power series in time, order by order: what a friction law becomes along a motion.
 //
-// Call a law's `level` on a `Variable` and it returns an expression whose type is the formula. Each node of it holds
+// Call a law's `resist` on a `Variable` and it returns an expression whose type is the formula. Each node of it holds
 // its own coefficients; `update(k)` computes the k-th from those of its operands up to k, by the recurrences of
 // automatic differentiation (Griewank & Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 13). All orders up to n cost
 // O(n^2) for each product or function, nothing is allocated, and the compiler sees the whole formula.
+//
+// Coefficients are of any scalar with arithmetic and those functions: doubles, or several side by side (lanes).
 //
 // At hand: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent), sin, cos, sinh, cosh, tanh, sech.
 #pragma once
@@ -11,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <type_traits>
 #include <utility>
 
 #include "stickslip/detail/requirements.hpp"
@@ -22,6 +25,23 @@ inline double sech(double x) noexcept {
   const double e = std::exp(-std::abs(x));
   return 2 * e / (1 + e * e);
 }
+
+namespace detail {
+
+/// sech and tanh of the same number.
+template <class Scalar>
+struct SechTanh {
+  Scalar sech, tanh;
+};
+
+inline SechTanh<double> sech_tanh(double x) noexcept {
+  const double y = std::abs(x);
+  const double e1 = y < 0.5 ? std::expm1(-y) : std::exp(-y) - 1;  // either form is exact where it is used
+  const double e = y < 0.5 ? 1 + e1 : std::exp(-y);
+  return {2 * e / (1 + e * e), std::copysign(-e1 * (1 + e) / (1 + e * e), x)};
+}
+
+}  // namespace detail
 
 namespace series {
 
@@ -36,65 +56,96 @@ inline constexpr auto reciprocal = [] {
 
 /// Coefficients 0 to highest_order. Unset when made, and not copied with an expression: they belong to the place where
 /// they are computed.
-class Coefficients {
+template <class Scalar>
+class CoefficientsOf {
  public:
-  Coefficients() noexcept {}
-  Coefficients(const Coefficients&) noexcept {}
-  Coefficients& operator=(const Coefficients&) = delete;
-  double operator[](int k) const noexcept { return c_[k]; }
-  double& operator[](int k) noexcept { return c_[k]; }
+  CoefficientsOf() noexcept {}
+  CoefficientsOf(const CoefficientsOf&) noexcept {}
+  CoefficientsOf& operator=(const CoefficientsOf&) = delete;
+  const Scalar& operator[](int k) const noexcept { return c_[k]; }
+  Scalar& operator[](int k) noexcept { return c_[k]; }
 
  private:
-  double c_[highest_order + 1];
+  Scalar c_[highest_order + 1];
 };
+using Coefficients = CoefficientsOf<double>;
 
 /// Anything with coefficients that are computed in order.
 template <class S>
 concept Series = requires(S s, const S& c, int k) {
   s.update(k);
-  { c[k] } -> std::convertible_to<double>;
+  { c[k] } -> std::convertible_to<typename S::Scalar>;
 };
 
 /// Sum of a_i b_(k-i) over i = first..k, k >= first. The coefficients found last, which are at both ends, come last,
 /// and the others go in two parts: an addition must wait for what it adds.
 template <class A, class B>
-double convolve(const A& a, const B& b, int first, int k) noexcept {
-  if (k == first) return a[k] * b[0];
-  double even = 0, odd = 0;
+auto convolve(const A& a, const B& b, int first, int k) noexcept {
+  using Scalar = std::remove_cvref_t<decltype(a[k])>;
+  if (k == first) return Scalar(a[k] * b[0]);
+  Scalar even = 0, odd = 0;
   int i = first + 1;
   for (; i + 1 < k; i += 2) {
     even += a[i] * b[k - i];
     odd += a[i + 1] * b[k - i - 1];
   }
   if (i < k) even += a[i] * b[k - i];
-  return (even + odd + a[k] * b[0]) + a[first] * b[k - first];
+  return Scalar((even + odd + a[k] * b[0]) + a[first] * b[k - first]);
 }
 
 /// The independent function of time: its coefficients are set from outside.
-struct Variable {
-  const Coefficients* values;
+template <class S>
+struct VariableOf {
+  using Scalar = S;
+  const CoefficientsOf<S>* values;
   void update(int) const noexcept {}
-  double operator[](int k) const noexcept { return (*values)[k]; }
+  S operator[](int k) const noexcept { return (*values)[k]; }
 };
+using Variable = VariableOf<double>;
 
-struct Constant {
-  double value;
+template <class S>
+struct ConstantOf {
+  using Scalar = S;
+  S value;
   void update(int) const noexcept {}
-  double operator[](int k) const noexcept { return k == 0 ? value : 0.0; }
+  S operator[](int k) const noexcept { return k == 0 ? value : S(0.0); }
 };
+using Constant = ConstantOf<double>;
+
+// Functions of doubles, beside which those of other scalars are found by argument-dependent lookup.
+using detail::sech_tanh;
+using std::cos;
+using std::cosh;
+using std::exp;
+using std::log;
+using std::pow;
+using std::sin;
+using std::sinh;
+
+/// What a law returned for series: they, or where it returned a number a constant.
+template <class Scalar, Series S>
+S series_of(const S& level) noexcept {
+  return level;
+}
+template <class Scalar>
+ConstantOf<Scalar> series_of(double level) noexcept {
+  return {level};
+}
 
 /// factor * a + offset.
 template <Series A>
 struct Affine {
+  using Scalar = typename A::Scalar;
   A a;
   double factor, offset;
   void update(int k) noexcept { a.update(k); }
-  double operator[](int k) const noexcept { return k == 0 ? factor * a[0] + offset : factor * a[k]; }
+  Scalar operator[](int k) const noexcept { return k == 0 ? factor * a[0] + offset : factor * a[k]; }
 };
 
 /// a + factor * b.
 template <Series A, Series B>
 struct Sum {
+  using Scalar = typename A::Scalar;
   A a;
   B b;
   double factor;
@@ -102,101 +153,107 @@ struct Sum {
     a.update(k);
     b.update(k);
   }
-  double operator[](int k) const noexcept { return a[k] + factor * b[k]; }
+  Scalar operator[](int k) const noexcept { return a[k] + factor * b[k]; }
 };
 
 template <Series A, Series B>
 struct Product {
+  using Scalar = typename A::Scalar;
   A a;
   B b;
-  Coefficients c{};
+  CoefficientsOf<Scalar> c{};
   void update(int k) noexcept {
     a.update(k);
     b.update(k);
     c[k] = convolve(a, b, 0, k);
   }
-  double operator[](int k) const noexcept { return c[k]; }
+  Scalar operator[](int k) const noexcept { return c[k]; }
 };
 
 template <Series A, Series B>
 struct Quotient {
+  using Scalar = typename A::Scalar;
   A a;
   B b;
-  Coefficients c{};
+  CoefficientsOf<Scalar> c{};
   void update(int k) noexcept {
     a.update(k);
     b.update(k);
     c[k] = (k == 0 ? a[0] : a[k] - convolve(b, c, 1, k)) / b[0];
   }
-  double operator[](int k) const noexcept { return c[k]; }
+  Scalar operator[](int k) const noexcept { return c[k]; }
 };
 
 /// The derivative of a series, (k + 1) a_(k+1), as far as `a` is known.
 template <Series A>
 struct Derivative {
   const A& a;
-  double operator[](int k) const noexcept { return (k + 1) * a[k + 1]; }
+  auto operator[](int k) const noexcept { return (k + 1) * a[k + 1]; }
 };
 
 /// exp: e' = a' e.
 template <Series A>
 struct Exp {
+  using Scalar = typename A::Scalar;
   A a;
-  Coefficients e{};
+  CoefficientsOf<Scalar> e{};
   void update(int k) noexcept {
     a.update(k);
-    e[k] = k == 0 ? std::exp(a[0]) : convolve(e, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
+    e[k] = k == 0 ? exp(a[0]) : convolve(e, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
   }
-  double operator[](int k) const noexcept { return e[k]; }
+  Scalar operator[](int k) const noexcept { return e[k]; }
 };
 
 /// log: a l' = a'.
 template <Series A>
 struct Log {
+  using Scalar = typename A::Scalar;
   A a;
-  Coefficients l{};
+  CoefficientsOf<Scalar> l{};
   void update(int k) noexcept {
     a.update(k);
     if (k == 0) {
-      l[0] = std::log(a[0]);
+      l[0] = log(a[0]);
       return;
     }
-    double sum = k * a[k];
+    Scalar sum = k * a[k];
     for (int i = 1; i < k; ++i) sum -= a[i] * ((k - i) * l[k - i]);
     l[k] = sum / (k * a[0]);
   }
-  double operator[](int k) const noexcept { return l[k]; }
+  Scalar operator[](int k) const noexcept { return l[k]; }
 };
 
 /// a^exponent: a p' = exponent a' p; a must not be 0.
 template <Series A>
 struct Power {
+  using Scalar = typename A::Scalar;
   A a;
   double exponent;
-  Coefficients p{};
+  CoefficientsOf<Scalar> p{};
   void update(int k) noexcept {
     a.update(k);
     if (k == 0) {
-      p[0] = std::pow(a[0], exponent);
+      p[0] = pow(a[0], exponent);
       return;
     }
-    double sum = 0;
+    Scalar sum = 0;
     for (int i = 1; i <= k; ++i) sum += (exponent * i - (k - i)) * a[i] * p[k - i];
     p[k] = sum / (k * a[0]);
   }
-  double operator[](int k) const noexcept { return p[k]; }
+  Scalar operator[](int k) const noexcept { return p[k]; }
 };
 
 /// Two functions that are each other's derivative, f' = g a' and g' = sign f a': sin and cos (-1), sinh and cosh (+1).
 template <Series A, int sign>
 struct Pair {
+  using Scalar = typename A::Scalar;
   A a;
-  Coefficients f{}, g{};
+  CoefficientsOf<Scalar> f{}, g{};
   void update(int k) noexcept {
     a.update(k);
     if (k == 0) {
-      f[0] = sign < 0 ? std::sin(a[0]) : std::sinh(a[0]);
-      g[0] = sign < 0 ? std::cos(a[0]) : std::cosh(a[0]);
+      f[0] = sign < 0 ? sin(a[0]) : sinh(a[0]);
+      g[0] = sign < 0 ? cos(a[0]) : cosh(a[0]);
       return;
     }
     f[k] = convolve(g, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
@@ -206,27 +263,26 @@ struct Pair {
 
 template <Series A, int sign>
 struct First : Pair<A, sign> {
-  double operator[](int k) const noexcept { return this->f[k]; }
+  auto operator[](int k) const noexcept { return this->f[k]; }
 };
 
 template <Series A, int sign>
 struct Second : Pair<A, sign> {
-  double operator[](int k) const noexcept { return this->g[k]; }
+  auto operator[](int k) const noexcept { return this->g[k]; }
 };
 
 /// sech and tanh by the angle whose sine is sech, w = sech(a) a': sech' = -tanh w, tanh' = sech w. Bounded everywhere.
 template <Series A>
 struct Hyperbolic {
+  using Scalar = typename A::Scalar;
   A a;
-  Coefficients secant{}, tangent{}, w{}, slope{};  // slope: (k + 1) a_(k+1)
+  CoefficientsOf<Scalar> secant{}, tangent{}, w{}, slope{};  // slope: (k + 1) a_(k+1)
   void update(int k) noexcept {
     a.update(k);
     if (k == 0) {
-      const double y = std::abs(a[0]);
-      const double e1 = y < 0.5 ? std::expm1(-y) : std::exp(-y) - 1;  // either form is exact where it is used
-      const double e = y < 0.5 ? 1 + e1 : std::exp(-y);
-      secant[0] = 2 * e / (1 + e * e);
-      tangent[0] = std::copysign(-e1 * (1 + e) / (1 + e * e), a[0]);
+      const auto [sech, tanh] = sech_tanh(a[0]);
+      secant[0] = sech;
+      tangent[0] = tanh;
       return;
     }
     slope[k - 1] = k * a[k];
@@ -238,12 +294,12 @@ struct Hyperbolic {
 
 template <Series A>
 struct Sech : Hyperbolic<A> {
-  double operator[](int k) const noexcept { return this->secant[k]; }
+  auto operator[](int k) const noexcept { return this->secant[k]; }
 };
 
 template <Series A>
 struct Tanh : Hyperbolic<A> {
-  double operator[](int k) const noexcept { return this->tangent[k]; }
+  auto operator[](int k) const noexcept { return this->tangent[k]; }
 };
 
 // The operators and functions a law is written with, found by argument-dependent lookup.
@@ -256,7 +312,7 @@ template <Series A>           Affine<A>     operator-(double a, A b) { return {b
 template <Series A>           Affine<A>     operator*(A a, double b) { return {a, b, 0}; }
 template <Series A>           Affine<A>     operator*(double a, A b) { return {b, a, 0}; }
 template <Series A>           Affine<A>     operator/(A a, double b) { return {a, 1 / b, 0}; }
-template <Series A>           Quotient<Constant, A> operator/(double a, A b) { return {{a}, b}; }
+template <Series A>           Quotient<ConstantOf<typename A::Scalar>, A> operator/(double a, A b) { return {{a}, b}; }
 template <Series A, Series B> Sum<A, B>      operator+(A a, B b) { return {a, b, 1}; }
 template <Series A, Series B> Sum<A, B>      operator-(A a, B b) { return {a, b, -1}; }
 template <Series A, Series B> Product<A, B>  operator*(A a, B b) { return {a, b}; }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -11,10 +10,8 @@
 
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/detail/run.hpp"
-#include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/pieces.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
@@ -42,13 +39,7 @@ Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
   const detail::HistorySpans spans{result.displacement, result.velocity};
   State state;
   detail::NoRecorder none(detail::max_events(motion.segments()), heartbeat);
-  const auto run = [&] {
-    if constexpr (std::same_as<Law, Coulomb>) {
-      if (detail::worth_pieces(slider, motion)) return detail::run_by_pieces(slider.law(), motion, state, none, spans);
-    }
-    detail::run(slider, motion, state, none, spans);
-  };
-  run();
+  detail::run(slider, motion, state, none, spans);
   bool finite = true;
   for (const auto* values : {&result.displacement, &result.velocity})
     for (const double value : *values) finite &= std::abs(value) <= std::numeric_limits<double>::max();

@@ -124,6 +124,16 @@ template <FrictionLaw Law, class Flows>
   advance(slider.law(), flows, segment, state, observer);
 }
 
+/// Goes on without ground acceleration until the slider rests.
+template <FrictionLaw Law, class Flows>
+void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, PeakObserver<Law>& observer,
+                   const Block& block) {
+  settle(slider, state, [&](double duration) {
+    block.beat();
+    advance_member(slider, flows, Segment{duration, 0, 0}, state, observer);
+  });
+}
+
 /// One member from rest at x = 0, through the event loop of `advance`.
 /// @param settle  goes on without ground acceleration until it rests
 template <FrictionLaw Law>
@@ -135,11 +145,7 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
     go_through(
         motion, block, [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); },
         [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); });
-    if (settle)
-      detail::settle(slider, state, [&](double duration) {
-        block.beat();
-        advance_member(slider, flows, Segment{duration, 0, 0}, state, observer);
-      });
+    if (settle) settle_member(slider, flows, state, observer, block);
     place.end(observer.peak(), state.displacement);
   });
 }

@@ -1,16 +1,19 @@
-// The members of a row that need more than the rest, packed so that whole vectors can take them.
+// A row of sliders, side by side.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/row_moments.hpp"
+#include "stickslip/detail/min_max.hpp"
+#include "stickslip/error.hpp"
 #include "stickslip/sliding/advance.hpp"
 
 namespace stickslip::detail {
+
+/// Rows are padded to a multiple of this many members, so that any instruction set can take whole vectors.
+inline constexpr std::size_t row_padding = 8;
 
 /// Rows are at most this wide, so that a bit for each member fits into one word.
 inline constexpr std::size_t most_lanes = 64;
@@ -23,13 +26,7 @@ struct LaneStates {
   double* peak;          ///< largest |x| so far [m]
 };
 
-/// Watches a slider that moves alone: keeps the largest |x|.
-struct PeakOf {
-  double& most;
-  void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
-  void event(EventKind, double, const State&) const noexcept {}
-};
-
+/// The members of a row that need more than the rest, packed so that whole vectors can take them.
 struct LaneQueue {
   alignas(64) double displacement[most_lanes];
   double velocity[most_lanes], start[most_lanes], end[most_lanes], peak[most_lanes];
@@ -63,5 +60,31 @@ struct LaneQueue {
     }
   }
 };
+
+/// A slider of a row that does not get through its segment.
+struct LaneError : ConvergenceError {
+  LaneError(const ConvergenceError& error, std::size_t place) : ConvergenceError(error), lane(place) {}
+  std::size_t lane;
+};
+
+/// Moves one slider of a row by the event loop for single ones.
+/// @param from  its displacement and velocity at the beginning of the segment; its peak is that of the row
+/// @throws LaneError
+template <FrictionLaw Law>
+[[gnu::noinline]] void advance_alone(const Slider<Law>& slider, const Segment& segment, State from,
+                                     const LaneStates& row, std::size_t lane) {
+  struct Peak {
+    double& most;
+    void slide(const Slip& slip) const { most = std::max(most, std::abs(slip.to())); }
+    void event(EventKind, double, const State&) const noexcept {}
+  } peak{row.peak[lane]};
+  try {
+    advance(slider, segment, from, peak);
+  } catch (const ConvergenceError& error) {
+    throw LaneError(error, lane);
+  }
+  row.displacement[lane] = from.displacement;
+  row.velocity[lane] = from.velocity;
+}
 
 }  // namespace stickslip::detail

@@ -1,0 +1,37 @@
+// Doubles side by side, in the compiler's own vectors: formulas read like the equations. All operations go lane by
+// lane: what a lane holds never depends on the others.
+//
+// There is one for each instruction set. What calls its operations, be it a user's law, must become part of one
+// function that is compiled for that set, [[gnu::target(...), gnu::flatten]]; it is written once, for all.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "stickslip/series/series.hpp"
+
+#ifdef __GNUC__  // and Clang; others do without
+#define STICKSLIP_VECTORS
+
+namespace stickslip::detail {
+
+#define STICKSLIP_VECTOR BaselineVector
+#define STICKSLIP_VECTOR_SIZE 2
+#define STICKSLIP_VECTOR_BITS(lanes) ((lanes[0] & 1) | (lanes[1] & 2))
+#include "stickslip/detail/lanes/vector.inl"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // Clang does not flatten
+#define STICKSLIP_AVX2
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#define STICKSLIP_VECTOR Avx2Vector
+#define STICKSLIP_VECTOR_SIZE 4
+#define STICKSLIP_VECTOR_BITS(lanes) __builtin_ia32_movmskpd256(Doubles(lanes))
+#include "stickslip/detail/lanes/vector.inl"
+#pragma GCC pop_options
+#endif
+
+}  // namespace stickslip::detail
+#endif

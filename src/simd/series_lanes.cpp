@@ -1,0 +1,9 @@
+// The usual laws in lanes, compiled once.
+#include "stickslip/detail/lanes/series_lanes.hpp"
+
+namespace stickslip::detail {
+
+template void advance_lanes(const SeriesLanes<Coulomb>&, std::size_t, const double*, const double*, const LaneStates&);
+template void advance_lanes(const SeriesLanes<Caster>&, std::size_t, const double*, const double*, const LaneStates&);
+
+}  // namespace stickslip::detail
