@@ -37,11 +37,31 @@ constexpr double reach = 1;                                         // of the ca
 
 // Pulses like a great earthquake's very near field on a floor of mu = 0.2
 constexpr double rate = 3, half_width = 1.0 / 6, sigma = 2.5, duration = 60;  // [1/s, s, m/s^2, s]
+constexpr double spring = 1.3, damper = 0.26;                                 // [rad/s], [1/s]
 constexpr double pulses_level = 0.2 * standard_gravity;                       // [m/s^2]
 constexpr std::size_t pulses_times = 601;
 
 GaussianExcitation shaking() { return {Spectrum::band_pass(s0, low, high), dt, samples}; }
 PoissonPulses pulses() { return {rate, half_width, sigma, duration}; }
+
+/// A law of a user's.
+struct Bump {
+  static constexpr bool symmetric = true;
+  template <class T>
+  auto resist(const T& x, Direction) const {
+    using std::exp;
+    return slip_level * exp(-(x / reach) * (x / reach));
+  }
+};
+
+/// Sliders by power series.
+template <class Work>
+void for_each_other(Work&& work) {
+  work("Coulomb, spring", Slider(Coulomb(slip_level), spring));
+  work("Coulomb, spring, damper", Slider(Coulomb(slip_level), spring, damper));
+  work("Caster, spring", Slider(Caster(slip_level, reach), spring));
+  work("own law, spring", Slider(Bump(), spring));
+}
 
 EnsembleOptions options(std::uint64_t count, bool velocity_spectrum = false, unsigned threads = 1) {
   EnsembleOptions result;
@@ -114,9 +134,9 @@ void check_moments(const std::string& name, const Ensemble& ours, const bench::S
 
 /// Member by member against `integrate`.
 template <class Law, class E>
-void check_members(const std::string& name, const Law& law, const E& excitation, double allowed) {
+void check_members(const std::string& name, const Slider<Law>& law, const E& excitation, double allowed) {
   const std::uint64_t count = 200;
-  const Ensemble ensemble = run_ensemble(Slider(law), excitation, options(count));
+  const Ensemble ensemble = run_ensemble(law, excitation, options(count));
   const std::vector<double> peak = ensemble.peak(), residual = ensemble.residual();
   double worst = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -144,14 +164,16 @@ void check() {
   check_sigma("plain loop", mean_of(blocks));
   check_sigma("run_ensemble", ours.stationary().velocity_variance);
   check_moments("Coulomb, Gaussian", ours, sums);
-  check_members("Coulomb, Gaussian", Coulomb(slip_level), shaking(), 1e-12);
-  check_members("Caster, Gaussian", Caster(slip_level, reach), shaking(), 1e-9);
+  check_members("Coulomb, Gaussian", Slider(Coulomb(slip_level)), shaking(), 1e-12);
+  check_members("Caster, Gaussian", Slider(Caster(slip_level, reach)), shaking(), 1e-9);
+  for_each_other(
+      [](const std::string& name, const auto& slider) { check_members(name + ", Gaussian", slider, shaking(), 1e-9); });
 
   bench::CoulombPulses pulse_record(pulses_level, rate, half_width, sigma, dt, pulses_times);
   bench::Sums pulse_sums(pulses_times);
   add_plain(pulse_record, random, checked, pulse_sums);
   check_moments("Coulomb, pulses", run_ensemble(Coulomb(pulses_level), pulses(), options(checked)), pulse_sums);
-  check_members("Coulomb, pulses", Coulomb(pulses_level), pulses(), 1e-12);
+  check_members("Coulomb, pulses", Slider(Coulomb(pulses_level)), pulses(), 1e-12);
 }
 
 // ---- the times
@@ -176,7 +198,7 @@ auto one_by_one(const Law& law, const E& excitation, std::uint64_t count) {
 
 template <class Law, class E>
 auto ensemble(const Law& law, const E& excitation, const EnsembleOptions& how) {
-  return [=] { bench::keep(run_ensemble(Slider(law), excitation, how)); };
+  return [=] { bench::keep(run_ensemble(law, excitation, how)); };
 }
 
 /// What this processor has of the instruction sets that the library is made for, the best first.
@@ -228,6 +250,17 @@ Table time_caster(int rounds) {
   bench.add("run_ensemble", ensemble(law, shaking(), options(members)));
   bench.add("integrate, member by member", static_cast<double>(fewer * samples), one_by_one(law, shaking(), fewer));
   return {"Caster", "Caster, Gaussian: ns per sample", 0, bench.run(rounds)};
+}
+
+Table time_others(int rounds) {
+  const std::uint64_t fewer = 100;
+  bench::Bench bench(members * samples);
+  for_each_other([&](const std::string& name, const auto& slider) {
+    bench.add("run_ensemble: " + name, ensemble(slider, shaking(), options(members)));
+    bench.add("integrate, member by member: " + name, static_cast<double>(fewer * samples),
+              one_by_one(slider, shaking(), fewer));
+  });
+  return {"Others", "springs, dampers and other laws, Gaussian: ns per sample", 0, bench.run(rounds)};
 }
 
 Table time_pulses(int rounds) {
@@ -347,8 +380,8 @@ int main(int argc, char** argv) {
   if (asked.check) return EXIT_SUCCESS;
 
   const int fewer = std::max(3, asked.rounds / 4);
-  const std::vector<Table> tables{time_coulomb(asked.rounds), time_caster(fewer), time_pulses(asked.rounds),
-                                  time_threads(asked.rounds)};
+  const std::vector<Table> tables{time_coulomb(asked.rounds), time_caster(fewer), time_others(fewer),
+                                  time_pulses(asked.rounds), time_threads(asked.rounds)};
   if (asked.json) {
     print_json(tables);
     return EXIT_SUCCESS;

@@ -106,8 +106,8 @@ template <LawWithLanes Law>
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Law>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
   const double dt = excitation.dt();
-  if (!(slider.natural_frequency() * dt <= 2 && slider.damping() * dt <= 2)) return nullptr;
-  return std::make_unique<LanesSimulator<Law, SeriesLanes<Law>>>(slider, SeriesLanes<Law>{slider, dt}, excitation, seed,
+  if (!(slider.natural_frequency() * dt <= SeriesLanes<Law>::longest && slider.damping() * dt <= 2)) return nullptr;
+  return std::make_unique<LanesSimulator<Law, SeriesLanes<Law>>>(slider, SeriesLanes<Law>(slider, dt), excitation, seed,
                                                                  settle);
 }
 #endif

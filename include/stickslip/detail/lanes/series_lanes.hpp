@@ -8,6 +8,7 @@
 
 #include "stickslip/detail/lanes/row.hpp"
 #include "stickslip/detail/lanes/vector.hpp"
+#include "stickslip/flow/damped.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
@@ -224,8 +225,15 @@ class SlideOfLanes {
 /// One slider for all, and the length of the segments.
 template <LawWithLanes Law>
 struct SeriesLanes {
+  SeriesLanes(const Slider<Law>& one, double segment)
+      : slider(one), duration(segment), step(one.damping(), one.natural_frequency(), segment) {}
+
+  /// In units of 1 / wn: longer segments of constant friction go one by one.
+  static constexpr double longest = 1;
+
   Slider<Law> slider;
-  double duration;  ///< of each segment [s]
+  double duration;   ///< of each segment [s]
+  DampedBasis step;  ///< through one, under constant friction
 };
 
 /// Sliders at rest at x: what holds them [m/s^2].
@@ -302,8 +310,8 @@ struct EventsOfLanes {
   static Mask select_mask(const Mask& mask, const Mask& yes, const Mask& no) { return (mask & yes) | (~mask & no); }
 };
 
-/// Most slide on the way they do, or are stuck throughout; those that this does not settle are packed and followed
-/// through their events; the few that it leaves go through `advance`.
+/// Most slide on the way they do, or are stuck throughout, which constant friction has in closed form; those that this
+/// does not settle are packed and followed through their events; the few that it leaves go through `advance`.
 template <class Vector, LawWithLanes Law>
 void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const double* start, const double* end,
                  const LaneStates& states) {
@@ -325,11 +333,30 @@ void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const doubl
       held = held & (max(net, last_net) <= forward) & (min(net, last_net) >= -backward);
     }
     if (all(held)) continue;
-    slide.expand(back, s * net - slide.resists(back) - damping * speed, s * (last_load - load), h, ~stuck);
-    const Mask slides = ~stuck & slide.converges() & slide.goes_on();
-    const Vector there = select(slides, slide.last_displacement(), x);
+    const Vector push = s * net - slide.resists(back), acceleration = push - damping * speed,
+                 gain = s * (last_load - load);
+    Vector there, last_speed;
+    Mask slides;
+    if constexpr (ConstantLevelLaw<Law>) {
+      const DampedBasis& step = lanes.step;
+      const Vector slope = gain / h;
+      there = x + s * (speed * step.impulse + push * step.step + slope * step.ramp);
+      last_speed = speed * step.decay + push * step.impulse + slope * step.step;
+      // In so short a step (`longest`) the acceleration is at most this; the speed leaves the straight line between its
+      // ends by an eighth of its curvature.
+      const Vector after = s * (last_load - stiffness * there) - slide.resists(back) - damping * last_speed;
+      const Vector most = 3.0 * (abs(acceleration) + abs(after));
+      const Vector curvature = abs(slope) + stiffness * (max(speed, last_speed) + h * most) + damping * most;
+      slides = ~stuck & (min(speed, last_speed) > (h * h / 8) * curvature);
+    } else {
+      slide.expand(back, acceleration, gain, h, ~stuck);
+      there = slide.last_displacement();
+      last_speed = slide.last_speed();
+      slides = ~stuck & slide.converges() & slide.goes_on();
+    }
+    there = select(slides, there, x);
     there.store(states.displacement + i);
-    select(slides, s * slide.last_speed(), v).store(states.velocity + i);
+    select(slides, s * last_speed, v).store(states.velocity + i);
     max(Vector::load(states.peak + i), abs(there)).store(states.peak + i);
     eventful |= bits(~(slides | held)) << i;
   }
