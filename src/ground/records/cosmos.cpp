@@ -1,0 +1,88 @@
+// COSMOS V1 and V2.
+#include "ground/records/formats.hpp"
+#include "ground/records/reader.hpp"
+
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stickslip::records {
+namespace {
+
+/// Columns of a Fortran format as `Format=(8F10.5)`, or 0.
+std::size_t stated_width(std::string_view line) {
+  std::string_view rest = after(after(line, "Format="), "(");
+  while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
+  std::size_t width = 0;
+  if (!rest.empty()) std::from_chars(rest.data() + 1, rest.data() + rest.size(), width);
+  return width;
+}
+
+/// The number that starts a line as `100 Real-header values follow on 20 lines`.
+std::size_t leading_count(const Reader& reader, std::string_view line, const std::string& what) {
+  std::string_view rest = trim(line);
+  const std::optional<double> count = take_number(rest);
+  if (!count || !has(rest, what)) refuse_line(reader.last(), "expected a number of " + what + ", got " + quote(line));
+  return as_count(*count, reader.last(), what);
+}
+
+}  // namespace
+
+bool is_cosmos(const Lines& lines) { return has(lines[0], "(Format v"); }
+
+std::vector<Component> read_cosmos(const Lines& lines) {
+  std::vector<Component> components;
+  Reader reader(lines);
+  while (!reader.done()) {
+    const std::string_view first = reader.line("header");
+    if (!is_cosmos({first})) refuse_line(reader.last(), "expected the header of another channel, got " + quote(first));
+
+    Component channel;
+    std::string event, station;
+    std::string_view line = reader.line("integer header");
+    for (; !has(line, "Integer-header"); line = reader.line("integer header")) {
+      if (has(line, "Record of ")) event = squeeze(after(line, "Record of "));
+      if (has(line, "Code:")) station = squeeze(after(line, "Code:"));
+      if (has(line, "Sta Chan")) channel.name = squeeze(before(after(line, ":"), "("));
+    }
+    reader.numbers(leading_count(reader, line, "Integer-header"), "integers", stated_width(line));
+
+    line = reader.line("real header");
+    const std::size_t header_line = reader.last();
+    const std::vector<double> real =
+        reader.numbers(leading_count(reader, line, "Real-header"), "reals", stated_width(line));
+    if (real.size() < 62) refuse_line(header_line, "the time step is real 62, got " + std::to_string(real.size()));
+    channel.dt = real[61] / 1000;
+
+    line = reader.line("comments");
+    for (std::string_view comment : reader.block(leading_count(reader, line, "Comment"), "comments"))
+      if (has(comment, "SCNL")) {  // station, channel, network, location
+        const std::string_view code = after(comment, ".");
+        channel.name = squeeze(code.substr(0, code.find('.')));
+      }
+    channel.title = joined({event, station, channel.name});
+
+    // Velocity and displacement may follow, with a header of their own or without.
+    while (has(reader.peek(), " pts")) {
+      line = reader.line("samples");
+      const std::size_t samples = leading_count(reader, line, "pts");
+      const std::vector<double> values = reader.numbers(samples, "samples", stated_width(line));
+      if (same(trim(reader.peek()).substr(0, 3), "End"))
+        reader.line("end");
+      else if (!is_cosmos({reader.peek()}))
+        reader.require_end(samples);
+      if (!has(line, "accel")) continue;
+      channel.units = stated_units(line);
+      channel.acceleration = values;
+      components.push_back(channel);
+    }
+  }
+  if (components.empty()) throw std::invalid_argument("no channel of this COSMOS file holds acceleration");
+  return components;
+}
+
+}  // namespace stickslip::records

@@ -1,0 +1,229 @@
+// Two columns of seconds and acceleration.
+#include "ground/records/formats.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stickslip::records {
+namespace {
+
+/// Whether a line starts with a number, be it NaN or infinite.
+bool is_row(std::string_view line) {
+  line = trim(line);
+  const std::string_view token = line.substr(0, line.find_first_of(" \t,;"));
+  const std::string_view word = token.substr(!token.empty() && is_sign(token[0]) ? 1 : 0);
+  return !token.empty() && (Numeral(token).end == token.size() || same(word.substr(0, 3), "nan") || same(word, "inf") ||
+                            same(word, "infinity"));
+}
+
+std::size_t first_row(const Lines& lines) {
+  return static_cast<std::size_t>(std::ranges::find_if(lines, is_row) - lines.begin());
+}
+
+/// The texts in round or square brackets.
+std::vector<std::string_view> bracketed(std::string_view line) {
+  std::vector<std::string_view> texts;
+  for (std::size_t open = line.find_first_of("(["); open != std::string_view::npos;
+       open = line.find_first_of("([", open + 1)) {
+    const std::size_t close = line.find(line[open] == '(' ? ')' : ']', open);
+    if (close == std::string_view::npos) break;
+    texts.push_back(trim(line.substr(open + 1, close - open - 1)));
+    open = close;
+  }
+  return texts;
+}
+
+/// Reads units and title from the lines before the rows: units from the lowest line that has them, the title from the
+/// topmost comment.
+void read_table_header(const Lines& lines, std::size_t rows, Component& component) {
+  for (std::size_t i = rows; i-- > 0;) {
+    const std::string_view line = trim(lines[i]);
+    if (component.units.empty()) {
+      const std::vector<std::string_view> labels = bracketed(line);
+      if (labels.size() > 1 && !is_second(labels[0]))
+        refuse_line(i, "the first column must be time in seconds, its label says " + quote(labels[0]));
+      if (labels.size() > 1)
+        component.units = labels[1];
+      else if (labels.size() == 1 && has(line, "acc") && !is_second(labels[0]))
+        component.units = labels[0];
+      else
+        component.units = stated_units(line);
+      if (!component.units.empty()) continue;
+    }
+    if (!line.starts_with('#')) continue;
+    std::string title = squeeze(line.substr(1));
+    if (has(title, ": ")) title = squeeze(after(title, ": "));
+    while (!title.empty() && is_separator(title.back())) title.pop_back();
+    if (!title.empty()) component.title = title;
+  }
+}
+
+/// How finely times are printed: to so many places, as by %.2f, or to so many digits, as by %.3e and %g.
+///
+/// Zeros at the end may be left out: the most places and the most digits count.
+class Resolution {
+ public:
+  void add(std::string_view token) {
+    const Numeral numeral(token);
+    const std::string_view mantissa = token.substr(0, numeral.mantissa);
+    std::string_view power = token.substr(numeral.exponent);
+    if (power.starts_with('+')) power.remove_prefix(1);
+    int exponent = 0;
+    std::from_chars(power.data(), power.data() + power.size(), exponent);
+
+    const auto position = [](std::size_t at) { return static_cast<int>(at); };
+    const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+    const int places = position(mantissa.size() - std::min(point + 1, mantissa.size()));
+    most_places_ = std::max(most_places_, places - exponent);
+    const std::size_t first = mantissa.find_first_of("123456789");
+    if (first == std::string_view::npos) return decades_.push_back(std::numeric_limits<int>::min() / 2);
+    const int before = position(point) - position(first);  // digits before the point; negative: zeros after it
+    decades_.push_back((before > 0 ? before - 1 : before) + exponent);
+    most_digits_ = std::max(most_digits_, (before > 0 ? before : before + 1) + places);
+  }
+
+  /// One unit of the last place of each time [s].
+  std::vector<double> units() const {
+    std::vector<double> units;
+    units.reserve(decades_.size());
+    for (int previous = 0; const int decade : decades_) {
+      const int exponent = std::max(-most_places_, decade + 1 - most_digits_);
+      units.push_back(!units.empty() && exponent == previous ? units.back() : std::pow(10., exponent));
+      previous = exponent;
+    }
+    return units;
+  }
+
+ private:
+  int most_places_ = std::numeric_limits<int>::min() / 2;
+  int most_digits_ = 0;
+  std::vector<int> decades_{};  // of the first digit of each time
+};
+
+/// The smallest step with which even times can lie between two bounds each.
+///
+/// It is the steepest line from an upper bound to a later lower one. A line that is not steep enough is replaced by the
+/// one that exceeds it most, until none does.
+double smallest_step(const std::vector<double>& lower, const std::vector<double>& upper) {
+  const std::size_t last = lower.size() - 1;
+  for (double step = (lower[last] - upper[0]) / static_cast<double>(last);;) {
+    double steeper = step, most = 0, lowest = upper[0];
+    for (std::size_t i = 1, from = 0; i <= last; ++i) {
+      const double line = static_cast<double>(i) * step;
+      if (const double excess = lower[i] - line - lowest; excess > most) {
+        most = excess;
+        steeper = (lower[i] - upper[from]) / static_cast<double>(i - from);
+      }
+      if (const double top = upper[i] - line; top < lowest) {
+        lowest = top;
+        from = i;
+      }
+    }
+    if (!(steeper > step)) return step;
+    step = steeper;
+  }
+}
+
+/// The step of times that are even as far as they are printed: the shortest decimal that fits them all.
+std::optional<double> even_step(const std::vector<double>& times, const std::vector<double>& units) {
+  const std::size_t count = times.size();
+  const double length = times.back() - times.front(), mean = length / static_cast<double>(count - 1);
+  const double coarsest = *std::ranges::max_element(units);
+  const double farthest = std::max(std::abs(times.front()), std::abs(times.back()));
+  const double sums =
+      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if added up
+  if (!std::isfinite(length)) return std::nullopt;
+  // Rounding explains uneven steps only where a missing sample could not hide in it, and in more than a handful. A
+  // tenth more than a print's rounding is for times computed in single precision.
+  for (const double rounding : {0., 0.55}) {
+    if (rounding > 0 && (mean < 2 * coarsest || length < 100 * coarsest)) break;
+    std::vector<double> lower(count), upper(count), minus_lower(count), minus_upper(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double margin = rounding * units[i] + sums;
+      minus_lower[i] = -(lower[i] = times[i] - times[0] - margin);
+      minus_upper[i] = -(upper[i] = times[i] - times[0] + margin);
+    }
+    const double smallest = smallest_step(lower, upper), largest = -smallest_step(minus_upper, minus_lower);
+    if (!(smallest <= largest)) continue;
+    const double middle = smallest / 2 + largest / 2;
+    for (double power = 1; std::abs(middle) * power < 1e15; power *= 10)
+      if (const double dt = std::round(middle * power) / power; smallest <= dt && dt <= largest)
+        return dt + 0.;  // no -0
+    return middle;
+  }
+  return std::nullopt;
+}
+
+std::size_t count_columns(std::string_view row) {
+  std::size_t columns = 1;
+  for (row = trim(row); !row.empty(); row.remove_prefix(1)) {
+    if (!is_separator(row[0])) continue;
+    ++columns;
+    bool mark = !is_blank(row[0]);  // blanks around one comma belong to it
+    while (row.size() > 1 && (is_blank(row[1]) || (!mark && is_separator(row[1])))) {
+      row.remove_prefix(1);
+      mark = mark || !is_blank(row[0]);
+    }
+  }
+  return columns;
+}
+
+/// Whether a line before the first row looks like a row whose time cannot be read, as `****, 0.1`.
+bool is_row_without_time(std::string_view line) {
+  line = trim(line);
+  const std::size_t end = std::min(line.find_first_of(" \t,;"), line.size());
+  const auto is_mark = [](char c) { return c == '*' || c == '.' || is_sign(c) || is_digit(c); };
+  if (line.empty() || !std::ranges::all_of(line.substr(0, end), is_mark)) return false;
+  std::string_view second = after_separator(line.substr(end));
+  return take_number(second) && second.empty();
+}
+
+}  // namespace
+
+bool is_table(const Lines& lines) { return first_row(lines) < lines.size(); }
+
+std::vector<Component> read_table(const Lines& lines) {
+  Component component;
+  const std::size_t rows = first_row(lines);
+  for (std::size_t i = 0; i < rows; ++i)
+    if (is_row_without_time(lines[i])) refuse_line(i, "expected two finite numbers, got " + quote(lines[i]));
+  read_table_header(lines, rows, component);
+
+  Resolution resolution;
+  for (std::size_t i = rows; i < lines.size(); ++i) {
+    const std::string_view row = trim(lines[i]);
+    if (row.empty()) continue;
+    std::string_view rest = row;
+    const std::optional<double> time = take_number(rest);
+    const std::string_view token = row.substr(0, row.size() - rest.size());
+    const std::string_view separated = rest;
+    rest = after_separator(rest);
+    const bool parted = rest.size() < separated.size();
+    const std::string_view second = rest;
+    const std::optional<double> acceleration = take_number(rest);
+    if (!time || !parted || !acceleration || !rest.empty()) {
+      if (const std::size_t columns = count_columns(row); columns != 2)
+        refuse_line(i, "two columns are needed, time [s] and acceleration, got " + std::to_string(columns) + " in " +
+                           quote(row) + (i == rows ? "; known formats are: " + known_formats() : ""));
+      refuse_line(i, "expected two finite numbers, got " + quote(time && parted && !second.empty() ? second : row));
+    }
+    resolution.add(token);
+    component.times.push_back(*time);
+    component.acceleration.push_back(*acceleration);
+  }
+  if (component.times.size() < 2) refuse_line(rows, "at least two rows of numbers are needed, got 1");
+  if (const std::optional<double> dt = even_step(component.times, resolution.units())) {
+    component.dt = *dt;
+    component.times.clear();
+  }
+  return {component};
+}
+
+}  // namespace stickslip::records
