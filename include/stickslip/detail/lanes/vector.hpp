@@ -19,18 +19,17 @@ namespace stickslip::detail {
 
 #define STICKSLIP_VECTOR BaselineVector
 #define STICKSLIP_VECTOR_SIZE 2
+#define STICKSLIP_VECTOR_TARGET
 #define STICKSLIP_VECTOR_BITS(lanes) ((lanes[0] & 1) | (lanes[1] & 2))
 #include "stickslip/detail/lanes/vector.inl"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // Clang does not flatten
 #define STICKSLIP_AVX2
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
 #define STICKSLIP_VECTOR Avx2Vector
 #define STICKSLIP_VECTOR_SIZE 4
+#define STICKSLIP_VECTOR_TARGET [[gnu::target("avx2,fma")]]
 #define STICKSLIP_VECTOR_BITS(lanes) __builtin_ia32_movmskpd256(Doubles(lanes))
 #include "stickslip/detail/lanes/vector.inl"
-#pragma GCC pop_options
 #endif
 
 }  // namespace stickslip::detail

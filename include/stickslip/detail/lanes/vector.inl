@@ -1,6 +1,7 @@
 // Included once for each instruction set, by vector.hpp, which says what is meant by
 //   STICKSLIP_VECTOR       the name
 //   STICKSLIP_VECTOR_SIZE  how many doubles the processor takes at once
+//   STICKSLIP_VECTOR_TARGET  the attribute of its functions
 //   STICKSLIP_VECTOR_BITS  of a vector of integers, all bits or none set in each: one bit each
 // Nothing but what is written here is compiled for that set.
 
@@ -14,53 +15,64 @@ struct STICKSLIP_VECTOR {
   struct Mask {
     Integers low, high;  // of each lane all bits or none
 
-    Mask() noexcept : low{}, high{} {}
-    Mask(const Integers& first, const Integers& second) noexcept : low(first), high(second) {}
-    Mask(const Mask& a) noexcept : low(a.low), high(a.high) {}
-    Mask& operator=(const Mask& a) noexcept {
+    STICKSLIP_VECTOR_TARGET Mask() noexcept : low{}, high{} {}
+    STICKSLIP_VECTOR_TARGET Mask(const Integers& first, const Integers& second) noexcept : low(first), high(second) {}
+    STICKSLIP_VECTOR_TARGET Mask(const Mask& a) noexcept : low(a.low), high(a.high) {}
+    STICKSLIP_VECTOR_TARGET Mask& operator=(const Mask& a) noexcept {
       low = a.low;
       high = a.high;
       return *this;
     }
-    friend Mask operator&(const Mask& a, const Mask& b) noexcept { return {a.low & b.low, a.high & b.high}; }
-    friend Mask operator|(const Mask& a, const Mask& b) noexcept { return {a.low | b.low, a.high | b.high}; }
-    friend Mask operator^(const Mask& a, const Mask& b) noexcept { return {a.low ^ b.low, a.high ^ b.high}; }
-    friend Mask operator~(const Mask& a) noexcept { return {~a.low, ~a.high}; }
+    STICKSLIP_VECTOR_TARGET friend Mask operator&(const Mask& a, const Mask& b) noexcept {
+      return {a.low & b.low, a.high & b.high};
+    }
+    STICKSLIP_VECTOR_TARGET friend Mask operator|(const Mask& a, const Mask& b) noexcept {
+      return {a.low | b.low, a.high | b.high};
+    }
+    STICKSLIP_VECTOR_TARGET friend Mask operator^(const Mask& a, const Mask& b) noexcept {
+      return {a.low ^ b.low, a.high ^ b.high};
+    }
+    STICKSLIP_VECTOR_TARGET friend Mask operator~(const Mask& a) noexcept { return {~a.low, ~a.high}; }
     /// One bit each.
-    friend std::uint64_t bits(const Mask& a) noexcept {
+    STICKSLIP_VECTOR_TARGET friend std::uint64_t bits(const Mask& a) noexcept {
       return static_cast<std::uint64_t>(STICKSLIP_VECTOR_BITS(a.low)) |
              static_cast<std::uint64_t>(STICKSLIP_VECTOR_BITS(a.high)) << part_size;
     }
-    friend bool any(const Mask& a) noexcept { return bits(a) != 0; }
-    friend bool all(const Mask& a) noexcept { return bits(a) == (std::uint64_t{1} << size) - 1; }
+    STICKSLIP_VECTOR_TARGET friend bool any(const Mask& a) noexcept { return bits(a) != 0; }
+    STICKSLIP_VECTOR_TARGET friend bool all(const Mask& a) noexcept {
+      return bits(a) == (std::uint64_t{1} << size) - 1;
+    }
   };
 
   Doubles low, high;
 
-  STICKSLIP_VECTOR() noexcept {}
-  STICKSLIP_VECTOR(double a) noexcept : low(Doubles{} + a), high(low) {}  // NOLINT(google-explicit-constructor)
-  STICKSLIP_VECTOR(const Doubles& first, const Doubles& second) noexcept : low(first), high(second) {}
-  STICKSLIP_VECTOR(const STICKSLIP_VECTOR& a) noexcept : low(a.low), high(a.high) {}
-  STICKSLIP_VECTOR& operator=(const STICKSLIP_VECTOR& a) noexcept {
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR() noexcept {}
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR(double a) noexcept
+      : low(Doubles{} + a), high(low) {}  // NOLINT(google-explicit-constructor)
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR(const Doubles& first, const Doubles& second) noexcept
+      : low(first), high(second) {}
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR(const STICKSLIP_VECTOR& a) noexcept : low(a.low), high(a.high) {}
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR& operator=(const STICKSLIP_VECTOR& a) noexcept {
     low = a.low;
     high = a.high;
     return *this;
   }
 
-  static STICKSLIP_VECTOR load(const double* from) noexcept {
+  STICKSLIP_VECTOR_TARGET static STICKSLIP_VECTOR load(const double* from) noexcept {
     STICKSLIP_VECTOR result;
     std::memcpy(&result.low, from, sizeof result.low);
     std::memcpy(&result.high, from + part_size, sizeof result.high);
     return result;
   }
-  void store(double* to) const noexcept {
+  STICKSLIP_VECTOR_TARGET void store(double* to) const noexcept {
     std::memcpy(to, &low, sizeof low);
     std::memcpy(to + part_size, &high, sizeof high);
   }
 
-#define STICKSLIP_BINARY(type, operation)                                                         \
-  friend type operator operation(const STICKSLIP_VECTOR& a, const STICKSLIP_VECTOR& b) noexcept { \
-    return {a.low operation b.low, a.high operation b.high};                                      \
+#define STICKSLIP_BINARY(type, operation)                                                      \
+  STICKSLIP_VECTOR_TARGET friend type operator operation(const STICKSLIP_VECTOR& a,            \
+                                                         const STICKSLIP_VECTOR& b) noexcept { \
+    return {a.low operation b.low, a.high operation b.high};                                   \
   }
   STICKSLIP_BINARY(STICKSLIP_VECTOR, +)
   STICKSLIP_BINARY(STICKSLIP_VECTOR, -)
@@ -72,34 +84,37 @@ struct STICKSLIP_VECTOR {
   STICKSLIP_BINARY(Mask, >=)
   STICKSLIP_BINARY(Mask, ==)
 #undef STICKSLIP_BINARY
-  friend STICKSLIP_VECTOR operator-(const STICKSLIP_VECTOR& a) noexcept { return {-a.low, -a.high}; }
-  STICKSLIP_VECTOR& operator+=(const STICKSLIP_VECTOR& a) noexcept {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR operator-(const STICKSLIP_VECTOR& a) noexcept {
+    return {-a.low, -a.high};
+  }
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR& operator+=(const STICKSLIP_VECTOR& a) noexcept {
     low += a.low;
     high += a.high;
     return *this;
   }
-  STICKSLIP_VECTOR& operator-=(const STICKSLIP_VECTOR& a) noexcept {
+  STICKSLIP_VECTOR_TARGET STICKSLIP_VECTOR& operator-=(const STICKSLIP_VECTOR& a) noexcept {
     low -= a.low;
     high -= a.high;
     return *this;
   }
 
-  friend STICKSLIP_VECTOR select(const Mask& mask, const STICKSLIP_VECTOR& yes, const STICKSLIP_VECTOR& no) noexcept {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR select(const Mask& mask, const STICKSLIP_VECTOR& yes,
+                                                         const STICKSLIP_VECTOR& no) noexcept {
     return {mask.low ? yes.low : no.low, mask.high ? yes.high : no.high};
   }
-  friend STICKSLIP_VECTOR min(const STICKSLIP_VECTOR& a, const STICKSLIP_VECTOR& b) noexcept {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR min(const STICKSLIP_VECTOR& a, const STICKSLIP_VECTOR& b) noexcept {
     return {a.low < b.low ? a.low : b.low, a.high < b.high ? a.high : b.high};
   }
-  friend STICKSLIP_VECTOR max(const STICKSLIP_VECTOR& a, const STICKSLIP_VECTOR& b) noexcept {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR max(const STICKSLIP_VECTOR& a, const STICKSLIP_VECTOR& b) noexcept {
     return {a.low > b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
   }
-  friend STICKSLIP_VECTOR abs(const STICKSLIP_VECTOR& a) noexcept {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR abs(const STICKSLIP_VECTOR& a) noexcept {
     return {Doubles(Integers(a.low) & INT64_MAX), Doubles(Integers(a.high) & INT64_MAX)};
   }
 
   /// A function of doubles, lane by lane.
   template <class Function>
-  friend STICKSLIP_VECTOR each_lane(const STICKSLIP_VECTOR& a, Function function) {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR each_lane(const STICKSLIP_VECTOR& a, Function function) {
     STICKSLIP_VECTOR result;
     for (std::size_t i = 0; i < part_size; ++i) {
       result.low[i] = function(a.low[i]);
@@ -107,9 +122,9 @@ struct STICKSLIP_VECTOR {
     }
     return result;
   }
-#define STICKSLIP_FUNCTION(name)                                         \
-  friend STICKSLIP_VECTOR name(const STICKSLIP_VECTOR& a) noexcept {     \
-    return each_lane(a, [](double x) noexcept { return std::name(x); }); \
+#define STICKSLIP_FUNCTION(name)                                                             \
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR name(const STICKSLIP_VECTOR& a) noexcept { \
+    return each_lane(a, [](double x) noexcept { return std::name(x); });                     \
   }
   STICKSLIP_FUNCTION(exp)
   STICKSLIP_FUNCTION(log)
@@ -120,15 +135,16 @@ struct STICKSLIP_VECTOR {
   STICKSLIP_FUNCTION(cosh)
   STICKSLIP_FUNCTION(tanh)
 #undef STICKSLIP_FUNCTION
-  friend STICKSLIP_VECTOR pow(const STICKSLIP_VECTOR& a, double exponent) noexcept {
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR pow(const STICKSLIP_VECTOR& a, double exponent) noexcept {
     return each_lane(a, [exponent](double x) noexcept { return std::pow(x, exponent); });
   }
-  friend SechTanh<STICKSLIP_VECTOR> sech_tanh(const STICKSLIP_VECTOR& a) noexcept {
+  STICKSLIP_VECTOR_TARGET friend SechTanh<STICKSLIP_VECTOR> sech_tanh(const STICKSLIP_VECTOR& a) noexcept {
     const STICKSLIP_VECTOR e = exp(-abs(a)), share = 1.0 / (e * e + 1.0), tanh = (1.0 - e * e) * share;
     return {2.0 * e * share, select(a < 0.0, -tanh, tanh)};
   }
-  friend STICKSLIP_VECTOR sech(const STICKSLIP_VECTOR& a) noexcept { return sech_tanh(a).sech; }
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR sech(const STICKSLIP_VECTOR& a) noexcept { return sech_tanh(a).sech; }
 };
 #undef STICKSLIP_VECTOR
 #undef STICKSLIP_VECTOR_SIZE
+#undef STICKSLIP_VECTOR_TARGET
 #undef STICKSLIP_VECTOR_BITS
