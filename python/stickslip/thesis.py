@@ -26,6 +26,7 @@ from ._core import (
     ThesisPanel,
     ThesisStatement,
     thesis_summary,
+    thesis_verdict,
 )
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ __all__ = [
     "page",
     "plot",
     "thesis_summary",
+    "thesis_verdict",
 ]
 
 _LINES = {"thesis": "--", "theory": "-.", "exact": "-", "unstable": ":"}

@@ -52,16 +52,18 @@ void add_branches(ThesisPanel& panel, const SlowlyVaryingParameters& svp, double
 void add_exact(ThesisPanel& panel, const OrbitBranch& branch, const std::string& label, double omega_unit,
                double amplitude_unit) {
   std::optional<bool> stable;
-  for (const Orbit& orbit : branch.orbits) {
+  for (std::size_t i = 0; i < branch.orbits.size(); ++i) {
+    const Orbit& orbit = branch.orbits[i];
     const double x = orbit.omega * omega_unit, y = orbit.amplitude * amplitude_unit;
-    if (stable != orbit.stable) {
+    // At a fold a multiplier is 1, and on which side of it is round-off: the fold belongs to the piece before it.
+    const bool folds = std::ranges::find(branch.folds, i) != branch.folds.end();
+    if (const bool now = folds && stable ? *stable : orbit.stable; stable != now) {
       if (stable) {  // pieces touch
         panel.curves.back().x.push_back(x);
         panel.curves.back().y.push_back(y);
       }
-      stable = orbit.stable;
+      stable = now;
       panel.curves.push_back({label, *stable ? Kind::exact : Kind::unstable, {}, {}});
-      panel.curves.back().even = false;
     }
     panel.curves.back().x.push_back(x);
     panel.curves.back().y.push_back(y);
@@ -243,7 +245,6 @@ ThesisFigure figure_2_4(Thesis& thesis) {
     const double reach = 1 / a_over_3l, omega_unit = std::sqrt(a_over_3l);
     const std::string label = "$a/3\\ell$ = " + number(a_over_3l) + " 1/s²";
     ThesisCurve boundary{label, Kind::thesis, {}, {}}, exact{label, Kind::points, {}, {}};
-    exact.even = false;
     for (const double amplitude : geometric(1e-3, 30, 200)) {
       boundary.x.push_back(svp.stability_boundary(amplitude).upper * omega_unit);
       boundary.y.push_back(amplitude * reach);

@@ -180,14 +180,14 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
     figure.panels.push_back(std::move(panel));
   }
 
-  // Largest errors of the rms velocity and of the growth rate, up to lambda dt = 1 and beyond.
-  const auto worst = [&](const Measure& measure, const auto& predict, double most) {
+  // Largest errors of the rms velocity and of the growth rate, for lambda dt from `least` to `most`. Pulses as small as
+  // a third of the slip level need others beside them: where these are rare, the largest error is the simulation's,
+  // which for the growth rate 100,000 members leave at 11 % (lambda dt = 0.05), 5 % (0.1), 3 % (0.2) and 2 % (0.35).
+  const auto worst = [&](const Measure& measure, const auto& predict, double least, double most) {
     Estimate result;
     for (const double p : overlaps) {
-      if (p > most) continue;
+      if (p < least || p > most) continue;
       const Estimate e = measure.simulated(simulated(thesis, sigma, p, thesis.options().members).stationary());
-      // Else it would be the simulation's error: what 100,000 members don't bring down to 5 %.
-      if (e.error * std::sqrt(static_cast<double>(thesis.options().members) / 1e5) > 0.05 * e.value) continue;
       const double over = measure.predicted(predict(p)) / e.value, off = std::abs(over - 1);
       if (off > result.value) result = {off, over * e.error / e.value};
     }
@@ -197,9 +197,9 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
   const auto alone = [&](double p) { return series(p, Overlap::none); };
   if (sigma < 1) {
     const Stationary dense = simulated(thesis, sigma, 1, thesis.options().members).stationary();
-    figure.statements.push_back(
-        at_most("5.6", "overlap series: error of the growth rate for λΔt < 1 (also 5.5: within 50 %)", 0.5,
-                worst(measures[1], printed, 0.99), "it is too low by an order of magnitude, as 5.5 says elsewhere"));
+    figure.statements.push_back(at_most(
+        "5.6", "overlap series: error of the growth rate for λΔt from 0.2 to 1 (also 5.5: within 50 %)", 0.5,
+        worst(measures[1], printed, 0.2, 0.99), "it is too low by an order of magnitude, as 5.5 says elsewhere"));
     const double low = measures[1].predicted(printed(1));
     figure.statements.push_back(at_least("5.5", "growth rate simulated over the overlap series', λΔt = 1", 5,
                                          {dense.growth_rate.value / low, dense.growth_rate.error / low},
@@ -211,21 +211,24 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
                                       {rms / sparse.value, rms * sparse.error / (sparse.value * sparse.value)}));
   } else if (sigma == 1) {
     figure.statements.push_back(at_most("5.5", "overlap series: largest error of the rms velocity", 0.10,
-                                        worst(measures[0], printed, 1), "\"on the order of 10 %\""));
+                                        worst(measures[0], printed, 0, 1), "\"on the order of 10 %\""));
     figure.statements.push_back(
-        at_most("5.5", "no overlap: largest error of the rms velocity", 0.30, worst(measures[0], alone, 1)));
+        at_most("5.5", "no overlap: largest error of the rms velocity", 0.30, worst(measures[0], alone, 0, 1)));
     figure.statements.push_back(at_most("5.5", "overlap series: largest error of the growth rate", 0.50,
-                                        worst(measures[1], printed, 1), "\"on the order of 50 %\""));
+                                        worst(measures[1], printed, 0, 1), "\"on the order of 50 %\""));
   } else {
     figure.statements.push_back(at_most("5.5", "overlap series: largest error of the rms velocity", 0.20,
-                                        worst(measures[0], printed, 1), "its rate is 1 + λΔt times too high"));
+                                        worst(measures[0], printed, 0, 1), "its rate is 1 + λΔt times too high"));
     figure.statements.push_back(at_most("5.5", "overlap series: largest error of the growth rate", 0.20,
-                                        worst(measures[1], printed, 1), "the same"));
+                                        worst(measures[1], printed, 0, 1), "the same"));
     figure.statements.push_back(
-        at_most("5.5", "no overlap: largest error of the growth rate", 0.20, worst(measures[1], alone, 1)));
+        at_most("5.5", "no overlap: largest error of the growth rate", 0.20, worst(measures[1], alone, 0, 1)));
   }
   figure.statements.push_back(
-      at_most("", "said here: the pulse chain's largest error of the growth rate", 0.10, worst(measures[1], chain, 2)));
+      at_most("",
+              sigma < 1 ? "said here: the pulse chain's largest error of the growth rate, λΔt from 0.35 on"
+                        : "said here: the pulse chain's largest error of the growth rate",
+              0.10, worst(measures[1], chain, sigma < 1 ? 0.35 : 0, 2)));
   if (sigma < 1)
     figure.statements.push_back(at_most("5.5", "share of the pulses that exceed the slip level by themselves", 0.003,
                                         {std::erfc(1 / (sigma * std::numbers::sqrt2))}));
@@ -312,6 +315,7 @@ ThesisFigure table_5_1(Thesis& thesis) {
     figure.statements.push_back(at_most("5.6", name + ": peak acceleration in rms values, usually 3 to 4: mean", 4,
                                         {sum / n, std::sqrt((squares / n - sum * sum / n / n) / (n - 1))},
                                         "the more, the more pulses there are"));
+    figure.statements.back().members = motions;
   }
   figure.panels.push_back(std::move(panel));
   return figure;
