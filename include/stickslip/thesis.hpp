@@ -45,14 +45,14 @@ struct ThesisPanel {
   std::vector<double> x_limits{}, y_limits{};  ///< two, or none
 };
 
-/// Something that the thesis says with a number, and what was found.
+/// Something that the thesis, or this library's documentation, says with a number, and what was found.
 struct ThesisStatement {
-  std::string where;          ///< page or equation of the thesis
-  std::string claim;          ///< in the thesis's sense, with the unit
-  double said;                ///< by the thesis
+  std::string where;          ///< section or equation of the thesis; empty where this library says it
+  std::string claim;          ///< in the sense of who says it, with the unit
+  double said;                ///< by the thesis, or by this library
   double found;               ///< by this library
   double error;               ///< standard error of `found`; 0 where it is no estimate
-  bool agrees;                ///< within the digits or the bound that the thesis gives, and 3 standard errors
+  bool agrees;                ///< within the digits or the bound that is given, and 3 standard errors
   std::string why;            ///< what is different, or how it was found
   std::uint64_t members = 0;  ///< of the ensembles behind `found`; 0 where it is no estimate
 };

@@ -62,15 +62,17 @@ void bind_figure(py::module_& m) {
           "What of it is shown, (float, float), or None for all.")
       .def("__repr__", [](const ThesisPanel& panel) { return "<ThesisPanel '" + panel.title + "'>"; });
 
-  value_class<ThesisStatement>(m, "ThesisStatement",
-                               "Something that the thesis says with a number, and what was found.")
-      .def_readonly("where", &ThesisStatement::where, "Section or equation of the thesis; '' for one of our own.")
-      .def_readonly("claim", &ThesisStatement::claim, "In the thesis's sense, with the unit.")
-      .def_readonly("said", &ThesisStatement::said, "By the thesis.")
+  value_class<ThesisStatement>(
+      m, "ThesisStatement",
+      "Something that the thesis, or this library's documentation, says with a number, and what was found.")
+      .def_readonly("where", &ThesisStatement::where,
+                    "Section or equation of the thesis; '' where this library says it.")
+      .def_readonly("claim", &ThesisStatement::claim, "In the sense of who says it, with the unit.")
+      .def_readonly("said", &ThesisStatement::said, "By the thesis, or by this library.")
       .def_readonly("found", &ThesisStatement::found, "By this library.")
       .def_readonly("error", &ThesisStatement::error, "Standard error of `found`; 0 where it is no estimate.")
       .def_readonly("agrees", &ThesisStatement::agrees,
-                    "Whether it lies within the digits or the bound that the thesis gives, and 3 standard errors.")
+                    "Whether it lies within the digits or the bound that is given, and 3 standard errors.")
       .def_readonly("why", &ThesisStatement::why, "What is different, or how it was found.")
       .def_readonly("members", &ThesisStatement::members,
                     "Of the ensembles behind `found`, int; 0 where it is no estimate.")

@@ -84,7 +84,8 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
     Returns
     -------
     str
-        For each figure a heading, picture, caption, and the table of its statements; times taken.
+        For each figure a heading, picture, caption, time taken, and two tables: of what the thesis
+        says, and of what this library says.
     """
     lines = []
     for figure in figures:
@@ -98,14 +99,16 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
             f"{figure.caption} [Numbers](./{stem}.csv). Took {figure.seconds:.2g} s{cost}.",
             "",
         ]
-        if figure.statements:
-            lines += ["| | the thesis | found | |", "|---|---|---|---|"]
-            lines += [
-                f"| {_claim(s)} | {s.said:.4g} | {_found(s)} "
-                f"| {'agrees' if s.agrees else '**differs**'} |"
-                for s in figure.statements
-            ]
-            lines.append("")
+        for column in ("the thesis", "said here"):
+            said = [s for s in figure.statements if bool(s.where) == (column == "the thesis")]
+            if said:
+                lines += [f"| | {column} | found | |", "|---|---|---|---|"]
+                lines += [
+                    f"| {_claim(s)} | {s.said:.4g} | {_found(s)} "
+                    f"| {'agrees' if s.agrees else '**differs**'} |"
+                    for s in said
+                ]
+                lines.append("")
     return "\n".join(lines)
 
 

@@ -170,8 +170,11 @@ ThesisFigure figure_2_2(Thesis& thesis) {
   const double boundary = svp.stability_boundary(1e-4).upper;
   figure.statements.push_back(about("(2.42)", "where the stability boundary meets the axis, ω √(3l/a)",
                                     std::sqrt(4 / (std::sqrt(3.0) * std::numbers::pi)), 1e-6, {boundary}));
+  const double moves = numerics::first_where(0.5, 2, [](double b) {
+    return integrate(unit_caster, HarmonicMotion(b, 0.7, 2 * std::numbers::pi / 0.7)).peak > 0;
+  });
   figure.statements.push_back(
-      about("before (2.36)", "rest is stable up to B/a =", four_over_pi, 0.01, {1.0},
+      about("before (2.36)", "rest is stable up to B/a =", four_over_pi, 0.01, {moves},
             "of the averaged motion; exactly, x = 0 stays at rest up to B = a, and from there to 4/π moves a little"));
   const std::vector<Orbit> small = orbits(unit_caster, 1.25, 0.7);
   figure.statements.push_back(about("before (2.36)", "small motion at B/a = 1.25, ω √(3l/a) = 0.7: A/3l", 0, 0,
@@ -293,9 +296,9 @@ ThesisFigure figure_2_5(Thesis& thesis) {
             "that in cycles 100 to 200, B/a = 1.3",
             (std::sqrt(800) - std::sqrt(700)) / (std::sqrt(200) - std::sqrt(100)), 0.02, {late / early},
             "it grows in proportion to time, by (B − 4a/π)π/ω² a cycle: input and loss both go with A"));
-  figure.statements.push_back(about("after (2.48)", "growth a cycle at resonance, B/a = 1.3, ω = 1 rad/s [m]",
+  figure.statements.push_back(about("", "growth a cycle at resonance, B/a = 1.3, ω = 1 rad/s [m]",
                                     (1.3 - four_over_pi) * std::numbers::pi, 1e-4, {late / 100},
-                                    "said here: the corrected averaged value"));
+                                    "(B − 4a/π)π/ω², the averaged value after (2.48) corrected"));
   figure.statements.push_back(about(
       "2.3.2", "the peak is unbounded for all parameters: largest |x| at resonance, B/a = 1.2, after 800 cycles [m]",
       std::numeric_limits<double>::infinity(), 0, {peak_after(1.2, 800)}, "bounded for B < 4a/π"));

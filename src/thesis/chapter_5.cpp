@@ -49,23 +49,29 @@ ThesisFigure figure_5_2(Thesis&) {
                       "(2b/πω) sin²(ωΔt/2); dotted: the envelope that falls as 1/ω.",
                       ""};
   ThesisPanel panel{"Pulse", "$\\omega$", "$|\\hat n(\\omega)|$"};
-  const auto transform = [](double w) { return w == 0 ? 0 : 2 * amplitude / (pi * w) * std::pow(std::sin(w / 2), 2); };
+  const PoissonPulses pulses(1, 1, 1, 10);
+  const auto printed = [](double w) {
+    const double squares = 4 * std::pow(std::sin(w / 2), 2) - std::pow(std::sin(w), 2);
+    return w == 0 ? 0 : amplitude / (2 * pi * w) * std::sqrt(std::max(squares, 0.0));
+  };
+  const auto transform = [&](double w) { return amplitude * std::sqrt(pulses.density(w) / (2 * pi)); };  // (5.20)
   const std::vector<double> omega = even(0, 25, 251);
-  panel.curves.push_back(curve("(5.6)", Kind::thesis, omega, [&](double w) { return transform(w) / 2; }));
+  panel.curves.push_back(curve("(5.6)", Kind::thesis, omega, printed));
   panel.curves.push_back(curve("corrected", Kind::exact, omega, transform));
   panel.curves.push_back(
       curve("envelope", Kind::limit, even(1.2, 25, 120), [](double w) { return 2 * amplitude / (pi * w); }));
   figure.panels.push_back(std::move(panel));
 
-  // By the mean square: lambda E[b^2] int w^2 must be the integral of the density, (5.19), (5.20).
-  const PoissonPulses pulses(1, 1, 1, 10);
-  double sum = 0;  // midpoints of the density, and its tail 4/(pi w^2) on average beyond
+  // By the mean square: the integral of (5.20) with (5.6) as printed must be (5.19).
+  double sum = 0;  // midpoints, and beyond them the tail, in which sin^4 is 3/8 on average
   constexpr double step = 1e-3, last = 2000 * pi;
-  for (double w = step / 2; w < last; w += step) sum += 2 * step * 2 * pi * std::pow(transform(w) / amplitude / 2, 2);
+  for (double w = step / 2; w < last; w += step) sum += 2 * step * 2 * pi * std::pow(printed(w) / amplitude, 2);
   sum += 2 * 2 * pi / last * std::pow(1 / pi, 2) * 3.0 / 8;
   figure.statements.push_back(about("(5.6), (5.20)", "integral of the pulses' density over their variance (5.19)", 1,
                                     1e-3, {sum / pulses.variance()}, "(5.6) has half of the amplitude"));
-  const double peak = numerics::first_where(2, 2.6, [](double w) { return std::tan(w / 2) >= w; });
+  constexpr double h = 1e-4;
+  const double peak =
+      numerics::first_where(2, 2.6, [&](double w) { return pulses.density(w + h) <= pulses.density(w - h); });
   figure.statements.push_back(about("(5.60)", "the spectrum's peak, ωΔt", pi, 0.05, {peak},
                                     "π/Δt is a definition of the centre frequency, not its peak"));
   return figure;
@@ -224,11 +230,10 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
     figure.statements.push_back(
         at_most("5.5", "no overlap: largest error of the growth rate", 0.20, worst(measures[1], alone, 0, 1)));
   }
-  figure.statements.push_back(
-      at_most("",
-              sigma < 1 ? "said here: the pulse chain's largest error of the growth rate, λΔt from 0.35 on"
-                        : "said here: the pulse chain's largest error of the growth rate",
-              0.10, worst(measures[1], chain, sigma < 1 ? 0.35 : 0, 2)));
+  figure.statements.push_back(at_most("",
+                                      sigma < 1 ? "the pulse chain's largest error of the growth rate, λΔt from 0.35 on"
+                                                : "the pulse chain's largest error of the growth rate",
+                                      0.10, worst(measures[1], chain, sigma < 1 ? 0.35 : 0, 2)));
   if (sigma < 1)
     figure.statements.push_back(at_most("5.5", "share of the pulses that exceed the slip level by themselves", 0.003,
                                         {std::erfc(1 / (sigma * std::numbers::sqrt2))}));
@@ -399,7 +404,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
         error = over * e.error / e.value;
       }
     }
-  figure.statements.push_back(at_most("", "said here: the chain's largest error above 1 cm", 0.10, {worst, error}));
+  figure.statements.push_back(at_most("", "the chain's largest error above 1 cm", 0.10, {worst, error}));
   return figure;
 }
 

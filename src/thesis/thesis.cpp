@@ -214,9 +214,9 @@ std::string thesis_summary(std::span<const ThesisFigure> figures) {
     if (!figure.thesis_cost.empty()) text << " (the thesis: " << figure.thesis_cost << ")";
     text << '\n';
     for (const ThesisStatement& s : figure.statements) {
-      text << (s.agrees ? "  agrees  " : "  differs ") << (s.where.empty() ? "" : s.where + ": ") << s.claim << ": "
-           << (s.where.empty() ? "" : "thesis ") << digits(s.said) << ", found " << digits(s.found, s.error)
-           << (s.why.empty() ? "" : "; " + s.why) << '\n';
+      text << (s.agrees ? "  agrees  " : "  differs ") << (s.where.empty() ? "here" : s.where) << ": " << s.claim
+           << ": " << (s.where.empty() ? "said " : "thesis ") << digits(s.said) << ", found "
+           << digits(s.found, s.error) << (s.why.empty() ? "" : "; " + s.why) << '\n';
     }
   }
   return text.str();

@@ -54,6 +54,16 @@ def test_a_page_shows_every_statement():
     assert text.count("**differs**") == sum(not s.agrees for s in figure.statements) > 0
 
 
+def test_what_this_library_says_stands_in_a_table_of_its_own():
+    figure = Thesis(members=200).figure("2.5")
+    ours = [s for s in figure.statements if not s.where]
+    assert ours and len(ours) < len(figure.statements)
+    thesis, here = page([figure], ".png").split("| | said here | found | |")
+    assert "| | the thesis | found | |" in thesis
+    for statement in figure.statements:
+        assert (statement.claim in here) == (statement in ours) == (statement.claim not in thesis)
+
+
 def test_the_command_writes_pictures_numbers_and_a_page(tmp_path, capsys):
     pytest.importorskip("matplotlib")
     out = tmp_path / "new" / "folder"
