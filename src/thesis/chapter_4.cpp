@@ -80,6 +80,24 @@ Estimates roots(Estimates e) {
   return e;
 }
 
+// The scatter of the means of x^2 over groups of members, over what (4.61) has from single ones.
+Estimate scatter_over_predicted(const std::vector<double>& x, std::size_t group) {
+  const std::size_t groups = x.size() / group;
+  const auto scatter = [](const std::vector<double>& f) {
+    double mean = 0, squares = 0;
+    for (const double value : f) mean += value / static_cast<double>(f.size());
+    for (const double value : f) squares += (value - mean) * (value - mean);
+    return std::sqrt(squares / static_cast<double>(f.size() - 1));
+  };
+  std::vector<double> squares, means(groups);
+  for (std::size_t i = 0; i < groups * group; ++i) {
+    squares.push_back(x[i] * x[i]);
+    means[i / group] += x[i] * x[i] / static_cast<double>(group);
+  }
+  const double ratio = scatter(means) / (scatter(squares) / std::sqrt(static_cast<double>(group)));
+  return {ratio, ratio / std::sqrt(2 * (static_cast<double>(groups) - 1))};  // means of 100 are nearly Gaussian
+}
+
 std::string members_of(const Ensemble& ensemble) { return ", " + number(ensemble.members()) + " members"; }
 
 // The first side lobe of the window that velocities are seen through, over its main lobe [dB of the amplitude]: the
@@ -295,6 +313,8 @@ ThesisFigure figure_4_6(Thesis& thesis) {
                                     "from rest, as simulated: more by σ_v_g²/ζ²"));
   figure.statements.push_back(about("4.5", "growth rate predicted by linearization [S0³/a⁴]", 0, 0,
                                     many.stationary().growth_rate, "as the thesis says: no linearization has this"));
+  figure.statements.push_back(about("(4.61)", "scatter of means of 100 records, x² at the end, over σ_f/√100", 1, 0,
+                                    scatter_over_predicted(many.residual(), 100)));
   return figure;
 }
 
