@@ -730,8 +730,8 @@ def _add_thesis(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser(
         "thesis",
         help="redraw the figures of the thesis, theory beside simulation",
-        description="Redraws figures and tables of the thesis on the response of stick-slip systems"
-        " to random seismic excitation: its curves, exact solutions, and ensembles with standard"
+        description="Redraws figures and tables of the thesis, The Response of Stick-Slip Systems"
+        " to Random Seismic Excitation: its curves, exact solutions, and ensembles with standard"
         " errors. For each, writes a picture and a CSV file of all curves and points; writes a page"
         " that shows them all, gallery.md; prints the numerical claims of the thesis next to our"
         " results. With --check, prints every number with its expected value and its tolerance,"

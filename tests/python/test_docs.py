@@ -69,6 +69,18 @@ def test_the_site_says_how_many_tests_there_are(site):
     assert re.search(r"\d+ test cases in C\+\+, \d+ test functions in Python", text)
 
 
+# ---- the thesis
+
+
+def test_the_thesis_is_cited_by_its_title_where_its_numbers_are_used():
+    title = "The Response of Stick-Slip Systems to Random Seismic Excitation"
+    for file in ("README.md", "CITATION.cff", "docs/index.md", "docs/gallery.md", "docs/errata.md"):
+        text = " ".join((ROOT / file).read_text(encoding="utf-8").split())
+        assert title in text, file
+        if file != "docs/gallery.md":
+            assert re.search(r"[Nn]umbers[^.]*\b(?:its own|own|of this thesis)\.", text), file
+
+
 # ---- equations
 
 
