@@ -198,3 +198,21 @@ TEST_CASE("what the thesis says in its text of errors is beside what is found") 
   CHECK(said("5.5", "5.5", "growth rate simulated over that without overlaps").agrees);
   CHECK(said("5.6", "5.5", "no overlap: largest error of the rms velocity").agrees);
 }
+
+TEST_CASE("a cart on casters ends further from where it stood than the ground in a great earthquake, figure 5.7",
+          "[statistics]") {
+  Thesis thesis({.members = 20'000, .seed = 2});
+  const ThesisFigure figure = thesis.figure("5.7");
+  std::size_t bounds = 0;
+  for (const ThesisStatement& s : figure.statements) {
+    if (s.claim.find("a cart's final rms over") == std::string::npos) continue;
+    ++bounds;
+    INFO(s.claim);
+    const bool upper = s.claim.find("ground") != std::string::npos;
+    CHECK(s.agrees == !upper);
+    // 1000 carts have 2.7 and 2.2 +- 0.2; five standard errors from 1 is a false alarm in 2 million.
+    CHECK(s.found - 5 * s.error > 1);
+    CHECK(s.members == 1000);
+  }
+  CHECK(bounds == 3);
+}

@@ -118,7 +118,8 @@ def _name(figure: ThesisFigure) -> str:
 
 def _claim(statement: ThesisStatement) -> str:
     where = f"{statement.where}: " if statement.where else ""
-    return where + statement.claim + (f". *{statement.why}*" if statement.why else "")
+    text = where + statement.claim + (f". *{statement.why}*" if statement.why else "")
+    return text.replace("|", r"\|")  # else it would end a cell
 
 
 def _found(statement: ThesisStatement) -> str:
