@@ -1,5 +1,6 @@
-// The figures and tables of the thesis, "The Response of Stick-Slip Systems to Random Seismic Excitation", computed anew:
-// its own theory, the exact answer and simulation side by side. Numbers of equations in this library are the thesis's.
+// The figures and tables of the thesis, "The Response of Stick-Slip Systems to Random Seismic Excitation", computed
+// anew: its own theory, the exact answer and simulation side by side. Numbers of equations in this library are the
+// thesis's.
 #pragma once
 
 #include <cstdint>

@@ -805,7 +805,8 @@ def _thesis(args: argparse.Namespace) -> str:
     if not args.check:
         return f"{summary}wrote {len(figures)} figures to {printable(str(folder))}"
     args.code = 0 if all(check.holds for check in checks) else 1
-    verdict = f"{len(figures)} figures, {thesis.thesis_verdict(checks)}"
+    plural = "" if len(figures) == 1 else "s"
+    verdict = f"{len(figures)} figure{plural}, {thesis.thesis_verdict(checks)}"
     return "\n".join([*map(_checked, checks), verdict])
 
 
