@@ -9,6 +9,8 @@ HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path.insert(0, str(HERE / "_ext"))
 
+from counts import counts  # noqa: E402
+
 project = "stickslip"
 author = "The stickslip authors"
 copyright = author
@@ -38,7 +40,8 @@ highlight_language = "none"
 pygments_style = "friendly"
 
 # Pages are Markdown that reads on a forge too: ```math is a formula, \tag{5.34} its number.
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["dollarmath", "substitution"]
+myst_substitutions = counts()  # {{ cpp_tests }}
 myst_fence_as_directive = ["math"]
 myst_heading_anchors = 3
 myst_update_mathjax = False  # it would seem to be another configuration at each run

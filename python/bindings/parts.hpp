@@ -117,8 +117,7 @@ inline constexpr auto parts<theory::StationaryPrediction> =
 
 template <>
 inline constexpr auto parts<ThesisCurve> = std::tuple(&ThesisCurve::label, &ThesisCurve::kind, &ThesisCurve::x,
-                                                      &ThesisCurve::y, &ThesisCurve::error, &ThesisCurve::members,
-                                                      &ThesisCurve::even);
+                                                      &ThesisCurve::y, &ThesisCurve::error, &ThesisCurve::members);
 template <>
 inline constexpr auto parts<ThesisPanel> = std::tuple(&ThesisPanel::title, &ThesisPanel::x, &ThesisPanel::y,
                                                       &ThesisPanel::log_x, &ThesisPanel::log_y, &ThesisPanel::curves,
@@ -127,10 +126,10 @@ template <>
 inline constexpr auto parts<ThesisStatement> = std::tuple(&ThesisStatement::where, &ThesisStatement::claim,
                                                           &ThesisStatement::said, &ThesisStatement::found,
                                                           &ThesisStatement::error, &ThesisStatement::agrees,
-                                                          &ThesisStatement::why);
+                                                          &ThesisStatement::why, &ThesisStatement::members);
 template <>
 inline constexpr auto parts<ThesisCheck> = std::tuple(&ThesisCheck::what, &ThesisCheck::found, &ThesisCheck::expected,
-                                                      &ThesisCheck::allowed, &ThesisCheck::holds);
+                                                      &ThesisCheck::allowed, &ThesisCheck::holds, &ThesisCheck::loose);
 template <>
 inline constexpr auto parts<ThesisFigure> = std::tuple(&ThesisFigure::number, &ThesisFigure::caption,
                                                        &ThesisFigure::thesis_cost, &ThesisFigure::panels,

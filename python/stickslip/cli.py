@@ -730,8 +730,8 @@ def _add_thesis(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser(
         "thesis",
         help="redraw the figures of the thesis, theory beside simulation",
-        description="Redraws figures and tables of the thesis on the response of stick-slip systems"
-        " to random seismic excitation: its curves, exact solutions, and ensembles with standard"
+        description="Redraws figures and tables of the thesis, The Response of Stick-Slip Systems"
+        " to Random Seismic Excitation: its curves, exact solutions, and ensembles with standard"
         " errors. For each, writes a picture and a CSV file of all curves and points; writes a page"
         " that shows them all, gallery.md; prints the numerical claims of the thesis next to our"
         " results. With --check, prints every number with its expected value and its tolerance,"
@@ -783,7 +783,7 @@ def _thesis(args: argparse.Namespace) -> str:
         from . import plotting  # matplotlib: only who plots waits for it
 
         folder.mkdir(parents=True, exist_ok=True)
-    figures, lines = [], []
+    figures, checks = [], []
     try:
         for number in numbers:
             figure = source.figure(number)
@@ -794,7 +794,7 @@ def _thesis(args: argparse.Namespace) -> str:
                     stream.write(figure.csv().encode())
                 plotting.save(thesis.plot(figure), stem.with_suffix(f".{args.format}"))
             if args.check:
-                lines += [_checked(check) for check in figure.check(members)]
+                checks += figure.check()
     finally:
         if shown:
             print("\r\33[K", end="", file=sys.stderr, flush=True)
@@ -804,9 +804,10 @@ def _thesis(args: argparse.Namespace) -> str:
             stream.write(thesis.page(figures, f".{args.format}").encode())
     if not args.check:
         return f"{summary}wrote {len(figures)} figures to {printable(str(folder))}"
-    off = sum(line.startswith("off") for line in lines)
-    args.code = 1 if off else 0
-    return "\n".join([*lines, f"{len(lines)} numbers of {len(figures)} figures, {off} off"])
+    args.code = 0 if all(check.holds for check in checks) else 1
+    plural = "" if len(figures) == 1 else "s"
+    verdict = f"{len(figures)} figure{plural}, {thesis.thesis_verdict(checks)}"
+    return "\n".join([*map(_checked, checks), verdict])
 
 
 def _checked(check: Any) -> str:

@@ -26,6 +26,7 @@ from ._core import (
     ThesisPanel,
     ThesisStatement,
     thesis_summary,
+    thesis_verdict,
 )
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ __all__ = [
     "page",
     "plot",
     "thesis_summary",
+    "thesis_verdict",
 ]
 
 _LINES = {"thesis": "--", "theory": "-.", "exact": "-", "unstable": ":"}
@@ -82,7 +84,8 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
     Returns
     -------
     str
-        For each figure a heading, picture, caption, and the table of its statements; times taken.
+        For each figure a heading, picture, caption, time taken, and two tables: of what the thesis
+        says, and of what this library says.
     """
     lines = []
     for figure in figures:
@@ -96,14 +99,16 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
             f"{figure.caption} [Numbers](./{stem}.csv). Took {figure.seconds:.2g} s{cost}.",
             "",
         ]
-        if figure.statements:
-            lines += ["| | the thesis | found | |", "|---|---|---|---|"]
-            lines += [
-                f"| {_claim(s)} | {s.said:.4g} | {_found(s)} "
-                f"| {'agrees' if s.agrees else '**differs**'} |"
-                for s in figure.statements
-            ]
-            lines.append("")
+        for column in ("the thesis", "said here"):
+            said = [s for s in figure.statements if bool(s.where) == (column == "the thesis")]
+            if said:
+                lines += [f"| | {column} | found | |", "|---|---|---|---|"]
+                lines += [
+                    f"| {_claim(s)} | {s.said:.4g} | {_found(s)} "
+                    f"| {'agrees' if s.agrees else '**differs**'} |"
+                    for s in said
+                ]
+                lines.append("")
     return "\n".join(lines)
 
 
@@ -113,7 +118,8 @@ def _name(figure: ThesisFigure) -> str:
 
 def _claim(statement: ThesisStatement) -> str:
     where = f"{statement.where}: " if statement.where else ""
-    return where + statement.claim + (f". *{statement.why}*" if statement.why else "")
+    text = where + statement.claim + (f". *{statement.why}*" if statement.why else "")
+    return text.replace("|", r"\|")  # else it would end a cell
 
 
 def _found(statement: ThesisStatement) -> str:

@@ -1,7 +1,6 @@
 #include "stickslip/detail/ensemble/block.hpp"
 
 #include <fftw3.h>
-#include <gsl/gsl_sf_bessel.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "numerics/fftw_plan.hpp"
+#include "numerics/kaiser_window.hpp"
 #include "simd/row_moments.hpp"
 #include "stickslip/ensemble/ensemble.hpp"
 
@@ -18,17 +18,8 @@ namespace stickslip::detail {
 
 /// Periodograms of the velocities of a block.
 struct Block::Spectrum {
-  explicit Spectrum(std::size_t samples) : window(samples), real(row_padding * samples), complex(samples / 2 + 1) {
-    // Kaiser-Bessel window, thesis (4.62), with a mean square of one.
-    constexpr double beta = 8;
-    const auto half = static_cast<double>(samples) / 2;
-    double squares = 0;
-    for (std::size_t i = 0; i < samples; ++i) {
-      const double from_middle = samples == 1 ? 0 : (static_cast<double>(i) - half) / half;
-      window[i] = gsl_sf_bessel_I0(beta * std::sqrt(1 - from_middle * from_middle));
-      squares += window[i] * window[i];
-    }
-    for (double& w : window) w *= std::sqrt(static_cast<double>(samples) / squares);
+  explicit Spectrum(std::size_t samples)
+      : window(kaiser_window(samples)), real(row_padding * samples), complex(samples / 2 + 1) {
     plan = make_plan([&] {
       return fftw_plan_dft_r2c_1d(static_cast<int>(samples), real.data(), output(), FFTW_ESTIMATE | FFTW_UNALIGNED);
     });

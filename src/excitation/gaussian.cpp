@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "detail/json.hpp"
+#include "excitation/interpolation_loss.hpp"
 #include "numerics/fftw_plan.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/gaussian.hpp"
@@ -23,13 +24,6 @@ constexpr std::size_t longest_period = std::numeric_limits<int>::max();  // FFTW
 /// Without an exponent, as long as it fits.
 std::string whole(double value) {
   return value < 0x1p53 ? std::to_string(static_cast<std::uint64_t>(value)) : detail::shortest(value);
-}
-
-double sinc(double u) { return u == 0 ? 1 : std::sin(u) / u; }
-
-/// What the interpolation multiplies the Fourier amplitude at omega by; u = omega dt / 2. ERRATA (4.57)
-double interpolation_loss(Interpolation interpolation, double u) {
-  return interpolation == Interpolation::linear ? sinc(u) * sinc(u) : sinc(u);
 }
 
 }  // namespace
@@ -128,7 +122,7 @@ void GaussianExcitation::prepare() {
   for (std::size_t i = 0; i < target_.size(); ++i) {
     const std::size_t k = first_line_ + i;
     const double u = std::numbers::pi * static_cast<double>(k) / static_cast<double>(options_.period);  // omega dt / 2
-    const double loss = options_.correct_interpolation ? interpolation_loss(options_.interpolation, u) : 1;
+    const double loss = options_.correct_interpolation ? detail::interpolation_loss(options_.interpolation, u) : 1;
     // A cos(..) is A/2 at k and at -k, its mean square A^2 / 2. At zero and Nyquist A cos(phi) is all there is.
     amplitude_[i] = (alone(k) ? 1 : 0.5) * std::sqrt(2 * target_[i]) / loss;  // thesis (4.49); ERRATA (4.58)
   }

@@ -861,7 +861,9 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
 
   const std::string ratio = "sigma / slip level = " + shortest(std::round(sigma * 1e4) / 1e4);
   if (!refined_ && sigma < 0.3)
-    remark(moments, ratio + " is below 0.3, where more than two pulses at once matter: refined is needed.");
+    remark(moments, ratio +
+                        " is below 0.3, where more than two pulses at once matter: the growth rate is up to 19 % too "
+                        "high at 1/4 and 41 % at 1/5; refined, 7 % and 17 %.");
   else if (!refined_ && sigma < 0.5 && arrivals.rate > 2)
     remark(moments, ratio + " is below 0.5, with more than two pulses to a step: refined is needed.");
   if (refined_ && sigma < 0.2) remark(moments, ratio + ": nothing was tried below 0.2.");

@@ -52,16 +52,18 @@ void add_branches(ThesisPanel& panel, const SlowlyVaryingParameters& svp, double
 void add_exact(ThesisPanel& panel, const OrbitBranch& branch, const std::string& label, double omega_unit,
                double amplitude_unit) {
   std::optional<bool> stable;
-  for (const Orbit& orbit : branch.orbits) {
+  for (std::size_t i = 0; i < branch.orbits.size(); ++i) {
+    const Orbit& orbit = branch.orbits[i];
     const double x = orbit.omega * omega_unit, y = orbit.amplitude * amplitude_unit;
-    if (stable != orbit.stable) {
+    // At a fold a multiplier is 1, and on which side of it is round-off: the fold belongs to the piece before it.
+    const bool folds = std::ranges::find(branch.folds, i) != branch.folds.end();
+    if (const bool now = folds && stable ? *stable : orbit.stable; stable != now) {
       if (stable) {  // pieces touch
         panel.curves.back().x.push_back(x);
         panel.curves.back().y.push_back(y);
       }
-      stable = orbit.stable;
+      stable = now;
       panel.curves.push_back({label, *stable ? Kind::exact : Kind::unstable, {}, {}});
-      panel.curves.back().even = false;
     }
     panel.curves.back().x.push_back(x);
     panel.curves.back().y.push_back(y);
@@ -168,8 +170,11 @@ ThesisFigure figure_2_2(Thesis& thesis) {
   const double boundary = svp.stability_boundary(1e-4).upper;
   figure.statements.push_back(about("(2.42)", "where the stability boundary meets the axis, ω √(3l/a)",
                                     std::sqrt(4 / (std::sqrt(3.0) * std::numbers::pi)), 1e-6, {boundary}));
+  const double moves = numerics::first_where(0.5, 2, [](double b) {
+    return integrate(unit_caster, HarmonicMotion(b, 0.7, 2 * std::numbers::pi / 0.7)).peak > 0;
+  });
   figure.statements.push_back(
-      about("before (2.36)", "rest is stable up to B/a =", four_over_pi, 0.01, {1.0},
+      about("before (2.36)", "rest is stable up to B/a =", four_over_pi, 0.01, {moves},
             "of the averaged motion; exactly, x = 0 stays at rest up to B = a, and from there to 4/π moves a little"));
   const std::vector<Orbit> small = orbits(unit_caster, 1.25, 0.7);
   figure.statements.push_back(about("before (2.36)", "small motion at B/a = 1.25, ω √(3l/a) = 0.7: A/3l", 0, 0,
@@ -243,7 +248,6 @@ ThesisFigure figure_2_4(Thesis& thesis) {
     const double reach = 1 / a_over_3l, omega_unit = std::sqrt(a_over_3l);
     const std::string label = "$a/3\\ell$ = " + number(a_over_3l) + " 1/s²";
     ThesisCurve boundary{label, Kind::thesis, {}, {}}, exact{label, Kind::points, {}, {}};
-    exact.even = false;
     for (const double amplitude : geometric(1e-3, 30, 200)) {
       boundary.x.push_back(svp.stability_boundary(amplitude).upper * omega_unit);
       boundary.y.push_back(amplitude * reach);
@@ -292,9 +296,9 @@ ThesisFigure figure_2_5(Thesis& thesis) {
             "that in cycles 100 to 200, B/a = 1.3",
             (std::sqrt(800) - std::sqrt(700)) / (std::sqrt(200) - std::sqrt(100)), 0.02, {late / early},
             "it grows in proportion to time, by (B − 4a/π)π/ω² a cycle: input and loss both go with A"));
-  figure.statements.push_back(about("after (2.48)", "growth a cycle at resonance, B/a = 1.3, ω = 1 rad/s [m]",
+  figure.statements.push_back(about("", "growth a cycle at resonance, B/a = 1.3, ω = 1 rad/s [m]",
                                     (1.3 - four_over_pi) * std::numbers::pi, 1e-4, {late / 100},
-                                    "said here: the corrected averaged value"));
+                                    "(B − 4a/π)π/ω², the averaged value after (2.48) corrected"));
   figure.statements.push_back(about(
       "2.3.2", "the peak is unbounded for all parameters: largest |x| at resonance, B/a = 1.2, after 800 cycles [m]",
       std::numeric_limits<double>::infinity(), 0, {peak_after(1.2, 800)}, "bounded for B < 4a/π"));

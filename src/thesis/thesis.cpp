@@ -59,42 +59,60 @@ std::string digits(double value, double error) {
 // One number that is checked: where it stands, and what it is.
 struct Number {
   std::string place;
-  double value, error, scale;
+  double value, error;
+  std::uint64_t members;
 };
 
-// Curves at up to nine points, all points of simulations, all statements.
+// All points of simulations, other curves at up to nine points, all statements.
 std::vector<Number> numbers_of(const ThesisFigure& figure) {
   std::vector<Number> result;
-  const auto largest = [](const std::vector<double>& values) {
-    double scale = 0;
-    for (const double value : values)
-      if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
-    return scale;
-  };
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
     for (std::size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
       const ThesisCurve& curve = figure.panels[p].curves[c];
-      if (!curve.even || curve.kind == ThesisCurve::Kind::limit || curve.y.empty()) continue;
-      const double x_scale = largest(curve.x), y_scale = largest(curve.y);
+      if (curve.y.empty()) continue;
       const std::size_t last = curve.y.size() - 1, parts = curve.members > 0 ? last : std::min<std::size_t>(last, 8);
       for (std::size_t i = 0; i <= parts; ++i) {
         const std::size_t at = parts == 0 ? 0 : i * last / parts;
         const std::string place = std::to_string(p) + "/" + std::to_string(c) + "/" + std::to_string(at);
-        result.push_back({place + " x", curve.x[at], 0, x_scale});
-        result.push_back({place + " y", curve.y[at], curve.error.empty() ? 0 : curve.error[at], y_scale});
+        result.push_back({place + " x", curve.x[at], 0, 0});
+        result.push_back({place + " y", curve.y[at], curve.error.empty() ? 0 : curve.error[at], curve.members});
       }
     }
   for (std::size_t s = 0; s < figure.statements.size(); ++s) {
     const ThesisStatement& statement = figure.statements[s];
-    result.push_back({"statement/" + std::to_string(s), statement.found, statement.error, std::abs(statement.found)});
+    result.push_back({"statement/" + std::to_string(s), statement.found, statement.error, statement.members});
   }
   return result;
 }
 
+// One number that is expected: where, what, its standard error, and the members behind that.
+struct Expected {
+  std::string place;
+  double value, error, members;
+
+  // What it is measured by: its curve along its axis, "0/3/", "x"; a statement by itself.
+  std::string scale() const {
+    return place.starts_with("statement") ? place : place.substr(0, place.rfind('/')) + place.back();
+  }
+};
+
 constexpr std::string_view expected_text =
 #include "thesis/expected.inc"
     ;
-constexpr double expected_members = 100'000;
+
+std::vector<Expected> expected_of(const std::string& number) {
+  std::vector<Expected> result;
+  std::istringstream lines{std::string(expected_text)};
+  for (std::string line; std::getline(lines, line);) {
+    std::array<std::string, 5> cells;
+    std::istringstream row(line);
+    for (std::string& cell : cells) std::getline(row, cell, ',');
+    if (cells[0] == number)
+      result.push_back(
+          {cells[1], std::stod(cells[2]), std::stod(cells[3]), cells[4].empty() ? 0 : std::stod(cells[4])});
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -157,6 +175,8 @@ ThesisFigure Thesis::figure(std::string_view number) {
   if (options_.heartbeat) options_.heartbeat(number_, 0);
   const auto begin = std::chrono::steady_clock::now();
   ThesisFigure figure = entry->draw(*this);
+  for (ThesisStatement& statement : figure.statements)
+    if (statement.error > 0 && statement.members == 0) statement.members = options_.members;
   figure.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return figure;
 }
@@ -194,9 +214,9 @@ std::string thesis_summary(std::span<const ThesisFigure> figures) {
     if (!figure.thesis_cost.empty()) text << " (the thesis: " << figure.thesis_cost << ")";
     text << '\n';
     for (const ThesisStatement& s : figure.statements) {
-      text << (s.agrees ? "  agrees  " : "  differs ") << (s.where.empty() ? "" : s.where + ": ") << s.claim << ": "
-           << (s.where.empty() ? "" : "thesis ") << digits(s.said) << ", found " << digits(s.found, s.error)
-           << (s.why.empty() ? "" : "; " + s.why) << '\n';
+      text << (s.agrees ? "  agrees  " : "  differs ") << (s.where.empty() ? "here" : s.where) << ": " << s.claim
+           << ": " << (s.where.empty() ? "said " : "thesis ") << digits(s.said) << ", found "
+           << digits(s.found, s.error) << (s.why.empty() ? "" : "; " + s.why) << '\n';
     }
   }
   return text.str();
@@ -205,36 +225,45 @@ std::string thesis_summary(std::span<const ThesisFigure> figures) {
 std::string thesis_expectations(const ThesisFigure& figure) {
   std::string text;
   for (const Number& n : numbers_of(figure))
-    text += figure.number + ',' + n.place + ',' + format("%.9g", n.value) + ',' + format("%.3g", n.error) + '\n';
+    text += figure.number + ',' + n.place + ',' + format("%.9g", n.value) + ',' + format("%.3g", n.error) +
+            (n.error > 0 ? ',' + std::to_string(n.members) : "") + '\n';
   return text;
 }
 
-std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure, std::uint64_t members) {
-  std::map<std::string, std::pair<double, double>, std::less<>> expected;
-  std::istringstream lines{std::string(expected_text)};
-  for (std::string line; std::getline(lines, line);) {
-    std::array<std::string, 4> cells;
-    std::istringstream row(line);
-    for (std::string& cell : cells) std::getline(row, cell, ',');
-    if (cells[0] == figure.number) expected[cells[1]] = {std::stod(cells[2]), std::stod(cells[3])};
-  }
+std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure) {
+  const std::vector<Expected> expected = expected_of(figure.number);
+  std::map<std::string, double, std::less<>> scales;  // the largest that is expected of each curve
+  for (const Expected& e : expected)
+    if (std::isfinite(e.value)) scales[e.scale()] = std::max(scales[e.scale()], std::abs(e.value));
+  std::map<std::string, Number, std::less<>> found;
+  for (Number& n : numbers_of(figure)) found.emplace(n.place, n);
+
   std::vector<ThesisCheck> checks;
-  const double trials = 1 + expected_members / static_cast<double>(members);
-  for (const Number& n : numbers_of(figure)) {
-    const auto entry = expected.find(n.place);
-    const std::string what = figure.number + " " + n.place;
-    if (entry == expected.end()) {
-      checks.push_back({what + " (not expected)", n.value, std::nan(""), 0, false});
+  for (const Expected& e : expected) {
+    const std::string what = figure.number + " " + e.place;
+    const auto entry = found.extract(e.place);
+    if (entry.empty()) {
+      checks.push_back({what + " (missing)", std::nan(""), e.value, 0, false, false});
       continue;
     }
-    const auto [value, error] = entry->second;
-    if (error * std::sqrt(trials) > 0.1 * std::abs(value)) continue;
-    const double allowed = 5 * error * std::sqrt(trials) + 1e-6 * n.scale;
-    checks.push_back(
-        {what, n.value, value, allowed,
-         std::abs(n.value - value) <= allowed || n.value == value || (std::isnan(n.value) && std::isnan(value))});
+    const Number& n = entry.mapped();
+    // The error of the expectation, and that of as many members as were simulated here.
+    const double error = e.error * std::sqrt(1 + (n.members > 0 ? e.members / static_cast<double>(n.members) : 0));
+    const double allowed = 5 * error + 1e-6 * scales[e.scale()];
+    const bool same = n.value == e.value || (std::isnan(n.value) && std::isnan(e.value));
+    checks.push_back({what, n.value, e.value, allowed, same || std::abs(n.value - e.value) <= allowed,
+                      5 * error > 0.5 * std::abs(e.value)});
   }
+  for (const auto& [place, n] : found)
+    checks.push_back({figure.number + " " + place + " (not expected)", n.value, std::nan(""), 0, false, false});
   return checks;
+}
+
+std::string thesis_verdict(std::span<const ThesisCheck> checks) {
+  const auto off = std::ranges::count(checks, false, &ThesisCheck::holds);
+  const auto loose = std::ranges::count(checks, true, &ThesisCheck::loose);
+  return std::to_string(checks.size()) + " numbers checked, none skipped; " + std::to_string(loose) +
+         " of so few members that they may be off by more than half; " + std::to_string(off) + " off";
 }
 
 }  // namespace stickslip

@@ -1,5 +1,6 @@
 """The documentation: its code runs, its links hold, it has the equations that the code cites."""
 
+import ast
 import itertools
 import re
 from html.parser import HTMLParser
@@ -37,6 +38,47 @@ def test_the_python_of_a_page_runs(page, kobe):
             code,
         )
         run(page, fewer, names)
+
+
+# ---- numbers
+
+
+def test_the_number_of_tests_is_counted_and_nowhere_typed(monkeypatch):
+    monkeypatch.syspath_prepend(DOCS / "_ext")
+    from counts import counts
+
+    found = counts()
+    functions = 0
+    for file in (ROOT / "tests" / "python").glob("test_*.py"):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        functions += sum(
+            isinstance(node, ast.FunctionDef) and node.name.startswith("test_")
+            for node in tree.body
+        )
+    assert found["python_tests"] == functions
+    names = set()
+    for page in [ROOT / "README.md", *PAGES]:
+        text = page.read_text(encoding="utf-8")
+        assert not re.search(r"\d test (?:cases|functions)", text), page
+        names |= set(re.findall(r"\{\{ (\w+) \}\}", text))
+    assert names == set(found)
+
+
+def test_the_site_says_how_many_tests_there_are(site):
+    text = (SITE / "validation.html").read_text(encoding="utf-8")
+    assert re.search(r"\d+ test cases in C\+\+, \d+ test functions in Python", text)
+
+
+# ---- the thesis
+
+
+def test_the_thesis_is_cited_by_its_title_where_its_numbers_are_used():
+    title = "The Response of Stick-Slip Systems to Random Seismic Excitation"
+    for file in ("README.md", "CITATION.cff", "docs/index.md", "docs/gallery.md", "docs/errata.md"):
+        text = " ".join((ROOT / file).read_text(encoding="utf-8").split())
+        assert title in text, file
+        if file != "docs/gallery.md":
+            assert re.search(r"[Nn]umbers[^.]*\b(?:its own|own|of this thesis)\.", text), file
 
 
 # ---- equations

@@ -54,6 +54,19 @@ def test_a_page_shows_every_statement():
     assert text.count("**differs**") == sum(not s.agrees for s in figure.statements) > 0
 
 
+def test_what_this_library_says_stands_in_a_table_of_its_own():
+    figure = Thesis(members=200).figure("2.5")
+    ours = [s for s in figure.statements if not s.where]
+    assert ours and len(ours) < len(figure.statements)
+    thesis, here = page([figure], ".png").split("| | said here | found | |")
+    assert "| | the thesis | found | |" in thesis
+    for statement in figure.statements:
+        claim = statement.claim.replace("|", r"\|")
+        assert (claim in here) == (statement in ours) == (claim not in thesis)
+    rows = [row.replace(r"\|", "") for row in (thesis + here).splitlines() if row.startswith("|")]
+    assert {row.count("|") for row in rows} == {5}
+
+
 def test_the_command_writes_pictures_numbers_and_a_page(tmp_path, capsys):
     pytest.importorskip("matplotlib")
     out = tmp_path / "new" / "folder"
@@ -73,8 +86,10 @@ def test_the_command_writes_pictures_numbers_and_a_page(tmp_path, capsys):
 def test_the_command_checks(capsys):
     assert cli.main(["thesis", "2.1", "A.2", "--check"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[-1].endswith("of 2 figures, 0 off")
-    assert len(lines) > 20 and all(line.startswith("holds") for line in lines[:-1])
+    numbers = len(lines) - 1
+    assert numbers > 20 and all(line.startswith("holds") for line in lines[:-1])
+    assert lines[-1].startswith(f"2 figures, {numbers} numbers checked, none skipped; ")
+    assert lines[-1].endswith("; 0 off")
 
 
 @pytest.mark.parametrize(

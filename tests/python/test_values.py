@@ -144,7 +144,7 @@ EXAMPLES = {
         theory.WhiteNoise(BLOCK, WHITE),
         theory.WhiteNoise(BLOCK, 2),
     ],
-    thesis.ThesisCheck: FIGURES[0].check(100)[:2],
+    thesis.ThesisCheck: FIGURES[0].check()[:2],
     thesis.ThesisCurve: [c for figure in FIGURES for panel in figure.panels for c in panel.curves],
     thesis.ThesisFigure: FIGURES,
     thesis.ThesisPanel: [panel for figure in FIGURES for panel in figure.panels],

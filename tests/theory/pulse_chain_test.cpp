@@ -56,6 +56,9 @@ void check(const PoissonPulses& pulses, std::uint64_t members, double part, bool
         part * found.velocity_variance.value + 3 * found.velocity_variance.error);
 }
 
+/// What is said of the chain wherever it is praised, of both: from sigma / a = 1 on, and from 1/3.
+double promise(double sigma) { return sigma >= 1 ? 0.04 : 0.09; }
+
 }  // namespace
 
 TEST_CASE("pairs of pulses do what a midpoint rule finds", "[pulse_chain]") {
@@ -162,18 +165,19 @@ TEST_CASE("an independent program's simulations are within the theory's promise"
     for (const bool refined : {false, true}) {
       CAPTURE(run.sigma, run.rate, refined);
       const Moments m = predict(run.rate, run.sigma, refined);
-      CHECK(std::abs(m.growth_rate.value - run.growth) < (refined ? 0.03 : 0.1) * run.growth + 3 * run.growth_error);
+      CHECK(std::abs(m.growth_rate.value - run.growth) <
+            (refined ? 0.03 : promise(run.sigma)) * run.growth + 3 * run.growth_error);
       CHECK(std::abs(m.velocity_variance.value[0] - run.velocity_variance) <
             (refined ? 0.03 : 0.07) * run.velocity_variance + 3 * run.velocity_variance_error);
     }
 }
 
 TEST_CASE("simulations over the plane are within the theory's promise", "[pulse_chain][statistics]") {
-  // docs/pulse_chain.md: 10 % of the growth rate over the plane, measured with 1e8 pulses a point.
-  for (const double sigma : {0.5, 1.0, 3.0, 20.0})
-    for (const double rate : {0.1, 1.0}) {
+  // docs/pulse_chain.md has the plane, measured with 1e8 pulses a point.
+  for (const double sigma : {1.0 / 3, 0.5, 1.0, 3.0, 20.0})
+    for (const double rate : {0.1, 1.0, 2.0}) {
       CAPTURE(sigma, rate);
-      check(PoissonPulses(rate, 1, sigma, 400), 10'000, 0.1);
+      check(PoissonPulses(rate, 1, sigma, 400), 10'000, promise(sigma));
     }
   CAPTURE("refined");
   check(PoissonPulses(0.5, 1, 1.0 / 3, 400), 40'000, 0.03, true);

@@ -46,11 +46,12 @@ refined : bool, optional
 Notes
 -----
 Against simulation, for the symmetric rectangular pulse and Gaussian amplitudes, lambda dt from 0.05 to 2 (4): growth rate
-and velocity variance are within 4 % (9 %) for sigma / a from 1 to 20, within 9 % (13 %) from 1/3 on. Refined they are
-within 3 % (4 %) from 1/3 on, within 7 % at 0.25 and 17 % at 0.2; above sigma / a = 1 refined is the same. From rest on,
-before a pulse's length is over, E[x^2] and E[v^2] are within 10 % (lambda dt up to 1) and 17 % (up to 2) for sigma / a from
-1/2 on, at any time down to dt / 20; else `remark` says that they are off by up to a factor of 2.4. After that they are
-within 12 %.
+and velocity variance are within 4 % (9 %) for sigma / a from 1 to 20, within 9 % (13 %) from 1/3 on. Below that they are
+too high: the growth rate by 19 % at 1/4 and 41 % at 1/5, the final rms of the thesis's events (lambda dt = 1/2) by 9 % at
+1/4, 16 % at 1/5, 27 % at 1/6 and 37(3) % at 0.15. Refined they are within 3 % (4 %) from 1/3 on, within 7 % at 1/4 and
+17 % at 1/5, the final rms within 5 % at 1/5; above sigma / a = 1 refined is the same. From rest on, before a pulse's
+length is over, E[x^2] and E[v^2] are within 10 % (lambda dt up to 1) and 17 % (up to 2) for sigma / a from 1/2 on, at any
+time down to dt / 20; else `remark` says that they are off by up to a factor of 2.4. After that they are within 12 %.
 
 Covers equal slip levels without a spring; pulses of two to four equal steps, two if refined, whose values are multiples
 of a common unit and which leave no net velocity; symmetric laws of amplitudes.)")
