@@ -15,7 +15,7 @@
 #include <type_traits>
 
 #include "bindings.hpp"
-#include "stickslip/thesis.hpp"
+#include "thesis/thesis.hpp"
 
 namespace stickslip::python {
 

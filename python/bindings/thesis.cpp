@@ -1,4 +1,4 @@
-#include "stickslip/thesis.hpp"
+#include "thesis/thesis.hpp"
 
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>

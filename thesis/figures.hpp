@@ -6,10 +6,11 @@
 #include <span>
 #include <stickslip/excitation/gaussian.hpp>
 #include <stickslip/excitation/poisson.hpp>
-#include <stickslip/thesis.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "thesis/thesis.hpp"
 
 namespace stickslip::detail {
 

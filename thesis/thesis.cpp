@@ -1,6 +1,6 @@
 // What there is, and how it is written, summed up and held against what is expected.
+#include "thesis/thesis.hpp"
 #include <stickslip/error.hpp>
-#include <stickslip/thesis.hpp>
 
 #include <algorithm>
 #include <array>
