@@ -291,10 +291,11 @@ TEST_CASE("there is no stationary solution where nothing holds the motion", "[sh
 }
 
 TEST_CASE("below the threshold of motion nothing moves", "[shaped_linearization]") {
-  // sigma_n < sqrt(2 / pi) a, (4.22); what creeps is 1e-4 of sigma_n over the filter's fastest pole
+  // sigma_n < sqrt(2 / pi) a, (4.22). What creeps is r / sqrt(1 - r^2) of the floor, 1e-4 of sigma_n over the filter's
+  // fastest rate, 2 z w = 18 rad/s, with r = 1 / (1.3 sqrt(2 / pi)).
   const double a = 1.3 * std::sqrt(soil.variance());
   const Moments m = by_gauss.predict(Coulomb(a), soil, std::array<double, 1>{20});
-  CHECK(std::sqrt(m.velocity_variance.value[0]) < 1e-4 * a / 15);
+  CHECK(std::sqrt(m.velocity_variance.value[0]) < 1e-4 * (a / 1.3 / 18) * 3.7);
   CHECK_THAT(m.remark, ContainsSubstring("times that below which no motion is predicted"));
   CHECK(by_gauss.stationary(Slider(Coulomb(a)), soil).velocity_variance.value[0] == 0);
   CHECK(by_gauss.predict(Coulomb(0.2), soil, std::array<double, 1>{20}).remark.empty());
@@ -362,9 +363,14 @@ TEST_CASE("a filter by hand is the spectrum's", "[shaped_linearization]") {
   // A filter that lets the white noise through beside its own.
   const ShapingFilter through(1, {{1, 0, 1, 1, 1}});
   CHECK(relative(through(1e9), 1) < 1e-15);
-  const theory::StationaryPrediction exact{
-      0.5, 0, 0, 0, "", Spectrum::from_function([&](double w) { return through(w) - 1 + 1e-12; }, 0), 1};
-  CHECK(by_gauss.predict(Slider(Coulomb(0), 1, 0.5), through, times).velocity_variance.value[1] > 0);
+  const auto gain = [&](double w) { return through(w) * w * w / (std::pow(4 - w * w, 2) + 0.25 * w * w); };
+  const double variance =
+      2 * (simpson(gain, 0, 100, 100'000) + simpson([&](double u) { return gain(1 / u) / (u * u); }, 1e-9, 0.01, 1000));
+  CHECK(relative(by_gauss.stationary(Slider(Coulomb(0), 2, 0.5), through).velocity_variance.value[0], variance) < 1e-8);
+  CHECK(
+      relative(
+          by_gauss.predict(Slider(Coulomb(0), 2, 0.5), through, std::array<double, 1>{100}).velocity_variance.value[0],
+          variance) < 1e-8);
 }
 
 TEST_CASE("a line at zero frequency that is missing is remarked", "[shaped_linearization]") {
