@@ -60,7 +60,7 @@ struct System {
   double intensity;         // 2 pi S0
   Matrix filter;            // stationary covariance of the filter's states
   double acceleration_std;  // of the ground [m/s^2]; infinite for white noise
-  double time_scale;        // of the filter, its fastest pole [s]; infinite without one
+  double time_scale;        // of the filter, by the geometric mean of its poles [s]; infinite without one
 
   explicit System(const ShapedProblem& problem) {
     const auto& sections = problem.filter.sections();
@@ -69,7 +69,7 @@ struct System {
     b = Vector::Zero(n);
     // The signal between sections is out . z + direct w.
     Vector out = Vector::Zero(n);
-    double direct = 1, fastest = 0;
+    double direct = 1, log_rate = 0;
     for (std::size_t i = 0; i < sections.size(); ++i) {
       const auto& s = sections[i];
       const int at = f + 2 * static_cast<int>(i);
@@ -82,14 +82,14 @@ struct System {
       out(at) += s.b0 - s.b2 * s.d0;
       out(at + 1) += s.b1 - s.b2 * s.d1;
       direct *= s.b2;
-      fastest = std::max({fastest, s.d1, std::sqrt(s.d0)});
+      log_rate += std::log(s.d0) / 2 / static_cast<double>(sections.size());
     }
     intensity = 2 * pi * problem.filter.s0();
     const Matrix inner = a.bottomRightCorner(n - f, n - f);
     const Vector source = b.tail(n - f);
     filter = n > f ? lyapunov(inner, intensity * source * source.transpose()) : Matrix::Zero(0, 0);
     acceleration_std = direct != 0 ? infinity : std::sqrt(out.tail(n - f).dot(filter * out.tail(n - f)));
-    time_scale = 1 / fastest;
+    time_scale = sections.empty() ? infinity : std::exp(-log_rate);
     a.row(v) = -out.transpose();
     b(v) = -direct;
     a(x, v) = 1;
@@ -118,7 +118,13 @@ void unpack(const double* from, Matrix& q) {
 class Equations {
  public:
   Equations(const System& system, const AverageFriction& friction, const theory::ShapedNoise& noise, double floor)
-      : system_(system), friction_(friction), noise_(noise), floor_(floor), q_(system.a), a_(system.a) {}
+      : system_(system),
+        friction_(friction),
+        noise_(noise),
+        floor_(floor),
+        steady_(noise.stationary_start() && !(noise.envelope() && noise.envelope_at_source())),
+        q_(system.a),
+        a_(system.a) {}
 
   void operator()(double t, std::span<const double> y, std::span<double> slope) {
     unpack(y.data(), q_);
@@ -151,7 +157,7 @@ class Equations {
     double* to = slope.data();
     for (Eigen::Index j = 0; j < q_.cols(); ++j)
       for (Eigen::Index i = j; i < q_.rows(); ++i)
-        *to++ = product_(i, j) + product_(j, i) + system_.intensity * b_(i) * b_(j);
+        *to++ = steady_ && j >= f ? 0 : product_(i, j) + product_(j, i) + system_.intensity * b_(i) * b_(j);
   }
 
  private:
@@ -159,6 +165,7 @@ class Equations {
   const AverageFriction& friction_;
   const theory::ShapedNoise& noise_;
   double floor_;
+  bool steady_;  // the filter's own covariance does not change
   Matrix q_, a_, product_;
   Vector b_;
 };
@@ -211,11 +218,11 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   velocity *= changes.largest;
   require(std::isfinite(velocity) && velocity > 0 && std::isfinite(frictionless * last),
           noun + ": the moments exceed the range of doubles; the last time", last, "s");
-  const double displacement = velocity * (white ? first : early), floor = 1e-4 * velocity;
+  const double displacement = velocity * (white ? first : early), floor = 1e-5 * velocity;
 
   Vector scale(n);
-  scale(x) = displacement;
-  scale(v) = velocity;
+  scale(x) = 0.1 * displacement;
+  scale(v) = 0.1 * velocity;
   for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
   const double tolerance = problem.options.tolerance / 10;
   OdeOptions ode{.relative_tolerance = tolerance,
@@ -223,7 +230,7 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
                  .stiff = !friction.none(),
                  .most_steps = 300'000,
                  .heartbeat = heartbeat};
-  pack(1e-2 * tolerance * scale * scale.transpose(), ode.absolute_tolerance.data());
+  pack(tolerance * scale * scale.transpose(), ode.absolute_tolerance.data());
 
   Matrix start = Matrix::Zero(n, n);
   if (problem.noise.stationary_start())
@@ -233,8 +240,7 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   pack(start, state.data());
   if (friction.drifts()) {
     state.insert(state.end(), {0, 0});
-    ode.absolute_tolerance.insert(ode.absolute_tolerance.end(),
-                                  {1e-2 * tolerance * displacement, 1e-2 * tolerance * velocity});
+    ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), {tolerance * displacement, tolerance * velocity});
   }
 
   Equations equations(system, friction, problem.noise, floor);

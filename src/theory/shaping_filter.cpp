@@ -161,6 +161,14 @@ class Family {
     return q;
   }
 
+  /// Keeps poles near the band and oscillating or nearly so: others make the filter stiff and fit next to nothing.
+  void bound(Vector& p, const Band& band) const {
+    for (int j = 0; j < sections_; ++j) {
+      p[2 * j] = std::clamp(p[2 * j], std::log(band.low / 10), std::log(band.high * 10));
+      p[2 * j + 1] = std::clamp(p[2 * j + 1], std::log(0.003), std::log(1.5));
+    }
+  }
+
   void add_gain(Vector& p, double log) const {
     p[2 * sections_] += log;
     if (zeros_ != 2) p[2 * sections_ + 1] += log;
@@ -171,7 +179,7 @@ class Family {
 };
 
 /// Least squares of sqrt(S) by Levenberg and Marquardt, from the point given; the cost found.
-double improve(const Family& family, const Grid& grid, Vector& p) {
+double improve(const Family& family, const Grid& grid, const Band& band, Vector& p) {
   const auto count = static_cast<Eigen::Index>(grid.size());
   const int n = family.dimension();
   const double unit = std::sqrt(*std::ranges::max_element(grid.density));
@@ -207,6 +215,7 @@ double improve(const Family& family, const Grid& grid, Vector& p) {
       damped.diagonal() += damping * (normal.diagonal().array() + 1e-9 * normal.diagonal().maxCoeff()).matrix();
       const Vector step = damped.ldlt().solve(slope);
       next = p - step * std::min(1.0, 1.5 / step.cwiseAbs().maxCoeff());
+      family.bound(next, band);
       better = evaluate(next, false);
       if (better < cost) break;
     }
@@ -256,19 +265,23 @@ ShapingFilter fitted(const std::function<double(double)>& spectrum, double low, 
                                                         {0.97 * band.high, 0.05, 1.07 * band.high, 0.03}}};
   int order = zeros == 4 ? 2 : 1;
   Vector best = Family(order, zeros).start(band);
-  improve(Family(order, zeros), grid, best);
-  for (; order < sections; ++order) {
+  double least = improve(Family(order, zeros), grid, band, best);
+  for (; order < sections && least > 1e-12; ++order) {
     const Vector fewer = best;
-    double least = std::numeric_limits<double>::infinity();
+    const double before = least;
     for (const auto& [pole, pole_damping, zero_at, zero_damping] : places) {
       Vector p = Family(order, zeros).extended(fewer, pole, pole_damping, zero_at, zero_damping);
-      const double cost = improve(Family(order + 1, zeros), grid, p);
+      const double cost = improve(Family(order + 1, zeros), grid, band, p);
       if (!(cost < least)) continue;
       least = cost;
       best = p;
     }
+    if (least > 0.97 * before) {
+      best = fewer;
+      break;
+    }
   }
-  const Family family(sections, zeros);
+  const Family family(order, zeros);
 
   double missed = 0, whole = 0;
   Vector slopes(family.dimension());

@@ -64,7 +64,7 @@ def errors(slider, excitation, times, members, seed):
     return found
 
 
-# The table of docs/filtered_noise.md: theory over simulation at 5 and 20 s, measured with 20,000
+# The table of docs/equivalent_linearization.md: theory over simulation at 5 and 20 s, measured with 20,000
 # members and seed 11; by the Gaussian density x and v, by the Laplacian x and v.
 SHAKEN = {
     "Coulomb": LAW,

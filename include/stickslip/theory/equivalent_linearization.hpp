@@ -63,7 +63,7 @@ struct LinearFriction {
 /// `WhiteNoise` for what is exact; `Force::laplace` has the velocity variance exactly and 20 % too little growth. For
 /// casters of small gamma = S0^2 / (reach a^3) the displacement variance is low by a factor of three while they break
 /// loose. Where the rms acceleration is below sqrt(2/pi) times the slip level no motion is predicted at all.
-/// docs/white_noise.md and docs/filtered_noise.md have the errors by measurement.
+/// docs/equivalent_linearization.md has the errors by measurement.
 ///
 /// References: W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik, S. Utku, Earthq. Eng.
 /// Struct. Dyn. 4 (1976), 411-420; S. H. Crandall, S. S. Lee, J. H. Williams, J. Appl. Mech. 41 (1974), 1094-1098.
@@ -129,7 +129,7 @@ class EquivalentLinearization {
   /// @throws std::invalid_argument for times out of range, a law that is not the same both ways, what the force does
   /// not cover, and a spectrum that no filter of the order asked for fits, with its misfit
   /// @throws ConvergenceError with the time reached where the tolerance is out of reach
-  /// Cost: 1 ms under white noise, otherwise 2 to 50 ms, and the fit of the filter.
+  /// Cost: 1 ms under white noise, otherwise 1 to 200 ms, and the fit of the filter.
   template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, const ShapedNoise& noise, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const {

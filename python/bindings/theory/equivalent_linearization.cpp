@@ -107,7 +107,7 @@ growth of the displacement variance 51 %, see `WhiteNoise` for what is exact; 'l
 and 20 % too little growth. For casters of small gamma = S0^2 / (reach a^3) the displacement variance is low by a factor
 of three while they break loose. Where the rms acceleration is below sqrt(2/pi) times the slip level no motion is
 predicted at all, and where the excitation has no content at zero frequency the drift of a slider without a spring is
-missed. The page on filtered noise has a table of errors.
+missed. The page on linearization in time has a table of errors.
 
 References
 ----------
@@ -144,8 +144,9 @@ W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik
 
 Means are zero but for unequal levels. Under white noise, without envelope, unequal levels and damper, integrated over the
 logarithm of time, in variables that keep the covariance positive definite, so any scale will do; a slider without
-friction is answered in closed form there. Otherwise all entries of Q are integrated in time. A velocity of 1e-4 of that
-at the first time, or of the filter's fastest pole, then counts as rest, which leaves 1e-8 in the answers.
+friction is answered in closed form there. Otherwise all entries of Q are integrated in time. A velocity of 1e-5 of that
+at the first time, or of the rms acceleration over the filter's mean rate, then counts as rest, which leaves about 1e-9
+in the answers, more near the threshold of motion.
 
 Parameters
 ----------
@@ -174,7 +175,7 @@ ConvergenceError
 
 Notes
 -----
-Under white noise about 1 ms; with a spring that swings for long some 0.1 ms a period. Otherwise 2 to 50 ms, and the fit
+Under white noise about 1 ms; with a spring that swings for long some 0.1 ms a period. Otherwise 1 to 200 ms, and the fit
 of a filter. The interpreter is not held meanwhile.)")
           .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(The stationary moments.
 

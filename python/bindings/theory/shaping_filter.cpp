@@ -79,7 +79,7 @@ Parameters
 spectrum : float, Spectrum or PoissonPulses
     A number is the level S0 of white noise [m^2/s^3]. Of pulses the spectral density, `PoissonPulses.density`.
 order : int, optional
-    States of the filter, two a section: 2, 4, ... 16.
+    States of the filter at most, two a section: 2, 4, ... 16; it has fewer where the last ones do not help.
 max_misfit : float, optional
     Largest `misfit` that is not refused, above 0.
 
@@ -94,7 +94,7 @@ ValueError
 
 Notes
 -----
-1 us; a fit of order 8 takes some 50 ms. An ideal band-pass by order 8 has a misfit of 0.03 to 0.13, Poisson pulses
+1 us; a fit of order 8 takes some 50 to 200 ms. An ideal band-pass by order 8 has a misfit of 0.03 to 0.13, Poisson pulses
 0.09.)")
       .def_property_readonly("s0", &ShapingFilter::s0, "Level of the white noise [m^2/s^3].")
       .def_property_readonly("sections", &rows, "Sections (b2, b1, b0, d1, d0).")
