@@ -125,7 +125,7 @@ def solve_six(tolerance: float, method: str) -> tuple[np.ndarray, int]:
     def right_side(_: float, y: np.ndarray) -> np.ndarray:
         q = y.reshape(6, 6)
         now = a.copy()
-        now[1, 1] = -level * math.sqrt(2 / (math.pi * max(q[1, 1], 1e-14)))
+        now[1, 1] = -level * math.sqrt(2 / (math.pi * max(q[1, 1], 1e-16)))
         product = now @ q
         return (product + product.T + noise).ravel()
 
@@ -189,7 +189,7 @@ def main() -> None:
     exact = covariance(
         ss.theory.EquivalentLinearization(tolerance=1e-12).predict(FLOOR, GROUND, LATE)
     )
-    for tolerance in (1e-6, 5e-7, 2e-7, 1e-7, 5e-8, 2e-8):
+    for tolerance in [m * 10.0**n for n in range(-7, -12, -1) for m in (1, 0.5, 0.2)]:
         ours = ss.theory.EquivalentLinearization(tolerance=tolerance)
         error = error_of_six(covariance(ours.predict(FLOOR, GROUND, LATE)), exact)
         if error < ALLOWED:

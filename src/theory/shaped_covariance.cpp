@@ -218,13 +218,14 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   velocity *= changes.largest;
   require(std::isfinite(velocity) && velocity > 0 && std::isfinite(frictionless * last),
           noun + ": the moments exceed the range of doubles; the last time", last, "s");
-  const double displacement = velocity * (white ? first : early), floor = 1e-5 * velocity;
+  const double displacement = velocity * (white ? first : early);
 
   Vector scale(n);
   scale(x) = 0.1 * displacement;
   scale(v) = 0.1 * velocity;
   for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
   const double tolerance = problem.options.tolerance / 10;
+  const double floor = std::sqrt(tolerance / 10) * velocity;  // its square is above the absolute tolerance
   OdeOptions ode{.relative_tolerance = tolerance,
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
                  .stiff = !friction.none(),

@@ -206,7 +206,7 @@ def test_a_theory_of_your_own_is_compared():
     assert str(c).count("  mine") == 2 and "nan" not in str(c)  # variance of x, growth rate
     everything = [Mine(), *theory.THEORIES]
     c = ss.compare(BLOCK, PULSES, [60.0], members=64, theories=everything)
-    assert next(iter(c.theories)) == "mine" and len(c.theories) == 5
+    assert next(iter(c.theories)) == "mine" and len(c.theories) == 8
 
 
 def test_an_excitation_of_your_own_has_theories_of_your_own():

@@ -95,7 +95,13 @@ EXAMPLES = {
     ss.Interval: [ENSEMBLE.quantile(0.5), ENSEMBLE.quantile(0.999)],
     ss.Stationary: [ENSEMBLE.stationary, SMALLER.stationary],
     ss.VelocitySpectrum: [ENSEMBLE.velocity_spectrum, SMALLER.velocity_spectrum],
-    ss.Moments: [ENSEMBLE.moments, *COMPARED.theories.values(), LINEARIZED[0].transient([1, 2])],
+    ss.Moments: [
+        ENSEMBLE.moments,
+        COMPARED.theories["PulseChain"],
+        COMPARED.theories["EquivalentLinearization"],
+        COMPARED.theories["EquivalentLinearization, laplace"],
+        LINEARIZED[0].transient([1, 2]),
+    ],
     ss.Ensemble: [
         ENSEMBLE,
         SMALLER,

@@ -291,11 +291,11 @@ TEST_CASE("there is no stationary solution where nothing holds the motion", "[sh
 }
 
 TEST_CASE("below the threshold of motion nothing moves", "[shaped_linearization]") {
-  // sigma_n < sqrt(2 / pi) a, (4.22). What creeps is r / sqrt(1 - r^2) of the floor, 1e-5 of sigma_n over the filter's
+  // sigma_n < sqrt(2 / pi) a, (4.22). What creeps is r / sqrt(1 - r^2) of the floor, 1e-6 of sigma_n over the filter's
   // rate, 15 rad/s, with r = 1 / (1.3 sqrt(2 / pi)).
   const double a = 1.3 * std::sqrt(soil.variance());
   const Moments m = by_gauss.predict(Coulomb(a), soil, std::array<double, 1>{20});
-  CHECK(std::sqrt(m.velocity_variance.value[0]) < 1e-5 * (a / 1.3 / 15) * 3.7);
+  CHECK(std::sqrt(m.velocity_variance.value[0]) < 1e-6 * (a / 1.3 / 15) * 3.7);
   CHECK_THAT(m.remark, ContainsSubstring("times that below which no motion is predicted"));
   CHECK(by_gauss.stationary(Slider(Coulomb(a)), soil).velocity_variance.value[0] == 0);
   CHECK(by_gauss.predict(Coulomb(0.2), soil, std::array<double, 1>{20}).remark.empty());

@@ -114,9 +114,9 @@ class EquivalentLinearization {
   /// Under white noise without envelope, unequal levels and damper integrated over the logarithm of time, in variables
   /// that keep the covariance positive definite: the logarithms of q11 and q22 relative to those without friction,
   /// (3.41) and (3.43), and the correlation. So any scale will do. A slider without friction is answered in closed form
-  /// there. Otherwise all n (n + 1) / 2 entries of Q are integrated in time by backward differentiation. A velocity far
-  /// below that of the first time asked for, or of the filter's fastest pole, counts as rest: 1e-4 of it, which leaves
-  /// 1e-8 in the answers.
+  /// there. Otherwise all n (n + 1) / 2 entries of Q are integrated in time by backward differentiation. A velocity of
+  /// sqrt(tolerance) / 10 of that at the first time asked for, or of the rms acceleration over the filter's mean rate,
+  /// then counts as rest, which is about the relative error just after an abrupt start, and soon fades.
   ///
   /// @param slider     the law, its spring and damper
   /// @param noise      level S0 of white ground acceleration, two-sided [m^2/s^3], a Spectrum, a ShapingFilter, a
