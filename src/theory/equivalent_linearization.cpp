@@ -145,7 +145,6 @@ void EquivalentLinearization::check(const detail::LinearizedLaw& law, double dam
 Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double damping,
                                          const ShapedNoise& noise, std::span<const double> times,
                                          const std::function<void()>& heartbeat) const {
-  check(law, damping, noise);
   if (const auto s0 = two_states(law, damping, noise)) {
     const auto solution = detail::solve_covariance(law, natural_frequency, *s0, times, options_, heartbeat);
     Moments moments = detail::moments_at(times);
@@ -159,6 +158,7 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
     moments.remark = remark(law, options_, natural_frequency, *s0);
     return moments;
   }
+  check(law, damping, noise);
   detail::check_times(noun, times);
   const ShapingFilter filter = noise.filter(options_.filter);
   const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};

@@ -100,16 +100,16 @@ struct System {
   Eigen::Index size() const { return a.rows(); }
 };
 
-/// The lower triangle of a symmetric matrix as a row of numbers.
-Eigen::Index packed_size(Eigen::Index n) { return n * (n + 1) / 2; }
+/// The first columns of the lower triangle of a symmetric matrix as a row of numbers.
+Eigen::Index packed_size(Eigen::Index n, Eigen::Index columns) { return columns * (2 * n - columns + 1) / 2; }
 
-void pack(const Matrix& q, double* to) {
-  for (Eigen::Index j = 0; j < q.cols(); ++j)
+void pack(const Matrix& q, Eigen::Index columns, double* to) {
+  for (Eigen::Index j = 0; j < columns; ++j)
     for (Eigen::Index i = j; i < q.rows(); ++i) *to++ = q(i, j);
 }
 
-void unpack(const double* from, Matrix& q) {
-  for (Eigen::Index j = 0; j < q.cols(); ++j)
+void unpack(const double* from, Eigen::Index columns, Matrix& q) {
+  for (Eigen::Index j = 0; j < columns; ++j)
     for (Eigen::Index i = j; i < q.rows(); ++i) q(i, j) = q(j, i) = *from++;
 }
 
@@ -117,17 +117,19 @@ void unpack(const double* from, Matrix& q) {
 /// what enters the filter or what leaves it.
 class Equations {
  public:
-  Equations(const System& system, const AverageFriction& friction, const theory::ShapedNoise& noise, double floor)
+  Equations(const System& system, const AverageFriction& friction, const theory::ShapedNoise& noise, double floor,
+            Eigen::Index columns)
       : system_(system),
         friction_(friction),
         noise_(noise),
         floor_(floor),
-        steady_(noise.stationary_start() && !(noise.envelope() && noise.envelope_at_source())),
-        q_(system.a),
-        a_(system.a) {}
+        columns_(columns),
+        q_(Matrix::Zero(system.size(), system.size())) {
+    q_.bottomRightCorner(system.size() - f, system.size() - f) = system.filter;
+  }
 
   void operator()(double t, std::span<const double> y, std::span<double> slope) {
-    unpack(y.data(), q_);
+    unpack(y.data(), columns_, q_);
     a_ = system_.a;
     b_ = system_.b;
     if (noise_.envelope()) {
@@ -140,13 +142,13 @@ class Equations {
       }
     }
     const bool drifts = friction_.drifts();
-    const double* const mean = y.data() + packed_size(q_.rows());
+    const double* const mean = y.data() + packed_size(q_.rows(), columns_);
     if (!friction_.none()) {
       // Where nothing moves friction is a damper so stiff that what creeps does not count.
       const double q11 = std::max(q_(x, x), 0.0), q22 = std::max(q_(v, v), 0.0) + floor_ * floor_;
       const MeanFriction average = friction_(drifts ? mean[1] : 0, q11, q_(x, v), q22);
       if (drifts) {
-        double* const mean_slope = slope.data() + packed_size(q_.rows());
+        double* const mean_slope = slope.data() + packed_size(q_.rows(), columns_);
         mean_slope[0] = mean[1];
         mean_slope[1] = system_.a(v, x) * mean[0] + system_.a(v, v) * mean[1] - average.mean;
       }
@@ -155,9 +157,9 @@ class Equations {
     }
     product_.noalias() = a_.lazyProduct(q_);
     double* to = slope.data();
-    for (Eigen::Index j = 0; j < q_.cols(); ++j)
-      for (Eigen::Index i = j; i < q_.rows(); ++i)
-        *to++ = steady_ && j >= f ? 0 : product_(i, j) + product_(j, i) + system_.intensity * b_(i) * b_(j);
+    for (Eigen::Index j = 0; j < columns_; ++j)
+      for (Eigen::Index i = j; i < q_.cols(); ++i)
+        *to++ = product_(i, j) + product_(j, i) + system_.intensity * b_(i) * b_(j);
   }
 
  private:
@@ -165,7 +167,7 @@ class Equations {
   const AverageFriction& friction_;
   const theory::ShapedNoise& noise_;
   double floor_;
-  bool steady_;  // the filter's own covariance does not change
+  Eigen::Index columns_;  // that change: those of x and x' alone where the filter's own covariance is stationary
   Matrix q_, a_, product_;
   Vector b_;
 };
@@ -198,8 +200,9 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   ShapedSolution solution;
   if (times.empty()) return solution;
   const System system(problem);
-  const Eigen::Index n = system.size(), packed = packed_size(n);
   const auto& envelope = problem.noise.envelope();
+  const bool steady = problem.noise.stationary_start() && !(envelope && problem.noise.envelope_at_source());
+  const Eigen::Index n = system.size(), columns = steady ? f : n, packed = packed_size(n, columns);
   const Course changes = course(envelope);
   const double last = times.back(), first = times.front() > 0 ? times.front() : times.size() > 1 ? times[1] : 0;
   solution.state.resize(times.size());
@@ -225,26 +228,32 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   scale(v) = 0.1 * velocity;
   for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
   const double tolerance = problem.options.tolerance / 10;
-  const double floor = std::sqrt(tolerance / 10) * velocity;  // its square is above the absolute tolerance
+  // What never comes to rest, and not a thousand times as long as it takes to forget, needs no implicit steps.
+  const double rate = std::max({1 / system.time_scale, problem.damping, problem.natural_frequency,
+                                white ? squared(friction.level()) / system.intensity : 0});
+  const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
+  const bool stiff = !friction.none() && !(moves && last * rate < 1000);
+  // With implicit steps its square must be above the absolute tolerance.
+  const double floor = (stiff ? std::sqrt(tolerance / 10) : 1e-8) * velocity;
   OdeOptions ode{.relative_tolerance = tolerance,
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
-                 .stiff = !friction.none(),
+                 .stiff = stiff,
                  .most_steps = 300'000,
                  .heartbeat = heartbeat};
-  pack(tolerance * scale * scale.transpose(), ode.absolute_tolerance.data());
+  pack(tolerance * scale * scale.transpose(), columns, ode.absolute_tolerance.data());
 
   Matrix start = Matrix::Zero(n, n);
   if (problem.noise.stationary_start())
     start.bottomRightCorner(n - f, n - f) =
         system.filter * (problem.noise.envelope_at_source() && envelope ? squared((*envelope)(0)) : 1);
   std::vector<double> state(static_cast<std::size_t>(packed));
-  pack(start, state.data());
+  pack(start, columns, state.data());
   if (friction.drifts()) {
     state.insert(state.end(), {0, 0});
     ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), {tolerance * displacement, tolerance * velocity});
   }
 
-  Equations equations(system, friction, problem.noise, floor);
+  Equations equations(system, friction, problem.noise, floor, columns);
   const auto keep = [&](std::size_t i, std::span<const double> y) {
     ShapedState& kept = solution.state[i];
     kept.q11 = std::max(y[0], 0.0);
