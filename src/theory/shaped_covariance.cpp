@@ -234,7 +234,7 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
   const bool stiff = !friction.none() && !(moves && last * rate < 1000);
   // With implicit steps its square must be above the absolute tolerance.
-  const double floor = (stiff ? std::sqrt(tolerance / 10) : 1e-8) * velocity;
+  const double floor = (stiff ? std::sqrt(tolerance / 10) : 1e-7) * velocity;
   OdeOptions ode{.relative_tolerance = tolerance,
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
                  .stiff = stiff,
