@@ -64,8 +64,8 @@ def errors(slider, excitation, times, members, seed):
     return found
 
 
-# The table of docs/equivalent_linearization.md: theory over simulation at 5 and 20 s, measured with 20,000
-# members and seed 11; by the Gaussian density x and v, by the Laplacian x and v.
+# The table of docs/equivalent_linearization.md: theory over simulation at 5 and 20 s, measured with
+# 20,000 members and seed 11; by the Gaussian density x and v, by the Laplacian x and v.
 SHAKEN = {
     "Coulomb": LAW,
     "Coulomb, spring of 2 rad/s": ss.Slider(LAW, natural_frequency=2.0),
