@@ -22,6 +22,7 @@
 #include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"
+#include "stickslip/theory/shaping_filter.hpp"
 #include "stickslip/theory/slowly_varying_parameters.hpp"
 #include "stickslip/theory/stationary_linearization.hpp"
 #include "stickslip/theory/theory.hpp"

@@ -57,6 +57,7 @@ void bind_ensemble(py::module_& m);
 void bind_run_ensemble(py::module_& m);
 void bind_slowly_varying_parameters(py::module_& m);
 void bind_white_noise(py::module_& m);
+void bind_shaping_filter(py::module_& m);
 void bind_equivalent_linearization(py::module_& m);
 void bind_pulse_response(py::module_& m);
 void bind_pulse_superposition(py::module_& m);

@@ -56,6 +56,7 @@ PYBIND11_MODULE(_core, m) {
   bind_run_ensemble(m);
   bind_slowly_varying_parameters(m);
   bind_white_noise(m);
+  bind_shaping_filter(m);
   bind_equivalent_linearization(m);
   bind_pulse_response(m);
   bind_pulse_superposition(m);

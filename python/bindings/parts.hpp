@@ -85,9 +85,22 @@ inline constexpr auto parts<theory::Coverage> = std::tuple(&theory::Coverage::re
 template <>
 inline constexpr auto parts<theory::WhiteNoise> = std::tuple(&theory::WhiteNoise::law, &theory::WhiteNoise::s0);
 template <>
+inline constexpr auto parts<theory::ShapingFilter::Section> = std::tuple(&theory::ShapingFilter::Section::b2,
+                                                                         &theory::ShapingFilter::Section::b1,
+                                                                         &theory::ShapingFilter::Section::b0,
+                                                                         &theory::ShapingFilter::Section::d1,
+                                                                         &theory::ShapingFilter::Section::d0);
+template <>
+inline constexpr auto parts<theory::ShapingFilter> = std::tuple(&theory::ShapingFilter::s0,
+                                                                &theory::ShapingFilter::sections,
+                                                                &theory::ShapingFilter::misfit);
+template <>
+inline constexpr auto parts<theory::ShapingFilter::Fit> = std::tuple(&theory::ShapingFilter::Fit::order,
+                                                                     &theory::ShapingFilter::Fit::max_misfit);
+template <>
 inline constexpr auto parts<theory::EquivalentLinearization::Options> =
     std::tuple(&theory::EquivalentLinearization::Options::force, &theory::EquivalentLinearization::Options::start,
-               &theory::EquivalentLinearization::Options::tolerance);
+               &theory::EquivalentLinearization::Options::tolerance, &theory::EquivalentLinearization::Options::filter);
 template <>
 inline constexpr auto parts<theory::EquivalentLinearization> = std::tuple(&theory::EquivalentLinearization::options);
 template <>

@@ -14,6 +14,7 @@ from ._core import (
     PulseChain,
     PulseResponse,
     PulseSuperposition,
+    ShapingFilter,
     SlowlyVaryingParameters,
     StationaryLinearization,
     StationaryPrediction,
@@ -34,6 +35,7 @@ __all__ = [
     "PulseChain",
     "PulseResponse",
     "PulseSuperposition",
+    "ShapingFilter",
     "SlowlyVaryingParameters",
     "StationaryLinearization",
     "StationaryPrediction",
@@ -49,10 +51,11 @@ __all__ = [
 #: Every theory that `compare` asks if none are named, the best first.
 THEORIES = (
     WhiteNoise(),
+    PulseChain(),
     EquivalentLinearization(),
+    EquivalentLinearization(force="laplace"),
     EquivalentLinearization(force="thesis"),
     StationaryLinearization(),
-    PulseChain(),
     PulseSuperposition(overlap="renewal"),
     PulseSuperposition(overlap="thesis"),
     PulseSuperposition(overlap="none"),

@@ -38,14 +38,18 @@ bool frictionless(const LinearizedLaw& law) {
                             : wheel != nullptr && wheel->slip_level() == 0;
 }
 
-/// The slip level at x = 0.
-double level_at_rest(const LinearizedLaw& law) {
+/// The slip level at x = 0, that a Gaussian velocity would be linearized with.
+double level_at_rest(const LinearizedLaw& law, theory::EquivalentLinearization::Force force) {
   if (const auto* const any = std::get_if<std::function<double(double, Direction)>>(&law))
     return (*any)(0, Direction::forward);
   if (const auto* const wheel = std::get_if<Caster>(&law)) return wheel->slip_level();
-  return std::get<Coulomb>(law).forward();
+  return std::get<Coulomb>(law).forward() *
+         (force == theory::EquivalentLinearization::Force::laplace ? std::sqrt(pi) / 2 : 1);
 }
 
+// Two states under stationary white noise have equations of their own rather than those of shaped_covariance.cpp: scale
+// free, from the first instant on, and without a Jacobian, they take a fiftieth of the time.
+//
 // The covariance in the variables of the integration: logarithms of q11 and q22 relative to those without friction or
 // spring, (3.43) and (3.41), and the correlation between them. Their frictionless values are 0, sqrt(3) / 2 and 0.
 struct Variables {
@@ -140,7 +144,7 @@ Covariance frictionless_covariance(double natural_frequency, double s0, double t
 }
 
 void check_start(const LinearizedLaw& law, double s0, Start start) {
-  const double a = level_at_rest(law), unit = s0 / a / a;
+  const double a = level_at_rest(law, theory::EquivalentLinearization::Force::gaussian), unit = s0 / a / a;
   if (start == Start::thesis)
     require(std::isfinite(unit * unit * unit * s0) && unit > 0,
             noun + ": (3.38) to (3.40) need friction: slip_level must be positive, and not too far from s0", a,
@@ -155,7 +159,7 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   CovarianceSolution solution;
   if (times.empty()) return solution;
   check_start(law, s0, options.start);
-  const double a = level_at_rest(law), last = times.back();
+  const double a = level_at_rest(law, options.force), last = times.back();
   const double unit = s0 / a / a;
   const bool rest = options.start == Start::rest;
   const auto keep = [&](const Covariance& q, double time) {

@@ -4,12 +4,16 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <variant>
 
 #include "stickslip/error.hpp"
 #include "theory/covariance.hpp"
 #include "theory/linear_friction.hpp"
+#include "theory/shaped_covariance.hpp"
 #include "theory/theory_moments.hpp"
 
 namespace stickslip::theory {
@@ -22,23 +26,34 @@ using std::numbers::pi;
 const std::string noun = "EquivalentLinearization";
 const double nowhere = std::numeric_limits<double>::quiet_NaN();
 
+using Options = EquivalentLinearization::Options;
+
+/// The level of white noise that the two states alone answer to: stationary, with equal levels and without a damper.
+std::optional<double> two_states(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) {
+  const auto* const coulomb = std::get_if<Coulomb>(&law);
+  if (damping > 0 || (coulomb != nullptr && coulomb->forward() != coulomb->backward())) return {};
+  return noise.white();
+}
+
 /// Whether friction and spring hold a displacement variance: the work of friction, -2 a22 q22, goes up to 2 a reach wn
 /// with the displacement, and the noise does 2 pi S0.
-double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, double s0) {
+double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, double s0, const Options& options) {
   if (const auto* const coulomb = std::get_if<Coulomb>(&law); coulomb != nullptr && coulomb->forward() > 0) {
     if (natural_frequency > 0) return 0;
     const double velocity = s0 / coulomb->forward();
-    return std::pow(pi, 5) / 2 * velocity * velocity * (velocity / coulomb->forward());  // (3.47)
+    // (3.47); 2 pi S0 / a22^2 with the stationary a22
+    const double factor =
+        options.force == EquivalentLinearization::Force::laplace ? 8 * pi * pi * pi : std::pow(pi, 5) / 2;
+    return factor * velocity * velocity * (velocity / coulomb->forward());
   }
   if (const auto* const wheel = std::get_if<Caster>(&law); wheel != nullptr && wheel->slip_level() > 0) {
-    if (std::isinf(wheel->reach())) return growth_rate(Coulomb(wheel->slip_level()), natural_frequency, s0);
+    if (std::isinf(wheel->reach())) return growth_rate(Coulomb(wheel->slip_level()), natural_frequency, s0, options);
     if (wheel->slip_level() * wheel->reach() * natural_frequency > pi * s0) return 0;
   }
   return nowhere;
 }
 
-std::string remark(const detail::LinearizedLaw& law, const EquivalentLinearization::Options& options,
-                   double natural_frequency, double s0) {
+std::string remark(const detail::LinearizedLaw& law, const Options& options, double natural_frequency, double s0) {
   const auto* const wheel = std::get_if<Caster>(&law);
   const auto* const coulomb = std::get_if<Coulomb>(&law);
   if ((coulomb != nullptr && coulomb->forward() == 0) || (wheel != nullptr && wheel->slip_level() == 0))
@@ -46,6 +61,10 @@ std::string remark(const detail::LinearizedLaw& law, const EquivalentLinearizati
   if (options.start == EquivalentLinearization::Start::thesis)
     return "starts from (3.38) to (3.40), whose q11(0) outweighs the displacement up to t = 0.2 S0 / a^2";
   if (natural_frequency > 0) return {};
+  if (options.force == EquivalentLinearization::Force::laplace)
+    return "the stationary velocity variance is exact, the growth of the displacement variance 20 % low: WhiteNoise "
+           "has "
+           "the exact figures";
   if (coulomb != nullptr || (wheel != nullptr && std::isinf(wheel->reach())))
     return "the stationary velocity variance is 21 % low and the growth of the displacement variance 51 %: WhiteNoise "
            "has the exact figures";
@@ -57,6 +76,38 @@ std::string remark(const detail::LinearizedLaw& law, const EquivalentLinearizati
     return "gamma = S0^2 / (reach a^3) is small: the displacement variance is low by up to a factor of three while the "
            "caster breaks loose";
   return {};
+}
+
+Moments moments_of(std::span<const double> times, std::span<const detail::ShapedState> states) {
+  Moments moments = detail::moments_at(times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    moments.displacement_mean.value[i] = states[i].displacement_mean;
+    moments.displacement_variance.value[i] = states[i].q11;
+    moments.covariance.value[i] = states[i].q12;
+    moments.velocity_mean.value[i] = states[i].velocity_mean;
+    moments.velocity_variance.value[i] = states[i].q22;
+  }
+  return moments;
+}
+
+std::string percent(double fraction) { return shortest(std::round(1000 * fraction) / 10) + " %"; }
+
+std::string shaped_remark(const detail::ShapedProblem& problem) {
+  std::string all;
+  const auto add = [&](const std::string& remark) { all += (all.empty() ? "" : "; ") + remark; };
+  if (problem.filter.misfit() > 0)
+    add("a filter of order " + std::to_string(problem.filter.order()) + " stands for the spectrum and misplaces " +
+        percent(problem.filter.misfit()) + " of its variance");
+  const double ratio = detail::motion_ratio(problem);
+  if (ratio < 1.5)
+    add("the rms acceleration of the ground is " + shortest(std::round(1000 * ratio) / 1000) +
+        " times that below which no motion is predicted, thesis (4.22): displacements may be far too small");
+  if (problem.natural_frequency == 0 && problem.filter(0) == 0 && std::isfinite(ratio))
+    add("no acceleration at zero frequency: under friction the displacement drifts all the same");
+  if (problem.noise.returns())
+    add("the excitation has no line at zero frequency, so that ground velocities return to where they began; the "
+        "spectrum is taken without that gap");
+  return all;
 }
 
 }  // namespace
@@ -72,29 +123,66 @@ std::string EquivalentLinearization::name() const {
       return noun;
     case Force::gaussian_a22:
       return noun + ", gaussian_a22";
+    case Force::laplace:
+      return noun + ", laplace";
     case Force::thesis:
       return noun + ", thesis";
   }
   return noun;
 }
 
-void EquivalentLinearization::check(const detail::LinearizedLaw& law, double s0) const {
-  detail::check_start(law, s0, options_.start);
-  detail::expectation(law, options_.force, 0);
+void EquivalentLinearization::check(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) const {
+  if (const auto s0 = two_states(law, damping, noise)) {
+    detail::check_start(law, *s0, options_.start);
+    detail::expectation(law, options_.force, 0);
+    return;
+  }
+  if (options_.start == Start::thesis)
+    throw std::invalid_argument(noun + ": (3.38) to (3.40) are of stationary white noise, equal levels and no damper");
+  detail::AverageFriction(law, options_.force, 0);
 }
 
-Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double s0,
-                                         std::span<const double> times, const std::function<void()>& heartbeat) const {
-  const auto solution = detail::solve_covariance(law, natural_frequency, s0, times, options_, heartbeat);
-  Moments moments = detail::moments_at(times);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto& [q11, q12, q22] = solution.covariance[i];
-    moments.displacement_variance.value[i] = q11;
-    moments.covariance.value[i] = q12;
-    moments.velocity_variance.value[i] = q22;
+Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double damping,
+                                         const ShapedNoise& noise, std::span<const double> times,
+                                         const std::function<void()>& heartbeat) const {
+  if (const auto s0 = two_states(law, damping, noise)) {
+    const auto solution = detail::solve_covariance(law, natural_frequency, *s0, times, options_, heartbeat);
+    Moments moments = detail::moments_at(times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const auto& [q11, q12, q22] = solution.covariance[i];
+      moments.displacement_variance.value[i] = q11;
+      moments.covariance.value[i] = q12;
+      moments.velocity_variance.value[i] = q22;
+    }
+    moments.growth_rate.value = growth_rate(law, natural_frequency, *s0, options_);
+    moments.remark = remark(law, options_, natural_frequency, *s0);
+    return moments;
   }
-  moments.growth_rate.value = growth_rate(law, natural_frequency, s0);
-  moments.remark = remark(law, options_, natural_frequency, s0);
+  check(law, damping, noise);
+  detail::check_times(noun, times);
+  const ShapingFilter filter = noise.filter(options_.filter);
+  const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
+  Moments moments = moments_of(times, detail::solve_shaped(problem, times, heartbeat).state);
+  try {
+    if (!noise.envelope()) moments.growth_rate.value = detail::solve_stationary(problem).growth_rate;
+  } catch (const std::invalid_argument&) {  // there is no stationary solution
+  }
+  moments.remark = shaped_remark(problem);
+  return moments;
+}
+
+Moments EquivalentLinearization::stationary(const detail::LinearizedLaw& law, double natural_frequency, double damping,
+                                            const ShapedNoise& noise) const {
+  const ShapingFilter filter = noise.filter(options_.filter);
+  const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
+  const detail::StationaryState found = detail::solve_stationary(problem);
+  const double never = std::numeric_limits<double>::infinity();
+  Moments moments = moments_of(std::span(&never, 1), std::span(&found.state, 1));
+  moments.growth_rate.value = found.growth_rate;
+  moments.remark = shaped_remark(problem);
+  if (!std::isfinite(found.state.q11))
+    moments.remark += std::string(moments.remark.empty() ? "" : "; ") +
+                      "without a spring the displacement has no stationary variance";
   return moments;
 }
 

@@ -167,12 +167,16 @@ double scaled_erfc(double z) {
 
 Expectation expectation(const LinearizedLaw& law, Force force, double farthest) {
   const bool a21 = force == Force::gaussian;
+  if (force == Force::laplace && !std::holds_alternative<Coulomb>(law))
+    throw std::invalid_argument("EquivalentLinearization: the Laplacian density is that of Coulomb friction");
   if (const auto* const coulomb = std::get_if<Coulomb>(&law)) {
     const double a = coulomb->forward();
     if (a != coulomb->backward())
       throw std::invalid_argument("EquivalentLinearization: covers laws that are the same both ways, got levels of " +
                                   shortest(a) + " and " + shortest(coulomb->backward()) + " m/s^2");
-    return [a](double, double, double) { return Friction{a, 0}; };
+    // E[F x'] / q22 = a E|x'| / q22, and E|x'| is sqrt(q22 / 2) for a Laplacian density
+    const double level = force == Force::laplace ? a * std::sqrt(pi) / 2 : a;
+    return [level](double, double, double) { return Friction{level, 0}; };
   }
   if (const auto* const wheel = std::get_if<Caster>(&law)) {
     const double a = wheel->slip_level(), reach = wheel->reach();
@@ -189,6 +193,52 @@ Expectation expectation(const LinearizedLaw& law, Force force, double farthest) 
     throw std::invalid_argument("EquivalentLinearization: the thesis's force (3.28) is that of Coulomb and Caster");
   const Expectation whole = Quadrature(std::get<AnyLaw>(law), farthest);
   return a21 ? whole : without_a21(whole);
+}
+
+namespace {
+
+/// Constant levels under a Gaussian velocity of mean m and standard deviation s.
+MeanFriction gaussian_average(double forward, double backward, double m, double s) {
+  const double z = m / s;
+  return {(forward - backward) / 2 + (forward + backward) / 2 * std::erf(z / std::numbers::sqrt2), 0,
+          -(forward + backward) / s * std::exp(-z * z / 2) / std::sqrt(2 * pi)};
+}
+
+/// The same under the density that white noise makes exactly, exp(-v / up) / (up + down) for v > 0 and
+/// exp(v / down) / (up + down) for v < 0: m = up - down, s^2 = up^2 + down^2. Where |m| > s all of it goes one way.
+MeanFriction laplace_average(double forward, double backward, double m, double s) {
+  if (std::abs(m) >= s) return {m > 0 ? forward : -backward, 0, 0};
+  const double root = std::sqrt(2 * s * s - m * m), up = (root + m) / 2, down = (root - m) / 2;
+  return {(forward * up - backward * down) / root, 0, -(forward + backward) * (up / s) * (down / s) / root};
+}
+
+}  // namespace
+
+AverageFriction::AverageFriction(const LinearizedLaw& law, Force force, double farthest)
+    : laplace_(force == Force::laplace) {
+  if (const auto* const coulomb = std::get_if<Coulomb>(&law)) {
+    forward_ = coulomb->forward();
+    backward_ = coulomb->backward();
+    require(std::isfinite(backward_), "EquivalentLinearization: both slip levels must be finite; backward", backward_,
+            "m/s^2");
+    none_ = forward_ == 0 && backward_ == 0;
+    return;
+  }
+  expectation_ = expectation(law, force, farthest);
+  const auto* const wheel = std::get_if<Caster>(&law);
+  forward_ = backward_ = wheel != nullptr ? wheel->slip_level() : std::get<AnyLaw>(law)(0, Direction::forward);
+  none_ = wheel != nullptr && forward_ == 0;
+}
+
+MeanFriction AverageFriction::operator()(double velocity, double q11, double q12, double q22) const {
+  const double s = std::sqrt(q22);
+  if (!expectation_)
+    return laplace_ ? laplace_average(forward_, backward_, velocity, s)
+                    : gaussian_average(forward_, backward_, velocity, s);
+  const double displacement = std::sqrt(q11);
+  const double c = displacement > 0 ? std::clamp(q12 / displacement / s, -1.0, 1.0) : 0;
+  const Friction friction = expectation_(displacement, c, std::sqrt((1 - c) * (1 + c)));
+  return {0, displacement > 0 ? friction.pull / displacement : 0, -root_2_over_pi * friction.level / s};
 }
 
 }  // namespace stickslip::detail

@@ -1,7 +1,9 @@
-// Gaussian expectations of a friction law, which make it linear.
+// Expectations of a friction law, which make it linear.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "stickslip/theory/equivalent_linearization.hpp"
 
@@ -20,6 +22,41 @@ using Expectation = std::function<Friction(double displacement, double c, double
 /// @throws std::invalid_argument where the law is not the same both ways, is negative or not finite, or where the
 /// force does not cover it
 Expectation expectation(const LinearizedLaw& law, theory::EquivalentLinearization::Force force, double farthest);
+
+/// Friction F = level(x) sgn(x') about the means of x and x': F = mean - a21 (x - E x) - a22 (x' - E x').
+struct MeanFriction {
+  double mean;  ///< E F [m/s^2]
+  double a21;   ///< [1/s^2]
+  double a22;   ///< [1/s]
+};
+
+/// A law's expectations with means, for any state of the covariance.
+class AverageFriction {
+ public:
+  /// As `expectation`; Coulomb friction may have unequal levels.
+  AverageFriction(const LinearizedLaw& law, theory::EquivalentLinearization::Force force, double farthest);
+
+  /// Whether there is none at all.
+  bool none() const noexcept { return none_; }
+
+  /// Whether the levels differ, so that the slider drifts.
+  bool drifts() const noexcept { return forward_ != backward_; }
+
+  /// The level at x = 0, the mean of both ways [m/s^2].
+  double level() const noexcept { return (forward_ + backward_) / 2; }
+
+  /// What friction is at most times the rms velocity, -a22 sqrt(q22), for equal levels at x = 0, relative to the level.
+  double strength() const noexcept { return laplace_ ? std::numbers::sqrt2 / 2 : std::sqrt(2 / std::numbers::pi); }
+
+  /// @param velocity  mean of x' [m/s]; that of x does not matter, for only levels that are constant differ
+  /// @param q22       positive; q11 >= 0
+  MeanFriction operator()(double velocity, double q11, double q12, double q22) const;
+
+ private:
+  Expectation expectation_;  // of a law of position
+  double forward_, backward_;
+  bool none_, laplace_;
+};
 
 /// z exp(z^2) erfc(z) for z >= 0, from 0 to 1 / sqrt(pi).
 double scaled_erfc(double z);

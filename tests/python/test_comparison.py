@@ -25,6 +25,9 @@ def test_pulses_bring_all_pulse_theories():
     c = ss.compare(BLOCK, PULSES, [15.0, 30.0, 60.0], members=20_000, seed=1)
     assert list(c.theories) == [
         "PulseChain",
+        "EquivalentLinearization",
+        "EquivalentLinearization, laplace",
+        "EquivalentLinearization, thesis",
         "PulseSuperposition, renewal",
         "PulseSuperposition, thesis",
         "PulseSuperposition, none",
@@ -58,6 +61,7 @@ def test_white_noise_brings_the_exact_answer_and_linearization():
     assert list(c.theories) == [
         "WhiteNoise",
         "EquivalentLinearization",
+        "EquivalentLinearization, laplace",
         "EquivalentLinearization, thesis",
         "StationaryLinearization",
     ]
@@ -79,7 +83,7 @@ def test_a_caster_that_escapes_is_left_to_the_simulation():
     cart = ss.Caster.from_geometry(mu=0.5, trail=0.04, wheel_width=0.032, thesis=True)
     quake = ss.PoissonPulses.event("great very near field")
     c = ss.compare(cart, quake, [10.0, 60.0], members=640, seed=1)
-    assert c.theories == {}
+    assert list(c.theories) == ["EquivalentLinearization", "EquivalentLinearization, thesis"]
     assert "escapes" in c.refused["PulseSuperposition, renewal"]
     assert "PulseSuperposition, none does not apply: " in str(c)
 
@@ -87,8 +91,29 @@ def test_a_caster_that_escapes_is_left_to_the_simulation():
 def test_other_spectra_bring_stationary_linearization():
     band = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=1.0, low=2.0, high=4.0), 0.1, 1024)
     c = ss.compare(BLOCK, band, members=640, seed=1)
-    assert list(c.theories) == ["StationaryLinearization"]
+    assert list(c.theories) == [
+        "EquivalentLinearization",
+        "EquivalentLinearization, laplace",
+        "EquivalentLinearization, thesis",
+        "StationaryLinearization",
+    ]
+    assert "misplaces 12.6 % of its variance" in c.theories["EquivalentLinearization"].remark
     assert len(c.time) == 6 and c.time[-1] == pytest.approx(band.duration)
+
+
+def test_an_envelope_leaves_linearization_in_time():
+    fading = ss.GaussianExcitation(
+        ss.Spectrum.kanai_tajimi(s0=0.1, frequency=15, damping=0.6),
+        0.02,
+        1024,
+        zero_frequency=True,
+        envelope=ss.Envelope(build_up=4, strong=10, decay_rate=0.5),
+    )
+    cart = ss.Slider(ss.Caster(slip_level=0.5, reach=0.3), natural_frequency=2.0)
+    c = ss.compare(cart, fading, [4.0, 12.0], members=640, seed=1)
+    assert list(c.theories) == ["EquivalentLinearization", "EquivalentLinearization, thesis"]
+    with pytest.raises(ValueError, match="envelope must be None"):
+        ss.compare(BLOCK, fading, members=64, theories=[ss.theory.StationaryLinearization()])
 
 
 def test_the_table_has_theory_over_simulation():
@@ -128,16 +153,6 @@ def test_times_out_of_range_are_named(times, message):
 def test_other_excitations_are_refused():
     with pytest.raises(TypeError, match="GaussianExcitation or PoissonPulses, got GroundMotion"):
         ss.compare(BLOCK, PULSES.sample(seed=1, member=0))
-    with pytest.raises(ValueError, match="envelope must be None"):
-        ss.compare(
-            BLOCK,
-            ss.GaussianExcitation(
-                ss.Spectrum.band_pass(s0=1.0, low=2.0, high=4.0),
-                0.1,
-                1024,
-                envelope=ss.Envelope(build_up=4, strong=10, decay_rate=0.5),
-            ),
-        )
     periodic = ss.GaussianExcitation(ss.Spectrum.white(s0=1.0), 0.1, 401)
     with pytest.raises(ValueError, match="zero_frequency must be True"):
         ss.compare(BLOCK, periodic, [20.0])

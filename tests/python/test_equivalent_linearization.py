@@ -79,6 +79,9 @@ def test_what_is_typed_is_what_is_kept():
     el = EquivalentLinearization(force="thesis", start="thesis", tolerance=1e-6)
     assert (el.force, el.start, el.tolerance) == ("thesis", "thesis", 1e-6)
     assert repr(el) == "EquivalentLinearization(force='thesis', start='thesis', tolerance=1e-06)"
+    fine = EquivalentLinearization("laplace", filter_order=10, max_misfit=0.1)
+    assert (fine.force, fine.filter_order, fine.max_misfit) == ("laplace", 10, 0.1)
+    assert eval(repr(fine)) == fine
     assert EquivalentLinearization("gaussian_a22").force == "gaussian_a22"
     assert EquivalentLinearization().force == "gaussian"
 
@@ -113,9 +116,11 @@ def test_transition_times_have_names():
         (lambda: EquivalentLinearization(start="zero"), ValueError, "start must be 'rest'"),
         (lambda: EquivalentLinearization(tolerance=0), ValueError, "tolerance must be from"),
         (
-            lambda: EquivalentLinearization().predict(ss.Coulomb(slip_level=1, backward=2), 1, [1]),
+            lambda: EquivalentLinearization().predict(
+                ss.Coulomb(slip_level=1, backward=math.inf), 1, [1]
+            ),
             ValueError,
-            "same both ways",
+            "both slip levels must be finite",
         ),
         (
             lambda: EquivalentLinearization().predict(ss.Coulomb(slip_level=1), -1, [1]),
@@ -134,11 +139,11 @@ def test_transition_times_have_names():
         ),
         (lambda: EquivalentLinearization().predict("block", 1, [1]), TypeError, "incompatible"),
         (
-            lambda: EquivalentLinearization().predict(
-                ss.Coulomb(slip_level=1), ss.Spectrum.band_pass(s0=1, low=0, high=2), [1]
+            lambda: EquivalentLinearization(filter_order=2).predict(
+                ss.Coulomb(slip_level=1), ss.Spectrum.band_pass(s0=1, low=1, high=2), [1]
             ),
             ValueError,
-            "white noise only",
+            r"no filter of order 2 fits the spectrum: the best misplaces 0\.",
         ),
         (
             lambda: EquivalentLinearization().coefficients(ss.Coulomb(slip_level=1), 1, 1, 1),

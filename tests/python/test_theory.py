@@ -8,9 +8,11 @@ import stickslip as ss
 from stickslip import theory
 
 BLOCK, SLOPE = ss.Coulomb(slip_level=1.0), ss.Coulomb(slip_level=1.0, backward=1.5)
+NEWMARK = ss.Coulomb(slip_level=1.0, backward=math.inf)
 SPRUNG, CART = ss.Slider(BLOCK, natural_frequency=2.0), ss.Caster(slip_level=1.0, reach=2.0)
 WHITE = ss.Spectrum.white(s0=0.7)
 BAND = ss.Spectrum.band_pass(s0=1.0, low=2.0, high=4.0)
+SOIL = ss.Spectrum.kanai_tajimi(s0=0.02, frequency=15.0, damping=0.6)
 FADING = ss.Envelope(build_up=1, strong=2, decay_rate=3)
 SHAKING = ss.GaussianExcitation(WHITE, 0.1, 256, zero_frequency=True)
 PULSES = ss.PoissonPulses(rate=0.5, half_width=1.0, sigma=5.0, duration=60.0)
@@ -46,37 +48,37 @@ class Mine:
 @pytest.mark.parametrize(
     ("slider", "excitation", "covering", "refusing"),
     [
-        (BLOCK, 0.7, "WESs", ""),
-        (BLOCK, 1, "WESs", ""),
-        (BLOCK, np.float64(0.7), "WESs", ""),
-        (BLOCK, WHITE, "WESs", ""),
-        (BLOCK, SHAKING, "WESs", ""),
-        (SPRUNG, SHAKING, "ESs", "W"),
-        (SLOPE, SHAKING, "W", "ESs"),
-        (CART, SHAKING, "ES", "Ws"),
-        (BLOCK, BAND, "s", ""),
-        (BLOCK, ss.GaussianExcitation(BAND, 0.1, 1024), "s", ""),
-        (CART, BAND, "", "s"),
-        (BLOCK, ss.GaussianExcitation(BAND, 0.1, 1024, envelope=FADING), "", ""),
+        (BLOCK, 0.7, "WELSs", ""),
+        (BLOCK, 1, "WELSs", ""),
+        (BLOCK, np.float64(0.7), "WELSs", ""),
+        (BLOCK, WHITE, "WELSs", ""),
+        (BLOCK, SHAKING, "WELSs", ""),
+        (SPRUNG, SHAKING, "ELSs", "W"),
+        (SLOPE, SHAKING, "WELS", "s"),
+        (CART, SHAKING, "ES", "WLs"),
+        (BLOCK, BAND, "ELSs", ""),
+        (BLOCK, ss.GaussianExcitation(BAND, 0.1, 1024), "ELSs", ""),
+        (CART, BAND, "ES", "Ls"),
+        (BLOCK, ss.GaussianExcitation(BAND, 0.1, 1024, envelope=FADING), "ELS", ""),
         (BLOCK, ss.GaussianExcitation(WHITE, 0.1, 256), "", ""),
         (BLOCK, math.nan, "", ""),
-        (BLOCK, PULSES, "Crtn", ""),
-        (CART, PULSES, "rtn", "C"),
-        (SPRUNG, PULSES, "", "Crtn"),
+        (BLOCK, PULSES, "CELSrtn", ""),
+        (CART, PULSES, "ESrtn", "CL"),
+        (SPRUNG, PULSES, "ELS", "Crtn"),
         (BLOCK, HARMONIC, "V", ""),
         (SLOPE, HARMONIC, "", "V"),
         (BLOCK, Sweep(), "", ""),
         (BLOCK, "white", "", ""),
-        (ss.ViscousSlider(0.5), PULSES, "", "Crtn"),
-        (ss.Slider(BLOCK, damping=0.3), PULSES, "", "Crtn"),
-        (ss.Slider(BLOCK, damping=0.3), SHAKING, "", "WESs"),
+        (ss.ViscousSlider(0.5), PULSES, "ELS", "Crtn"),
+        (ss.Slider(BLOCK, damping=0.3), PULSES, "ELS", "Crtn"),
+        (ss.Slider(BLOCK, damping=0.3), SHAKING, "ELS", "Ws"),
         (ss.Slider(CART, damping=0.3), HARMONIC, "", "V"),
         ("block", HARMONIC, "", "V"),
     ],
 )
 def test_each_theory_says_what_it_covers(slider, excitation, covering, refusing):
-    assert len(theory.THEORIES) == len("WESsCrtnV")
-    for letter, asked in zip("WESsCrtnV", theory.THEORIES):
+    assert len(theory.THEORIES) == len("WCELSsrtnV")
+    for letter, asked in zip("WCELSsrtnV", theory.THEORIES):
         answer = asked.covers(slider, excitation)
         assert isinstance(answer, theory.Coverage)
         assert bool(answer) == (letter in covering)
@@ -90,8 +92,10 @@ def test_each_theory_says_what_it_covers(slider, excitation, covering, refusing)
     [
         (theory.WhiteNoise(), CART, 1.0, "covers Coulomb friction without a spring"),
         (theory.WhiteNoise(), SPRUNG, 1.0, "natural_frequency must be 0, got 2 rad/s"),
-        (theory.EquivalentLinearization(), BLOCK, BAND, "covers white noise only"),
-        (theory.EquivalentLinearization(), SLOPE, 1.0, "levels of 1 and 1.5 m/s^2"),
+        (theory.EquivalentLinearization(), NEWMARK, 1.0, "both slip levels must be finite"),
+        (theory.EquivalentLinearization("laplace"), CART, BAND, "density is that of Coulomb"),
+        (theory.EquivalentLinearization(start="thesis"), BLOCK, BAND, "stationary white noise"),
+        (theory.EquivalentLinearization(), BLOCK, HARMONIC, "covers white noise, spectra"),
         (theory.StationaryLinearization(), SLOPE, BAND, "same both ways"),
         (theory.PulseChain(), CART, PULSES, "PulseSuperposition covers other laws"),
         (theory.PulseChain(), ss.ViscousSlider(0.5), PULSES, "damping must be 0, got 0.5"),
@@ -131,6 +135,14 @@ def test_every_class_with_a_prediction_is_a_theory():
             CART,
             [WHITE, SHAKING],
             lambda: theory.EquivalentLinearization("thesis").predict(CART, 0.7, TIMES),
+        ),
+        (
+            theory.EquivalentLinearization(),
+            CART,
+            [SOIL, ss.GaussianExcitation(SOIL, 0.02, 256, zero_frequency=True)],
+            lambda: theory.EquivalentLinearization().predict(
+                CART, theory.ShapingFilter.of(SOIL), TIMES
+            ),
         ),
         (
             theory.StationaryLinearization(),
@@ -194,7 +206,7 @@ def test_a_theory_of_your_own_is_compared():
     assert str(c).count("  mine") == 2 and "nan" not in str(c)  # variance of x, growth rate
     everything = [Mine(), *theory.THEORIES]
     c = ss.compare(BLOCK, PULSES, [60.0], members=64, theories=everything)
-    assert next(iter(c.theories)) == "mine" and len(c.theories) == 5
+    assert next(iter(c.theories)) == "mine" and len(c.theories) == 8
 
 
 def test_an_excitation_of_your_own_has_theories_of_your_own():

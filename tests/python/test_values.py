@@ -95,7 +95,13 @@ EXAMPLES = {
     ss.Interval: [ENSEMBLE.quantile(0.5), ENSEMBLE.quantile(0.999)],
     ss.Stationary: [ENSEMBLE.stationary, SMALLER.stationary],
     ss.VelocitySpectrum: [ENSEMBLE.velocity_spectrum, SMALLER.velocity_spectrum],
-    ss.Moments: [ENSEMBLE.moments, *COMPARED.theories.values(), LINEARIZED[0].transient([1, 2])],
+    ss.Moments: [
+        ENSEMBLE.moments,
+        COMPARED.theories["PulseChain"],
+        COMPARED.theories["EquivalentLinearization"],
+        COMPARED.theories["EquivalentLinearization, laplace"],
+        LINEARIZED[0].transient([1, 2]),
+    ],
     ss.Ensemble: [
         ENSEMBLE,
         SMALLER,
@@ -122,6 +128,8 @@ EXAMPLES = {
         theory.EquivalentLinearization(),
         theory.EquivalentLinearization("thesis", start="thesis"),
         theory.EquivalentLinearization(tolerance=1e-9),
+        theory.EquivalentLinearization("laplace", filter_order=6),
+        theory.EquivalentLinearization(max_misfit=0.5),
     ],
     theory.HarmonicSolution: theory.SlowlyVaryingParameters(CART).response(3, 1.2),
     theory.PulseChain: [theory.PulseChain(), theory.PulseChain(refined=True)],
@@ -131,6 +139,11 @@ EXAMPLES = {
     ],
     theory.PulseSuperposition: [
         theory.PulseSuperposition(overlap) for overlap in ("none", "thesis", "renewal")
+    ],
+    theory.ShapingFilter: [
+        theory.ShapingFilter(0.3),
+        theory.ShapingFilter(0.3, [(0, 1, 4, 1, 4)]),
+        theory.ShapingFilter.of(BAND, order=6),
     ],
     theory.SlowlyVaryingParameters: [
         theory.SlowlyVaryingParameters(CART),

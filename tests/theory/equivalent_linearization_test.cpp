@@ -430,7 +430,9 @@ TEST_CASE("transition times", "[equivalent_linearization]") {
 
 TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
   const std::array<double, 1> one = {1};
-  CHECK_THROWS_WITH(by_gauss.predict(Coulomb(1, 2), 1.0, one),
+  CHECK_THROWS_WITH(by_gauss.predict(Coulomb(1, infinity), 1.0, one),
+                    ContainsSubstring("both slip levels must be finite; backward, got inf m/s^2"));
+  CHECK_THROWS_WITH(by_gauss.coefficients(Coulomb(1, 2), 1, 0, 1),
                     ContainsSubstring("the same both ways, got levels of 1 and 2 m/s^2"));
   CHECK_THROWS_WITH(by_gauss.predict(Ramp{1, -1e-3}, 1.0, std::array<double, 1>{1e4}), ContainsSubstring("at least 0"));
   struct Uphill {
@@ -442,8 +444,9 @@ TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
     double resist(double x, Direction) const { return std::abs(x) < 1 ? 1 : 0.2; }
   };
   CHECK_THROWS_AS(by_gauss.coefficients(Kinked{}, 1, 0.3, 1), ConvergenceError);
-  CHECK_THROWS_WITH(by_gauss.predict(Coulomb(1), Spectrum::band_pass(1, 0, 2), one),
-                    ContainsSubstring("white noise only"));
+  CHECK_THROWS_WITH(
+      EquivalentLinearization({.filter = {.order = 2}}).predict(Coulomb(1), Spectrum::band_pass(1, 1, 2), one),
+      ContainsSubstring("no filter of order 2 fits the spectrum: the best misplaces 0."));
   CHECK_THROWS_AS(by_gauss.predict(Coulomb(1), 0.0, one), std::invalid_argument);
   CHECK_THROWS_AS(by_gauss.predict(Coulomb(1), not_a_number, one), std::invalid_argument);
   CHECK_THROWS_WITH(by_gauss.predict(Coulomb(1), 1.0, std::array<double, 1>{-1}),

@@ -57,7 +57,9 @@ using Own = Slider<Bump>;
 static_assert(Theory<WhiteNoise, Block, double> && Theory<WhiteNoise, Block, WhiteLevel> &&
               Theory<WhiteNoise, Block, Spectrum> && Theory<WhiteNoise, Block, GaussianExcitation>);
 static_assert(Theory<EquivalentLinearization, Block, double> && Theory<EquivalentLinearization, Cart, Spectrum> &&
-              Theory<EquivalentLinearization, Own, GaussianExcitation>);
+              Theory<EquivalentLinearization, Own, GaussianExcitation> &&
+              Theory<EquivalentLinearization, Block, PoissonPulses> &&
+              Theory<EquivalentLinearization, Cart, ShapingFilter>);
 static_assert(Theory<StationaryLinearization, Block, double> && Theory<StationaryLinearization, Block, Spectrum> &&
               Theory<StationaryLinearization, Block, GaussianExcitation>);
 static_assert(Theory<PulseChain, Block, PoissonPulses>);
@@ -70,11 +72,12 @@ static_assert(Theory<SlowlyVaryingParameters, Block, HarmonicMotion> &&
 // What the types alone exclude does not compile.
 static_assert(!Theory<WhiteNoise, Cart, double> && !Theory<StationaryLinearization, Cart, Spectrum> &&
               !Theory<PulseChain, Cart, PoissonPulses> && !Theory<PulseChain, Block, Spectrum> &&
-              !Theory<EquivalentLinearization, Block, PoissonPulses> &&
+              !Theory<EquivalentLinearization, Block, HarmonicMotion> &&
               !Theory<SlowlyVaryingParameters, Block, double>);
 
 const auto theories =
     std::tuple(WhiteNoise(), EquivalentLinearization(),
+               EquivalentLinearization({.force = EquivalentLinearization::Force::laplace}),
                EquivalentLinearization({.force = EquivalentLinearization::Force::thesis}), StationaryLinearization(),
                PulseChain(), PulseSuperposition(), PulseSuperposition(Overlap::none), SlowlyVaryingParameters());
 
@@ -90,13 +93,15 @@ PoissonPulses pulses_with(PoissonOptions options) { return {0.5, 1, 5, 60, std::
 // Of mean square 1: of mean 0, uniform; and one where a fifth of the amplitudes are 2 and the rest -1/2.
 double uniform(double u) { return std::sqrt(3) * (2 * u - 1); }
 double skew(double u) { return u > 0.8 ? 2 : -0.5; }
+double one_way(double u) { return std::sqrt(3) * u; }
 
 const PoissonPulses pulses = pulses_with({}), uneven = pulses_with({.shape = PulseShape({0, 1, 3}, {2, -1})}),
                     swelling = pulses_with({.envelope = Envelope(1, 2, 3)}),
                     even = pulses_with({.quantile = PoissonPulses::each(uniform)}),
-                    skewed = pulses_with({.quantile = PoissonPulses::each(skew)}), dense(2e6, 1, 5, 10);
+                    skewed = pulses_with({.quantile = PoissonPulses::each(skew)}),
+                    lopsided = pulses_with({.quantile = PoissonPulses::each(one_way)}), dense(2e6, 1, 5, 10);
 const HarmonicMotion harmonic(4, 3, 60);
-const Block block(Coulomb(1)), sprung(Coulomb(1), 2), slope(Coulomb(1, 1.5));
+const Block block(Coulomb(1)), sprung(Coulomb(1), 2), slope(Coulomb(1, 1.5)), newmark(Coulomb(1, INFINITY));
 const Cart cart(Caster(1, 2));
 const Own own{Bump()};
 const Slider ratchet{Ratchet()};
@@ -138,40 +143,46 @@ bool same(const Moments& a, const Moments& b) {
 }  // namespace
 
 TEST_CASE("each theory says which sliders and excitations it covers", "[theory]") {
-  // WhiteNoise; EquivalentLinearization, with the thesis's force; StationaryLinearization; PulseChain;
-  // PulseSuperposition, without overlap; SlowlyVaryingParameters
-  CHECK(answers(block, 0.7) == "yyyynnnn");
-  CHECK(answers(block, Spectrum::white(0.7)) == "yyyynnnn");
-  CHECK(answers(block, shaking) == "yyyynnnn");
-  CHECK(answers(sprung, shaking) == "syyynnnn");
-  CHECK(answers(slope, shaking) == "ysssnnnn");
-  CHECK(answers(cart, shaking) == "syysnnnn");
-  CHECK(answers(own, shaking) == "syssnnnn");
-  CHECK(answers(ratchet, shaking) == "ssssnnnn");
-  CHECK(answers(block, -1.0) == "nnnnnnnn");
-  CHECK(answers(block, no_mean) == "nnnnnnnn");
-  CHECK(answers(block, band) == "nnnynnnn");
-  CHECK(answers(sprung, band.spectrum()) == "nnnynnnn");
-  CHECK(answers(block, fading) == "nnnnnnnn");
+  // WhiteNoise; EquivalentLinearization, with a Laplacian density, with the thesis's force; StationaryLinearization;
+  // PulseChain; PulseSuperposition, without overlap; SlowlyVaryingParameters
+  CHECK(answers(block, 0.7) == "yyyyynnnn");
+  CHECK(answers(block, Spectrum::white(0.7)) == "yyyyynnnn");
+  CHECK(answers(block, shaking) == "yyyyynnnn");
+  CHECK(answers(sprung, shaking) == "syyyynnnn");
+  CHECK(answers(slope, shaking) == "yyyysnnnn");
+  CHECK(answers(newmark, shaking) == "yssssnnnn");
+  CHECK(answers(damped, shaking) == "syyysnnnn");
+  CHECK(answers(cart, shaking) == "sysysnnnn");
+  CHECK(answers(own, shaking) == "sysssnnnn");
+  CHECK(answers(ratchet, shaking) == "sssssnnnn");
+  CHECK(answers(block, -1.0) == "nnnnnnnnn");
+  CHECK(answers(block, no_mean) == "nnnnnnnnn");
+  CHECK(answers(block, band) == "nyyyynnnn");
+  CHECK(answers(sprung, band.spectrum()) == "nyyyynnnn");
+  CHECK(answers(block, fading) == "nyyynnnnn");
+  CHECK(answers(cart, fading) == "nysynnnnn");
+  CHECK(answers(cart, ShapingFilter(1, {{0, 1, 1, 1, 1}})) == "nysynnnnn");
 
-  CHECK(answers(block, pulses) == "nnnnyyyn");
-  CHECK(answers(sprung, pulses) == "nnnnsssn");
-  CHECK(answers(slope, pulses) == "nnnnsyyn");
-  CHECK(answers(cart, pulses) == "nnnnsyyn");
-  CHECK(answers(own, pulses) == "nnnnsyyn");
-  CHECK(answers(block, swelling) == "nnnnsyyn");
-  CHECK(answers(cart, swelling) == "nnnnsssn");
-  CHECK(answers(block, uneven) == "nnnnsyyn");
-  CHECK(answers(block, even) == "nnnnysyn");
-  CHECK(answers(block, skewed) == "nnnnssyn");
-  CHECK(answers(block, dense) == "nnnnssyn");
+  CHECK(answers(block, pulses) == "nyyynyyyn");
+  CHECK(answers(sprung, pulses) == "nyyynsssn");
+  CHECK(answers(damped, pulses) == "nyyynsssn");
+  CHECK(answers(slope, pulses) == "nyyynsyyn");
+  CHECK(answers(cart, pulses) == "nysynsyyn");
+  CHECK(answers(own, pulses) == "nyssnsyyn");
+  CHECK(answers(block, swelling) == "nyyynsyyn");
+  CHECK(answers(cart, swelling) == "nysynsssn");
+  CHECK(answers(block, uneven) == "nyyynsyyn");
+  CHECK(answers(block, even) == "nyyynysyn");
+  CHECK(answers(block, skewed) == "nyyynssyn");
+  CHECK(answers(block, lopsided) == "nnnnnssyn");
+  CHECK(answers(block, dense) == "nyyynssyn");
 
-  CHECK(answers(block, harmonic) == "nnnnnnny");
-  CHECK(answers(sprung, harmonic) == "nnnnnnny");
-  CHECK(answers(slope, harmonic) == "nnnnnnns");
-  CHECK(answers(cart, harmonic) == "nnnnnnny");
-  CHECK(answers(own, harmonic) == "nnnnnnny");
-  CHECK(answers(ratchet, harmonic) == "nnnnnnns");
+  CHECK(answers(block, harmonic) == "nnnnnnnny");
+  CHECK(answers(sprung, harmonic) == "nnnnnnnny");
+  CHECK(answers(slope, harmonic) == "nnnnnnnns");
+  CHECK(answers(cart, harmonic) == "nnnnnnnny");
+  CHECK(answers(own, harmonic) == "nnnnnnnny");
+  CHECK(answers(ratchet, harmonic) == "nnnnnnnns");
 }
 
 TEST_CASE("a theory says in one sentence why it does not cover", "[theory]") {
@@ -179,7 +190,14 @@ TEST_CASE("a theory says in one sentence why it does not cover", "[theory]") {
   CHECK_THAT(WhiteNoise::covers(sprung, 1.0).reason, ContainsSubstring("natural_frequency must be 0, got 2 rad/s"));
   CHECK_THAT(WhiteNoise::covers(block, band).reason, ContainsSubstring("covers white noise only"));
   CHECK_THAT(EquivalentLinearization().covers(block, no_mean).reason, ContainsSubstring("zero_frequency must be True"));
-  CHECK_THAT(EquivalentLinearization().covers(slope, 1.0).reason, ContainsSubstring("got levels of 1 and 1.5 m/s^2"));
+  CHECK_THAT(EquivalentLinearization().covers(newmark, 1.0).reason,
+             ContainsSubstring("both slip levels must be finite; backward, got inf m/s^2"));
+  CHECK_THAT(EquivalentLinearization().covers(block, lopsided).reason,
+             ContainsSubstring("must have amplitudes of mean 0"));
+  CHECK_THAT(EquivalentLinearization({.force = EquivalentLinearization::Force::laplace}).covers(cart, 1.0).reason,
+             ContainsSubstring("the Laplacian density is that of Coulomb friction"));
+  CHECK_THAT(EquivalentLinearization({.start = EquivalentLinearization::Start::thesis}).covers(block, band).reason,
+             ContainsSubstring("(3.38) to (3.40) are of stationary white noise"));
   CHECK_THAT(
       EquivalentLinearization({.start = EquivalentLinearization::Start::thesis}).covers(Block(Coulomb(0)), 1.0).reason,
       ContainsSubstring("slip_level must be positive"));
@@ -192,13 +210,12 @@ TEST_CASE("a theory says in one sentence why it does not cover", "[theory]") {
   CHECK(PulseChain().covers(block, harmonic).reason == "PulseChain: covers PoissonPulses");
 }
 
-TEST_CASE("no theory covers a damper, static friction that differs from kinetic, or the speed", "[theory]") {
-  for (const std::string& all : {answers(damped, shaking), answers(glue, shaking), answers(film, shaking)})
-    CHECK(all == "ssssnnnn");
-  for (const std::string& all : {answers(damped, pulses), answers(glue, pulses), answers(film, pulses)})
-    CHECK(all == "nnnnsssn");
+TEST_CASE("no theory covers static friction that differs from kinetic, or the speed, and linearization alone a damper",
+          "[theory]") {
+  for (const std::string& all : {answers(glue, shaking), answers(film, shaking)}) CHECK(all == "sssssnnnn");
+  for (const std::string& all : {answers(glue, pulses), answers(film, pulses)}) CHECK(all == "nsssnsssn");
   for (const std::string& all : {answers(damped, harmonic), answers(glue, harmonic), answers(film, harmonic)})
-    CHECK(all == "nnnnnnns");
+    CHECK(all == "nnnnnnnns");
   CHECK(PulseChain().covers(damped, pulses).reason ==
         "PulseChain: a slider with a damper is not covered, damping must be 0, got 0.3 1/s");
   CHECK(PulseSuperposition().covers(glue, pulses).reason ==
@@ -212,9 +229,10 @@ TEST_CASE("no theory covers a damper, static friction that differs from kinetic,
 TEST_CASE("variants of a theory have names of their own", "[theory]") {
   std::vector<std::string> names;
   std::apply([&](const auto&... theory) { (names.push_back(theory.name()), ...); }, theories);
-  CHECK(names == std::vector<std::string>{"WhiteNoise", "EquivalentLinearization", "EquivalentLinearization, thesis",
-                                          "StationaryLinearization", "PulseChain", "PulseSuperposition, renewal",
-                                          "PulseSuperposition, none", "SlowlyVaryingParameters"});
+  CHECK(names == std::vector<std::string>{"WhiteNoise", "EquivalentLinearization", "EquivalentLinearization, laplace",
+                                          "EquivalentLinearization, thesis", "StationaryLinearization", "PulseChain",
+                                          "PulseSuperposition, renewal", "PulseSuperposition, none",
+                                          "SlowlyVaryingParameters"});
   CHECK(PulseChain(true).name() == "PulseChain, refined");
 }
 

@@ -65,12 +65,10 @@ theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   }
 }
 
-/// Refuses what no theory covers: a damper beside friction, a resistance that depends on the speed, and static friction
-/// that differs from kinetic. A theory that covers one of them makes its own check instead.
+/// Refuses what no theory covers: a resistance that depends on the speed, and static friction that differs from
+/// kinetic.
 template <FrictionLaw Law>
-void require_plain(const Slider<Law>& slider, const std::string& theory) {
-  require(slider.damping() == 0, theory + ": a slider with a damper is not covered, damping must be 0",
-          slider.damping(), "1/s");
+void require_one_level(const Slider<Law>& slider, const std::string& theory) {
   if constexpr (!PositionLaw<Law>) {
     throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
   } else if constexpr (LawWithHold<Law>) {
@@ -82,6 +80,14 @@ void require_plain(const Slider<Law>& slider, const std::string& theory) {
               slider.law().hold(0.0, direction), "m/s^2");
     }
   }
+}
+
+/// The same, and a damper beside friction.
+template <FrictionLaw Law>
+void require_plain(const Slider<Law>& slider, const std::string& theory) {
+  require(slider.damping() == 0, theory + ": a slider with a damper is not covered, damping must be 0",
+          slider.damping(), "1/s");
+  require_one_level(slider, theory);
 }
 
 }  // namespace stickslip::detail

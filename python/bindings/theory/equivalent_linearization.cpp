@@ -11,8 +11,10 @@ using theory::TransitionTime;
 using Force = EquivalentLinearization::Force;
 using Start = EquivalentLinearization::Start;
 
-constexpr std::pair<const char*, Force> forces[] = {
-    {"gaussian", Force::gaussian}, {"gaussian_a22", Force::gaussian_a22}, {"thesis", Force::thesis}};
+constexpr std::pair<const char*, Force> forces[] = {{"gaussian", Force::gaussian},
+                                                    {"gaussian_a22", Force::gaussian_a22},
+                                                    {"laplace", Force::laplace},
+                                                    {"thesis", Force::thesis}};
 constexpr std::pair<const char*, Start> starts[] = {{"rest", Start::rest}, {"thesis", Start::thesis}};
 
 template <class T, std::size_t n>
@@ -29,12 +31,18 @@ const char* which_of(const std::pair<const char*, T> (&all)[n], T value) {
   return "";
 }
 
-Moments predict(const EquivalentLinearization& self, const AnySlider& slider, const AnyNoise& excitation,
+Moments predict(const EquivalentLinearization& self, const AnySlider& slider, const AnyShapedNoise& excitation,
                 const py::object& times) {
   const std::vector<double> t = to_vector(times, "EquivalentLinearization: times");
-  const theory::WhiteLevel level = white_level(excitation);
+  const theory::ShapedNoise noise = shaped_noise(excitation);
   const py::gil_scoped_release released;
-  return std::visit([&](const auto& s) { return self.predict(s, level, t, check_for_interrupt); }, slider);
+  return std::visit([&](const auto& s) { return self.predict(s, noise, t, check_for_interrupt); }, slider);
+}
+
+Moments stationary(const EquivalentLinearization& self, const AnySlider& slider, const AnyShapedNoise& excitation) {
+  const theory::ShapedNoise noise = shaped_noise(excitation);
+  const py::gil_scoped_release released;
+  return std::visit([&](const auto& s) { return self.stationary(s, noise); }, slider);
 }
 
 TransitionTime transition(const AnySlider& slider, const AnyNoise& s0) {
@@ -49,10 +57,16 @@ void bind_equivalent_linearization(py::module_& m) {
   auto type =
       value_class<EquivalentLinearization>(
           m, "EquivalentLinearization",
-          R"(Generalized equivalent linearization under white noise, thesis 3.3 and 3.4.
+          R"(Generalized equivalent linearization, thesis 3.3 and 3.4, also of excitation neither white nor stationary.
 
-At each time the friction is replaced by the linear force nearest to it in the mean square, a21 x + a22 x', the response
-taken as Gaussian. The covariance then follows
+At each time the friction is replaced by the linear force nearest to it in the mean square, a21 x + a22 x'. With the
+states of the filter that shapes the excitation, z = (x, x', filter), the covariance Q about the mean m follows::
+
+    Q' = A Q + (A Q)^T + 2 pi S0 b b^T                          (3.9)
+    m_x' = m_v,  m_v' = -E F - c m_v - wn^2 m_x,  F = level sgn(x')
+
+where the row of x' in A has -wn^2 + a21, -c + a22 and the acceleration of the filter, times the envelope. Under white
+noise these are::
 
     q11' = 2 q12                                                (3.32)
     q12' = (a21 - wn^2) q11 + a22 q12 + q22                     (3.33) corrected
@@ -63,38 +77,53 @@ is only where x and x' are uncorrelated, and simplifies a caster's level (3.28).
 
 Parameters
 ----------
-force : {'gaussian', 'gaussian_a22', 'thesis'}, optional
+force : {'gaussian', 'gaussian_a22', 'laplace', 'thesis'}, optional
     'gaussian': Gaussian expectations of the law itself. 'gaussian_a22': the same, but a21 = 0, (3.24) as the thesis has
-    it. 'thesis': a level of a / (1 + (x / reach)^2), (3.28) to (3.30), and a21 = 0.
+    it. 'laplace': expectations by the density that white noise makes exactly, two exponentials; Coulomb friction only.
+    'thesis': a level of a / (1 + (x / reach)^2), (3.28) to (3.30), and a21 = 0.
 start : {'rest', 'thesis'}, optional
-    'rest': x = x' = 0, by the series that the covariance begins with. 'thesis': (3.38) to (3.40), a^6 q11 / S0^4 =
-    0.01, a^4 q12 / S0^3 = 5.4e-8, a^2 q22 / S0^2 = 1.3e-5.
+    'rest': x = x' = 0. 'thesis': (3.38) to (3.40), a^6 q11 / S0^4 = 0.01, a^4 q12 / S0^3 = 5.4e-8, a^2 q22 / S0^2 =
+    1.3e-5; for white noise without an envelope, equal levels and no damper.
 tolerance : float, optional
     About the relative error of the answers; from 1e-12 to 1e-2.
+filter_order : int, optional
+    States of the filter fitted to a spectrum other than white, Kanai-Tajimi and Clough-Penzien, which have their own: 2,
+    4, ... 16.
+max_misfit : float, optional
+    Largest misfit of such a filter that is not refused, above 0; see `ShapingFilter`.
 
 Raises
 ------
 ValueError
-    Another name, a tolerance out of its range.
+    Another name, a tolerance out of its range. (`predict` raises for an order or misfit out of range.)
 
 Notes
 -----
-Covers Coulomb friction with the same level both ways, and casters, with a spring or without. The response is not
-Gaussian: for Coulomb friction the stationary velocity variance is 21 % low and the growth of the displacement variance
-51 %, see `WhiteNoise` for what is exact; for casters of small gamma = S0^2 / (reach a^3) the displacement variance is low
-by a factor of three while they break loose.
+Covers Coulomb friction, also of unequal levels, which drifts, and casters; springs and dampers; white noise, any
+spectrum through a `ShapingFilter`, Gaussian excitation with an envelope, and Poisson pulses by their second moments.
+
+The response is not Gaussian: for Coulomb friction under white noise the stationary velocity variance is 21 % low and the
+growth of the displacement variance 51 %, see `WhiteNoise` for what is exact; 'laplace' has the velocity variance exactly
+and 20 % too little growth. For casters of small gamma = S0^2 / (reach a^3) the displacement variance is low by a factor
+of three while they break loose. Where the rms acceleration is below sqrt(2/pi) times the slip level no motion is
+predicted at all, and where the excitation has no content at zero frequency the drift of a slider without a spring is
+missed. The page on linearization in time has a table of errors.
 
 References
 ----------
 W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik, S. Utku, Earthq. Eng. Struct. Dyn. 4
-(1976), 411-420.)")
-          .def(py::init([](const std::string& force, const std::string& start, double tolerance) {
+(1976), 411-420; S. H. Crandall, S. S. Lee, J. H. Williams, J. Appl. Mech. 41 (1974), 1094-1098.)")
+          .def(py::init([](const std::string& force, const std::string& start, double tolerance, int order,
+                           double max_misfit) {
                  return EquivalentLinearization(
-                     {.force = named(forces, force, "force must be 'gaussian', 'gaussian_a22' or 'thesis'"),
+                     {.force = named(forces, force, "force must be 'gaussian', 'gaussian_a22', 'laplace' or 'thesis'"),
                       .start = named(starts, start, "start must be 'rest' or 'thesis'"),
-                      .tolerance = tolerance});
+                      .tolerance = tolerance,
+                      .filter = {.order = order, .max_misfit = max_misfit}});
                }),
-               py::arg("force") = "gaussian", py::kw_only(), py::arg("start") = "rest", py::arg("tolerance") = 1e-10)
+               py::arg("force") = "gaussian", py::kw_only(), py::arg("start") = "rest", py::arg("tolerance") = 1e-10,
+               py::arg("filter_order") = theory::ShapingFilter::Fit().order,
+               py::arg("max_misfit") = theory::ShapingFilter::Fit().max_misfit)
           .def_property_readonly(
               "force", [](const EquivalentLinearization& self) { return which_of(forces, self.options().force); },
               "What stands for friction.")
@@ -104,36 +133,75 @@ W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik
           .def_property_readonly(
               "tolerance", [](const EquivalentLinearization& self) { return self.options().tolerance; },
               "About the relative error of the answers.")
-          .def("predict", &predict, py::arg("slider"), py::arg("excitation"), py::arg("times"), R"(Covariances by time.
+          .def_property_readonly(
+              "filter_order", [](const EquivalentLinearization& self) { return self.options().filter.order; },
+              "States of a filter that is fitted.")
+          .def_property_readonly(
+              "max_misfit", [](const EquivalentLinearization& self) { return self.options().filter.max_misfit; },
+              "Largest misfit of a filter that is not refused.")
+          .def("predict", &predict, py::arg("slider"), py::arg("excitation"), py::arg("times"),
+               R"(Means and covariances by time, from rest.
 
-Means are zero. Integrated over the logarithm of time, in variables that keep the covariance positive definite, so any
-scale will do. A slider without friction is answered in closed form.
+Means are zero but for unequal levels. Under white noise, without envelope, unequal levels and damper, integrated over the
+logarithm of time, in variables that keep the covariance positive definite, so any scale will do; a slider without
+friction is answered in closed form there. Otherwise all entries of Q are integrated in time. A velocity of sqrt(tolerance) / 10 of
+that at the first time, or of the rms acceleration over the filter's mean rate, then counts as rest,
+which is about the relative error just after an abrupt start, and soon fades.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
     What slides; a law alone is a slider without spring and damper.
-excitation : float, Spectrum or GaussianExcitation
-    White noise: its level S0, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite, or what has one.
+excitation : float, Spectrum, ShapingFilter, GaussianExcitation or PoissonPulses
+    White noise by its level S0, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite; other noise by its
+    spectrum and envelope. Sampling and duration do not matter.
 times : array_like of shape (T,)
     [s], finite, at least 0, increasing.
 
 Returns
 -------
 Moments
-    growth_rate is that of Coulomb friction, pi^5 S0^3 / (2 a^4), (3.47); 0 with a spring that holds the displacement
-    (for a caster: a reach wn > pi S0); NaN where the velocity never is stationary.
+    growth_rate is that of the stationary velocity: of Coulomb friction under white noise pi^5 S0^3 / (2 a^4), (3.47); 0
+    with a spring that holds the displacement (for a caster under white noise: a reach wn > pi S0); NaN where the velocity
+    never is stationary. The remark has the misfit of a filter that is not exact.
 
 Raises
 ------
 ValueError
-    Times out of range, levels that differ, a spectrum that is not white, a figure beyond the range of doubles.
+    Times out of range, a level that is infinite, a spectrum that no filter of the order asked for fits (with its
+    misfit), pulses whose amplitudes have a mean, a value beyond the range of doubles.
 ConvergenceError
     The tolerance is out of reach: with a spring, after 300,000 steps. The message has the time reached.
 
 Notes
 -----
-About 1 ms; with a spring that swings for long some 0.1 ms a period. The interpreter is not held meanwhile.)")
+Under white noise about 1 ms; with a spring that swings for long some 0.1 ms a period. Otherwise 1 to 200 ms, and the fit
+of a filter. The interpreter is not held meanwhile.)")
+          .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(The stationary moments.
+
+A Q + (A Q)^T + 2 pi S0 b b^T = 0, (3.9), with the A that Q asks for. Without a spring the velocity alone is stationary.
+Below the threshold of motion all is zero.
+
+Parameters
+----------
+slider, excitation
+    As of `predict`.
+
+Returns
+-------
+Moments
+    At one time, inf. Without a spring the displacement variance is inf where it grows, at growth_rate, and NaN where it
+    does not, for then it depends on the start; the displacement mean is infinite where levels differ.
+
+Raises
+------
+ValueError
+    There is none, with the reason: an envelope; no spring and a level that depends on the position; no friction and no
+    damper; friction that cannot hold what the noise gives. What `predict` refuses.
+
+Notes
+-----
+Good to 1e-9. Takes 0.1 to 5 ms, and the fit of a filter.)")
           .def(
               "coefficients",
               [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {
@@ -166,9 +234,13 @@ Raises
 ValueError
     A value out of its range, levels that differ.)")
           .def("__repr__", [](const EquivalentLinearization& self) {
+            const theory::ShapingFilter::Fit fit = self.options().filter;
+            const std::string filter =
+                ", filter_order=" + std::to_string(fit.order) + ", max_misfit=" + detail::shortest(fit.max_misfit);
             return "EquivalentLinearization(force='" + std::string(which_of(forces, self.options().force)) +
                    "', start='" + which_of(starts, self.options().start) +
-                   "', tolerance=" + detail::shortest(self.options().tolerance) + ")";
+                   "', tolerance=" + detail::shortest(self.options().tolerance) +
+                   (fit == theory::ShapingFilter::Fit() ? "" : filter) + ")";
           });
   def_theory(type);
 

@@ -18,6 +18,13 @@ inline theory::WhiteLevel white_level(const AnyNoise& noise) {
   return std::visit([](const auto& any) { return theory::WhiteLevel(any); }, noise);
 }
 
+/// All that shaped noise is made from.
+using AnyShapedNoise = std::variant<double, Spectrum, GaussianExcitation, PoissonPulses, theory::ShapingFilter>;
+
+inline theory::ShapedNoise shaped_noise(const AnyShapedNoise& noise) {
+  return std::visit([](const auto& any) { return theory::ShapedNoise(any); }, noise);
+}
+
 inline theory::StationaryNoise stationary_noise(const AnyNoise& noise) {
   return std::visit([](const auto& any) { return theory::StationaryNoise(any); }, noise);
 }
@@ -31,6 +38,7 @@ auto with_excitation(const py::object& excitation, const Use& use) {
   if (py::isinstance<Spectrum>(excitation)) return use(excitation.cast<const Spectrum&>());
   if (py::isinstance<GaussianExcitation>(excitation)) return use(excitation.cast<const GaussianExcitation&>());
   if (py::isinstance<PoissonPulses>(excitation)) return use(excitation.cast<const PoissonPulses&>());
+  if (py::isinstance<theory::ShapingFilter>(excitation)) return use(excitation.cast<const theory::ShapingFilter&>());
   if (py::isinstance<HarmonicMotion>(excitation)) return use(excitation.cast<const HarmonicMotion&>());
   py::detail::make_caster<double> number;
   if (number.load(excitation, true)) return use(py::detail::cast_op<double>(number));
@@ -65,7 +73,7 @@ Parameters
 ----------
 slider : Slider, Coulomb or Caster
     What slides. Of anything else the answer is no.
-excitation : float, Spectrum, GaussianExcitation, PoissonPulses or HarmonicMotion
+excitation : float, Spectrum, ShapingFilter, GaussianExcitation, PoissonPulses or HarmonicMotion
     A number is the level S0 of white noise [m^2/s^3]. Of anything else the answer is no.
 
 Returns

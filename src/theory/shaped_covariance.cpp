@@ -1,0 +1,394 @@
+#include "theory/shaped_covariance.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "numerics/ode.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
+#include "theory/linear_friction.hpp"
+#include "theory/theory_moments.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+using std::numbers::pi;
+
+const std::string noun = "EquivalentLinearization";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// x, x' and the states of the filter. Their room is in the object.
+constexpr int most_states = 18;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_states, most_states>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_states, 1>;
+constexpr int x = 0, v = 1, f = 2;
+
+double squared(double value) { return value * value; }
+
+/// Q of A Q + Q A^T + W = 0, by the Schur form of A, for a stable A (Bartels and Stewart).
+Matrix lyapunov(const Matrix& a, const Matrix& w) {
+  using Complex = Eigen::MatrixXcd;
+  const Eigen::ComplexSchur<Eigen::MatrixXd> schur{Eigen::MatrixXd(a)};
+  const Complex &t = schur.matrixT(), &u = schur.matrixU();
+  const Complex right = u.adjoint() * w * u;
+  const Eigen::Index n = a.rows();
+  Complex y = Complex::Zero(n, n);
+  for (Eigen::Index j = n - 1; j >= 0; --j) {
+    Eigen::VectorXcd column = -right.col(j);
+    for (Eigen::Index k = j + 1; k < n; ++k) column -= std::conj(t(j, k)) * y.col(k);
+    Complex shifted = t;
+    shifted.diagonal().array() += std::conj(t(j, j));
+    y.col(j) = shifted.triangularView<Eigen::Upper>().solve(column);
+  }
+  const Matrix q = (u * y * u.adjoint()).real();
+  return (q + q.transpose()) / 2;
+}
+
+/// The linear part of z' = A z + b w, z = (x, x', filter): what friction adds is apart.
+struct System {
+  Matrix a;                 // (x', acceleration of the filter) with a gain of 1
+  Vector b;                 // of the white noise, with a gain of 1
+  double intensity;         // 2 pi S0
+  Matrix filter;            // stationary covariance of the filter's states
+  double acceleration_std;  // of the ground [m/s^2]; infinite for white noise
+  double time_scale;        // of the filter, by the geometric mean of its poles [s]; infinite without one
+
+  explicit System(const ShapedProblem& problem) {
+    const auto& sections = problem.filter.sections();
+    const int n = f + problem.filter.order();
+    a = Matrix::Zero(n, n);
+    b = Vector::Zero(n);
+    // The signal between sections is out . z + direct w.
+    Vector out = Vector::Zero(n);
+    double direct = 1, log_rate = 0;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      const auto& s = sections[i];
+      const int at = f + 2 * static_cast<int>(i);
+      a(at, at + 1) = 1;
+      a.row(at + 1) = out.transpose();
+      b(at + 1) = direct;
+      a(at + 1, at) -= s.d0;
+      a(at + 1, at + 1) -= s.d1;
+      out *= s.b2;
+      out(at) += s.b0 - s.b2 * s.d0;
+      out(at + 1) += s.b1 - s.b2 * s.d1;
+      direct *= s.b2;
+      log_rate += std::log(s.d0) / 2 / static_cast<double>(sections.size());
+    }
+    intensity = 2 * pi * problem.filter.s0();
+    const Matrix inner = a.bottomRightCorner(n - f, n - f);
+    const Vector source = b.tail(n - f);
+    filter = n > f ? lyapunov(inner, intensity * source * source.transpose()) : Matrix::Zero(0, 0);
+    acceleration_std = direct != 0 ? infinity : std::sqrt(out.tail(n - f).dot(filter * out.tail(n - f)));
+    time_scale = sections.empty() ? infinity : std::exp(-log_rate);
+    a.row(v) = -out.transpose();
+    b(v) = -direct;
+    a(x, v) = 1;
+    a(v, x) = -squared(problem.natural_frequency);
+    a(v, v) = -problem.damping;
+  }
+
+  Eigen::Index size() const { return a.rows(); }
+};
+
+/// The first columns of the lower triangle of a symmetric matrix as a row of numbers.
+Eigen::Index packed_size(Eigen::Index n, Eigen::Index columns) { return columns * (2 * n - columns + 1) / 2; }
+
+void pack(const Matrix& q, Eigen::Index columns, double* to) {
+  for (Eigen::Index j = 0; j < columns; ++j)
+    for (Eigen::Index i = j; i < q.rows(); ++i) *to++ = q(i, j);
+}
+
+void unpack(const double* from, Eigen::Index columns, Matrix& q) {
+  for (Eigen::Index j = 0; j < columns; ++j)
+    for (Eigen::Index i = j; i < q.rows(); ++i) q(i, j) = q(j, i) = *from++;
+}
+
+/// Q' = A Q + (A Q)^T + 2 pi S0 b b^T, thesis (3.9), and the means where friction has one. The envelope multiplies
+/// what enters the filter or what leaves it.
+class Equations {
+ public:
+  Equations(const System& system, const AverageFriction& friction, const theory::ShapedNoise& noise, double floor,
+            Eigen::Index columns)
+      : system_(system),
+        friction_(friction),
+        noise_(noise),
+        floor_(floor),
+        columns_(columns),
+        q_(Matrix::Zero(system.size(), system.size())) {
+    q_.bottomRightCorner(system.size() - f, system.size() - f) = system.filter;
+  }
+
+  void operator()(double t, std::span<const double> y, std::span<double> slope) {
+    unpack(y.data(), columns_, q_);
+    a_ = system_.a;
+    b_ = system_.b;
+    if (noise_.envelope()) {
+      const double gain = (*noise_.envelope())(t);
+      if (noise_.envelope_at_source()) {
+        b_ *= gain;
+      } else {
+        b_(v) *= gain;
+        a_.row(v).tail(a_.cols() - f) *= gain;
+      }
+    }
+    const bool drifts = friction_.drifts();
+    const double* const mean = y.data() + packed_size(q_.rows(), columns_);
+    if (!friction_.none()) {
+      // Where nothing moves friction is a damper so stiff that what creeps does not count.
+      const double q11 = std::max(q_(x, x), 0.0), q22 = std::max(q_(v, v), 0.0) + floor_ * floor_;
+      const MeanFriction average = friction_(drifts ? mean[1] : 0, q11, q_(x, v), q22);
+      if (drifts) {
+        double* const mean_slope = slope.data() + packed_size(q_.rows(), columns_);
+        mean_slope[0] = mean[1];
+        mean_slope[1] = system_.a(v, x) * mean[0] + system_.a(v, v) * mean[1] - average.mean;
+      }
+      a_(v, x) += average.a21;
+      a_(v, v) += average.a22;
+    }
+    product_.noalias() = a_.lazyProduct(q_);
+    double* to = slope.data();
+    for (Eigen::Index j = 0; j < columns_; ++j)
+      for (Eigen::Index i = j; i < q_.cols(); ++i)
+        *to++ = product_(i, j) + product_(j, i) + system_.intensity * b_(i) * b_(j);
+  }
+
+ private:
+  const System& system_;
+  const AverageFriction& friction_;
+  const theory::ShapedNoise& noise_;
+  double floor_;
+  Eigen::Index columns_;  // that change: those of x and x' alone where the filter's own covariance is stationary
+  Matrix q_, a_, product_;
+  Vector b_;
+};
+
+/// Times at which the envelope jumps or bends sharply, and its largest factor.
+struct Course {
+  std::vector<double> breaks;
+  double largest = 1;
+};
+
+Course course(const std::optional<Envelope>& envelope) {
+  if (!envelope) return {};
+  if (!envelope->time().empty())
+    return {{envelope->time().front(), envelope->time().back()}, *std::ranges::max_element(envelope->factor())};
+  return {{envelope->build_up(), envelope->build_up() + envelope->strong()}, 1};
+}
+
+}  // namespace
+
+double motion_ratio(const ShapedProblem& problem) {
+  const System system(problem);
+  const AverageFriction friction(problem.law, problem.options.force, 1);
+  if (friction.none()) return infinity;
+  return course(problem.noise.envelope()).largest * system.acceleration_std / (friction.strength() * friction.level());
+}
+
+ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double> times,
+                            const std::function<void()>& heartbeat) {
+  check_times(noun, times);
+  ShapedSolution solution;
+  if (times.empty()) return solution;
+  const System system(problem);
+  const auto& envelope = problem.noise.envelope();
+  const bool steady = problem.noise.stationary_start() && !(envelope && problem.noise.envelope_at_source());
+  const Eigen::Index n = system.size(), columns = steady ? f : n, packed = packed_size(n, columns);
+  const Course changes = course(envelope);
+  const double last = times.back(), first = times.front() > 0 ? times.front() : times.size() > 1 ? times[1] : 0;
+  solution.state.resize(times.size());
+  if (last == 0) return solution;
+
+  // Without friction: velocity and displacement at most.
+  const bool white = std::isinf(system.acceleration_std);
+  const double frictionless =
+      white ? std::sqrt(system.intensity * last) * changes.largest : system.acceleration_std * changes.largest * last;
+  const AverageFriction friction(problem.law, problem.options.force, 10 * frictionless * last);
+
+  // Scales of velocity and displacement, far below which they are nothing.
+  const double early = std::min(first, system.time_scale);
+  double velocity = white ? std::sqrt(system.intensity * first) : system.acceleration_std * early;
+  if (white && !friction.none()) velocity = std::min(velocity, system.intensity / friction.level());
+  velocity *= changes.largest;
+  require(std::isfinite(velocity) && velocity > 0 && std::isfinite(frictionless * last),
+          noun + ": the moments exceed the range of doubles; the last time", last, "s");
+  const double displacement = velocity * (white ? first : early);
+
+  Vector scale(n);
+  scale(x) = 0.1 * displacement;
+  scale(v) = 0.1 * velocity;
+  for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
+  const double tolerance = problem.options.tolerance / 10;
+  // What never comes to rest, and not a thousand times as long as it takes to forget, needs no implicit steps.
+  const double rate = std::max({1 / system.time_scale, problem.damping, problem.natural_frequency,
+                                white ? squared(friction.level()) / system.intensity : 0});
+  const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
+  const bool stiff = !friction.none() && !(moves && last * rate < 1000);
+  // With implicit steps its square must be above the absolute tolerance.
+  const double floor = (stiff ? std::sqrt(tolerance / 10) : 1e-7) * velocity;
+  OdeOptions ode{.relative_tolerance = tolerance,
+                 .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
+                 .stiff = stiff,
+                 .most_steps = 300'000,
+                 .heartbeat = heartbeat};
+  pack(tolerance * scale * scale.transpose(), columns, ode.absolute_tolerance.data());
+
+  Matrix start = Matrix::Zero(n, n);
+  if (problem.noise.stationary_start())
+    start.bottomRightCorner(n - f, n - f) =
+        system.filter * (problem.noise.envelope_at_source() && envelope ? squared((*envelope)(0)) : 1);
+  std::vector<double> state(static_cast<std::size_t>(packed));
+  pack(start, columns, state.data());
+  if (friction.drifts()) {
+    state.insert(state.end(), {0, 0});
+    ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), {tolerance * displacement, tolerance * velocity});
+  }
+
+  Equations equations(system, friction, problem.noise, floor, columns);
+  const auto keep = [&](std::size_t i, std::span<const double> y) {
+    ShapedState& kept = solution.state[i];
+    kept.q11 = std::max(y[0], 0.0);
+    kept.q12 = y[1];
+    kept.q22 = std::max(y[static_cast<std::size_t>(n)], 0.0);
+    if (friction.drifts()) {
+      kept.displacement_mean = y[static_cast<std::size_t>(packed)];
+      kept.velocity_mean = y[static_cast<std::size_t>(packed) + 1];
+    }
+    check_range(noun, times[i], kept.q11 + kept.q22);
+  };
+
+  // From one break of the envelope to the next.
+  std::vector<double> breaks;
+  for (const double at : changes.breaks)
+    if (at > 0 && at < last) breaks.push_back(at);
+  breaks.push_back(last);
+  std::ranges::sort(breaks);
+  double begin = 0;
+  std::size_t next = times.front() == 0 ? 1 : 0;
+  for (const double end : breaks) {
+    if (!(end > begin)) continue;
+    std::vector<double> stops;
+    const std::size_t from = next;
+    for (; next < times.size() && times[next] <= end; ++next) stops.push_back(times[next]);
+    if (stops.empty() || stops.back() < end) stops.push_back(end);
+    // A jump belongs to the side that is integrated.
+    const double inside = 1e-12 * (end - begin);
+    const OdeRightSide right_side = [&](double t, std::span<const double> y, std::span<double> slope) {
+      equations(std::clamp(t, begin + inside, end - inside), y, slope);
+    };
+    try {
+      const OdeSolution part = solve_ode(right_side, begin, state, stops, ode);
+      solution.steps += part.steps;
+      solution.evaluations += part.evaluations;
+      for (std::size_t i = from; i < next; ++i) keep(i, part.at(i - from));
+      const auto reached = part.at(stops.size() - 1);
+      state.assign(reached.begin(), reached.end());
+    } catch (const OdeFailure& failure) {
+      throw ConvergenceError(noun + ": reached " + shortest(failure.reached) + " s of " + shortest(last) +
+                             " s: " + failure.why);
+    }
+    begin = end;
+  }
+  return solution;
+}
+
+StationaryState solve_stationary(const ShapedProblem& problem) {
+  const auto refuse = [](const std::string& why) -> void {
+    throw std::invalid_argument(noun + ": no stationary solution: " + why);
+  };
+  if (problem.noise.envelope()) refuse("the envelope makes the excitation non-stationary");
+  const bool spring = problem.natural_frequency > 0;
+  const auto* const wheel = std::get_if<Caster>(&problem.law);
+  const bool constant =
+      std::holds_alternative<Coulomb>(problem.law) || (wheel != nullptr && std::isinf(wheel->reach()));
+  if (!spring && !constant) refuse("without a spring the displacement grows, and with it changes the slip level");
+  const System system(problem);
+  const Eigen::Index n = system.size();
+  // With a spring all states; without, all but the displacement, which nothing depends on.
+  const Eigen::Index from = spring ? x : v, m = n - from;
+  const Matrix noise = system.intensity * system.b.tail(m) * system.b.tail(m).transpose();
+  Matrix a = system.a;
+  Matrix q = Matrix::Zero(n, n);
+  const auto solve = [&](double a21, double a22) {
+    a = system.a;
+    a(v, x) += a21;
+    a(v, v) += a22;
+    q.bottomRightCorner(m, m) = lyapunov(a.bottomRightCorner(m, m), noise);
+  };
+
+  const double level = AverageFriction(problem.law, problem.options.force, 0).level();
+  const double scale = std::isfinite(system.time_scale) ? 1 / system.time_scale : squared(level) / system.intensity;
+  if (level > 0) solve(0, -1e-3 * scale);
+  const AverageFriction friction(problem.law, problem.options.force, 10 * std::sqrt(q(x, x)));
+  if (friction.none() && problem.damping == 0) refuse("without friction and damper nothing takes the energy");
+
+  // The mean velocity at which friction and damper balance, in standard deviations; 0 with a spring.
+  const auto drift = [&](double q22) {
+    if (!friction.drifts() || spring) return 0.0;
+    const double s = std::sqrt(q22);
+    const auto force = [&](double z) { return friction(z * s, 0, 0, q22).mean + problem.damping * z * s; };
+    double far = 1;
+    while (force(-far) * force(far) > 0 && far < 1e6) far *= 2;
+    if (!(force(-far) < 0 && force(far) > 0)) refuse("friction in one direction only does not hold the mean velocity");
+    return numerics::root(force, -far, force(-far), far, force(far)) * s;
+  };
+
+  ShapedState state;
+  if (friction.none()) {
+    solve(0, 0);
+  } else {
+    // One damping -a22 makes one covariance, which asks for another: ln(asked / given) falls through zero.
+    double a21 = 0;
+    const auto excess = [&](double log_damping) {
+      const double damping = std::exp(log_damping);
+      for (int i = 0; i < 100; ++i) {
+        solve(a21, -damping);
+        const double before = a21;
+        a21 = friction(0, q(x, x), 0, q(v, v)).a21;
+        if (std::abs(a21 - before) <= 1e-14 * std::abs(a21)) break;
+      }
+      state.velocity_mean = drift(q(v, v));
+      return std::log(-friction(state.velocity_mean, q(x, x), 0, q(v, v)).a22 / damping);
+    };
+    double low = std::log(scale), high = low, at_low = excess(low), at_high = at_low;
+    for (int i = 0; at_low < 0 && i < 40; ++i) {
+      low -= 1;
+      at_low = excess(low);
+    }
+    for (int i = 0; at_high > 0 && i < 40; ++i) {
+      high += 1;
+      at_high = excess(high);
+    }
+    if (!(at_low >= 0)) refuse("friction does not take up what the noise gives");
+    if (!(at_high <= 0)) return {};  // at rest: the acceleration is below the threshold of motion
+    excess(at_low == 0 ? low : at_high == 0 ? high : numerics::root(excess, low, at_low, high, at_high, 1e-13));
+  }
+
+  StationaryState found{state};
+  found.state.q22 = q(v, v);
+  if (state.velocity_mean != 0) found.state.displacement_mean = std::copysign(infinity, state.velocity_mean);
+  if (spring) {
+    found.state.q11 = q(x, x);
+    found.state.displacement_mean = -friction(0, q(x, x), 0, q(v, v)).mean / squared(problem.natural_frequency);
+    return found;
+  }
+  // E[x y] of the others: 0 = E[x' y] + E[x y] A^T.
+  const Eigen::VectorXd with_x =
+      -Eigen::MatrixXd(a.bottomRightCorner(m, m)).lu().solve(Eigen::VectorXd(q.col(v).tail(m)));
+  found.state.q12 = with_x[0];
+  found.growth_rate = 2 * with_x[0];
+  if (std::abs(found.state.q12 * a(v, v)) < 1e-9 * q(v, v)) found.growth_rate = found.state.q12 = 0;  // round-off
+  found.state.q11 = found.growth_rate > 0 ? infinity : std::numeric_limits<double>::quiet_NaN();
+  return found;
+}
+
+}  // namespace stickslip::detail

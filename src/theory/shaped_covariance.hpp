@@ -1,0 +1,47 @@
+// The covariance of a linearized slider and the filter that shakes it, n states: in time and stationary.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "stickslip/theory/equivalent_linearization.hpp"
+
+namespace stickslip::detail {
+
+/// Moments of x and x'.
+struct ShapedState {
+  double displacement_mean = 0, velocity_mean = 0, q11 = 0, q12 = 0, q22 = 0;
+};
+
+struct ShapedSolution {
+  std::vector<ShapedState> state;  ///< by time
+  long steps = 0, evaluations = 0;
+};
+
+/// The stationary solution.
+struct StationaryState {
+  ShapedState state;       ///< q11 infinite, or NaN, without a spring
+  double growth_rate = 0;  ///< of q11 [m^2/s]
+};
+
+struct ShapedProblem {
+  const LinearizedLaw& law;
+  double natural_frequency, damping;
+  const theory::ShapedNoise& noise;
+  const theory::ShapingFilter& filter;
+  const theory::EquivalentLinearization::Options& options;
+};
+
+/// @throws ConvergenceError with the time reached
+ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double> times,
+                            const std::function<void()>& heartbeat = {});
+
+/// @throws std::invalid_argument where the velocity has no stationary solution, with the reason
+StationaryState solve_stationary(const ShapedProblem& problem);
+
+/// rms ground acceleration, where the envelope is largest, over that below which equivalent linearization predicts no
+/// motion; infinite for white noise and without friction.
+double motion_ratio(const ShapedProblem& problem);
+
+}  // namespace stickslip::detail
