@@ -15,7 +15,7 @@ namespace stickslip {
 ///     hold(x, direction)                                     // what holds it at rest against sliding that way
 ///
 /// A law without `hold` holds what resists at no speed. `resist` is a template over its scalars, so that one line
-/// serves doubles and power series alike; return `auto`:
+/// serves doubles, power series, and several of either side by side; it names none of these types and returns `auto`:
 ///
 ///     struct Bump {                            // a slip level that decays as exp(-(x/reach)^2)
 ///       double slip_level, reach;
@@ -75,7 +75,7 @@ concept ConstantLevelLaw = FrictionLaw<Law> && requires {
 };
 
 /// A law that resists both ways alike, said by `static constexpr bool symmetric = true;` it saves ensembles half of the
-/// work.
+/// work. (A law that is derived from one and resists otherwise says `false`.)
 template <class Law>
 concept SymmetricLaw = FrictionLaw<Law> && requires {
   requires Law::symmetric;

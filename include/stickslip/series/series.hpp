@@ -77,6 +77,9 @@ concept Series = requires(S s, const S& c, int k) {
   { c[k] } -> std::convertible_to<typename S::Scalar>;
 };
 
+/// a b + c; lanes have one of their own.
+inline double multiply_add(double a, double b, double c) noexcept { return a * b + c; }
+
 /// Sum of a_i b_(k-i) over i = first..k, k >= first. The coefficients found last, which are at both ends, come last,
 /// and the others go in two parts: an addition must wait for what it adds.
 template <class A, class B>
@@ -86,10 +89,10 @@ auto convolve(const A& a, const B& b, int first, int k) noexcept {
   Scalar even = 0, odd = 0;
   int i = first + 1;
   for (; i + 1 < k; i += 2) {
-    even += a[i] * b[k - i];
-    odd += a[i + 1] * b[k - i - 1];
+    even = multiply_add(a[i], b[k - i], even);
+    odd = multiply_add(a[i + 1], b[k - i - 1], odd);
   }
-  if (i < k) even += a[i] * b[k - i];
+  if (i < k) even = multiply_add(a[i], b[k - i], even);
   return Scalar((even + odd + a[k] * b[0]) + a[first] * b[k - first]);
 }
 

@@ -64,7 +64,7 @@ class LanesSimulator final : public Simulator {
         naming_member(first_member + error.lane, [&] { throw ConvergenceError(error); });
       }
       if (i % every == 0) block.row(i / every, displacement_.data(), velocity_.data());
-      if (i % 256 == 0) block.beat();
+      block.beat();
     }
     if (settle_) settle_all(slider_, states, first_member, members, samples - 1, block);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
@@ -72,7 +72,7 @@ class LanesSimulator final : public Simulator {
 
  private:
   // The ground accelerations of all members, by sample and member; none beyond the last, whatever was there before:
-  // lanes of casters are not the same to the last bit beside others.
+  // lanes of series are not the same to the last bit beside others.
   void generate(std::uint64_t first_member, std::size_t members, std::size_t width, Block& block) {
     const std::size_t samples = excitation_.samples();
     if (ground_.size() != width * samples) {

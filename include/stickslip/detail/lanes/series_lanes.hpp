@@ -93,9 +93,9 @@ class SlideOfLanes {
     const auto balanced = [&](const Vector& part) {
       Vector x = x_[orders_ + 1], u = 0.0, a = 0.0;  // a: by the unit of time
       for (int k = orders_; k >= 0; --k) {
-        a = a * part + u;
-        u = u * part + u_[k];
-        x = x * part + x_[k];
+        a = multiply_add(a, part, u);
+        u = multiply_add(u, part, u_[k]);
+        x = multiply_add(x, part, x_[k]);
       }
       const Vector there = resists_now(x, u, back), pull = stiffness * (s * (x - x_[0])), drag = damping * (u - u_[0]);
       const Vector off = acceleration + gain * part - pull - drag - (there - here);
@@ -103,7 +103,9 @@ class SlideOfLanes {
                            stiffness * abs(x_[0]);
       return abs(off * step - a) <= 20 * left_out * (terms * step + fastest);
     };
-    converges_ = converges_ & recent & balanced(1.0);
+    // Where the level has all but underflowed its series says nothing of what lies ahead, towards the centre.
+    const Mask unseen = (here <= 1e-290) & (s * x_[0] < 0.0) & (resists_now(0.0, u_[0], back) > 1e-290);
+    converges_ = converges_ & recent & ~unseen & balanced(1.0);
     const Mask slow = converges_ & wanted & (u_[0] * 16.0 <= fastest);
     if (any(slow)) converges_ = converges_ & (~slow | balanced(0.6));
   }
@@ -121,7 +123,7 @@ class SlideOfLanes {
 
   Vector displacement(const Vector& part) const {
     Vector x = x_[orders_ + 1];
-    for (int k = orders_; k >= 0; --k) x = x * part + x_[k];
+    for (int k = orders_; k >= 0; --k) x = multiply_add(x, part, x_[k]);
     return x;
   }
   Vector last_displacement() const { return sum(x_, orders_ + 1); }
@@ -192,7 +194,7 @@ class SlideOfLanes {
     return (even + odd) + c[0];
   }
 
-  // Newton's method, kept within its bracket, from where the first three terms are zero.
+  // Newton's method, kept within its bracket.
   Vector zero(const Vector* c, const Mask& wanted) const {
     Mask open = wanted;
     Vector low = 0.0, high = 1.0;
@@ -200,8 +202,8 @@ class SlideOfLanes {
     for (int iteration = 0; iteration < 64 && any(open); ++iteration) {
       Vector value = c[orders_], slope = 0.0;
       for (int k = orders_ - 1; k >= 0; --k) {
-        slope = slope * t + value;
-        value = value * t + c[k];
+        slope = multiply_add(slope, t, value);
+        value = multiply_add(value, t, c[k]);
       }
       const Mask before = value > 0.0;
       low = select(before, t, low);
@@ -260,7 +262,8 @@ struct EventsOfLanes {
     const double stiffness = lanes.slider.stiffness(), damping = lanes.slider.damping();
     Vector time = 0.0, step = 1.0;  // in segments
     Vector s = select(v < 0.0, -1.0, 1.0), speed = abs(v), net = load - stiffness * x;
-    Mask stuck = v == 0.0, done{}, from_rest{};
+    Mask stuck = v == 0.0, done{}, lost{}, from_rest{};
+    Vector halved = 0.0;  // times in a row
     for (int round = 0; round < 64; ++round) {
       SlideOfLanes<Law, Vector> slide(lanes.slider, x, speed);
       if (any(stuck)) {
@@ -283,9 +286,9 @@ struct EventsOfLanes {
         done = done | (stuck & (~slips | (step <= 0.0)));
         from_rest = select_mask(stuck, slips, from_rest);
       }
-      if (all(done)) break;
+      if (all(done | lost)) break;
 
-      const Mask back = s < 0.0, open = ~done;
+      const Mask back = s < 0.0, open = ~(done | lost);
       const Vector tau = step * h;
       slide.expand(back, s * net - slide.resists(back) - damping * speed, s * rate * tau, tau, open);
       const auto zeros = slide.stops(from_rest, open & slide.converges());
@@ -299,6 +302,8 @@ struct EventsOfLanes {
       time = select(moves, min(time + step * part, 1.0), time);
       net = select(moves, load + (last_load - load) * time - stiffness * x, net);
       step = select(goes_on, min(step + step, 1.0 - time), select(stops, 1.0 - time, step * 0.5));
+      halved = select(moves, 0.0, halved + 1.0);
+      lost = lost | (halved > 4.0);
       stuck = stops;
       from_rest = from_rest & ~moves;
     }
@@ -342,16 +347,16 @@ void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const doubl
       const Vector slope = gain / h;
       there = x + s * (speed * step.impulse + push * step.step + slope * step.ramp);
       last_speed = speed * step.decay + push * step.impulse + slope * step.step;
-      // In so short a step (`longest`) the acceleration is at most this; the speed leaves the straight line between its
-      // ends by an eighth of its curvature.
+      // The acceleration decays and swings; where it swings by a radian at most, it never exceeds the sum of those at
+      // the ends of the step. The speed leaves the straight line between its ends by an eighth of its curvature.
       const Vector after = s * (last_load - stiffness * there) - slide.resists(back) - damping * last_speed;
-      const Vector most = 3.0 * (abs(acceleration) + abs(after));
+      const Vector most = abs(acceleration) + abs(after);
       const Vector curvature = abs(slope) + stiffness * (max(speed, last_speed) + h * most) + damping * most;
       slides = ~stuck & (min(speed, last_speed) > (h * h / 8) * curvature);
     } else {
       slide.expand(back, acceleration, gain, h, ~stuck);
       there = slide.last_displacement();
-      last_speed = slide.last_speed();
+      last_speed = max(slide.last_speed(), 0.0);
       slides = ~stuck & slide.converges() & slide.goes_on();
     }
     there = select(slides, there, x);
@@ -383,15 +388,15 @@ void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const doubl
 }
 
 template <LawWithLanes Law>
-[[gnu::flatten]] void advance_lanes_anywhere(const SeriesLanes<Law>& lanes, std::size_t members, const double* start,
-                                             const double* end, const LaneStates& states) {
+STICKSLIP_FLATTEN void advance_lanes_anywhere(const SeriesLanes<Law>& lanes, std::size_t members, const double* start,
+                                              const double* end, const LaneStates& states) {
   advance_row<BaselineVector>(lanes, members, start, end, states);
 }
 #ifdef STICKSLIP_AVX2
 template <LawWithLanes Law>
-[[gnu::target("avx2,fma"), gnu::flatten]] void advance_lanes_avx2(const SeriesLanes<Law>& lanes, std::size_t members,
-                                                                  const double* start, const double* end,
-                                                                  const LaneStates& states) {
+[[gnu::target("avx2,fma")]] STICKSLIP_FLATTEN void advance_lanes_avx2(const SeriesLanes<Law>& lanes,
+                                                                      std::size_t members, const double* start,
+                                                                      const double* end, const LaneStates& states) {
   advance_row<Avx2Vector>(lanes, members, start, end, states);
 }
 #endif

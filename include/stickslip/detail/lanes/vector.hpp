@@ -1,5 +1,5 @@
-// Doubles side by side, in the compiler's own vectors: formulas read like the equations. All operations go lane by
-// lane: what a lane holds never depends on the others.
+// Doubles side by side, in the compiler's own vectors: formulas read like the equations. Each operation goes lane by
+// lane.
 //
 // There is one for each instruction set. What calls its operations, be it a user's law, must become part of one
 // function that is compiled for that set, [[gnu::target(...), gnu::flatten]]; it is written once, for all.
@@ -20,14 +20,22 @@ namespace stickslip::detail {
 #define STICKSLIP_VECTOR BaselineVector
 #define STICKSLIP_VECTOR_SIZE 2
 #define STICKSLIP_VECTOR_TARGET
+#define STICKSLIP_VECTOR_FMA(a, b, c) (a * b + c)
 #define STICKSLIP_VECTOR_BITS(lanes) ((lanes[0] & 1) | (lanes[1] & 2))
 #include "stickslip/detail/lanes/vector.inl"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // Clang does not flatten
+// Sanitizers would take minutes over what is flattened; Clang flattens one level only.
+#ifdef __SANITIZE_ADDRESS__
+#define STICKSLIP_FLATTEN
+#else
+#define STICKSLIP_FLATTEN [[gnu::flatten]]
+#endif
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define STICKSLIP_AVX2
 #define STICKSLIP_VECTOR Avx2Vector
 #define STICKSLIP_VECTOR_SIZE 4
 #define STICKSLIP_VECTOR_TARGET [[gnu::target("avx2,fma")]]
+#define STICKSLIP_VECTOR_FMA(a, b, c) __builtin_ia32_vfmaddpd256(a, b, c)
 #define STICKSLIP_VECTOR_BITS(lanes) __builtin_ia32_movmskpd256(Doubles(lanes))
 #include "stickslip/detail/lanes/vector.inl"
 #endif

@@ -2,6 +2,7 @@
 //   STICKSLIP_VECTOR       the name
 //   STICKSLIP_VECTOR_SIZE  how many doubles the processor takes at once
 //   STICKSLIP_VECTOR_TARGET  the attribute of its functions
+//   STICKSLIP_VECTOR_FMA     a b + c, with one rounding where the processor can
 //   STICKSLIP_VECTOR_BITS  of a vector of integers, all bits or none set in each: one bit each
 // Nothing but what is written here is compiled for that set.
 
@@ -98,6 +99,10 @@ struct STICKSLIP_VECTOR {
     return *this;
   }
 
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR multiply_add(const STICKSLIP_VECTOR& a, const STICKSLIP_VECTOR& b,
+                                                               const STICKSLIP_VECTOR& c) noexcept {
+    return {STICKSLIP_VECTOR_FMA(a.low, b.low, c.low), STICKSLIP_VECTOR_FMA(a.high, b.high, c.high)};
+  }
   STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR select(const Mask& mask, const STICKSLIP_VECTOR& yes,
                                                          const STICKSLIP_VECTOR& no) noexcept {
     return {mask.low ? yes.low : no.low, mask.high ? yes.high : no.high};
@@ -147,4 +152,5 @@ struct STICKSLIP_VECTOR {
 #undef STICKSLIP_VECTOR
 #undef STICKSLIP_VECTOR_SIZE
 #undef STICKSLIP_VECTOR_TARGET
+#undef STICKSLIP_VECTOR_FMA
 #undef STICKSLIP_VECTOR_BITS
