@@ -70,7 +70,8 @@ inline constexpr auto parts<Moments> = std::tuple(&Moments::time, &Moments::disp
 template <>
 inline constexpr auto parts<Stationary> = std::tuple(&Stationary::begin, &Stationary::end, &Stationary::velocity_mean,
                                                      &Stationary::velocity_variance, &Stationary::velocity_kurtosis,
-                                                     &Stationary::covariance, &Stationary::growth_rate);
+                                                     &Stationary::covariance, &Stationary::growth_rate,
+                                                     &Stationary::velocity_trend, &Stationary::remark);
 template <>
 inline constexpr auto parts<VelocitySpectrum> = std::tuple(&VelocitySpectrum::omega, &VelocitySpectrum::density,
                                                            &VelocitySpectrum::error);

@@ -412,7 +412,8 @@ def plot_comparison(
             axes.set_xlabel("time [s]")
             axes.set_xlim(0, comparison.time[-1])
             axes.set_ylim(bottom=0)
-            _note(axes, "")
+            is_said = part == "velocity" and not e.stationary.is_stationary
+            _note(axes, "not shown to be stationary" if is_said else "")
         figure.axes[0].legend(loc="upper left", fontsize=8)
     return figure
 
@@ -478,7 +479,8 @@ def plot_ensemble(
         _band(speed, t, variance * fast**2, error * fast**2, BLUE)
         level = s.velocity_variance
         speed.plot([s.begin, s.end], [level.value * fast**2] * 2, color=VERMILION, linestyle="--")
-        _note(speed, f"stationary {_with_error(level, fast**2)} {square}")
+        what = "stationary" if s.is_stationary else "not shown stationary, average"
+        _note(speed, f"{what} {_with_error(level, fast**2)} {square}")
         speed.set_ylabel(f"variance of velocity\n[{square}]")
         for panel in (way, speed):
             panel.set(xlim=(t[0], t[-1]), xlabel="time [s]")
