@@ -32,7 +32,7 @@ concept MadeOfParts = !std::same_as<std::remove_cvref_t<decltype(parts<T>)>, std
 template <>
 inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::backward);
 template <>
-inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach);
+inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach, &Caster::rolling);
 template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
                                                          &HarmonicMotion::duration, &HarmonicMotion::dt);

@@ -679,6 +679,8 @@ def _describe(slider: Any) -> str:
         words = levels + words
         if hasattr(slider.law, "reach"):
             words.append(f"caster, reach {_digits(slider.law.reach * 100)} cm")
+            if slider.law.rolling > 0:
+                words.append(f"of it rolling {_digits(slider.law.rolling / STANDARD_GRAVITY)} g")
     if wn > 0:
         words.append(f"period {_digits(2 * np.pi / wn)} s")
     return ", ".join(words)
@@ -790,6 +792,8 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
             words.append(f"{_digits(back / STANDARD_GRAVITY)} g backward")
     if "reach" in slider:
         words.append(f"caster, reach {_digits(slider['reach'] * 100)} cm")
+        if "rolling" in slider:
+            words.append(f"rolling {_digits(slider['rolling'] / STANDARD_GRAVITY)} g")
     if slider.get("natural_frequency"):
         words.append(f"period {_digits(2 * np.pi / slider['natural_frequency'])} s")
     return ", ".join(words)

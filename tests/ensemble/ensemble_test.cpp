@@ -167,6 +167,7 @@ TEST_CASE("member k is the slider under sample(seed, k)", "[ensemble]") {
     check(Slider(Coulomb(1)), shaking(), settle, 5e-13);
     check(Slider(Coulomb(1, infinity)), shaking(), settle, 5e-13);
     check(Slider(Coulomb(1), 1.3), shaking(), settle, 5e-13);
+    check(Slider(Caster(1, 0.5, 0.05)), shaking(), settle, 1e-10);
     check(Slider(Caster(1, 0.5), 0.3), shaking(), settle, 1e-10);  // Taylor series, and cut in other places
     check(Slider(Coulomb(1)), PoissonPulses(1, 0.5, 3, 20), settle, 5e-13);
     check(Slider(Coulomb(1)), Uneven(), settle, 5e-13);
@@ -599,6 +600,7 @@ TEST_CASE("what differs is not merged, and is said", "[ensemble][errors]") {
   refuses(run(Coulomb(1, 2), shaking(20), options(64, 64)), R"("backward": 2)");
   refuses(run(Slider(Coulomb(1), 0.5), shaking(20), options(64, 64)), R"("natural_frequency": 0.5)");
   refuses(run(Caster(1, 3), shaking(20), options(64, 64)), R"("reach": 3)");
+  refuses(run(Caster(1, 3, 0.5), shaking(20), options(64, 64)), R"("rolling": 0.5)");
   refuses(run(Disguised{1}, shaking(20), options(64, 64)), "Disguised");
   refuses(run(Coulomb(1), shaking(20, {.zero_frequency = true}), options(64, 64)), R"("zero_frequency": true)");
   EnsembleOptions o = options(64, 64);

@@ -258,3 +258,14 @@ TEST_CASE("under harmonic ground the averaged motion is a mean without scatter",
   }
   CHECK(moments.growth_rate.value == 0);
 }
+
+TEST_CASE("rolling resistance of a caster is refused where closed forms know its sech alone", "[theory][errors]") {
+  const Cart rolling(Caster(1, 2, 0.1));
+  const std::string rule = ": a caster with rolling resistance is not covered, rolling must be 0, got 0.1 m/s^2";
+  const theory::EquivalentLinearization linearization;
+  CHECK_THROWS_WITH(linearization.predict(rolling, theory::WhiteLevel(1), std::vector<double>{1.0}),
+                    "EquivalentLinearization" + rule);
+  CHECK_THROWS_WITH(theory::transition_time(rolling, theory::WhiteLevel(1)), "transition_time" + rule);
+  CHECK(linearization.covers(Cart(Caster(1, 2, 0)), theory::WhiteLevel(1)));
+  CHECK_FALSE(linearization.covers(rolling, theory::WhiteLevel(1)));
+}

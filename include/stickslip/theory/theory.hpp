@@ -7,6 +7,7 @@
 #include <string>
 
 #include "stickslip/error.hpp"
+#include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/state.hpp"
@@ -71,6 +72,10 @@ template <FrictionLaw Law>
 void require_plain(const Slider<Law>& slider, const std::string& theory) {
   require(slider.damping() == 0, theory + ": a slider with a damper is not covered, damping must be 0",
           slider.damping(), "1/s");
+  if constexpr (std::same_as<Law, Caster>)  // the closed forms of these are those of sech alone
+    require(slider.law().rolling() == 0 || (theory != "EquivalentLinearization" && theory != "transition_time"),
+            theory + ": a caster with rolling resistance is not covered, rolling must be 0", slider.law().rolling(),
+            "m/s^2");
   if constexpr (!PositionLaw<Law>) {
     throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
   } else if constexpr (LawWithHold<Law>) {
