@@ -479,7 +479,9 @@ def plot_ensemble(
         _band(speed, t, variance * fast**2, error * fast**2, BLUE)
         level = s.velocity_variance
         speed.plot([s.begin, s.end], [level.value * fast**2] * 2, color=VERMILION, linestyle="--")
-        what = "stationary" if s.is_stationary else "not shown stationary, average"
+        what = "stationary" if s.is_stationary else "not stationary:"
+        if s.remark.startswith("cannot tell"):
+            what = "perhaps stationary:"
         _note(speed, f"{what} {_with_error(level, fast**2)} {square}")
         speed.set_ylabel(f"variance of velocity\n[{square}]")
         for panel in (way, speed):
