@@ -151,3 +151,18 @@ TEST_CASE("settling under a steady pull over, a slider held off centre by the gr
   CHECK(settled.events.front().time == 1);
   CHECK(std::abs(settled.events.back().time - (1 + pi)) <= 4e-15);
 }
+
+TEST_CASE("in a cup a slider swings as a pendulum of the bowl's radius less the wheel's") {
+  // (2.49) corrected; a seconds pendulum is g / pi^2 long.
+  const double length = standard_gravity / (std::numbers::pi * std::numbers::pi);
+  const auto seconds = Slider<Coulomb>::in_cup(Coulomb(0), length + 0.04, 0.04);
+  CHECK(std::abs(seconds.natural_frequency() - std::numbers::pi) <= 1e-14);
+  const Response half = integrate(seconds, GroundMotion(std::vector<double>{0, 0}, 1), from(0.01));
+  CHECK(std::abs(half.residual + 0.01) <= 1e-15);
+  CHECK(Slider<Caster>::in_cup(Caster(1, 0.1), 0.5).natural_frequency() == std::sqrt(standard_gravity / 0.5));
+  CHECK(Slider<Coulomb>::in_cup(Coulomb(1), 1, 0, 0.3).damping() == 0.3);
+  CHECK_THROWS_WITH(Slider<Coulomb>::in_cup(Coulomb(1), 0), "Slider: cup_radius must be positive and finite, got 0 m");
+  CHECK_THROWS_WITH(Slider<Coulomb>::in_cup(Coulomb(1), 0.1, 0.1),
+                    "Slider: wheel_radius must be at least 0 and less than the cup's 0.1 m, got 0.1 m");
+  CHECK_THROWS_AS(Slider<Coulomb>::in_cup(Coulomb(1), not_a_number), std::invalid_argument);
+}

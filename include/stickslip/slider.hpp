@@ -6,6 +6,7 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip {
 
@@ -31,6 +32,25 @@ class Slider {
                     "Slider: natural_frequency must be finite and at least 0", natural_frequency, "rad/s");
     detail::require(std::isfinite(damping) && damping >= 0, "Slider: damping must be finite and at least 0", damping,
                     "1/s");
+  }
+
+  /// A slider in cups, thesis (2.49) as corrected: each wheel stands in a bowl and climbs its side, a pendulum of the
+  /// length of the bowl's radius less the wheel's,
+  ///     wn = sqrt(g / (cup_radius - wheel_radius))
+  /// to first order in x / (cup_radius - wheel_radius); the next term is the third.
+  /// @param cup_radius    radius of curvature of the bowl [m], finite
+  /// @param wheel_radius  of the wheel that rolls in it [m], at least 0 and less than cup_radius; 0, a point that
+  ///                      slides, is the thesis's form
+  /// @param damping       as above
+  /// @throws std::invalid_argument naming the value
+  static Slider in_cup(Law law, double cup_radius, double wheel_radius = 0, double damping = 0) {
+    detail::require(std::isfinite(cup_radius) && cup_radius > 0, "Slider: cup_radius must be positive and finite",
+                    cup_radius, "m");
+    detail::require(
+        wheel_radius >= 0 && wheel_radius < cup_radius,
+        "Slider: wheel_radius must be at least 0 and less than the cup's " + detail::shortest(cup_radius) + " m",
+        wheel_radius, "m");
+    return Slider(std::move(law), std::sqrt(standard_gravity / (cup_radius - wheel_radius)), damping);
   }
 
   const Law& law() const noexcept { return law_; }

@@ -32,7 +32,7 @@ concept MadeOfParts = !std::same_as<std::remove_cvref_t<decltype(parts<T>)>, std
 template <>
 inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::backward);
 template <>
-inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach);
+inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach, &Caster::rolling);
 template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
                                                          &HarmonicMotion::duration, &HarmonicMotion::dt);
@@ -70,7 +70,8 @@ inline constexpr auto parts<Moments> = std::tuple(&Moments::time, &Moments::disp
 template <>
 inline constexpr auto parts<Stationary> = std::tuple(&Stationary::begin, &Stationary::end, &Stationary::velocity_mean,
                                                      &Stationary::velocity_variance, &Stationary::velocity_kurtosis,
-                                                     &Stationary::covariance, &Stationary::growth_rate);
+                                                     &Stationary::covariance, &Stationary::growth_rate,
+                                                     &Stationary::velocity_trend, &Stationary::remark);
 template <>
 inline constexpr auto parts<VelocitySpectrum> = std::tuple(&VelocitySpectrum::omega, &VelocitySpectrum::density,
                                                            &VelocitySpectrum::error);

@@ -99,7 +99,47 @@ Notes
 -----
 Wherever a slider is asked for, a law alone will do: a slider without spring and damper.)");
   add_laws(slider, static_cast<const AnySlider*>(nullptr));
-  slider.def_property_readonly("law", &law_of, "The friction law.")
+  slider
+      .def_static(
+          "in_cup",
+          [](const AnySlider& law, double cup_radius, double wheel_radius, double damping) {
+            return std::visit(
+                [&](const auto& s) -> AnySlider {
+                  if (s.natural_frequency() != 0 || s.damping() != 0)
+                    throw std::invalid_argument("Slider: in_cup takes a law without spring and damper");
+                  return std::remove_cvref_t<decltype(s)>::in_cup(s.law(), cup_radius, wheel_radius, damping);
+                },
+                law);
+          },
+          py::arg("law"), py::kw_only(), py::arg("cup_radius"), py::arg("wheel_radius") = 0.0, py::arg("damping") = 0.0,
+          R"(A slider whose wheels stand in cups and climb their sides, thesis (2.49) as corrected.
+
+A pendulum of the length of the bowl's radius less the wheel's: wn = sqrt(g / (cup_radius - wheel_radius)).
+
+Parameters
+----------
+law : Coulomb or Caster
+cup_radius : float
+    Radius of curvature of the bowl [m], positive and finite.
+wheel_radius : float, optional
+    Radius of the wheel that rolls in it [m], at least 0 and less than cup_radius; 0, a point that slides, is the
+    thesis's form.
+damping : float, optional
+    c of a damper per unit mass [1/s]; finite and at least 0.
+
+Returns
+-------
+Slider
+
+Raises
+------
+ValueError
+    A value out of its range; a slider that has a spring or damper already.
+
+Notes
+-----
+To first order in x / (cup_radius - wheel_radius); the next term is the third.)")
+      .def_property_readonly("law", &law_of, "The friction law.")
       .def_property_readonly("natural_frequency", &natural_frequency_of, "wn [rad/s]; 0 without a spring.")
       .def_property_readonly("damping", &damping_of, "c [1/s]; 0 without a damper.")
       .def_property_readonly(

@@ -652,6 +652,7 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
                 "the velocity variance", stationary.velocity_variance
             ),
             "growth_rate_m2_s": estimate("the growth rate", stationary.growth_rate),
+            "remark": stationary.remark,
         },
     }
 
@@ -710,6 +711,8 @@ def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
     yield row("velocity variance", "", stationary["velocity_variance_m2_s2"], 1, "m^2/s^2")
     yield row("growth of variance of x", "", stationary["growth_rate_m2_s"], 1, "m^2/s")
     yield f"(the last two from {stationary['begin_s']:.3g} to {stationary['end_s']:.3g} s)"
+    if stationary["remark"]:
+        yield f"({stationary['remark']})"
 
 
 def _with_error(value: float, error: float) -> tuple[str, str]:

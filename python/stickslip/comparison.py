@@ -139,7 +139,8 @@ class Comparison:
             rate = moments.growth_rate.value
             if math.isfinite(rate) and growth.value != 0:
                 lines.append(_row("  " + name, [f"{rate / growth.value:.3f}"]))
-        notes = [f"{name}: {m.remark}" for name, m in self.theories.items() if m.remark]
+        notes = [f"simulation: {remark}"] if (remark := self.ensemble.stationary.remark) else []
+        notes += [f"{name}: {m.remark}" for name, m in self.theories.items() if m.remark]
         notes += [f"{name} does not apply: {why}" for name, why in self.refused.items()]
         return "\n".join(lines + ([""] if notes else []) + notes)
 

@@ -412,7 +412,8 @@ def plot_comparison(
             axes.set_xlabel("time [s]")
             axes.set_xlim(0, comparison.time[-1])
             axes.set_ylim(bottom=0)
-            _note(axes, "")
+            is_said = part == "velocity" and not e.stationary.is_stationary
+            _note(axes, "not shown to be stationary" if is_said else "")
         figure.axes[0].legend(loc="upper left", fontsize=8)
     return figure
 
@@ -478,7 +479,10 @@ def plot_ensemble(
         _band(speed, t, variance * fast**2, error * fast**2, BLUE)
         level = s.velocity_variance
         speed.plot([s.begin, s.end], [level.value * fast**2] * 2, color=VERMILION, linestyle="--")
-        _note(speed, f"stationary {_with_error(level, fast**2)} {square}")
+        what = "stationary" if s.is_stationary else "not stationary:"
+        if s.remark.startswith("cannot tell"):
+            what = "perhaps stationary:"
+        _note(speed, f"{what} {_with_error(level, fast**2)} {square}")
         speed.set_ylabel(f"variance of velocity\n[{square}]")
         for panel in (way, speed):
             panel.set(xlim=(t[0], t[-1]), xlabel="time [s]")
@@ -677,6 +681,8 @@ def _describe(slider: Any) -> str:
         words = levels + words
         if hasattr(slider.law, "reach"):
             words.append(f"caster, reach {_digits(slider.law.reach * 100)} cm")
+            if slider.law.rolling > 0:
+                words.append(f"of it rolling {_digits(slider.law.rolling / STANDARD_GRAVITY)} g")
     if wn > 0:
         words.append(f"period {_digits(2 * np.pi / wn)} s")
     return ", ".join(words)
@@ -788,6 +794,8 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
             words.append(f"{_digits(back / STANDARD_GRAVITY)} g backward")
     if "reach" in slider:
         words.append(f"caster, reach {_digits(slider['reach'] * 100)} cm")
+        if "rolling" in slider:
+            words.append(f"rolling {_digits(slider['rolling'] / STANDARD_GRAVITY)} g")
     if slider.get("natural_frequency"):
         words.append(f"period {_digits(2 * np.pi / slider['natural_frequency'])} s")
     return ", ".join(words)

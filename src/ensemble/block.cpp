@@ -39,6 +39,7 @@ Block::Block(const EnsembleTimes& times, bool velocity_spectrum, const std::atom
       peak_(width_),
       residual_(width_),
       central_(4 * width_),
+      first_half_(width_),
       marks_(3 * width_) {
   if (velocity_spectrum) {
     spectrum_ = std::make_unique<Spectrum>(times.central());
@@ -60,6 +61,7 @@ void Block::row(std::size_t time, const double* displacement, const double* velo
   const CentralSums central{sums, sums + width_, sums + 2 * width_, sums + 3 * width_};
   const std::size_t begin = times_.begin(), length = times_.central();
   const bool is_central = time >= begin && time < begin + length;
+  if (time == begin + length / 2) std::copy_n(central.velocity_square, width_, first_half_.data());
   row_moments(displacement, velocity, members_, tally_.sums().data() + time, times_.count,
               is_central ? &central : nullptr);
   if (is_central && spectrum_) std::copy_n(velocity, width_, velocities_.data() + (time - begin) * width_);
@@ -80,6 +82,7 @@ Tally Block::finish() {
     mean_half += (marks[width_ + i] - marks[i]) / n;
     mean_whole += (marks[2 * width_ + i] - marks[i]) / n;
   }
+  const auto half_length = static_cast<double>(times_.central() / 2);
   const double second_half = static_cast<double>(times_.central() - times_.central() / 2) * times_.dt;
   // Squares about the mean of a few members are too small by this.
   const double unbiased = n > 1 ? n / (n - 1) : 1;
@@ -87,13 +90,15 @@ Tally Block::finish() {
   for (std::size_t i = 0; i < members_; ++i) {
     const double half = marks[width_ + i] - marks[i], whole = marks[2 * width_ + i] - marks[i];
     const double e = half - mean_half, f = whole - mean_whole;
+    const double before = first_half_[i], after = sums[width_ + i] - before;
     values[i] = {sums[i] / length,
                  half,
                  whole,
                  unbiased * sums[width_ + i] / length,
                  unbiased * unbiased * sums[2 * width_ + i] / length,
                  unbiased * sums[3 * width_ + i] / length,
-                 unbiased * (f * f - e * e) / second_half};
+                 unbiased * (f * f - e * e) / second_half,
+                 half_length > 0 ? unbiased * (after / (length - half_length) - before / half_length) : 0};
     for (std::size_t a = 0; a < features; ++a) tally_.mean(a) += values[i][a] / n;
   }
   for (const auto& value : values)

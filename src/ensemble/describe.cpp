@@ -10,7 +10,8 @@ std::string parameters(const Coulomb& law) {
 }
 
 std::string parameters(const Caster& law) {
-  return "\"law\": \"Caster\", \"slip_level\": " + json(law.slip_level()) + ", \"reach\": " + json(law.reach());
+  return "\"law\": \"Caster\", \"slip_level\": " + json(law.slip_level()) + ", \"reach\": " + json(law.reach()) +
+         (law.rolling() > 0 ? ", \"rolling\": " + json(law.rolling()) : "");
 }
 
 std::string parameters(const char* type, std::span<const double> levels) {

@@ -3,8 +3,10 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <initializer_list>
 #include <limits>
 #include <numbers>
@@ -236,25 +238,50 @@ Estimates Ensemble::covariance() const {
 }
 
 Moments Ensemble::moments() const {
+  const Stationary averages = stationary();
   return {.time = time(),
           .displacement_mean = displacement_mean(),
           .displacement_variance = displacement_variance(),
           .covariance = covariance(),
           .velocity_mean = velocity_mean(),
           .velocity_variance = velocity_variance(),
-          .growth_rate = stationary().growth_rate,
-          .remark = {}};
+          .growth_rate = averages.growth_rate,
+          .remark = averages.remark};
 }
+
+namespace {
+
+// What speaks against taking averages over the central half for stationary values.
+std::string remark_on(const Stationary& averages, std::uint64_t members, std::size_t times) {
+  if (members < Stationary::fewest_members || times < 2)
+    return "cannot tell whether the velocity is stationary: needs at least " +
+           std::to_string(Stationary::fewest_members) + " members and 2 times in the central half, got " +
+           std::to_string(members) + " members and " + std::to_string(times) + (times == 1 ? " time" : " times");
+  const auto [trend, error] = averages.velocity_trend;
+  if (trend == 0 ||
+      gsl_cdf_tdist_Q(std::abs(trend) / error, static_cast<double>(members) - 2) >= Stationary::false_alarm / 2)
+    return {};
+  const auto percent = [&](double part) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g %%", 100 * part / averages.velocity_variance.value);
+    return std::string(text.data());
+  };
+  return "the velocity is not stationary: from the first to the second half of " + detail::shortest(averages.begin) +
+         " to " + detail::shortest(averages.end) + " s its variance " + (trend > 0 ? "grows" : "falls") + " by " +
+         percent(std::abs(trend)) + " +- " + percent(error) + " of the average";
+}
+
+}  // namespace
 
 Stationary Ensemble::stationary() const {
   need_times();
   const Tally total = parts_.tallies.total();
   const auto n = static_cast<double>(total.count);
   const std::size_t begin = parts_.times.begin(), length = parts_.times.central();
-  const auto average = [&](Tally::Moment m) {
+  const auto average = [&](Tally::Moment m, std::size_t first, std::size_t count) {
     double sum = 0;
-    for (std::size_t i = begin; i < begin + length; ++i) sum += total.moment(m)[i];
-    return sum / static_cast<double>(length);
+    for (std::size_t i = first; i < first + count; ++i) sum += total.moment(m)[i];
+    return sum / static_cast<double>(count);
   };
   const auto error = [&](std::size_t feature) { return std::sqrt(total.scatter(feature, feature) / (n - 1) / n); };
 
@@ -262,11 +289,11 @@ Stationary Ensemble::stationary() const {
   result.begin = static_cast<double>(begin) * parts_.times.dt;
   result.end = static_cast<double>(begin + length) * parts_.times.dt;
   result.velocity_mean = {total.mean(detail::velocity), error(detail::velocity)};
-  result.velocity_variance = {average(Tally::vv) / (n - 1), error(detail::velocity_square)};
-  result.covariance = {average(Tally::xv) / (n - 1), error(detail::product)};
+  result.velocity_variance = {average(Tally::vv, begin, length) / (n - 1), error(detail::velocity_square)};
+  result.covariance = {average(Tally::xv, begin, length) / (n - 1), error(detail::product)};
 
   // m4 / m2^2: its error from those of m4 and m2 and their covariance.
-  const double m2 = average(Tally::vv) / n, m4 = average(Tally::vvvv) / n;
+  const double m2 = average(Tally::vv, begin, length) / n, m4 = average(Tally::vvvv, begin, length) / n;
   if (m4 > 0) {
     // Relative to m4 and m2, one after the other, so that no product of them overflows.
     const auto relative = [&](std::size_t a, double of_a, std::size_t b, double of_b) {
@@ -285,6 +312,18 @@ Stationary Ensemble::stationary() const {
   const auto variance = [&](std::size_t feature) { return total.scatter(feature, feature) / (n - 1); };
   result.growth_rate = {(variance(detail::increment_whole) - variance(detail::increment_half)) / second_half,
                         error(detail::growth)};
+
+  const std::size_t half = length / 2;
+  if (half > 0) {
+    const double first = average(Tally::vv, begin, half), second = average(Tally::vv, begin + half, length - half);
+    // Squares of b normal numbers about their own mean scatter too little, by (b - 2) / (b - 1).
+    const double b = std::min(n, static_cast<double>(block(parts_.times.count)));
+    result.velocity_trend = {(second - first) / (n - 1),
+                             error(detail::trend) * std::sqrt((b - 1) / std::max(b - 2, 0.0))};
+  } else {
+    result.velocity_trend = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  }
+  result.remark = remark_on(result, total.count, length);
   return result;
 }
 

@@ -131,7 +131,8 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const G
                                            std::uint64_t seed, bool settle) {
   // The lanes measure lengths in reaches.
   const double reach = slider.law().reach();
-  if (!has_friction_alone(slider)) return series_simulator(slider, excitation, seed, settle);
+  if (!has_friction_alone(slider) || slider.law().rolling() > 0)
+    return series_simulator(slider, excitation, seed, settle);
   if (!(reach > 1e-9 && reach < 1e9)) return nullptr;
   return std::make_unique<LanesSimulator<Caster, CasterLanes>>(slider, caster_lanes(slider, excitation.dt()),
                                                                excitation, seed, settle);

@@ -203,6 +203,9 @@ TransitionTime transition_time(const Slider<Caster>& slider, WhiteLevel s0) {
           "transition_time: covers casters without a spring: natural_frequency must be 0", slider.natural_frequency(),
           "rad/s");
   detail::require_plain(slider, "transition_time");
+  require(slider.law().rolling() == 0,
+          "transition_time: a caster with rolling resistance is not covered, rolling must be 0", slider.law().rolling(),
+          "m/s^2");
   const double a = slider.law().slip_level(), reach = slider.law().reach();
   require(a > 0, "transition_time: without friction there is no transition: slip_level must be positive", a, "m/s^2");
   const double unit = s0.s0() / a / a, loose = reach / (s0.s0() / a) / unit;     // 1 / gamma

@@ -167,6 +167,7 @@ TEST_CASE("member k is the slider under sample(seed, k)", "[ensemble]") {
     check(Slider(Coulomb(1)), shaking(), settle, 5e-13);
     check(Slider(Coulomb(1, infinity)), shaking(), settle, 5e-13);
     check(Slider(Coulomb(1), 1.3), shaking(), settle, 5e-13);
+    check(Slider(Caster(1, 0.5, 0.05)), shaking(), settle, 1e-10);
     check(Slider(Caster(1, 0.5), 0.3), shaking(), settle, 1e-10);  // Taylor series, and cut in other places
     check(Slider(Coulomb(1)), PoissonPulses(1, 0.5, 3, 20), settle, 5e-13);
     check(Slider(Coulomb(1)), Uneven(), settle, 5e-13);
@@ -271,6 +272,13 @@ TEST_CASE("statistics are those of the members", "[ensemble]") {
     };
     return direct.covariance(way, way);
   };
+  double trend = 0;
+  for (std::size_t i = begin; i < begin + length; ++i) {
+    const double part =
+        i < begin + length / 2 ? -static_cast<double>(length / 2) : static_cast<double>(length - length / 2);
+    trend += direct.covariance(v(i * every), v(i * every)) / part;
+  }
+  CHECK(std::abs(s.velocity_trend.value - trend) <= 1e-12 * variance);
   const double rate = (growth(length) - growth(length / 2)) / (time[begin + length] - time[begin + length / 2]);
   CHECK(std::abs(s.growth_rate.value - rate) <= 1e-11 * std::abs(rate));
 }
@@ -592,6 +600,7 @@ TEST_CASE("what differs is not merged, and is said", "[ensemble][errors]") {
   refuses(run(Coulomb(1, 2), shaking(20), options(64, 64)), R"("backward": 2)");
   refuses(run(Slider(Coulomb(1), 0.5), shaking(20), options(64, 64)), R"("natural_frequency": 0.5)");
   refuses(run(Caster(1, 3), shaking(20), options(64, 64)), R"("reach": 3)");
+  refuses(run(Caster(1, 3, 0.5), shaking(20), options(64, 64)), R"("rolling": 0.5)");
   refuses(run(Disguised{1}, shaking(20), options(64, 64)), "Disguised");
   refuses(run(Coulomb(1), shaking(20, {.zero_frequency = true}), options(64, 64)), R"("zero_frequency": true)");
   EnsembleOptions o = options(64, 64);
@@ -660,6 +669,7 @@ TEST_CASE("a block that never slips has no spread, and no kurtosis", "[ensemble]
   CHECK(largest(still.displacement_variance().error) == 0);
   const Stationary s = still.stationary();
   CHECK((s.growth_rate.value == 0 && s.growth_rate.error == 0));
+  CHECK((s.is_stationary() && s.velocity_trend.value == 0));
   CHECK(std::isnan(s.velocity_kurtosis.value));
   CHECK(still.exceedance(0).value == 0);
 }
@@ -733,7 +743,7 @@ TEST_CASE("sums, peaks and residuals that no members have do not make an ensembl
       ++positive;
     }
   }
-  // At 20 times xx, vv, xxxx, xxvv and vvvv, at 6 frequencies mean and scatter, and the scatter of 7 features.
+  // At 20 times xx, vv, xxxx, xxvv and vvvv, at 6 frequencies mean and scatter, and the scatter of 8 features.
   CHECK(positive == 5 * 20 + 2 * 6 + detail::features);
 }
 
@@ -762,12 +772,12 @@ struct Figures {
 }  // namespace
 
 TEST_CASE("standard errors are as large as the scatter between ensembles", "[ensemble][statistics]") {
-  // 1000 ensembles: 999 degrees of freedom, 0.86 to 1.153 except in 2 of 1000 times, 11 figures: 1 in 45, somewhat more
+  // 1000 ensembles: 999 degrees of freedom, 0.86 to 1.153 except in 2 of 1000 times, 12 figures: 1 in 40, somewhat more
   // as they are not quite normal. What is squared about the mean of a block says too little by some 1/members; the
   // kurtosis, no mean of anything but a ratio, is off by a few times that, and by 8 members there is no telling it.
   const auto [members, low, high] = GENERATE(std::tuple{64U, 0.86, 1.153}, std::tuple{8U, 0.86, 1.153 + 1.0 / 8});
   const GaussianExcitation excitation = shaking(200);
-  Figures x, v, xv, mean_x, mean_v, variance, covariance, growth, kurtosis, mean, spectrum_0, spectrum_6;
+  Figures x, v, xv, mean_x, mean_v, variance, covariance, growth, kurtosis, mean, spectrum_0, spectrum_6, trend;
   for (std::uint64_t run = 0; run < 1000; ++run) {
     EnsembleOptions o = options(members, 64 * run, 1);
     const Ensemble e = run_ensemble(Coulomb(1, 1.3), excitation, o);
@@ -782,17 +792,61 @@ TEST_CASE("standard errors are as large as the scatter between ensembles", "[ens
     growth.add(s.growth_rate);
     kurtosis.add(s.velocity_kurtosis);
     mean.add(s.velocity_mean);
+    trend.add(s.velocity_trend);
     const VelocitySpectrum spectrum = e.velocity_spectrum();
     spectrum_0.add({spectrum.density[0], spectrum.error[0]});
     spectrum_6.add({spectrum.density[6], spectrum.error[6]});
   }
   for (const Figures* figure :
-       {&x, &v, &xv, &mean_x, &mean_v, &variance, &covariance, &growth, &mean, &spectrum_0, &spectrum_6}) {
+       {&x, &v, &xv, &mean_x, &mean_v, &variance, &covariance, &growth, &mean, &spectrum_0, &spectrum_6, &trend}) {
     CAPTURE(members, figure->values[0], figure->ratio());
     CHECK((figure->ratio() > low && figure->ratio() < high));
   }
   CAPTURE(members, kurtosis.ratio());
   if (members == 64) CHECK((kurtosis.ratio() > low && kurtosis.ratio() < high + 4.0 / 64));
+}
+
+TEST_CASE("a stationary velocity is called so but once in a thousand times", "[ensemble][statistics]") {
+  // Coulomb friction has forgotten its start when the central half begins, at 10 s. Were 1 in 1000 ensembles accused,
+  // more than 11 of 4000 would be in 1 of 1000 times.
+  const std::uint64_t members = GENERATE(8U, 64U);
+  const GaussianExcitation excitation = shaking(400);
+  int accused = 0;
+  for (std::uint64_t run = 0; run < 4000; ++run) {
+    EnsembleOptions o = options(members, 64 * run, 2);
+    o.velocity_spectrum = false;
+    accused += !run_ensemble(Coulomb(1), excitation, o).stationary().is_stationary();
+  }
+  CAPTURE(members, accused);
+  CHECK(accused <= 11);
+}
+
+TEST_CASE("a velocity whose variance grows or falls is not called stationary", "[ensemble][statistics]") {
+  // A caster at gamma = 0.1 under white noise leaves its reach and then gains speed at up to 2 pi S0: freely it would
+  // gain 2 pi 25 m^2/s^2 from one half to the next, half of the average at 50 s. With the error of 2000 members, sqrt(2
+  // / 2000) = 3 % of the average or so, that is some 15 errors.
+  const GaussianExcitation white(Spectrum::white(1), 0.05, 2001, {.random_amplitudes = true, .zero_frequency = true});
+  const Stationary escaping = run_ensemble(Caster(1, 10), white, options(2000)).stationary();
+  CAPTURE(escaping.remark);
+  CHECK(escaping.velocity_trend.value > 10 * escaping.velocity_trend.error);
+  CHECK_FALSE(escaping.is_stationary());
+  CHECK_THAT(escaping.remark, ContainsSubstring("the velocity is not stationary: from the first to the second half of "
+                                                "25 to 75 s its variance grows by "));
+
+  GaussianOptions dying;
+  dying.envelope = Envelope(5, 5, 0.2);
+  const Stationary fading = run_ensemble(Coulomb(1), shaking(400, dying), options(2000)).stationary();
+  CHECK(fading.velocity_trend.value < -10 * fading.velocity_trend.error);
+  CHECK_THAT(fading.remark, ContainsSubstring("its variance falls by "));
+}
+
+TEST_CASE("few members and few times cannot tell whether a velocity is stationary", "[ensemble]") {
+  CHECK(run_ensemble(Coulomb(1), shaking(200), options(7)).stationary().remark ==
+        "cannot tell whether the velocity is stationary: needs at least 8 members and 2 times in the central half, got "
+        "7 members and 100 times");
+  const Stationary s = run_ensemble(Coulomb(1), shaking(3), options(64)).stationary();
+  CHECK(std::isnan(s.velocity_trend.value));
+  CHECK_THAT(s.remark, ContainsSubstring("got 64 members and 1 time"));
 }
 
 TEST_CASE("bounds of quantiles and exceedances hold as often as they say", "[ensemble][statistics]") {

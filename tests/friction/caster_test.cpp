@@ -252,3 +252,61 @@ TEST_CASE("however slow a caster starts, the motion is that from rest", "[caster
   for (const double velocity : {-1e-300, -1e-20, -1e-12, 1e-20})
     CHECK(std::abs(residual(velocity) - from_rest) <= 1e-12);
 }
+
+TEST_CASE("rolling resistance is the same everywhere, and its work grows with the way", "[caster]") {
+  const Caster plain(1.5, 0.25), rolling(1.5, 0.25, 0.3);
+  for (const Direction direction : {Direction::forward, Direction::backward})
+    for (const double x : {-30.0, -0.3, 0.0, 0.01, 1.0, 20.0}) {
+      CHECK(rolling.resist(x, direction) == plain.resist(x, direction) + 0.3);
+      for (const double way : {0.0, 0x1p-70, 0.01, 2.0, 50.0}) {
+        const double expected = plain.work(x, way, direction) + 0.3 * way;
+        CHECK(std::abs(rolling.work(x, way, direction) - expected) <= 4e-16 * expected);
+      }
+    }
+  CHECK(rolling.resist(1e9, Direction::forward) == 0.3);
+  CHECK(Caster(1, 2).rolling() == 0);
+  CHECK(Caster(1, 2, -0.0).resist(0.3, Direction::forward) == Caster(1, 2).resist(0.3, Direction::forward));
+}
+
+TEST_CASE("a caster that only rolls is a block of the same level", "[caster]") {
+  // Taylor series against the closed form, as a caster of infinite reach.
+  for (const double natural_frequency : {0.0, 1.3}) {
+    const Response block = integrate(Slider(Coulomb(1), natural_frequency), record_a());
+    const Response wheel = integrate(Slider(Caster(0, 0.5, 1), natural_frequency), record_a());
+    CHECK(difference(block.displacement, wheel.displacement) <= 1e-12 * block.peak);
+    CHECK(difference(block.velocity, wheel.velocity) <= 1e-12 * largest(block.velocity));
+    CHECK(std::abs(wheel.energy.dissipated - block.energy.dissipated) <= 1e-12 * block.energy.dissipated);
+    CHECK(count(block.events) == count(wheel.events));
+  }
+}
+
+TEST_CASE("rolling resistance stops a caster that would escape, where its energy is spent", "[caster]") {
+  const Caster law(1, 0.5, 0.02);
+  for (const auto& [start, speed, stop] : reference::escapes) {
+    INFO("from " << start);
+    const Response r = integrate(law, held(0, 1), from(start, 1.01 * speed, true));
+    CHECK(r.state.mode == Mode::stuck);
+    const double energy = 1.01 * speed * 1.01 * speed / 2, way = r.residual - start;
+    CHECK(way > 0);
+    // The way is a difference of positions, each with some four roundings of its own.
+    const double rounding = 8 * 1.1e-16 * r.residual * law.resist(start, Direction::forward);
+    CHECK(std::abs(law.work(start, way, Direction::forward) - energy) <= 1e-13 * energy + rounding);
+    CHECK(std::abs(r.energy.imbalance()) <= 1e-13 * energy);
+  }
+}
+
+TEST_CASE("rolling resistance from the geometry is a coefficient of the weight", "[caster]") {
+  const Caster plain = Caster::from_geometry(0.5, 0.04, 0.032), rolling = Caster::from_geometry(0.5, 0.04, 0.032, 0.01);
+  CHECK(rolling.slip_level() == plain.slip_level());
+  CHECK(rolling.reach() == plain.reach());
+  CHECK(rolling.rolling() == 0.01 * standard_gravity);
+  CHECK(Caster::from_geometry_thesis(0.5, 0.04, 0.032, 0.01).rolling() == rolling.rolling());
+}
+
+TEST_CASE("rolling resistance that is none is refused by its value", "[caster][errors]") {
+  for (const double bad : {-0.1, infinity, not_a_number}) {
+    const std::string got = " must be finite and at least 0, got " + detail::shortest(bad);
+    CHECK_THROWS_WITH(Caster(1, 0.5, bad), "Caster: rolling" + got + " m/s^2");
+    CHECK_THROWS_WITH(Caster::from_geometry(0.5, 0.04, 0.032, bad), "Caster: rolling_mu" + got);
+  }
+}

@@ -709,6 +709,7 @@ def test_an_ensemble_is_exactly_the_librarys(capsys, case, source):
     assert mean["value"] == pytest.approx(e.residual.mean(), rel=1e-12)
     assert mean["error"] == pytest.approx(e.residual.std(ddof=1) / 10, rel=1e-12)
     assert rms["value"] == pytest.approx(np.sqrt((e.residual**2).mean()), rel=1e-12)
+    assert document["stationary"]["remark"] == e.stationary.remark
     growth = document["stationary"]["growth_rate_m2_s"]
     assert growth == {
         "value": e.stationary.growth_rate.value,
@@ -741,7 +742,8 @@ def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
     assert float(line.split()[2]) == pytest.approx(
         e.stationary.velocity_variance.value, abs=e.stationary.velocity_variance.error / 10
     )
-    assert lines[-1] == "(the last two from 3.75 to 11.2 s)"
+    assert lines[-1 - bool(e.stationary.remark)] == "(the last two from 3.75 to 11.2 s)"
+    assert (lines[-1] == f"({e.stationary.remark})") == (not e.stationary.is_stationary)
 
 
 REFUSED_ENSEMBLES = {

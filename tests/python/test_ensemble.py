@@ -122,6 +122,44 @@ def test_stationary_averages_are_over_the_central_half():
     near(spectrum.error, transformed.std(0, ddof=1) / math.sqrt(n))
 
 
+def test_a_velocity_that_is_not_stationary_is_said_wherever_its_variance_is(ensemble):
+    s = ensemble.stationary
+    assert s.is_stationary
+    assert s.remark == ""
+    v = s.velocity_trend
+    assert abs(v.value) < 3.29 * v.error
+
+    # The ground dies down from 4 s on; the central half begins at 6.4 s.
+    dying = ss.GaussianExcitation(
+        ss.Spectrum.band_pass(s0=1.0, low=2.0, high=4.0),
+        dt=0.1,
+        samples=256,
+        period=1024,
+        envelope=ss.Envelope(build_up=2, strong=2, decay_rate=0.2),
+    )
+    comparison = ss.compare(BLOCK, dying, members=500, seed=1, theories=[Anything()])
+    e = comparison.ensemble
+    s = e.stationary
+    assert not s.is_stationary
+    assert s.remark.startswith("the velocity is not stationary: from the first to the second half")
+    assert f"simulation: {s.remark}" in str(comparison)
+    assert "not shown to be stationary" in repr(s)
+    assert e.moments.remark == s.remark
+    for picture in (e.plot(), comparison.plot()):
+        texts = [text.get_text() for axes in picture.axes for text in axes.texts]
+        assert sum("not s" in text for text in texts) == 1
+
+
+class Anything:
+    name = "anything"
+
+    def covers(self, slider, excitation):
+        return True
+
+    def predict(self, slider, excitation, times):
+        return ss.Moments(times)
+
+
 def test_peaks_and_residuals_are_those_of_integrate(case):
     slider, source = case
     for settle in (False, True):
@@ -484,7 +522,7 @@ def test_an_ensemble_pickles(ensemble):
 def test_a_file_needs_nothing_but_numpy_to_be_read(ensemble, tmp_path):
     ensemble.save(tmp_path / "run.npz")
     with np.load(tmp_path / "run.npz", allow_pickle=False) as arrays:
-        assert str(arrays["format"]) == "stickslip ensemble 1"
+        assert str(arrays["format"]) == "stickslip ensemble 2"
         assert str(arrays["library"]) == ss.__version__
         assert np.array_equal(arrays["peak"], ensemble.peak)
         assert dict(json.loads(str(arrays["configuration"])))["seed"] == "1"
@@ -530,9 +568,10 @@ def test_a_file_of_something_else_is_refused_by_name(ensemble, tmp_path):
         archive.writestr("letter.txt", "hello")
     with pytest.raises(ValueError, match=r"words\.npz' is "):
         ss.Ensemble.load(tmp_path / "words.npz")
-    np.savez(tmp_path / "newer.npz", format="stickslip ensemble 2", library="9.0")
-    with pytest.raises(ValueError, match=r"of format 'stickslip ensemble 2', of stickslip 9\.0"):
-        ss.Ensemble.load(tmp_path / "newer.npz")
+    for form in ("stickslip ensemble 1", "stickslip ensemble 3"):
+        np.savez(tmp_path / "other.npz", format=form, library="9.0")
+        with pytest.raises(ValueError, match=rf"of format '{form}', of stickslip 9\.0"):
+            ss.Ensemble.load(tmp_path / "other.npz")
     with pytest.raises(FileNotFoundError):
         ss.Ensemble.load(tmp_path / "nowhere.npz")
     with pytest.raises(FileNotFoundError, match="no such folder"):

@@ -19,6 +19,7 @@ LAWS = [
     ss.Caster(slip_level=1.0, reach=0.5),
     ss.Caster(mu=1 / 7, reach=INF),
     ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02),
+    ss.Caster(slip_level=1.0, reach=0.5, rolling=1 / 30),
 ]
 
 # Wheels of several l/w: (l/w, s, l_eff / l) of the mechanics, and s of thesis (A.16).
@@ -193,6 +194,35 @@ def test_laws_are_equal_when_their_numbers_are():
     assert ss.Caster(slip_level=1.0, reach=INF) != ss.Coulomb(slip_level=1.0)
     assert ss.Coulomb(slip_level=1.0) != 1.0
     assert len(set(LAWS)) == len(LAWS)
+
+
+def test_rolling_resistance_is_the_same_everywhere():
+    geometry = {"mu": 0.2, "trail": 0.03, "wheel_width": 0.02}
+    plain = ss.Caster.from_geometry(**geometry)
+    rolling = ss.Caster.from_geometry(**geometry, rolling_mu=0.01)
+    assert (plain.rolling, rolling.rolling) == (0, 0.01 * G)
+    assert (rolling.slip_level, rolling.reach) == (plain.slip_level, plain.reach)
+    for x in (0.0, 0.1, -50.0):
+        assert ss.Slider(rolling).resist(x) == ss.Slider(plain).resist(x) + 0.01 * G
+    assert "rolling" not in repr(plain)
+    for bad in (-1.0, NAN, INF):
+        with pytest.raises(ValueError, match="rolling must be finite and at least 0, got"):
+            ss.Caster(slip_level=1.0, reach=0.5, rolling=bad)
+        with pytest.raises(ValueError, match="rolling_mu must be finite and at least 0, got"):
+            ss.Caster.from_geometry(**geometry, rolling_mu=bad)
+
+
+def test_a_cup_is_a_pendulum_of_its_radius_less_the_wheels():
+    law = ss.Caster(slip_level=1.0, reach=0.5)
+    cart = ss.Slider.in_cup(law, cup_radius=0.54, wheel_radius=0.04)
+    assert cart == ss.Slider(law, natural_frequency=math.sqrt(G / 0.5))  # (2.49) corrected
+    assert ss.Slider.in_cup(ss.Coulomb(mu=0.1), cup_radius=G, damping=0.2).damping == 0.2
+    with pytest.raises(ValueError, match=r"less than the cup's 0\.5 m, got 0\.5 m"):
+        ss.Slider.in_cup(law, cup_radius=0.5, wheel_radius=0.5)
+    with pytest.raises(ValueError, match="cup_radius must be positive and finite, got nan m"):
+        ss.Slider.in_cup(law, cup_radius=NAN)
+    with pytest.raises(ValueError, match="without spring and damper"):
+        ss.Slider.in_cup(cart, cup_radius=0.5)
 
 
 def test_laws_do_not_change():

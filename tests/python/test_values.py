@@ -13,6 +13,7 @@ import stickslip as ss
 import stickslip.thesis
 from stickslip import harmonic, theory, thesis
 
+ROLLING = ss.Caster(slip_level=1.0, reach=0.5, rolling=0.1)
 BLOCK, WHEEL = ss.Coulomb(slip_level=1.0, backward=1.6), ss.Caster(slip_level=1.0, reach=0.5)
 CART, DAMPER = ss.Slider(WHEEL, 1.3), ss.ViscousSlider(0.5, 2.0)
 EVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, name="M\u00e9xico")
@@ -42,7 +43,7 @@ STATEMENTS = [s for figure in FIGURES for s in figure.statements]
 # Of each class, objects that differ.
 EXAMPLES = {
     ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
-    ss.Caster: [WHEEL, ss.Caster(slip_level=1.0, reach=float("inf"))],
+    ss.Caster: [WHEEL, ss.Caster(slip_level=1.0, reach=float("inf")), ROLLING],
     ss.Slider: [CART, ss.Slider(WHEEL), ss.Slider(BLOCK, 1.3)],
     ss.GroundMotion: [
         EVEN,

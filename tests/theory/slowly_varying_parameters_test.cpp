@@ -136,6 +136,27 @@ TEST_CASE("a caster of infinite reach is Coulomb friction, and one of far reach 
   }
 }
 
+TEST_CASE("rolling resistance of a caster is Coulomb friction beside its own", "[svp]") {
+  // S is linear in the level. The sum of two numbers known to 1e-15 or so of themselves.
+  for (const double reach : {0.5, infinity})
+    for (const double amplitude : {1e-6, 0.01, 0.12, 0.13, 2.0, 1e3}) {
+      const auto S = [&](const auto& law) { return Theory(Slider(law)).dissipative(amplitude); };
+      const double sum = S(Caster(1, reach)) + S(Coulomb(0.3)), whole = S(Caster(1, reach, 0.3));
+      CHECK(std::abs(whole - sum) <= 4e-15 * std::abs(sum));
+    }
+  // On a spring in resonance it holds what a caster without it does not.
+  const Slider plain(Caster(1, 0.5), 2), rolling(Caster(1, 0.5, 0.3), 2);
+  CHECK(std::isfinite(Theory(plain).least_amplitude(0.3)));
+  CHECK(std::isinf(Theory(rolling).least_amplitude(0.3)));  // B < 4 rolling / pi
+  CHECK(Theory(rolling).response(0.3, 2).empty());
+  const Theory svp(rolling);
+  for (const double omega : {0.5, 1.7, 2.0, 3.0})
+    for (const theory::HarmonicSolution& solution : svp.response(1.9, omega)) {
+      const double s = svp.dissipative(solution.amplitude), c = (4 - omega * omega) * solution.amplitude;
+      CHECK(std::abs(std::hypot(s, c) - 1.9) <= 1e-12);  // (2.16)
+    }
+}
+
 TEST_CASE("a law that does not know its work is integrated to the same", "[svp]") {
   // Quadrature is asked for 1e-10; the derivative is a difference of which 1/25 at least is left.
   const Theory known(Caster(1.5, 0.2)), own(OwnCaster{1.5, 0.2});

@@ -276,3 +276,19 @@ TEST_CASE("under harmonic ground the averaged motion is a mean without scatter",
   }
   CHECK(moments.growth_rate.value == 0);
 }
+
+TEST_CASE("a caster that only rolls is linearized as a block", "[theory]") {
+  const Cart rolling(Caster(0, 2, 0.1));
+  const theory::EquivalentLinearization linearization;
+  REQUIRE(linearization.covers(rolling, theory::WhiteLevel(0.01)));
+  const std::vector<double> times{1, 10, 100};
+  const Moments cart = linearization.predict(rolling, theory::WhiteLevel(0.01), times);
+  const Moments block = linearization.predict(Slider(Coulomb(0.1)), theory::WhiteLevel(0.01), times);
+  for (std::size_t i = 0; i < times.size(); ++i) {  // both to the tolerance of CVODE, 1e-8 a step
+    CHECK(cart.displacement_variance.value[i] == Approx(block.displacement_variance.value[i]).epsilon(1e-5));
+    CHECK(cart.velocity_variance.value[i] == Approx(block.velocity_variance.value[i]).epsilon(1e-5));
+  }
+  CHECK_THROWS_WITH(
+      theory::transition_time(rolling, theory::WhiteLevel(1)),
+      "transition_time: a caster with rolling resistance is not covered, rolling must be 0, got 0.1 m/s^2");
+}

@@ -12,8 +12,11 @@
 
 namespace stickslip {
 
-/// Four casters under a rigid mass, thesis (2.27): the slip level is a sech(x / reach). The thesis writes 3l for the
-/// reach.
+/// Four casters under a rigid mass, thesis (2.27): the slip level is a sech(x / reach) + rolling. The thesis writes 3l
+/// for the reach and has no rolling resistance.
+///
+/// Rolling resistance acts along the wheel, on the part |tanh(x / reach)| of the way that it rolls. The law takes it as
+/// the same everywhere: too much by up to `rolling` where the wheel stands across the motion and scrubs.
 ///
 /// The law holds while the wheels are neither in line with the motion nor flipped round: |x| up to about the reach is
 /// sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
@@ -23,11 +26,15 @@ class Caster {
 
   /// @param slip_level  a, force per unit mass at x = 0, the wheel across the motion [m/s^2], finite and at least 0
   /// @param reach       the distance over which the level falls off [m], positive; infinite is Coulomb friction
+  /// @param rolling     rolling resistance and that of the bearings, per unit mass [m/s^2], finite and at least 0
   /// @throws std::invalid_argument naming the value
-  Caster(double slip_level, double reach) : slip_level_(slip_level), reach_(reach) {
+  Caster(double slip_level, double reach, double rolling = 0)
+      : slip_level_(slip_level), reach_(reach), rolling_(rolling + 0.0) {  // minus zero is zero
     detail::require(std::isfinite(slip_level) && slip_level >= 0, "Caster: slip_level must be finite and at least 0",
                     slip_level, "m/s^2");
     detail::require(reach > 0, "Caster: reach must be positive", reach, "m");
+    detail::require(std::isfinite(rolling) && rolling >= 0, "Caster: rolling must be finite and at least 0", rolling,
+                    "m/s^2");
   }
 
   /// From the mechanics of a rigid wheel that is pivoted behind its contact line (thesis appendix A, corrected).
@@ -41,42 +48,49 @@ class Caster {
   /// @param mu           coefficient of friction of wheel and floor, finite and at least 0
   /// @param trail        l, horizontal distance from pivot to wheel axis [m], positive and finite
   /// @param wheel_width  w, length of the line of contact [m], positive and finite
+  /// @param rolling_mu   coefficient of rolling resistance, finite and at least 0: rolling = rolling_mu g. It acts
+  ///                     along the wheel, through the pivot, and leaves the balance as it is.
   /// @throws std::invalid_argument naming the value
-  static Caster from_geometry(double mu, double trail, double wheel_width) {
-    check_geometry(mu, trail, wheel_width);
+  static Caster from_geometry(double mu, double trail, double wheel_width, double rolling_mu = 0) {
+    check_geometry(mu, trail, wheel_width, rolling_mu);
     const double y = contact_angle(trail / wheel_width);
-    return {mu * standard_gravity * (y / std::sinh(y)), trail + wheel_width / (2 * std::sinh(y))};
+    return {mu * standard_gravity * (y / std::sinh(y)), trail + wheel_width / (2 * std::sinh(y)),
+            rolling_mu * standard_gravity};
   }
 
   /// The same by the thesis's own (A.15), (A.16) with the signs put right, (A.20) and (A.27), to compare: a = mu g
   /// (4 l/w) asinh(w / 4 l), reach 3 l.
-  static Caster from_geometry_thesis(double mu, double trail, double wheel_width) {
-    check_geometry(mu, trail, wheel_width);
+  static Caster from_geometry_thesis(double mu, double trail, double wheel_width, double rolling_mu = 0) {
+    check_geometry(mu, trail, wheel_width, rolling_mu);
     const double b = 4 * (trail / wheel_width);
-    return {mu * standard_gravity * (b * std::asinh(1 / b)), 3 * trail};
+    return {mu * standard_gravity * (b * std::asinh(1 / b)), 3 * trail, rolling_mu * standard_gravity};
   }
 
   double slip_level() const noexcept { return slip_level_; }
   double reach() const noexcept { return reach_; }
+  double rolling() const noexcept { return rolling_; }
 
   template <class T>
   auto resist(const T& x, Direction) const {
-    return slip_level_ * sech(x / reach_);
+    return slip_level_ * sech(x / reach_) + rolling_;
   }
 
   /// Work per unit mass against friction in sliding `distance` >= 0 from `from` [m^2/s^2]: a reach times the difference
-  /// of two Gudermannians, in a form that does not cancel.
+  /// of two Gudermannians, in a form that does not cancel, and that of rolling.
   double work(double from, double distance, Direction direction) const noexcept {
     const double half = distance / 2 / reach_;
     if (half < 0x1p-60) return resist(from, direction) * distance;  // which does not change over so short a way
     const double middle = std::abs(from / reach_ + sign(direction) * half);
     const double ratio = std::exp(half - middle) * -std::expm1(-2 * half) / (1 + std::exp(-2 * middle));
-    return slip_level_ * (reach_ * (2 * std::atan(ratio)));  // ratio = sinh(half) / cosh(middle)
+    const double scrubbing = slip_level_ * (reach_ * (2 * std::atan(ratio)));  // ratio = sinh(half) / cosh(middle)
+    return scrubbing + rolling_ * distance;
   }
 
  private:
-  static void check_geometry(double mu, double trail, double wheel_width) {
+  static void check_geometry(double mu, double trail, double wheel_width, double rolling_mu) {
     detail::require(std::isfinite(mu) && mu >= 0, "Caster: mu must be finite and at least 0", mu);
+    detail::require(std::isfinite(rolling_mu) && rolling_mu >= 0, "Caster: rolling_mu must be finite and at least 0",
+                    rolling_mu);
     detail::require(std::isfinite(trail) && trail > 0, "Caster: trail must be positive and finite", trail, "m");
     detail::require(std::isfinite(wheel_width) && wheel_width > 0, "Caster: wheel_width must be positive and finite",
                     wheel_width, "m");
@@ -96,6 +110,7 @@ class Caster {
 
   double slip_level_;
   double reach_;
+  double rolling_;
 };
 
 }  // namespace stickslip

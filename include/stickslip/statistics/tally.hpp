@@ -43,6 +43,7 @@ enum Feature : std::size_t {
   velocity_fourth,  ///< ... of the fourth power [m^4/s^4]
   product,          ///< mean of both deviations' product [m^2/s]
   growth,           ///< how fast the square of the displacement grows [m^2/s], see Stationary::growth_rate
+  trend,            ///< velocity_square over the second half less that over the first [m^2/s^2]
   features
 };
 

@@ -18,15 +18,19 @@
 
 namespace stickslip::detail {
 
-/// A law as the library takes it in: the two that it has closed forms for, or the level of any other.
+/// A law as the library takes it in: the two that it has closed forms for, of casters those without rolling
+/// resistance, or the level of any other.
 using LinearizedLaw = std::variant<Coulomb, Caster, std::function<double(double, Direction)>>;
 
 template <PositionLaw Law>
 LinearizedLaw linearized_law(const Law& law) {
-  if constexpr (std::same_as<Law, Coulomb> || std::same_as<Law, Caster>)
+  if constexpr (std::same_as<Law, Coulomb>) {
     return law;
-  else
+  } else {
+    if constexpr (std::same_as<Law, Caster>)
+      if (law.rolling() == 0) return law;
     return [law](double x, Direction direction) -> double { return law.resist(x, direction); };
+  }
 }
 
 }  // namespace stickslip::detail

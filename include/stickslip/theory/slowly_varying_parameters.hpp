@@ -38,7 +38,7 @@ concept AnalyticLaw = PositionLaw<Law> && requires(const Law& law, const series:
 
 /// A law whose S^2 is convex in A^2, so that a curve of response folds once at most. Constant levels have it; and the
 /// caster: sech(sqrt(u)) is a product of 1 / (1 + u / ((k - 1/2) pi)^2), so it and the square of its means are
-/// completely monotonic.
+/// completely monotonic, and stay so with the constant of its rolling resistance added.
 template <class Law>
 concept OneFoldLaw = ConstantLevelLaw<Law> || std::same_as<Law, Caster>;
 
@@ -55,7 +55,7 @@ struct CycledLaw {
 template <AnalyticLaw Law>
 CycledLaw cycled(const Law& law) {
   if constexpr (std::same_as<Law, Caster>)
-    if (std::isinf(law.reach())) return cycled(Coulomb(law.slip_level()));
+    if (std::isinf(law.reach())) return cycled(Coulomb(law.slip_level() + law.rolling()));
   CycledLaw result{[law](double x, Direction direction) -> double { return law.resist(x, direction); },
                    [law](double x, double scale, Direction direction, std::span<double> coefficients) {
                      series::Coefficients t;
@@ -74,7 +74,8 @@ CycledLaw cycled(const Law& law) {
   else if constexpr (std::same_as<Law, Caster>)  // its work, at half the price where the amplitude is not small
     result.mean_level = [law](double a) {
       const double y = a / law.reach(), e = std::exp(-y);
-      return law.slip_level() * 2 * std::atan((1 - e) / (1 + e)) / y;  // thesis (2.30), tanh(y / 2) = (1 - e) / (1 + e)
+      const double scrubbing = law.slip_level() * 2 * std::atan((1 - e) / (1 + e)) / y;
+      return scrubbing + law.rolling();  // thesis (2.30), tanh(y / 2) = (1 - e) / (1 + e)
     };
   else if constexpr (LawWithWork<Law>)
     result.mean_level = [law](double a) { return law.work(-a, 2 * a, Direction::forward) / a / 2; };
@@ -109,10 +110,10 @@ struct HarmonicTransient {
 /// A and phi vary little within a cycle; so the motion is taken for a cosine about x = 0, which slides all the time.
 ///
 /// What a cycle of amplitude A asks of a law is the work W(A) done against it: S = -W / (pi A), which is -4 a / pi for
-/// Coulomb friction and -(4 a / pi) gd(A / 3l) / (A / 3l) for the caster, and S' follows from W and the levels at +-A.
-/// Where the level does not depend on the direction, C = wn^2 A. A law that does not know its work is integrated by
-/// quadrature, so that any law with a power series is covered; one that resists the two directions unlike is not,
-/// because its mass drifts.
+/// Coulomb friction and -(4 a / pi) gd(A / 3l) / (A / 3l) - 4 rolling / pi for the caster, and S' follows from W and
+/// the levels at +-A. Where the level does not depend on the direction, C = wn^2 A. A law that does not know its work
+/// is integrated by quadrature, so that any law with a power series is covered; one that resists the two directions
+/// unlike is not, because its mass drifts.
 ///
 /// Where it holds: B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 %
 /// at 4, 25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi; see the exact orbits. It takes

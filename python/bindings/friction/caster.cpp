@@ -5,9 +5,12 @@
 namespace stickslip::python {
 
 void bind_caster(py::module_& m) {
-  value_class<Caster>(m, "Caster", R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach).
+  value_class<Caster>(m, "Caster",
+                      R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach) + rolling.
 
-The thesis writes 3l for the reach. The law holds while the wheels are neither in line with the motion nor flipped
+The thesis writes 3l for the reach and has no rolling resistance, which acts along the wheel, on the part
+|tanh(x / reach)| of the way that it rolls. The law takes it as the same everywhere: too much by up to `rolling` where the
+wheel stands across the motion and scrubs. The law holds while the wheels are neither in line with the motion nor flipped
 round: |x| up to about the reach is sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
 
 Parameters
@@ -18,22 +21,26 @@ slip_level : float, optional
     a, friction force per unit mass at x = 0, the wheels across the motion [m/s^2]; finite and at least 0.
 reach : float
     Distance over which the level falls off [m]; positive, inf is Coulomb friction.
+rolling : float, optional
+    Rolling resistance and that of the bearings, per unit mass [m/s^2]; finite and at least 0.
 
 Raises
 ------
 ValueError
     A value out of its range, both or neither of mu and slip_level.)")
-      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach) {
-             return Caster(slip_level_of(mu, slip_level, "Caster"), reach);
+      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach, double rolling) {
+             return Caster(slip_level_of(mu, slip_level, "Caster"), reach, rolling);
            }),
-           py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(), py::arg("reach"))
+           py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(), py::arg("reach"),
+           py::arg("rolling") = 0.0)
       .def_static(
           "from_geometry",
-          [](double mu, double trail, double wheel_width, bool thesis) {
-            return thesis ? Caster::from_geometry_thesis(mu, trail, wheel_width)
-                          : Caster::from_geometry(mu, trail, wheel_width);
+          [](double mu, double trail, double wheel_width, double rolling_mu, bool thesis) {
+            return thesis ? Caster::from_geometry_thesis(mu, trail, wheel_width, rolling_mu)
+                          : Caster::from_geometry(mu, trail, wheel_width, rolling_mu);
           },
-          py::kw_only(), py::arg("mu"), py::arg("trail"), py::arg("wheel_width"), py::arg("thesis") = false,
+          py::kw_only(), py::arg("mu"), py::arg("trail"), py::arg("wheel_width"), py::arg("rolling_mu") = 0.0,
+          py::arg("thesis") = false,
           R"(A caster from the mechanics of a rigid wheel pivoted ahead of its contact line (thesis appendix A, corrected).
 
 Balance of the moments about the pivot gives B = |2 v_n / (w theta')| of the contact's midpoint,
@@ -48,6 +55,9 @@ trail : float
     l, horizontal distance from pivot to wheel axis [m], positive and finite.
 wheel_width : float
     w, length of the line of contact [m], positive and finite.
+rolling_mu : float, optional
+    Coefficient of rolling resistance, finite and at least 0: rolling = rolling_mu * STANDARD_GRAVITY. It acts along the
+    wheel, through the pivot's axis, and leaves the balance as it is.
 thesis : bool, optional
     True for the thesis's own (A.15), (A.16), (A.20) and (A.27), signs put right, to compare.
 
@@ -65,9 +75,11 @@ Notes
 Accurate to a few units of the last digit for every l/w > 0; about 2.5 us.)")
       .def_property_readonly("slip_level", &Caster::slip_level, "Level at x = 0 [m/s^2].")
       .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
+      .def_property_readonly("rolling", &Caster::rolling, "Rolling resistance [m/s^2].")
       .def("__repr__", [](const Caster& law) {
         return "Caster(slip_level=" + detail::shortest(law.slip_level()) +
-               ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) + ")";
+               ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) +
+               (law.rolling() > 0 ? ", rolling=" + detail::shortest(law.rolling()) : "") + ")";
       });
 }
 

@@ -14,7 +14,7 @@ from .. import _core
 from .._core import Ensemble
 from .._files import check_regular, replacing
 
-_FORMAT = "stickslip ensemble 1"
+_FORMAT = "stickslip ensemble 2"
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
     *("configuration", "dt", "times", "velocity_spectrum"),

@@ -49,7 +49,7 @@ class Block {
   std::size_t width_;
   const std::atomic<bool>& stopped_;
   std::vector<double> peak_, residual_;
-  std::vector<double> central_, marks_, velocities_;
+  std::vector<double> central_, first_half_, marks_, velocities_;
   std::unique_ptr<Spectrum> spectrum_;
   Tally tally_;
 };

@@ -113,7 +113,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Law>& slider, const Gaus
 #endif
 
 /// The same, by kernels that know the closed form or the law where there is one: Coulomb friction alone, spring and
-/// damper alone, casters alone.
+/// damper alone, casters alone that roll without resistance.
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle);
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
