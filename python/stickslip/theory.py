@@ -9,6 +9,7 @@ own with these three are theories too: `stickslip.compare` asks them like the re
 
 from ._core import (
     Coverage,
+    DisplacementDistribution,
     EquivalentLinearization,
     HarmonicSolution,
     PulseChain,
@@ -29,6 +30,7 @@ from ._core import (
 __all__ = [
     "THEORIES",
     "Coverage",
+    "DisplacementDistribution",
     "EquivalentLinearization",
     "HarmonicSolution",
     "PulseChain",

@@ -12,6 +12,7 @@
 #include "stickslip/slider.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 #include "stickslip/theory/theory.hpp"
 
@@ -99,6 +100,26 @@ class PulseSuperposition {
     return predict(system(slider, pulses), pulses, times, heartbeat);
   }
 
+  /// Above this lambda dt `distribution` is refused.
+  static constexpr double most_overlap_of_distribution = 0.1;
+
+  /// The distribution of the displacement at a time: pulses come independently, each that exceeds the slip level adds
+  /// its offset, so that x is a compound Poisson sum. With its mean and variance those of `predict`,
+  ///     E[exp(iux)] = exp(lambda t E[exp(iu dx) - 1])
+  /// with overlaps, of composites as they come: lambda / (1 + lambda dt) of them a second (`renewal`).
+  ///
+  /// Exact for lambda dt -> 0 and t >> 4 dt; docs/pulse_superposition.md has the errors measured up to lambda dt = 0.1.
+  /// @param slider  of constant slip levels, which may be unequal, without a spring
+  /// @param pulses  without an envelope, lambda dt at most 0.1
+  /// @param time    [s], finite and at least 0
+  /// @throws std::invalid_argument naming what is not covered or the value refused
+  /// Takes 10 to 25 ms.
+  template <PositionLaw Law>
+  DisplacementDistribution distribution(const Slider<Law>& slider, const PoissonPulses& pulses, double time) const {
+    check(slider, pulses);
+    return distribution(system(slider, pulses), pulses, time);
+  }
+
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
   template <PositionLaw Law>
   double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
@@ -132,6 +153,8 @@ class PulseSuperposition {
   void check(bool constant_level, const PoissonPulses& pulses) const;
   Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
                   const std::function<void()>& heartbeat) const;
+  DisplacementDistribution distribution(const detail::PulseSystem& system, const PoissonPulses& pulses,
+                                        double time) const;
 
   Overlap overlap_;
 };

@@ -37,6 +37,12 @@ double superposition_rms(const PulseSuperposition& self, const AnySlider& slider
   return std::visit([&](const auto& s) { return self.final_rms(s, pulses, &check_for_interrupt); }, slider);
 }
 
+theory::DisplacementDistribution superposition_distribution(const PulseSuperposition& self, const AnySlider& slider,
+                                                            const PoissonPulses& pulses, double time) {
+  const py::gil_scoped_release released;
+  return std::visit([&](const auto& s) { return self.distribution(s, pulses, time); }, slider);
+}
+
 }  // namespace
 
 void bind_pulse_superposition(py::module_& m) {
@@ -126,6 +132,36 @@ Raises
 ------
 ValueError
     As for `predict`.)")
+          .def("distribution", &superposition_distribution, py::arg("slider"), py::arg("pulses"), py::arg("time"),
+               R"(The distribution of the displacement at a time.
+
+Pulses come independently, each that exceeds the slip level adds its offset: x is a compound Poisson sum,
+E[exp(iux)] = exp(lambda t E[exp(iu dx) - 1]), with the mean and variance of `predict`. With overlaps, of composites as
+they come: lambda / (1 + lambda dt) of them a second ('renewal').
+
+Parameters
+----------
+slider : Slider or Coulomb
+    Of constant slip levels, which may be unequal, without a spring.
+pulses : PoissonPulses
+    Without an envelope, lambda dt at most 0.1.
+time : float
+    [s], finite and at least 0.
+
+Returns
+-------
+DisplacementDistribution
+    With the chance of no displacement at all, density, probabilities and quantiles.
+
+Raises
+------
+ValueError
+    What is not covered; a value out of its range.
+
+Notes
+-----
+Exact for lambda dt -> 0 and t >> 4 dt. For 20 pulses at sigma / a from 1/2 to 3 a probability is off by less than 0.0062
+at lambda dt = 0.001, 0.02 at 0.01, and 0.13 at 0.1. Takes 10 to 25 ms.)")
           .def("__repr__",
                [](const PulseSuperposition& t) { return "PulseSuperposition(overlap='" + overlap_of(t) + "')"; });
   def_theory(type);
