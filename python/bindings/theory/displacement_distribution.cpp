@@ -1,17 +1,21 @@
-#include "stickslip/theory/displacement_distribution.hpp"
+#include "theory/displacement_distribution.hpp"
 
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>
 
-#include "bindings.hpp"
+#include "parts.hpp"
 
 namespace stickslip::python {
 
-using theory::DisplacementDistribution;
+template <>
+inline constexpr auto parts<DisplacementDistribution> = std::tuple(&DisplacementDistribution::theory,
+                                                                   &DisplacementDistribution::slider,
+                                                                   &DisplacementDistribution::pulses,
+                                                                   &DisplacementDistribution::time);
 
 void bind_displacement_distribution(py::module_& m) {
-  py::class_<DisplacementDistribution>(m, "DisplacementDistribution",
-                                       R"(The distribution of a displacement that is the sum of slips.
+  value_class<DisplacementDistribution>(m, "DisplacementDistribution",
+                                        R"(The distribution of a displacement that is the sum of slips.
 
 The slips d_k are independent, their number is Poisson's: a compound Poisson law. With nu(d) the expected number of slips
 per length, E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) dd), and the cumulants are int d^n nu(d) dd: thesis 5.3, (5.21) to
@@ -46,7 +50,8 @@ W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1
           "density",
           [](const py::object& self) { return view(self.cast<const DisplacementDistribution&>().density(), self); },
           "Of the part without the atom [1/m], shape (N,), read-only: its integral is 1 - `atom`.")
-      .def("cdf", py::vectorize(&DisplacementDistribution::cdf), py::arg("x"),
+      .def("cdf", py::vectorize([](const DisplacementDistribution* self, double x) { return self->cdf(x); }),
+           py::arg("x"),
            R"(The probability that the displacement is at most x.
 
 Parameters
@@ -63,7 +68,8 @@ Raises
 ------
 ValueError
     NaN.)")
-      .def("quantile", py::vectorize(&DisplacementDistribution::quantile), py::arg("probability"),
+      .def("quantile", py::vectorize([](const DisplacementDistribution* self, double p) { return self->quantile(p); }),
+           py::arg("probability"),
            R"(The least displacement that is not exceeded with a probability; exactly 0 within the atom.
 
 Parameters
@@ -80,7 +86,9 @@ Raises
 ------
 ValueError
     A value out of its range.)")
-      .def("characteristic", py::vectorize(&DisplacementDistribution::characteristic), py::arg("u"),
+      .def("characteristic",
+           py::vectorize([](const DisplacementDistribution* self, double u) { return self->characteristic(u); }),
+           py::arg("u"),
            R"(The characteristic function E[exp(iux)], from the tabulated law.
 
 Parameters
