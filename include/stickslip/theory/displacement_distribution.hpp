@@ -39,8 +39,8 @@ namespace stickslip::theory {
 ///
 /// The density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes` points of a
 /// window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their number and
-/// mean kept. Atom and cumulants are to 1e-12; probabilities to 1e-12 but for what the law changes within one step of
-/// the grid, quantiles to one step, about 1e-4 of the standard deviation where some slips are expected. Slips of
+/// mean kept. Atom and cumulants are to 1e-12; the tabulated variance is up to 2e-4 too large for up to 1e5 slips
+/// expected, which moves probabilities by some 3e-5; quantiles are to that and to one step of the grid. Slips of
 /// vanishing length are frequent: near x = 0 the density may grow as x^-1/2, and there it is a mean over a step.
 ///
 /// Reference: thesis 5.3, (5.21) to (5.28); W. Feller, An Introduction to Probability Theory and Its Applications,
@@ -80,8 +80,8 @@ class DisplacementDistribution {
   /// @throws std::invalid_argument naming the value
   double quantile(double probability) const;
 
-  /// The characteristic function E[exp(iux)], from the tabulated law: the relative error of its logarithm is below
-  /// (u step)^2 / 6. Takes 2 ms.
+  /// The characteristic function E[exp(iux)], from the tabulated law: its logarithm is to a relative
+  /// 2e-4 where u is of the order of 1 / std. Takes 2 ms.
   /// @param u  [1/m], finite
   /// @throws std::invalid_argument naming the value
   std::complex<double> characteristic(double u) const;
