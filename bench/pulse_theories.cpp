@@ -47,6 +47,11 @@ void check() {
   // Thesis (5.55) at sigma_B = 1, lambda Dt = 1: values.json pulse.series.sB1.ldt1.0.
   const Moments series = PulseSuperposition(Overlap::thesis).predict(block, pulses(1, 1), late);
   bench::require_below("overlap series", std::abs(series.growth_rate.value / 0.0961466433152774650 - 1), 1e-12);
+  // Without friction, 5 pulses expected: Poisson's mixture of Gaussian laws.
+  const auto mixture = PulseSuperposition(Overlap::none).distribution(Slider(Coulomb(0)), pulses(0.005, 1), duration);
+  double expected = std::exp(-5.0), weight = expected;
+  for (int n = 1; n < 80; ++n) expected += (weight *= 5.0 / n) * std::erfc(-2 / std::sqrt(2.0 * n)) / 2;
+  bench::require_below("distribution", std::abs(mixture.cdf(2) - expected), 3e-6);
 }
 
 // ---- the times
@@ -80,6 +85,8 @@ std::vector<bench::Timing> time_points(int rounds) {
   }
   bench.add("superposition, sigma/a 1, lambda dt 0.5",
             [] { bench::keep(PulseSuperposition().predict(block, pulses(0.5, 1), late)); });
+  bench.add("distribution by FFT, sigma/a 1, lambda dt 0.1",
+            [] { bench::keep(PulseSuperposition().distribution(block, pulses(0.1, 1), duration)); });
   return bench.run(rounds);
 }
 

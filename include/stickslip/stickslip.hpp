@@ -17,6 +17,7 @@
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/statistics/distribution.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/noise.hpp"
 #include "stickslip/theory/pulse_chain.hpp"

@@ -60,6 +60,7 @@ void bind_white_noise(py::module_& m);
 void bind_shaping_filter(py::module_& m);
 void bind_equivalent_linearization(py::module_& m);
 void bind_pulse_response(py::module_& m);
+void bind_displacement_distribution(py::module_& m);
 void bind_pulse_superposition(py::module_& m);
 void bind_pulse_chain(py::module_& m);
 void bind_thesis(py::module_& m);

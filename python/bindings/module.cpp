@@ -59,6 +59,7 @@ PYBIND11_MODULE(_core, m) {
   bind_shaping_filter(m);
   bind_equivalent_linearization(m);
   bind_pulse_response(m);
+  bind_displacement_distribution(m);
   bind_pulse_superposition(m);
   bind_pulse_chain(m);
   bind_thesis(m);

@@ -53,7 +53,7 @@ template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,
                                                 &Orbit::half_period_multipliers, &Orbit::multipliers, &Orbit::stable,
-                                                &Orbit::mean_arbitrary, &Orbit::state, &Orbit::events,
+                                                &Orbit::mean_arbitrary, &Orbit::centre, &Orbit::state, &Orbit::events,
                                                 &Orbit::dissipated);
 
 template <>

@@ -9,6 +9,7 @@ own with these three are theories too: `stickslip.compare` asks them like the re
 
 from ._core import (
     Coverage,
+    DisplacementDistribution,
     EquivalentLinearization,
     HarmonicSolution,
     PulseChain,
@@ -30,6 +31,7 @@ from ._core import (
 __all__ = [
     "THEORIES",
     "Coverage",
+    "DisplacementDistribution",
     "EquivalentLinearization",
     "HarmonicSolution",
     "PulseChain",

@@ -105,8 +105,9 @@ void add_gaussian(std::vector<Node>& nodes, const std::vector<Component>& compon
 
 // ---- any other law of amplitudes
 
-void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double sigma, const std::vector<double>& up,
-                   const std::vector<double>& down) {
+/// Where the uniform numbers are cut: at the thresholds and in the middle.
+std::vector<double> quantile_panels(const PoissonPulses& pulses, double sigma, const std::vector<double>& up,
+                                    const std::vector<double>& down) {
   const auto& quantile = pulses.options().quantile;
   std::vector<double> edges = {0, 0.5, 1};
   const auto place = [&](double b) {  // of an amplitude; what is below 1e-17 counts for nothing
@@ -118,7 +119,11 @@ void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double
   for (const double b : up) edges.push_back(place(b));
   for (const double b : down) edges.push_back(place(-b));
   std::ranges::sort(edges);
+  return edges;
+}
 
+void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double sigma,
+                   const std::vector<double>& edges) {
   std::vector<double> u, w;
   const auto add = [&](double from, double to) {
     if (to > from)
@@ -139,11 +144,67 @@ void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double
       for (int k = 0; k < 8; ++k) add(from + k * length / 8, from + (k + 1) * length / 8);
   }
   std::vector<double> values = u;
-  quantile(values);
+  pulses.options().quantile(values);
   for (std::size_t i = 0; i < values.size(); ++i) nodes.push_back({sigma * values[i], w[i]});
 }
 
 // ---- means over the law
+
+/// Amplitudes between two bounds, and the probability of one there.
+struct Cell {
+  double from, to;
+  double probability;
+};
+
+constexpr int cells_of_panel = 4096;
+
+/// Those of one sign above the first threshold.
+void add_gaussian_cells(std::vector<Cell>& cells, const std::vector<Component>& components, std::vector<double> edges,
+                        double sign) {
+  if (edges.empty() || components.empty()) return;
+  edges.push_back(std::hypot(edges.front(), std::sqrt(120.0) * components.back().sigma));
+  const auto above = [&](double b) {
+    double sum = 0;
+    for (const Component& c : components)
+      sum += std::exp(c.log_weight) / 2 * std::erfc(b / c.sigma / std::numbers::sqrt2);
+    return sum;
+  };
+  for (std::size_t i = 0; i + 1 < edges.size() && edges[i] < edges.back(); ++i) {
+    const double from = edges[i], width = std::min(edges[i + 1], edges.back()) - from;
+    if (!(width > 0)) continue;
+    double low = from, beyond = above(from);
+    for (int k = 1; k <= cells_of_panel; ++k) {
+      const double high = from + width * k / cells_of_panel, next = above(high);
+      cells.push_back({sign * low, sign * high, beyond - next});
+      low = high, beyond = next;
+    }
+  }
+}
+
+/// Of any other law, by its quantiles; the outermost 2^-40 on either side count for nothing.
+void add_quantile_cells(std::vector<Cell>& cells, const PoissonPulses& pulses, double sigma,
+                        const std::vector<double>& panels) {
+  std::vector<double> u;
+  const auto divide = [&](double from, double to, int count) {
+    for (int k = 0; k < count; ++k) u.push_back(from + (to - from) * k / count);
+  };
+  constexpr int halvings = 40;
+  for (std::size_t i = 0; i + 1 < panels.size(); ++i) {
+    const double from = panels[i], to = panels[i + 1];
+    if (!(from < to)) continue;
+    if (from == 0)
+      for (int k = halvings; k > 0; --k) divide(std::ldexp(to, -k), std::ldexp(to, 1 - k), cells_of_panel / 16);
+    else if (to == 1)
+      for (int k = 0; k < halvings; ++k)
+        divide(1 - std::ldexp(1 - from, -k), 1 - std::ldexp(1 - from, -k - 1), cells_of_panel / 16);
+    else
+      divide(from, to, cells_of_panel);
+  }
+  std::vector<double> values = u;
+  pulses.options().quantile(values);
+  for (std::size_t i = 0; i + 1 < u.size(); ++i)
+    cells.push_back({sigma * values[i], sigma * values[i + 1], u[i + 1] - u[i]});
+}
 
 /// What pulses do to a slider at one place, per second.
 struct Rates {
@@ -159,33 +220,61 @@ class Pulses {
          const std::function<void()>& heartbeat)
       : system_(system), pulses_(pulses), overlap_(overlap), heartbeat_(heartbeat) {}
 
+  /// The law of the amplitudes of rms `sigma` at x, where thresholds lie, and how many such pulses come in a second.
+  struct Law {
+    std::vector<double> up, down;         ///< amplitudes that just move it, of either sign
+    std::vector<Component> components{};  ///< of Gaussian laws; empty of others
+    double rate;                          ///< [1/s]
+  };
+
+  Law law(double x, double sigma) const {
+    const double forward = system_.level(x, Direction::forward), backward = system_.level(x, Direction::backward);
+    const PulseShape& shape = pulses_.options().shape;
+    Law law{thresholds(shape, forward, backward, 1), thresholds(shape, forward, backward, -1), {}, pulses_.rate()};
+    if (pulses_.options().quantile) return law;
+    const double overlap = pulses_.rate() * pulses_.half_width();
+    const double least =
+        std::min(law.up.empty() ? infinity : law.up.front(), law.down.empty() ? infinity : law.down.front());
+    law.components = {{0, sigma}};
+    if (overlap_ != Overlap::none) law.components = composites(sigma, overlap, least);
+    if (overlap_ == Overlap::renewal) law.rate /= 1 + overlap;
+    return law;
+  }
+
+  std::vector<Node> nodes(const Law& law, double sigma) const {
+    std::vector<Node> nodes;
+    if (pulses_.options().quantile) {
+      add_quantiles(nodes, pulses_, sigma, quantile_panels(pulses_, sigma, law.up, law.down));
+      return nodes;
+    }
+    add_gaussian(nodes, law.components, law.up);
+    const std::size_t count = nodes.size();
+    if (law.up == law.down)
+      nodes.resize(2 * count), std::copy_n(nodes.begin(), count, nodes.begin() + static_cast<std::ptrdiff_t>(count));
+    else
+      add_gaussian(nodes, law.components, law.down);
+    for (std::size_t i = count; i < nodes.size(); ++i) nodes[i].b = -nodes[i].b;
+    return nodes;
+  }
+
+  std::vector<Cell> cells(const Law& law, double sigma) const {
+    std::vector<Cell> cells;
+    if (pulses_.options().quantile) {
+      add_quantile_cells(cells, pulses_, sigma, quantile_panels(pulses_, sigma, law.up, law.down));
+    } else {
+      add_gaussian_cells(cells, law.components, law.up, 1);
+      add_gaussian_cells(cells, law.components, law.down, -1);
+    }
+    return cells;
+  }
+
   /// At x, with amplitudes of rms `sigma`.
   Rates rates(double x, double sigma) const {
     if (heartbeat_) heartbeat_();
-    const double forward = system_.level(x, Direction::forward), backward = system_.level(x, Direction::backward);
-    const PulseShape& shape = pulses_.options().shape;
-    const std::vector<double> up = thresholds(shape, forward, backward, 1),
-                              down = thresholds(shape, forward, backward, -1);
-    std::vector<Node> nodes;
-    double rate = pulses_.rate();
-    if (pulses_.options().quantile) {
-      add_quantiles(nodes, pulses_, sigma, up, down);
-    } else {
-      const double overlap = pulses_.rate() * pulses_.half_width();
-      const double least = std::min(up.empty() ? infinity : up.front(), down.empty() ? infinity : down.front());
-      std::vector<Component> components = {{0, sigma}};
-      if (overlap_ != Overlap::none) components = composites(sigma, overlap, least);
-      if (overlap_ == Overlap::renewal) rate /= 1 + overlap;
-      add_gaussian(nodes, components, up);
-      const std::size_t count = nodes.size();
-      if (up == down)
-        nodes.resize(2 * count), std::copy_n(nodes.begin(), count, nodes.begin() + static_cast<std::ptrdiff_t>(count));
-      else
-        add_gaussian(nodes, components, down);
-      for (std::size_t i = count; i < nodes.size(); ++i) nodes[i].b = -nodes[i].b;
-    }
+    const Law law = this->law(x, sigma);
+    const double rate = law.rate;
     Rates rates;
-    for (const auto& [b, weight] : nodes) {
+    for (const auto& [b, weight] : nodes(law, sigma)) {
       if (weight == 0) continue;
       if (heartbeat_ && !system_.constant_level) heartbeat_();  // an event loop takes 20 us and more
       const detail::PulseEffect effect = system_.effect(b, x);
@@ -483,6 +572,71 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
                         " s, 40 half widths: too short for (5.39), which takes the velocity for stationary and the "
                         "offsets for all there is.");
   return moments;
+}
+
+namespace {
+
+/// The x that a compound Poisson sum exceeds with a probability below exp(-32): the least of Chernoff's bounds.
+/// @param slips  (length, expected number), lengths of one sign the other way
+double chernoff(const std::vector<std::pair<double, double>>& slips, double spread) {
+  constexpr double tail = 32;
+  double longest = spread, bound = infinity;
+  for (const auto& [length, count] : slips) longest = std::max(longest, std::abs(length));
+  for (double theta = 0.01 / longest;; theta *= 1.1) {
+    double log_mean = 0;
+    for (const auto& [length, count] : slips) log_mean += count * std::expm1(theta * length);
+    const double here = (log_mean + tail) / theta;
+    if (!(here < bound - 1e-6 * std::abs(bound)) && std::isfinite(bound)) return bound;
+    bound = std::min(bound, here);
+  }
+}
+
+}  // namespace
+
+DisplacementDistribution PulseSuperposition::distribution(const detail::PulseSystem& system,
+                                                          const PoissonPulses& pulses, double time) const {
+  const double overlap = pulses.rate() * pulses.half_width();
+  require(std::isfinite(time) && time >= 0, "PulseSuperposition: time must be finite and at least 0", time, "s");
+  require(overlap <= most_overlap_of_distribution,
+          "PulseSuperposition: a distribution is for rare pulses, rate x half_width at most " +
+              shortest(most_overlap_of_distribution),
+          overlap);
+  if (!system.constant_level)
+    throw std::invalid_argument("PulseSuperposition: a distribution is covered for constant slip levels only");
+  if (pulses.options().envelope)
+    throw std::invalid_argument("PulseSuperposition: a distribution under an envelope is not covered");
+
+  const std::function<void()> no_heartbeat;
+  const Pulses pulse(system, pulses, overlap_, no_heartbeat);
+  const Pulses::Law law = pulse.law(0, pulses.sigma());
+  const double expected = law.rate * time;
+  const auto offset = [&](double b) {
+    const double dx = system.effect(b, 0).offset;
+    if (!std::isfinite(dx))
+      throw std::invalid_argument("PulseSuperposition: friction never stops the slider again after a pulse of " +
+                                  shortest(b) + " m/s^2");
+    return dx;
+  };
+  detail::Slips slips;
+  for (const auto& [from, to, probability] : pulse.cells(law, pulses.sigma())) {
+    const double count = expected * probability;
+    if (!(count > 0) || offset((from + to) / 2) == 0) continue;
+    slips.pieces.push_back({offset(from), offset(to), count});
+    slips.count += count;
+  }
+  std::vector<std::pair<double, double>> right, left;
+  for (const auto& [b, weight] : pulse.nodes(law, pulses.sigma())) {
+    const double dx = offset(b);
+    double power = expected * weight;
+    if (dx != 0) right.emplace_back(dx, power), left.emplace_back(-dx, power);
+    for (double& moment : slips.moments) moment += power *= dx;
+  }
+  if (slips.moments[1] > 0) {
+    const double spread = std::sqrt(slips.moments[1]);
+    slips.least = -chernoff(left, spread);
+    slips.greatest = chernoff(right, spread);
+  }
+  return DisplacementDistribution(slips);
 }
 
 double peak_from_growth(double growth_rate, double duration, double probability) {

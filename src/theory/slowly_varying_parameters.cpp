@@ -525,12 +525,15 @@ HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, dou
 Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span<const double> times,
                                          const std::function<void()>& heartbeat) const {
   const double omega = motion.omega();
-  const HarmonicTransient path = transient(motion.amplitude(), omega, 0, 0, times, heartbeat);
+  const double phase = centre_ > 0 ? pi : 0;
+  const HarmonicTransient path = transient(motion.amplitude(), omega, std::abs(centre_), phase, times, heartbeat);
   Moments moments = detail::moments_at(times);
+  const bool stays = rests(motion.amplitude());  // at x = 0, which friction holds as well as the centre
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (path.amplitude[i] == 0) continue;  // its phase is NaN
+    moments.displacement_mean.value[i] = stays ? 0 : centre_;
+    if (stays || path.amplitude[i] == 0) continue;  // its phase is NaN
     const double angle = motion.phase(times[i]) + path.phase[i];
-    moments.displacement_mean.value[i] = path.amplitude[i] * std::cos(angle);
+    moments.displacement_mean.value[i] += path.amplitude[i] * std::cos(angle);
     moments.velocity_mean.value[i] = -omega * path.amplitude[i] * std::sin(angle);
   }
   moments.growth_rate.value = 0;

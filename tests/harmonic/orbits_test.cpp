@@ -408,6 +408,50 @@ TEST_CASE("continuation goes from Den Hartog's orbits to those that stop", "[orb
   CHECK(stopping > 3);
 }
 
+TEST_CASE("a block of unequal levels on a spring does not drift: it swings about another place", "[orbits]") {
+  const Slider slider(Coulomb(1, 1.6), 0.7);
+  const std::vector<Orbit> found = orbits(slider, 3, 1);
+  REQUIRE(found.size() == 1);
+  const Orbit& orbit = found[0];
+  CHECK(orbit.centre == Approx(0.3 / 0.49).epsilon(1e-14));
+  CHECK(orbit.state.displacement == Approx(-3.20727285142).epsilon(1e-11));  // by another program, at every period
+  CHECK(orbit.stable);
+  CHECK(!orbit.mean_arbitrary);
+  // It is the orbit of the mean level, moved; what friction takes is what the mean level takes on the way both ways.
+  const Orbit mean = orbits(Slider(Coulomb(1.3), 0.7), 3, 1)[0];
+  CHECK(orbit.amplitude == mean.amplitude);
+  CHECK(orbit.dissipated == mean.dissipated);
+  CHECK(orbit.state.displacement - orbit.centre == Approx(mean.state.displacement).epsilon(1e-14));
+  // `integrate` stays on it, and comes to it from rest.
+  const double period = orbit.period();
+  const HarmonicMotion motion(3, 1, 200 * period, period / 64);
+  const Response stays = integrate(slider, motion,
+                                   {.displacement = orbit.state.displacement, .velocity = orbit.state.velocity}),
+                 comes = integrate(slider, motion);
+  const std::size_t last = stays.displacement.size() - 1;
+  CHECK(stays.displacement[last] == Approx(orbit.state.displacement).epsilon(1e-9));
+  CHECK(comes.displacement[last] == Approx(orbit.state.displacement).epsilon(1e-9));
+  // Half a period later it is as far on the other side of the centre.
+  const std::vector<State> states = states_at(slider, orbit, {0.3, 0.3 + period / 2});
+  CHECK(states[0].displacement - orbit.centre == Approx(orbit.centre - states[1].displacement).epsilon(1e-11));
+  CHECK(states[0].velocity == Approx(-states[1].velocity).epsilon(1e-11));
+  // The branch holds the orbits that are found one by one.
+  const OrbitBranch branch = continuation(slider, orbit, 0.95, 1.05);
+  REQUIRE(branch.orbits.size() > 2);
+  for (const Orbit& other : branch.orbits) {
+    const Orbit alone = orbits(slider, 3, other.omega)[0];
+    CHECK(other.centre == Approx(orbit.centre).epsilon(1e-14));
+    CHECK(other.amplitude == Approx(alone.amplitude).epsilon(1e-9));
+    CHECK(other.state.displacement == Approx(alone.state.displacement).epsilon(1e-9));
+  }
+  // A weak load lets it rest: at the centre, among other places.
+  const Orbit rest = orbits(slider, 1.2, 1)[0];
+  CHECK(rest.at_rest());
+  CHECK(rest.centre == orbit.centre);
+  CHECK(states_at(slider, rest, {1.0})[0].displacement == orbit.centre);
+  CHECK_THROWS_WITH(orbits(Slider(Coulomb(1, infinity), 0.7), 3, 1), ContainsSubstring("finite alone"));
+}
+
 TEST_CASE("orbits and continuation name what they refuse", "[orbits][errors]") {
   for (const double bad : {not_a_number, infinity, -1.0, 0.0}) {
     CHECK_THROWS_AS(orbits(Coulomb(1), bad, 1), std::invalid_argument);

@@ -39,6 +39,7 @@ LINEARIZED = [
 DRAWN = thesis.Thesis(members=100)
 FIGURES = [DRAWN.figure(number) for number in ("4.3", "A.2", "Table 5.1")]
 STATEMENTS = [s for figure in FIGURES for s in figure.statements]
+RARE = ss.PoissonPulses(rate=0.01, half_width=1, sigma=2, duration=100)
 
 # Of each class, objects that differ.
 EXAMPLES = {
@@ -133,6 +134,10 @@ EXAMPLES = {
         theory.EquivalentLinearization(max_misfit=0.5),
     ],
     theory.HarmonicSolution: theory.SlowlyVaryingParameters(CART).response(3, 1.2),
+    theory.DisplacementDistribution: [
+        theory.PulseSuperposition().distribution(BLOCK, RARE, 50),
+        theory.PulseSuperposition().distribution(BLOCK, RARE, 60),
+    ],
     theory.PulseChain: [theory.PulseChain(), theory.PulseChain(refined=True)],
     theory.PulseResponse: [
         theory.pulse_response(BLOCK, 2, 0.1),

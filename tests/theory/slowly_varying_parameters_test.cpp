@@ -7,6 +7,7 @@
 
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
+#include "stickslip/harmonic/orbits.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "theory/slowly_varying_parameters_reference.hpp"
@@ -653,6 +654,26 @@ TEST_CASE("small disturbances of a stable solution die down at the rate of the a
   const double rate = -4 / pi / at.amplitude / (2 * omega) / 2;
   // The spiral is an ellipse of about (1 + |rate| / turning): so much either way.
   CHECK(std::log(off(1) / off(0)) == Approx(rate * 40).margin(2 * std::abs(rate) / turning + 0.05));
+}
+
+// ---- unequal levels
+
+TEST_CASE("unequal levels on a spring are those of their mean about another place", "[svp]") {
+  const Theory unequal(Slider(Coulomb(1, 1.6), 0.7)), mean(Slider(Coulomb(1.3), 0.7));
+  CHECK(unequal.centre() == Approx(0.3 / 0.49).epsilon(1e-15));
+  CHECK(mean.centre() == 0);
+  CHECK(unequal.response(10.4, 1.1).at(0).amplitude == mean.response(10.4, 1.1).at(0).amplitude);
+  // The exact orbit, at B / a = 8 and within the 0.7 % that are off there without a spring.
+  const Slider slider(Coulomb(1, 1.6), 0.7);
+  const double exact = orbits(slider, 10.4, 1.1).at(0).amplitude;
+  CHECK(unequal.response(10.4, 1.1).at(0).amplitude == Approx(exact).epsilon(0.007));
+  // It begins where it lies, at x = 0, and comes to swing about the centre.
+  const HarmonicMotion motion(10.4, 1.1, 2000);
+  const std::vector<double> times{0, 1900, 1900 + pi / 1.1};
+  const Moments m = unequal.predict(motion, times);
+  CHECK(m.displacement_mean.value[0] == Approx(0).margin(1e-12));
+  CHECK((m.displacement_mean.value[1] + m.displacement_mean.value[2]) / 2 == Approx(unequal.centre()).epsilon(1e-3));
+  CHECK(unequal.predict(HarmonicMotion(0.5, 1.1, 100), std::vector<double>{50}).displacement_mean.value[0] == 0);
 }
 
 // ---- errors

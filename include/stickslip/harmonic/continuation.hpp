@@ -283,7 +283,8 @@ class BranchFollower {
 template <FrictionLaw Law>
 OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double low, double high,
                          const ContinuationOptions& options = {}) {
-  detail::check_orbit_arguments(slider, from.load, from.omega, "continuation");
+  const auto balanced = detail::balanced(slider);
+  detail::check_orbit_arguments(balanced.slider, from.load, from.omega, "continuation");
   detail::require(!from.at_rest(), "continuation: the orbit it begins with must move, its amplitude", from.amplitude,
                   "m");
   detail::require(low > 0 && low <= from.omega, "continuation: low must be positive and at most the orbit's omega", low,
@@ -292,16 +293,18 @@ OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double lo
                   "continuation: high must be finite and at least the orbit's omega", high, "rad/s");
   detail::require(options.largest_step > 0 && options.largest_step <= 0.5,
                   "continuation: largest_step must be positive and at most 0.5", options.largest_step);
-  const detail::BranchFollower<Law> follower(slider, from.load, low, high, options);
-  OrbitBranch falling = follower.follow(from, -1), rising = follower.follow(from, 1), branch;
+  const detail::BranchFollower<Law> follower(balanced.slider, from.load, low, high, options);
+  const Orbit start = detail::moved(from, -balanced.centre);
+  OrbitBranch falling = follower.follow(start, -1), rising = follower.follow(start, 1), branch;
   const std::size_t before = falling.orbits.size();
   for (const std::size_t fold : falling.folds) branch.folds.push_back(before - 1 - fold);
   std::ranges::reverse(branch.folds);
   branch.orbits.assign(std::make_move_iterator(falling.orbits.rbegin()),
                        std::make_move_iterator(falling.orbits.rend()));
-  branch.orbits.push_back(from);
+  branch.orbits.push_back(start);
   for (const std::size_t fold : rising.folds) branch.folds.push_back(before + 1 + fold);
   std::ranges::move(rising.orbits, std::back_inserter(branch.orbits));
+  for (Orbit& orbit : branch.orbits) orbit = detail::moved(std::move(orbit), balanced.centre);
   return branch;
 }
 

@@ -11,19 +11,21 @@
 
 namespace stickslip {
 
-/// A periodic motion under -n(t) = B cos(omega t), thesis (2.28), symmetric: x(t + T/2) = -x(t), T = 2 pi / omega.
+/// A periodic motion under -n(t) = B cos(omega t), thesis (2.28), symmetric about a centre c:
+/// x(t + T/2) - c = c - x(t), T = 2 pi / omega.
 struct Orbit {
   double load;       ///< B, amplitude of the load [m/s^2]
   double omega;      ///< [rad/s]
-  double amplitude;  ///< half the way from the lowest x to the highest [m]; 0 for the rest at x = 0
-  double phase;      ///< of x = amplitude cos(omega t + phase): -omega times the time at which x first comes to its
-                     ///< highest value, in (-pi, pi] [rad]; NaN at rest. Thesis (2.2), (2.17) as corrected
+  double amplitude;  ///< half the way from the lowest x to the highest [m]; 0 for the rest at the centre
+  double phase;  ///< of x - centre = amplitude cos(omega t + phase): -omega times the time at which x first comes to
+                 ///< its highest value, in (-pi, pi] [rad]; NaN at rest. Thesis (2.2), (2.17) as corrected
 
   int stops_per_cycle;      ///< arrests: times it sticks
   int reversals_per_cycle;  ///< turns without a stop
 
-  /// Floquet multipliers of the half-period map (x, x') -> -(x, x')(T/2 later), the larger one first: what it makes of
-  /// a small change of the state. One is 0 where the slider stops. Those of the whole period are their squares.
+  /// Floquet multipliers of the half-period map (x - c, x') -> -(x - c, x')(T/2 later), the larger one first: what it
+  /// makes of a small change of the state. One is 0 where the slider stops. Those of the whole period are their
+  /// squares.
   std::array<std::complex<double>, 2> half_period_multipliers;
   std::array<std::complex<double>, 2> multipliers;
 
@@ -33,6 +35,9 @@ struct Orbit {
 
   /// Whether the mean position is arbitrary (Coulomb friction without a spring); what is given is the orbit around 0.
   bool mean_arbitrary;
+
+  /// c [m]: (backward - forward) / (2 wn^2) for Coulomb friction of unequal levels on a spring, else 0.
+  double centre;
 
   State state;                ///< at t = 0; `integrate` started from it stays on the orbit
   std::vector<Event> events;  ///< of one period from t = 0, without an end

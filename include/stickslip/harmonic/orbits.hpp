@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/balanced.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/harmonic/orbit.hpp"
@@ -480,11 +481,22 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
                   " m/s^2",
               held, "m/s^2");
     }
-    require(std::abs(forward - backward) <= 1e-12 * forward,
-            who + ": the slip level against forward sliding, " + shortest(forward) +
-                " m/s^2, must be that of the mirrored slip, for else the slider drifts",
-            backward, "m/s^2");
+    require(
+        std::abs(forward - backward) <= 1e-12 * forward,
+        who + ": the slip level against forward sliding, " + shortest(forward) +
+            " m/s^2, must be that of the mirrored slip (of Coulomb friction on a spring, finite alone), for else the "
+            "slider drifts",
+        backward, "m/s^2");
   }
+}
+
+/// The same orbit about a place that lies farther by `distance` [m].
+inline Orbit moved(Orbit orbit, double distance) {
+  if (distance == 0) return orbit;
+  orbit.centre += distance;
+  orbit.state.displacement += distance;
+  for (Event& event : orbit.events) event.displacement += distance;
+  return orbit;
 }
 
 }  // namespace detail
@@ -501,12 +513,18 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
 /// by Newton's method on the half-period map. The rest at x = 0 is entered, with amplitude 0, where B is at most the
 /// slip level there. Orbits that are not symmetric are not looked for.
 ///
-/// @param slider  a law with equal levels both ways, and an optional spring
+/// Coulomb friction of unequal levels on a spring: with x = centre + y, centre = (backward - forward) / (2 wn^2), it is
+/// that of the mean level, a = (forward + backward) / 2; its orbits lie about the centre.
+///
+/// @param slider  a law with equal levels both ways, and an optional spring; or Coulomb friction of any finite levels
+///                on a spring
 /// @param load    B [m/s^2], positive and at most 1e100
 /// @param omega   [rad/s], positive, with a finite square
 /// @param heartbeat  called some times a second; may throw to end the work; optional
 /// @return orbits in order of amplitude
-/// @throws std::invalid_argument  a value out of its range; levels that differ by direction (the slider drifts)
+/// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring (the
+/// slider
+///                                drifts)
 /// Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us
 /// without a spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff
 /// spring swings many times a period. Reference: J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous
@@ -514,8 +532,12 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
 template <FrictionLaw Law>
 std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega,
                           const std::function<void()>& heartbeat = {}) {
-  detail::check_orbit_arguments(slider, load, omega, "orbits");
-  return detail::with_finder(slider, load, omega, [&](const auto& finder) { return finder.find(heartbeat); });
+  const auto balanced = detail::balanced(slider);
+  detail::check_orbit_arguments(balanced.slider, load, omega, "orbits");
+  std::vector<Orbit> found =
+      detail::with_finder(balanced.slider, load, omega, [&](const auto& finder) { return finder.find(heartbeat); });
+  for (Orbit& orbit : found) orbit = detail::moved(std::move(orbit), balanced.centre);
+  return found;
 }
 
 template <FrictionLaw Law>
@@ -529,7 +551,7 @@ std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::
 /// @return the state at each time
 template <FrictionLaw Law>
 std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, const std::vector<double>& times) {
-  std::vector<State> states(times.size());
+  std::vector<State> states(times.size(), State::at(orbit.centre, 0));
   if (orbit.at_rest() || times.empty()) return states;
   for (const double time : times) detail::require(std::isfinite(time), "states_at: times must be finite", time, "s");
   const HarmonicMotion motion(orbit.load, orbit.omega, orbit.period());

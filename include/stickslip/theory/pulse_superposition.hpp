@@ -12,6 +12,7 @@
 #include "stickslip/slider.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/pulse_response.hpp"
 #include "stickslip/theory/theory.hpp"
 
@@ -99,6 +100,26 @@ class PulseSuperposition {
     return predict(system(slider, pulses), pulses, times, heartbeat);
   }
 
+  /// Above this lambda dt `distribution` is refused.
+  static constexpr double most_overlap_of_distribution = 0.1;
+
+  /// The distribution of the displacement at a time: pulses come independently, each that exceeds the slip level adds
+  /// its offset, so that x is a compound Poisson sum. With its mean and variance those of `predict`,
+  ///     E[exp(iux)] = exp(lambda t E[exp(iu dx) - 1])
+  /// with overlaps, of composites as they come: lambda / (1 + lambda dt) of them a second (`renewal`).
+  ///
+  /// Exact for lambda dt -> 0 and t >> 4 dt; docs/pulse_superposition.md has the errors measured up to lambda dt = 0.1.
+  /// @param slider  of constant slip levels, which may be unequal, without a spring
+  /// @param pulses  without an envelope, lambda dt at most 0.1
+  /// @param time    [s], finite and at least 0
+  /// @throws std::invalid_argument naming what is not covered or the value refused
+  /// Takes 10 to 25 ms.
+  template <PositionLaw Law>
+  DisplacementDistribution distribution(const Slider<Law>& slider, const PoissonPulses& pulses, double time) const {
+    check(slider, pulses);
+    return distribution(system(slider, pulses), pulses, time);
+  }
+
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
   template <PositionLaw Law>
   double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
@@ -132,6 +153,8 @@ class PulseSuperposition {
   void check(bool constant_level, const PoissonPulses& pulses) const;
   Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
                   const std::function<void()>& heartbeat) const;
+  DisplacementDistribution distribution(const detail::PulseSystem& system, const PoissonPulses& pulses,
+                                        double time) const;
 
   Overlap overlap_;
 };
@@ -140,7 +163,10 @@ class PulseSuperposition {
 /// the L with
 ///     P(|x| <= L on [0, T]) = (4 / pi) sum_k (-1)^k / (2k+1) exp(-(2k+1)^2 pi^2 growth_rate T / (8 L^2)) = probability
 /// and by images (reflections) where this converges slowly. For a slider an estimate: its displacement is Brownian
-/// motion only over many slips, and the way out and back within a pulse comes on top.
+/// motion only over many slips, and the way out and back within a pulse comes on top. Of the peak that 5 % of blocks
+/// exceed in the thesis's four events it is, with the growth by `PulseChain`, 0.96 to 0.99 for sigma / a from 0.5 to 5
+/// in the great events (60 s), 0.89 to 0.98 in the moderate ones (15 s), and from 0.88 to 1.32 down to sigma / a = 0.2.
+/// Below that fewer than 5 % may slip at all, and it means nothing.
 /// @param growth_rate  of the displacement variance [m^2/s], finite and at least 0
 /// @param duration     T [s], finite and at least 0
 /// @param probability  that the peak is not exceeded, in (0, 1)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/detail/balanced.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
@@ -113,7 +114,8 @@ struct HarmonicTransient {
 /// Coulomb friction and -(4 a / pi) gd(A / 3l) / (A / 3l) - 4 rolling / pi for the caster, and S' follows from W and
 /// the levels at +-A. Where the level does not depend on the direction, C = wn^2 A. A law that does not know its work
 /// is integrated by quadrature, so that any law with a power series is covered; one that resists the two directions
-/// unlike is not, because its mass drifts.
+/// differently is not, because its mass drifts. On a spring it does not: Coulomb friction of unequal levels is then
+/// that of their mean about `centre`, and all below is about that place.
 ///
 /// Where it holds: B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 %
 /// at 4, 25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi; see the exact orbits. It takes
@@ -127,17 +129,21 @@ class SlowlyVaryingParameters {
   /// Of Coulomb friction of 1 m/s^2 without a spring.
   SlowlyVaryingParameters() : SlowlyVaryingParameters(Coulomb(1)) {}
 
-  /// @param slider  any law of equal resistance both ways, with or without a spring; a law alone will do
+  /// @param slider  any law of equal resistance both ways, with or without a spring; a law alone will do; or Coulomb
+  ///                friction of any finite levels on a spring
   /// @throws std::invalid_argument  the levels forward and backward, seen from both sides of x = 0, differ on average
   template <detail::AnalyticLaw Law>
-  explicit SlowlyVaryingParameters(const Slider<Law>& slider)
-      : SlowlyVaryingParameters(detail::cycled(slider.law()), slider.natural_frequency()) {
+  explicit SlowlyVaryingParameters(const Slider<Law>& slider) : SlowlyVaryingParameters(detail::balanced(slider)) {
     detail::require_plain(slider, "SlowlyVaryingParameters");
   }
   template <class Law>
   requires(!std::same_as<Law, SlowlyVaryingParameters> &&
            detail::AnalyticLaw<Law>) explicit SlowlyVaryingParameters(const Law& law)
       : SlowlyVaryingParameters(Slider<Law>(law)) {}
+
+  /// Where the motion swings about, x = centre + A cos(omega t + phi) [m]: (backward - forward) / (2 wn^2) for Coulomb
+  /// friction of unequal levels on a spring, which is exactly that of their mean about this place; else 0.
+  double centre() const noexcept { return centre_; }
 
   /// S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates, at most 0.
   /// @param amplitude  A [m], finite and at least 0; at 0, the limit
@@ -210,7 +216,7 @@ class SlowlyVaryingParameters {
   /// stays at rest where `rests`.
   /// @param B, omega   as for `response`
   /// @param amplitude  at t = 0 [m], finite and at least 0
-  /// @param phase      at t = 0 [rad], finite: x(0) = A cos(phi), x'(0) = -omega A sin(phi)
+  /// @param phase      at t = 0 [rad], finite: x(0) - centre() = A cos(phi), x'(0) = -omega A sin(phi)
   /// @param times      [s], increasing, from 0 on
   /// @param heartbeat  called at times; may throw to end the work; optional
   /// @throws std::invalid_argument  naming the value
@@ -230,7 +236,8 @@ class SlowlyVaryingParameters {
   HarmonicSolution settles_on(double B, double omega, double amplitude, double phase,
                               const std::function<void()>& heartbeat = {}) const;
 
-  /// x and x' by time from rest, by `transient`, whose parameters and exceptions they are: means without scatter.
+  /// x and x' by time from rest at x = 0, by `transient`, whose parameters and exceptions they are: means without
+  /// scatter.
   Moments predict(const HarmonicMotion& motion, std::span<const double> times,
                   const std::function<void()>& heartbeat = {}) const;
 
@@ -261,6 +268,12 @@ class SlowlyVaryingParameters {
 
   SlowlyVaryingParameters(detail::CycledLaw law, double natural_frequency);
 
+  template <class Law>
+  explicit SlowlyVaryingParameters(const detail::Balanced<Law>& balanced)
+      : SlowlyVaryingParameters(detail::cycled(balanced.slider.law()), balanced.slider.natural_frequency()) {
+    centre_ = balanced.centre;
+  }
+
   // Mean of the levels at +-x, which is the same both ways.
   double level(double x) const;
   // -pi S / 4, the mean level over a cycle, B + S, S S' / A; what friction adds to C; and derivatives.
@@ -275,6 +288,7 @@ class SlowlyVaryingParameters {
 
   detail::CycledLaw law_;
   double natural_frequency_;
+  double centre_ = 0;
   double reach_ =
       1;  // length over which the level changes [m]; 0 where the power series does not tell, infinite: never
   bool directed_ = false;  // whether the level depends on the direction

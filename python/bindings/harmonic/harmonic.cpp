@@ -95,7 +95,7 @@ inline constexpr auto parts<SlidersBranch> = std::tuple(&SlidersBranch::orbits, 
 void bind_harmonic(py::module_& m) {
   value_class<SlidersOrbit>(m, "Orbit", R"(A periodic motion under -n(t) = B cos(omega t), thesis (2.28).
 
-It is symmetric, x(t + T/2) = -x(t) with T = 2 pi / omega; what `harmonic.orbits` returns.)")
+It is symmetric about a centre c, x(t + T/2) - c = c - x(t) with T = 2 pi / omega; what `harmonic.orbits` returns.)")
       .def_property_readonly(
           "slider", [](const SlidersOrbit& self) { return py::cast(self.slider); }, "What goes round it.")
       .def_property_readonly("B", of_orbit<&Orbit::load>(), "Amplitude of the load [m/s^2].")
@@ -103,9 +103,9 @@ It is symmetric, x(t + T/2) = -x(t) with T = 2 pi / omega; what `harmonic.orbits
       .def_property_readonly(
           "period", [](const SlidersOrbit& self) { return self.orbit.period(); }, "T = 2 pi / omega [s].")
       .def_property_readonly("amplitude", of_orbit<&Orbit::amplitude>(),
-                             "Half the way from the lowest x to the highest [m]; 0 for the rest at x = 0.")
+                             "Half the way from the lowest x to the highest [m]; 0 for the rest at the centre.")
       .def_property_readonly("phase", of_orbit<&Orbit::phase>(),
-                             R"(Of x = amplitude cos(omega t + phase), in (-pi, pi] [rad].
+                             R"(Of x - centre = amplitude cos(omega t + phase), in (-pi, pi] [rad].
 
 -omega times the time at which x first comes to its highest value; nan at rest. Thesis (2.2), (2.17) as corrected.)")
       .def_property_readonly("stops_per_cycle", of_orbit<&Orbit::stops_per_cycle>(), "Arrests: times it sticks.")
@@ -116,7 +116,7 @@ It is symmetric, x(t + T/2) = -x(t) with T = 2 pi / omega; what `harmonic.orbits
 Complex, the larger one first; 0 is one where the slider stops.)")
       .def_property_readonly(
           "half_period_multipliers", of_orbit<&Orbit::half_period_multipliers>(),
-          "Those of the half-period map (x, x') -> -(x, x')(T/2 later), of which the others are the squares.")
+          "Those of the half-period map (x - c, x') -> -(x - c, x')(T/2 later), of which the others are the squares.")
       .def_property_readonly("stable", of_orbit<&Orbit::stable>(), R"(Whether no small change grows.
 
 No multiplier beyond the unit circle, by more than 1e-10. One on it is neutral: Coulomb friction without a spring cares
@@ -124,6 +124,8 @@ for no mean position, and a rest stays where it is put.)")
       .def_property_readonly(
           "mean_arbitrary", of_orbit<&Orbit::mean_arbitrary>(),
           "Whether the mean position is arbitrary (Coulomb friction without a spring); given is the orbit around 0.")
+      .def_property_readonly("centre", of_orbit<&Orbit::centre>(),
+                             "(backward - forward) / (2 wn^2) for unequal levels on a spring, else 0 [m].")
       .def_property_readonly(
           "displacement", [](const SlidersOrbit& self) { return self.orbit.state.displacement; },
           "x at t = 0 [m]; `integrate` started from it and `velocity` stays on the orbit.")
@@ -209,7 +211,7 @@ list of Orbit
 Raises
 ------
 ValueError
-    A value out of its range; levels that differ by direction (the slider drifts).
+    A value out of its range; levels that differ by direction without a spring (the slider drifts).
 ConvergenceError
     A caster under accelerations beyond all measure.
 

@@ -1,6 +1,7 @@
 #include "stickslip/theory/pulse_superposition.hpp"
 
 #include "parts.hpp"
+#include "theory/displacement_distribution.hpp"
 #include "theory/theory.hpp"
 
 namespace stickslip::python {
@@ -35,6 +36,12 @@ Moments superposition_moments(const PulseSuperposition& self, const AnySlider& s
 double superposition_rms(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses) {
   const py::gil_scoped_release released;
   return std::visit([&](const auto& s) { return self.final_rms(s, pulses, &check_for_interrupt); }, slider);
+}
+
+DisplacementDistribution superposition_distribution(const PulseSuperposition& self, const AnySlider& slider,
+                                                    const PoissonPulses& pulses, double time) {
+  const py::gil_scoped_release released;
+  return {self, slider, pulses, time};
 }
 
 }  // namespace
@@ -126,6 +133,36 @@ Raises
 ------
 ValueError
     As for `predict`.)")
+          .def("distribution", &superposition_distribution, py::arg("slider"), py::arg("pulses"), py::arg("time"),
+               R"(The distribution of the displacement at a time.
+
+Pulses come independently, each that exceeds the slip level adds its offset: x is a compound Poisson sum,
+E[exp(iux)] = exp(lambda t E[exp(iu dx) - 1]), with the mean and variance of `predict`. With overlaps, of composites as
+they come: lambda / (1 + lambda dt) of them a second ('renewal').
+
+Parameters
+----------
+slider : Slider or Coulomb
+    Of constant slip levels, which may be unequal, without a spring.
+pulses : PoissonPulses
+    Without an envelope, lambda dt at most 0.1.
+time : float
+    [s], finite and at least 0.
+
+Returns
+-------
+DisplacementDistribution
+    With the chance of no displacement at all, density, probabilities and quantiles.
+
+Raises
+------
+ValueError
+    What is not covered; a value out of its range.
+
+Notes
+-----
+Exact for lambda dt -> 0 and t >> 4 dt. For 20 pulses at sigma / a from 1/2 to 3 a probability is off by less than 0.0062
+at lambda dt = 0.001, 0.02 at 0.01, and 0.13 at 0.1. Takes 10 to 25 ms.)")
           .def("__repr__",
                [](const PulseSuperposition& t) { return "PulseSuperposition(overlap='" + overlap_of(t) + "')"; });
   def_theory(type);
@@ -136,7 +173,10 @@ ValueError
 
 The L with P(|x| <= L on [0, T]) = probability for Brownian motion without drift of variance growth_rate t: by its series
 of eigenfunctions, or of reflections, whichever converges at once. An estimate: a slider's displacement is Brownian
-motion only over many slips, and the way out and back within a pulse comes on top.
+motion only over many slips, and the way out and back within a pulse comes on top. Of the peak that 5 % of blocks exceed
+in the thesis's four events it is, with the growth by `PulseChain`, 0.96 to 0.99 for sigma / a from 0.5 to 5 in the great
+events (60 s), 0.89 to 0.98 in the moderate ones (15 s), and from 0.88 to 1.32 down to sigma / a = 0.2. Below that fewer
+than 5 % may slip at all, and it means nothing.
 
 Parameters
 ----------

@@ -86,13 +86,14 @@ of amplitude A does the work W(A) against friction: S = -W / (pi A), which is -4
 Parameters
 ----------
 slider : Slider, Coulomb or Caster, optional
-    What slides; a law alone is a slider without spring and damper. Coulomb friction of equal levels. A slip level of 1 m/s^2
-    without a spring if not given.
+    What slides; a law alone is a slider without spring and damper. Coulomb friction of equal levels,
+    or of any finite levels on a spring: that of their mean about `centre`. A slip level of 1 m/s^2 without a spring if
+    not given.
 
 Raises
 ------
 ValueError
-    Unlike levels forward and backward: the mass drifts.
+    Unlike levels forward and backward without a spring: the mass drifts.
 
 Notes
 -----
@@ -108,6 +109,9 @@ N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).)")
           .def(py::init<AnySlider>(), py::arg("slider"))
           .def_property_readonly(
               "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "What slides.")
+          .def_property_readonly(
+              "centre", [](const SlowlyVaryingParameters& self) { return self.centre(); },
+              "Where the motion swings about [m]: (backward - forward) / (2 wn^2) on a spring, else 0.")
           .def("dissipative", &by_amplitude<&SlowlyVaryingParameters::dissipative>, py::arg("amplitude"),
                R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates.
 
