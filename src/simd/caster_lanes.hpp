@@ -8,8 +8,8 @@
 
 namespace stickslip::detail {
 
-/// A caster without a spring, and the length of a segment. `SeriesLanes` do the same for any law; series of fixed order,
-/// in units that suit this one, take a quarter of their time.
+/// A caster without a spring, and the length of a segment. `SeriesLanes` do the same for any law; series of fixed
+/// order, in units that suit this one, take a quarter of their time.
 struct CasterLanes {
   Caster law;
   double duration;  ///< of each segment [s]

@@ -252,7 +252,7 @@ def test_what_is_no_theory_is_named():
     assert compare(Late()).refused["mine"].endswith("at other times than those asked for")
 
 
-def test_a_caster_that_only_rolls_is_a_block_to_every_method_that_has_rolling_resistance():
+def test_a_caster_that_only_rolls_is_a_block_to_every_theory():
     wheel, block = ss.Caster(slip_level=0.0, reach=0.5, rolling=1.0), ss.Coulomb(slip_level=1.0)
     (a,), (b,) = (theory.SlowlyVaryingParameters(law).response(4.0, 3.0) for law in (wheel, block))
     assert a.amplitude == pytest.approx(b.amplitude, rel=1e-13)
@@ -261,5 +261,6 @@ def test_a_caster_that_only_rolls_is_a_block_to_every_method_that_has_rolling_re
     rare = ss.PoissonPulses(rate=0.01, half_width=0.1, sigma=5.0, duration=100)
     a, b = (theory.PulseSuperposition().predict(law, rare, [100.0]) for law in (wheel, block))
     assert a.displacement_variance == pytest.approx(b.displacement_variance, rel=1e-6)
-    a, b = (theory.EquivalentLinearization().predict(law, 1.0, [1.0, 10.0]) for law in (wheel, block))
+    linear = theory.EquivalentLinearization()
+    a, b = (linear.predict(law, 1.0, [1.0, 10.0]) for law in (wheel, block))
     assert a.displacement_variance == pytest.approx(b.displacement_variance, rel=1e-5)

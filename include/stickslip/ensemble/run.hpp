@@ -86,10 +86,10 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
 /// Cost on one thread, the motions and the statistics included (2.5 GHz, AVX2): one slider for all under Gaussian
 /// excitation goes in vector lanes: Coulomb friction alone 6 to 7 ns a sample, with a spring or a damper 25, spring and
 /// damper without friction 9 (with steps of less than 1 / wn), casters alone 70, any other law, with or without spring
-/// and damper, 100 to 250. Coulomb friction takes 10 ns a step under pulses. All else goes as by `integrate`, and some 10
-/// ns. In lanes, laws whose resistance changes while they slide are within 1e-9 of `integrate`, by series of tolerance
-/// 1e-14 a step; the rest is exact to round-off. A law that changes much within a step leaves its members to the event
-/// loop, one by one, and costs what `integrate` costs, or up to twice that.
+/// and damper, 100 to 250. Coulomb friction takes 10 ns a step under pulses. All else goes as by `integrate`, and some
+/// 10 ns. In lanes, laws whose resistance changes while they slide are within 1e-9 of `integrate`, by series of
+/// tolerance 1e-14 a step; the rest is exact to round-off. A law that changes much within a step leaves its members to
+/// the event loop, one by one, and costs what `integrate` costs, or up to twice that.
 template <class S, MotionSource M>
 requires(!FrictionLaw<S>) Ensemble run_ensemble(const S& sliders, const M& motions, const EnsembleOptions& options = {},
                                                 const Ensemble* start = nullptr) {

@@ -13,8 +13,7 @@ Recording integrate_under(const S& slider, const py::object& motion, const Integ
   Response response = [&] {
     const py::gil_scoped_release released;
     if constexpr (std::same_as<S, AnySlider>)
-      return std::visit([&](const auto& s) { return integrate(s, ground, options, std::move(storage)); },
-                        slider);
+      return std::visit([&](const auto& s) { return integrate(s, ground, options, std::move(storage)); }, slider);
     else
       return integrate(slider, ground, options, std::move(storage));
   }();
