@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-#include "thesis/thesis.hpp"
+#include "reproduction/thesis.hpp"
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr const char* usage =
     "usage: thesis_figures [NUMBER...] [--members N] [--seed N] [--out FOLDER] [--check] [--expectations]\n"
     "  writes a CSV file for each figure (all of them if none is named) to FOLDER, prints the summary\n"
     "  --check         2000 members and seed 2 unless given; each number against what is expected of it\n"
-    "  --expectations  prints what thesis/expected.inc is made of\n";
+    "  --expectations  prints what reproduction/expected.inc is made of\n";
 
 std::string file_name(const std::string& number) {
   std::string name = number.starts_with("Table") ? number : "figure " + number;

@@ -1,5 +1,5 @@
 // The thesis's figures: that they are what they say, the same whoever computes them, and that a wrong one is found out.
-#include "thesis/thesis.hpp"
+#include "reproduction/thesis.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include <type_traits>
 
 #include "bindings.hpp"
-#include "thesis/thesis.hpp"
+#include "reproduction/thesis.hpp"
 
 namespace stickslip::python {
 

@@ -1,4 +1,4 @@
-#include "thesis/thesis.hpp"
+#include "reproduction/thesis.hpp"
 
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>

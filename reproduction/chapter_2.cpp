@@ -12,7 +12,7 @@
 #include <stickslip/sliding/integrate.hpp>
 #include <stickslip/theory/slowly_varying_parameters.hpp>
 
-#include "thesis/figures.hpp"
+#include "reproduction/figures.hpp"
 
 namespace stickslip::detail {
 

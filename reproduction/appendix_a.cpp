@@ -2,7 +2,7 @@
 #include <stickslip/friction/caster.hpp>
 #include <stickslip/units.hpp>
 
-#include "thesis/figures.hpp"
+#include "reproduction/figures.hpp"
 
 namespace stickslip::detail {
 

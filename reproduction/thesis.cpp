@@ -1,5 +1,5 @@
 // What there is, and how it is written, summed up and held against what is expected.
-#include "thesis/thesis.hpp"
+#include "reproduction/thesis.hpp"
 #include <stickslip/error.hpp>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "thesis/figures.hpp"
+#include "reproduction/figures.hpp"
 
 namespace stickslip {
 
@@ -97,7 +97,7 @@ struct Expected {
 };
 
 constexpr std::string_view expected_text =
-#include "thesis/expected.inc"
+#include "reproduction/expected.inc"
     ;
 
 std::vector<Expected> expected_of(const std::string& number) {

@@ -12,7 +12,7 @@
 #include <stickslip/theory/pulse_superposition.hpp>
 #include <stickslip/units.hpp>
 
-#include "thesis/figures.hpp"
+#include "reproduction/figures.hpp"
 
 namespace stickslip::detail {
 

@@ -137,7 +137,7 @@ std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure);
 /// What checks come to, in one line: how many were made, how many are loose, how many are off.
 std::string thesis_verdict(std::span<const ThesisCheck> checks);
 
-/// The lines by which `thesis_check` would expect this figure: what thesis/expected.inc is made of.
+/// The lines by which `thesis_check` would expect this figure: what reproduction/expected.inc is made of.
 std::string thesis_expectations(const ThesisFigure& figure);
 
 }  // namespace stickslip

@@ -13,7 +13,7 @@
 
 #include "excitation/interpolation_loss.hpp"
 #include "numerics/kaiser_window.hpp"
-#include "thesis/figures.hpp"
+#include "reproduction/figures.hpp"
 
 namespace stickslip::detail {
 

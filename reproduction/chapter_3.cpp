@@ -9,7 +9,7 @@
 #include <stickslip/theory/stationary_linearization.hpp>
 #include <stickslip/theory/white_noise.hpp>
 
-#include "thesis/figures.hpp"
+#include "reproduction/figures.hpp"
 
 namespace stickslip::detail {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "thesis/thesis.hpp"
+#include "reproduction/thesis.hpp"
 
 namespace stickslip::detail {
 
