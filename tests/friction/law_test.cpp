@@ -40,17 +40,6 @@ struct Root {
   }
 };
 
-/// What CONTRIBUTING.md shows: friction that falls from rest to a kinetic value as the speed grows.
-struct RateDependent {
-  double at_rest, sliding, scale;
-
-  template <class X, class Speed>
-  auto resist(const X&, Direction, const Speed& speed) const {
-    using std::exp;
-    return sliding + (at_rest - sliding) * exp(-speed / scale);
-  }
-};
-
 double bump_work(const Bump& law, double from, double distance) {
   const long double low = from / static_cast<long double>(law.reach);
   const long double high = low + distance / static_cast<long double>(law.reach);

@@ -8,20 +8,15 @@
 #include <vector>
 
 #include "simd/instruction_sets.hpp"
+#include "simd/watch.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;
 using detail::most_lanes;
+using test::Watch;
 
 namespace {
-
-struct Watch {
-  double peak = 0;
-  int events = 0;
-  void slide(const Slip& slip) { peak = std::max(peak, std::abs(slip.to())); }
-  void event(EventKind, double, const State&) { ++events; }
-};
 
 struct Case {
   double slip_level, reach, deviation, duration;

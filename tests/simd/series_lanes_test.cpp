@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "stickslip/ensemble/run.hpp"
+#include "simd/watch.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 
@@ -21,29 +21,12 @@ using detail::SeriesLanes;
 
 namespace {
 
-struct Watch {
-  double peak = 0;
-  int events = 0;
-  void slide(const Slip& slip) { peak = std::max(peak, std::abs(slip.to())); }
-  void event(EventKind, double, const State&) { ++events; }
-};
-
 /// Resists more one way, and more far away.
 struct Ramp {
   double level;
   template <class T>
   auto resist(const T& x, Direction direction) const {
     return (direction == Direction::forward ? level : 1.5 * level) * (1 + x * x);
-  }
-};
-
-/// Weakens with speed, from a value that it does not quite hold at rest to one at which it slides.
-struct Weakening {
-  double at_rest, sliding, scale;
-  template <class X, class Speed>
-  auto resist(const X&, Direction, const Speed& speed) const {
-    using std::exp;
-    return sliding + (at_rest - sliding) * exp(-speed / scale);
   }
 };
 
@@ -119,7 +102,7 @@ TEST_CASE("sliders of any law in lanes move as single ones, step by step", "[ser
   compare("bump", Slider(Bump{1, 0.4}, 1.0), 0.1, 2, 1e-12);
   compare("ramp", Slider(Ramp{1}, 0.0), 0.1, 2, 1e-12);
   compare("ramp held", Slider(StaticRamp{{1}, 1.3}, 0.5), 0.1, 2, 1e-12);
-  compare("weakening", Slider(Weakening{1, 0.6, 0.1}, 1.0), 0.05, 2, 1e-12);
+  compare("weakening", Slider(RateDependent{1, 0.6, 0.1}, 1.0), 0.05, 2, 1e-12);
 }
 
 TEST_CASE("sliders in lanes are braked by what they cross within one step", "[series_lanes]") {

@@ -138,4 +138,15 @@ struct Bump {
   }
 };
 
+/// What CONTRIBUTING.md shows: friction that falls from rest to a kinetic value as the speed grows.
+struct RateDependent {
+  double at_rest, sliding, scale;
+
+  template <class X, class Speed>
+  auto resist(const X&, Direction, const Speed& speed) const {
+    using std::exp;
+    return sliding + (at_rest - sliding) * exp(-speed / scale);
+  }
+};
+
 }  // namespace test

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "stickslip/detail/requirements.hpp"
+
 namespace stickslip::detail {
 
 /// Element (k, i) of the one becomes element (i, k) of the other; rows are `stride` apart.
