@@ -13,7 +13,6 @@
 #include "simd/coulomb_lanes.hpp"
 #include "simd/pulse_lanes.hpp"
 #include "simd/viscous_lanes.hpp"
-#include "stickslip/detail/lanes/transpose.hpp"
 
 namespace stickslip::detail {
 namespace {

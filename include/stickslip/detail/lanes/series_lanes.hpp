@@ -104,8 +104,9 @@ class SlideOfLanes {
       return abs(off * step - a) <= 20 * left_out * (terms * step + fastest);
     };
     // Where the level has all but underflowed its series says nothing of what lies ahead, towards the centre.
-    const Mask unseen = (here <= 1e-290) & (s * x_[0] < 0.0) & (resists_now(0.0, u_[0], back) > 1e-290);
-    converges_ = converges_ & recent & ~unseen & balanced(1.0);
+    const Mask blind = (here <= 1e-290) & (s * x_[0] < 0.0);
+    if (any(blind)) converges_ = converges_ & ~(blind & (resists_now(0.0, u_[0], back) > 1e-290));
+    converges_ = converges_ & recent & balanced(1.0);
     const Mask slow = converges_ & wanted & (u_[0] * 16.0 <= fastest);
     if (any(slow)) converges_ = converges_ & (~slow | balanced(0.6));
   }
