@@ -55,28 +55,28 @@ struct Series {
     for (int k = 0; k < order; ++k) {
       Real sum = 0.0, cosine = 0.0, sine = 0.0;
 #pragma GCC unroll 16
-      for (int i = 1; i < k; ++i) sum = fma(s[i], w[k - i], sum);
+      for (int i = 1; i < k; ++i) sum = multiply_add(s[i], w[k - i], sum);
 #pragma GCC unroll 16
       for (int i = 1; i < k; ++i) {
-        cosine = fma(angle[i], t[k - i], cosine);
-        sine = fma(angle[i], s[k - i], sine);
+        cosine = multiply_add(angle[i], t[k - i], cosine);
+        sine = multiply_add(angle[i], s[k - i], sine);
       }
-      sum = fma(s[0], w[k], sum);
+      sum = multiply_add(s[0], w[k], sum);
       if (k > 0) {
-        sum = fma(s[k], w[0], sum);
-        cosine = fma(angle[0], t[k], cosine);
-        sine = fma(angle[0], s[k], sine);
+        sum = multiply_add(s[k], w[0], sum);
+        cosine = multiply_add(angle[0], t[k], cosine);
+        sine = multiply_add(angle[0], s[k], sine);
       }
       angle[k] = sum;
       const Real share = 1.0 / (k + 1);
-      s[k + 1] = -share * fma(sum, t[0], cosine);
-      t[k + 1] = share * fma(sum, s[0], sine);
+      s[k + 1] = -share * multiply_add(sum, t[0], cosine);
+      t[k + 1] = share * multiply_add(sum, s[0], sine);
       const Real braked = friction * s[k + 1];
       w[k + 2] = (k == 0 ? slope - braked : -braked) * Real(1.0 / (k + 2));
     }
     // Terms fall off as the way over pi/2, where the complex plane has the next pole, or faster; two of them, as one
     // can vanish by symmetry. Over more than a reach they tell nothing.
-    const Real next = way * fma(way * 0.4, abs(w[order]), abs(w[order + 1]));
+    const Real next = way * multiply_add(way * 0.4, abs(w[order]), abs(w[order + 1]));
     // From rest at y = 0, or nearly so, the level changes as y^2 ~ t^6 and then as y^4 ~ t^12, which the last terms do
     // not see.
     const Real far = abs(w[1]) + abs(w[2]);
@@ -87,7 +87,7 @@ struct Series {
   HWY_INLINE Real distance(const Real& t) const {
     Real sum = w[order + 1] * (1.0 / (order + 2));
 #pragma GCC unroll 16
-    for (int k = order; k >= 0; --k) sum = fma(sum, t, w[k] * (1.0 / (k + 1)));
+    for (int k = order; k >= 0; --k) sum = multiply_add(sum, t, w[k] * (1.0 / (k + 1)));
     return sum * t;
   }
 
@@ -105,8 +105,8 @@ struct Series {
     Real odd = w[order] * (1.0 / (order + 1)), even = w[order + 1] * (1.0 / (order + 2));
 #pragma GCC unroll 16
     for (int k = order - 1; k >= 1; k -= 2) {
-      even = fma(w[k], 1.0 / (k + 1), even);
-      odd = fma(w[k - 1], 1.0 / k, odd);
+      even = multiply_add(w[k], 1.0 / (k + 1), even);
+      odd = multiply_add(w[k - 1], 1.0 / k, odd);
     }
     return (odd + even) + w[0];
   }
@@ -135,67 +135,45 @@ struct Zeros {
 #pragma GCC unroll 16
       for (int i = 1; i <= j; ++i) {
         weight *= static_cast<double>(j - i + 1) / (degree - i + 1);
-        b = fma(c[i], weight, b);
+        b = multiply_add(c[i], weight, b);
       }
       const Bool now_negative = b < 0, changes = now_negative ^ negative;
       twice = twice | (changed & changes);
       changed = changed | changes;
       negative = now_negative;
     }
-    are_none = !changed;
+    are_none = ~changed;
     is_one = but_not(changed, twice);
   }
 
-  // The single zero, where there is one: Newton's method, kept within its bracket.
+  // The single zero, where there is one.
   HWY_INLINE Real find() const {
-    Real low = 0.0, high = 1.0;
     // It starts from the zero of the first three terms.
     const Real root = sqrt(max(nfma(c[2] * 4.0, c[0], c[1] * c[1]), 0.0)), guess = (c[0] + c[0]) / (root - c[1]);
-    Real t = select((guess > 0) & (guess < 1), guess, 0.5);
-    for (int iteration = 0; iteration < 60; ++iteration) {
-      Real value = c[degree], slope = 0.0;
-#pragma GCC unroll 16
-      for (int k = degree - 1; k >= 0; --k) {
-        slope = fma(slope, t, value);
-        value = fma(value, t, c[k]);
-      }
-      const Bool before = value > 0;
-      low = select(before, t, low);
-      high = select(before, high, t);
-      const Real newton = t - value / slope;
-      const Real next = select((newton >= low) & (newton <= high), newton, (low + high) * 0.5);
-      const Real moved = abs(next - t);
-      t = next;
-      if (all((moved <= 4e-16) | !is_one)) break;
-    }
-    return t;
+    return zero_of_polynomials(c, degree, select((guess > 0) & (guess < 1), guess, 0.5), is_one);
   }
 };
 
-// Casters through the events of their segments, of which the unit of time is the duration; says which did not come to
-// the end.
+// Casters through the events of their segments, of which the unit of time is the duration; says which came to the end.
 HWY_INLINE Bool move(const Real& friction, Real& y, Real& w, const Real& load, const Real& slope, Real& peak) {
   Real time = 0.0, step = 1.0, direction = copysign(1.0, w);
   Bool stuck = w == 0, done = w != w, from_rest = done, eased = done;
   for (int round = 0; round < 64; ++round) {
-    // From rest: at once, or when the load has grown to the level; see Lanes::slip_from_rest in coulomb_lanes.cpp.
     if (any(stuck)) {
-      const Real held = friction * Level::at(y).sech, p = fma(slope, time, load);
-      const Bool above = p > held, below = p < -held, at_once = above | below;
-      const Real way = select(above | but_not(slope > 0, below), Real(1.0), -1.0);
-      const Real reaches = max(time, (way * held - load) / slope);
-      const Bool later = but_not((slope != 0) & (reaches < 1), at_once), slips = stuck & (at_once | later);
-      done = done | but_not(stuck, slips);
-      direction = select(slips, way, direction);
-      time = select(stuck & later, reaches, time);
+      const Real held = friction * Level::at(y).sech;
+      const DepartureOfLanes<Real> departure(multiply_add(slope, time, load), load + slope, held, held);
+      const Bool later = stuck & departure.later, slips = later | (stuck & departure.at_once);
+      direction = select(slips, select(departure.forward, Real(1.0), -1.0), direction);
+      time = select(later, min(max(time, (departure.level - load) / slope), 1.0), time);
       step = select(slips, Real(1) - time, step);
+      done = done | but_not(stuck, slips) | (slips & (step == 0));
       from_rest = slips | but_not(from_rest, stuck);
-      eased = (slips & later) | but_not(eased, stuck);
+      eased = later | but_not(eased, stuck);
     }
     if (all(done)) break;
 
     const Real square = step * step;
-    const Series series(y, w * step, fma(slope, time, load) * square, slope * (square * step),
+    const Series series(y, w * step, multiply_add(slope, time, load) * square, slope * (square * step),
                         direction * (friction * square),
                         [&](const Real& net) HWY_ATTR { return select(from_rest & eased, 0.0, net); });
     const Zeros zeros(series, direction, from_rest);
@@ -207,15 +185,15 @@ HWY_INLINE Bool move(const Real& friction, Real& y, Real& w, const Real& load, c
     peak = max(peak, abs(y));
     const Real left = Real(1) - time;
     done = done | (goes_on & (step == left));
-    time = select(moves, fma(step, at, time), time);
+    time = select(moves, multiply_add(step, at, time), time);
     step = select(moves, Real(1) - time, step * 0.5);
     stuck = stops;
     from_rest = but_not(from_rest, moves);
   }
-  return !done;
+  return done;
 }
 
-// Slides without an event in 2, 4, 8 ... steps, as many as all need; says which need more than can be.
+// Slides without an event in 2, 4, 8 ... steps, as many as all need; says which need no more than can be.
 HWY_INLINE Bool slide(const Real& friction, Real& y, Real& w, const Real& load, const Real& slope) {
   const Real y0 = y, w0 = w, against = copysign(friction, w);
   Bool open;
@@ -226,15 +204,15 @@ HWY_INLINE Bool slide(const Real& friction, Real& y, Real& w, const Real& load, 
     w = w0 * step;
     open = w != w;
     for (int i = 0; i < steps; ++i) {
-      const Series series(y, w, fma(slope, i * step, load) * (step * step), change, less_friction, Same());
-      open = open | (!series.converges);
+      const Series series(y, w, multiply_add(slope, i * step, load) * (step * step), change, less_friction, Same());
+      open = open | ~series.converges;
       y = y + series.whole_distance();
       w = series.last_speed();
     }
     w = w * static_cast<double>(steps);
     if (!any(open)) break;
   }
-  return open;
+  return ~open;
 }
 
 void AdvanceCasters(const CasterLanes& slider, std::size_t members, const double* HWY_RESTRICT start,
@@ -254,41 +232,36 @@ void AdvanceCasters(const CasterLanes& slider, std::size_t members, const double
 
     // The most that friction can do on the way: sech grows by no more than exp of the distance, and exp(z) is at most
     // 1 + z + z^2 for z < 1. With that constant level the velocity is a parabola, within its Bernstein coefficients.
-    const Real growth = fma(series.way, series.way + 1, 1.0);
+    const Real growth = multiply_add(series.way, series.way + 1, 1.0);
     const Real most = against * select(series.way < 1, min(series.level.sech * growth, 1.0), 1.0);
-    const Real middle = fma(load - most, 0.5, w), lowest = fma(load_end - most, 0.5, middle);
+    const Real middle = multiply_add(load - most, 0.5, w), lowest = multiply_add(load_end - most, 0.5, middle);
     const Bool safe = min(w * middle, w * lowest) > 0, slides = safe & series.converges;
     const Bool stuck = (v == 0) & (max(abs(load), abs(load_end)) <= friction * series.level.sech);
 
-    const Real there = select(slides, fma(from_y, series.whole_distance(), x), x);
+    const Real there = select(slides, multiply_add(from_y, series.whole_distance(), x), x);
     there.store(states.displacement + i);
     select(slides, from_w * series.last_speed(), v).store(states.velocity + i);
     max(Real::load(states.peak + i), abs(there)).store(states.peak + i);
-    eventful |= bits(!(safe | stuck)) << i;
+    eventful |= bits(~(safe | stuck)) << i;
     fast |= bits(but_not(safe, series.converges)) << i;
   }
 
   const auto work_off = [&](std::uint64_t set_apart, auto work) HWY_ATTR {
     if (set_apart == 0) return;
-    LaneQueue queue(set_apart, start, end, states);
-    std::uint64_t open = 0;
-    for (std::size_t k = 0; k < queue.count; k += Real::size) {
-      const Real x = Real::load(queue.displacement + k), v = Real::load(queue.velocity + k);
-      const Real before = Real::load(queue.peak + k);
-      const Real load = Real::load(queue.start + k) * to_load, load_end = Real::load(queue.end + k) * to_load;
-      Real y = x * to_y, w = v * to_w, peak = before * to_y;
-      const Bool unsettled = work(y, w, load, load_end - load, peak);
-      // Those that are not settled stay as they were.
-      select(unsettled, x, y * from_y).store(queue.displacement + k);
-      select(unsettled, v, w * from_w).store(queue.velocity + k);
-      select(unsettled, before, max(before, max(peak, abs(y)) * from_y)).store(queue.peak + k);
-      open |= bits(unsettled) << k;
-    }
-    queue.put_back(states);
-    for (std::size_t k = 0; k < queue.count; ++k)
-      if ((open >> k & 1) != 0)
-        advance_alone(Slider<Caster>(slider.law), Segment{h, queue.start[k], queue.end[k]},
-                      State::at(queue.displacement[k], queue.velocity[k]), states, queue.lane[k]);
+    go_through_events<Real>(
+        set_apart, start, end, states,
+        [&](const LaneQueue& queue, std::size_t k, Real& x, Real& v, Real& peak) HWY_ATTR {
+          const Real load = Real::load(queue.start + k) * to_load, load_end = Real::load(queue.end + k) * to_load;
+          Real y = x * to_y, w = v * to_w, most = peak * to_y;
+          const Bool settled = work(y, w, load, load_end - load, most);
+          x = select(settled, y * from_y, x);
+          v = select(settled, w * from_w, v);
+          peak = select(settled, max(peak, max(most, abs(y)) * from_y), peak);
+          return settled;
+        },
+        [&](const LaneQueue& queue, std::size_t k) {
+          advance_alone(Slider<Caster>(slider.law), queue.segment(k, h), queue.state(k), states, queue.lane[k]);
+        });
   };
   work_off(eventful, [friction](Real& y, Real& w, const Real& load, const Real& slope, Real& peak)
                          HWY_ATTR { return move(friction, y, w, load, slope, peak); });

@@ -21,9 +21,11 @@ struct Slide {
   Real speed, acceleration, slope;
 
   HWY_INLINE Real distance(const Real& t) const {
-    return t * fma(fma(slope * t, 1.0 / 3, acceleration) * t, 0.5, speed);
+    return t * multiply_add(multiply_add(slope * t, 1.0 / 3, acceleration) * t, 0.5, speed);
   }
-  HWY_INLINE Real speed_at(const Real& t) const { return fma(t, fma(slope * t, 0.5, acceleration), speed); }
+  HWY_INLINE Real speed_at(const Real& t) const {
+    return multiply_add(t, multiply_add(slope * t, 0.5, acceleration), speed);
+  }
 };
 
 // From rest: at the beginning of a segment, or where a slip stopped.
@@ -52,18 +54,16 @@ struct Blocks {
   Real duration;
   Real peak;
 
-  // From rest at time t: where it can't be held it slips at once; else it waits until the load, which is straight,
-  // reaches the level it runs to. A reversal is a stick of no length, so this is both.
+  // From rest at time t.
   HWY_INLINE Slip slip_from_rest(const Real& t) const {
-    Slip slip;
-    const Real p = fma(slope, t, load);
-    const Bool above = p > forward, below = p < -backward;
-    slip.at_once = above | below;
-    slip.forward = above | but_not(slope > 0, below);
-    const Real level = select(slip.forward, forward, -backward), direction = select(slip.forward, Real(1.0), -1.0);
+    const Real p = multiply_add(slope, t, load);
+    const DepartureOfLanes<Real> departure(p, last_load, forward, backward);
+    const Real level = departure.level, direction = select(departure.forward, Real(1.0), -1.0);
     const Real reaches = min(max(t, (level - load) / slope), duration);
-    slip.later =
-        but_not((slip.forward & (last_load > forward)) | but_not(last_load < -backward, slip.forward), slip.at_once);
+    Slip slip;
+    slip.at_once = departure.at_once;
+    slip.later = departure.later;
+    slip.forward = departure.forward;
     slip.begin = select(slip.at_once, t, select(slip.later, reaches, duration));
     const Real left = duration - slip.begin;
     const Slide slide{0.0, where(slip.at_once, abs(p - level)), direction * slope};
@@ -91,12 +91,12 @@ struct Blocks {
     const Real denominator = select(slows, root - a, -q);
     const Real stop = select(slows, u + u, a + root) / denominator;
     const Bool stops = but_not((discriminant >= 0) & (denominator > 0) & (stop <= duration), stuck);
-    const Bool slides_on = !(stuck | stops);
+    const Bool slides_on = ~(stuck | stops);
 
     const Real t = select(stuck, 0.0, select(stops, stop, duration));
     const Real distance = direction * slide.distance(t), last = direction * max(slide.speed_at(duration), 0.0);
     account.slide(*this, distance, 0.0, t, v, where(slides_on, last));
-    account.distinct(!(slides_on & (last == 0)));
+    account.distinct(~(slides_on & (last == 0)));
     x = x + distance;
     peak = max(peak, abs(x));
 
@@ -109,7 +109,7 @@ struct Blocks {
     const Bool again = but_not(slip.stops, slides_on);
     if (HWY_LIKELY(!any(again))) return;
     // It reversed and stopped once more: from here the load runs the way it slips, and it will not stop a third time.
-    const Bool came_back = !slip.forward;
+    const Bool came_back = ~slip.forward;
     const Real stopped = slip.begin + slip.duration;
     slip = slip_from_rest(stopped);
     account.turn(Bool::first(0), again, came_back, x, stopped, slip);
@@ -125,14 +125,14 @@ class Account {
  public:
   HWY_INLINE Account() : work_(0.0), indistinct_(Bool::first(0)) {}
 
-  void distinct(const Bool& are) { indistinct_ = indistinct_ | !are; }
+  void distinct(const Bool& are) { indistinct_ = indistinct_ | ~are; }
 
   // The work of a load that runs straight on what moves as a cubic: the displacement's mean is known from its ends.
   HWY_INLINE void slide(const Blocks& blocks, const Real& distance, const Real& begin, const Real& duration,
                         const Real& first_velocity, const Real& last_velocity) {
-    const Real gain = blocks.slope * duration, start = fma(blocks.slope, begin, blocks.load);
-    work_ =
-        work_ + nfma(gain * duration, (first_velocity - last_velocity) * (1.0 / 12), distance * fma(gain, 0.5, start));
+    const Real gain = blocks.slope * duration, start = multiply_add(blocks.slope, begin, blocks.load);
+    work_ = work_ + nfma(gain * duration, (first_velocity - last_velocity) * (1.0 / 12),
+                         distance * multiply_add(gain, 0.5, start));
   }
 
   // Blocks that were stuck until now, or have just stopped, having come forward or `back`.
@@ -149,8 +149,8 @@ class Account {
         .store(turn.kind);
     slip.begin.store(turn.later);
     select(turns & slip.later, code(EventKind::breakaway), code(EventKind::end)).store(turn.later_kind);
-    distinct(!(turns & but_not((slip.at_once | slip.later) & (slip.velocity == 0), slip.stops)));
-    distinct(!(stops & slip.later & (slip.begin <= t)));
+    distinct(~(turns & but_not((slip.at_once | slip.later) & (slip.velocity == 0), slip.stops)));
+    distinct(~(stops & slip.later & (slip.begin <= t)));
   }
 
   void write(const std::uint8_t* lane, std::size_t blocks, LaneAccount& account) const {
@@ -206,7 +206,7 @@ HWY_INLINE void advance(const CoulombLanes& slider, std::size_t members, const d
     const Bool slides = min(v * middle, v * last) > 0;
     const Bool held = (v == 0) & (max(n0, n1) <= backward) & (min(n0, n1) >= -forward);
     const Real mean = nfma(sixth, (g0 + g0) + g1, v);  // velocity
-    const Real there = select(slides, fma(h, mean, x), x);
+    const Real there = select(slides, multiply_add(h, mean, x), x);
     there.store(to.displacement + i);
     select(slides, last, v).store(to.velocity + i);
     if constexpr (peaks) max(Real::load(from.peak + i), abs(there)).store(to.peak + i);
@@ -214,24 +214,23 @@ HWY_INLINE void advance(const CoulombLanes& slider, std::size_t members, const d
       const Real work = h * nfma(n0 + n1, mean * 0.5, (n1 - n0) * (v - last) * (1.0 / 12));
       (Real::load(account->work_before + i) + where(slides, work)).store(account->work_after + i);
     }
-    eventful |= bits(!(slides | held)) << i;
+    eventful |= bits(~(slides | held)) << i;
   }
 
   if (eventful == 0) return;
-  LaneQueue queue(eventful, start, end, to);
   const double rate = 1 / slider.duration;
-  for (std::size_t k = 0; k < queue.count; k += Real::size) {
-    Real x = Real::load(queue.displacement + k), v = Real::load(queue.velocity + k);
-    const Real n0 = Real::load(queue.start + k), n1 = Real::load(queue.end + k);
-    Blocks blocks{forward, backward, -n0, -n1, (n0 - n1) * rate, h, Real::load(queue.peak + k)};
-    std::conditional_t<accounts, Account, NoAccount> taken;
-    blocks.move(x, v, taken);
-    x.store(queue.displacement + k);
-    v.store(queue.velocity + k);
-    blocks.peak.store(queue.peak + k);
-    if constexpr (accounts) taken.write(queue.lane + k, std::min(Real::size, queue.count - k), *account);
-  }
-  queue.put_back(to);
+  go_through_events<Real>(
+      eventful, start, end, to,
+      [&](const LaneQueue& queue, std::size_t k, Real& x, Real& v, Real& peak) HWY_ATTR {
+        const Real n0 = Real::load(queue.start + k), n1 = Real::load(queue.end + k);
+        Blocks blocks{forward, backward, -n0, -n1, (n0 - n1) * rate, h, peak};
+        std::conditional_t<accounts, Account, NoAccount> taken;
+        blocks.move(x, v, taken);
+        peak = blocks.peak;
+        if constexpr (accounts) taken.write(queue.lane + k, std::min(Real::size, queue.count - k), *account);
+        return Bool::first(Real::size);
+      },
+      [](const LaneQueue&, std::size_t) {});
 }
 
 void AdvanceCoulomb(const CoulombLanes& slider, std::size_t members, const double* HWY_RESTRICT start,

@@ -14,6 +14,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+
+#include "stickslip/detail/lanes/row.hpp"
 
 #include <hwy/contrib/math/math-inl.h>
 
@@ -51,7 +54,7 @@ struct PackMask {
     for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::Xor(a.part[i], b.part[i]);
     return result;
   }
-  friend HWY_INLINE PackMask operator!(const PackMask& a) {
+  friend HWY_INLINE PackMask operator~(const PackMask& a) {
     PackMask result;
     for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::Not(a.part[i]);
     return result;
@@ -67,7 +70,7 @@ struct PackMask {
     for (std::size_t i = 0; i < parts; ++i) found |= !hn::AllFalse(Tag(), a.part[i]);
     return found;
   }
-  friend HWY_INLINE bool all(const PackMask& a) { return !any(!a); }
+  friend HWY_INLINE bool all(const PackMask& a) { return !any(~a); }
   /// one bit each
   friend HWY_INLINE std::uint64_t bits(const PackMask& a) {
     std::uint64_t result = 0;
@@ -132,7 +135,7 @@ struct Pack {
 #undef STICKSLIP_BINARY
 
   /// a b + c, and c - a b; with one rounding where the processor can
-  friend HWY_INLINE Pack fma(const Pack& a, const Pack& b, const Pack& c) {
+  friend HWY_INLINE Pack multiply_add(const Pack& a, const Pack& b, const Pack& c) {
     Pack result;
     for (std::size_t i = 0; i < parts; ++i) result.part[i] = hn::MulAdd(a.part[i], b.part[i], c.part[i]);
     return result;
@@ -209,6 +212,10 @@ struct Places {
     return result;
   }
 };
+
+#define STICKSLIP_LANES_INLINE HWY_INLINE
+#include "stickslip/detail/lanes/kernel.inl"
+#undef STICKSLIP_LANES_INLINE
 
 }  // namespace stickslip::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -23,14 +23,14 @@ HWY_INLINE void slide(const Real& forward, const Real& backward, const Real& loa
   const Real direction = select(back, Real(-1.0), 1.0);
   const Real speed = abs(v), acceleration = direction * (load - select(back, -backward, forward));
   const Bool stops = (acceleration < 0) & (speed < -acceleration * duration);
-  const Real taken = where(!stuck, select(stops, speed / -acceleration, duration));
-  x = fma(direction * taken, fma(acceleration, 0.5 * taken, speed), x);
+  const Real taken = where(~stuck, select(stops, speed / -acceleration, duration));
+  x = multiply_add(direction * taken, multiply_add(acceleration, 0.5 * taken, speed), x);
   peak = max(peak, abs(x));
   const Real left = where(stops | stuck, duration - taken);
   const Real excess = select(load > forward, load - forward, where(load < -backward, load + backward));
   const Real gained = excess * left;
-  v = select(stops | stuck, gained, direction * fma(acceleration, duration, speed));
-  x = fma(0.5 * gained, left, x);
+  v = select(stops | stuck, gained, direction * multiply_add(acceleration, duration, speed));
+  x = multiply_add(0.5 * gained, left, x);
   peak = max(peak, abs(x));
 }
 
@@ -77,7 +77,7 @@ HWY_INLINE void move(const PulseLanes& slider, double end, const PulseStreams& p
       const Real following = place.gather(pulses.arrivals.data() + 1) + after;
       for (std::size_t e = 0; e < edges; ++e) time[e] = select(met[e], following, time[e]);
       // Where the pulses that began have all ended nothing is left, of rounding neither.
-      ground = where(next[0] != next[edges - 1], fma(place.gather(pulses.amplitudes.data()), jump, ground));
+      ground = where(next[0] != next[edges - 1], multiply_add(place.gather(pulses.amplitudes.data()), jump, ground));
       // A time that is wanted, where no edge is met at the same one.
       const Bool reached = (wanted == first) & (open | ((first >= end) & (wanted <= end)));
       number = number + where(reached, Real(1.0));

@@ -63,17 +63,17 @@ HWY_INLINE void row(const double* HWY_RESTRICT x, const double* HWY_RESTRICT v, 
     s.xx = s.xx + ee;
     s.xv = s.xv + ef;
     s.vv = s.vv + ff;
-    s.xxx = fma(ee, e, s.xxx);
-    s.xxv = fma(ee, f, s.xxv);
-    s.xvv = fma(e, ff, s.xvv);
-    s.vvv = fma(ff, f, s.vvv);
-    s.xxxx = fma(ee, ee, s.xxxx);
-    s.xxvv = fma(ee, ff, s.xxvv);
-    s.vvvv = fma(ff, ff, s.vvvv);
+    s.xxx = multiply_add(ee, e, s.xxx);
+    s.xxv = multiply_add(ee, f, s.xxv);
+    s.xvv = multiply_add(e, ff, s.xvv);
+    s.vvv = multiply_add(ff, f, s.vvv);
+    s.xxxx = multiply_add(ee, ee, s.xxxx);
+    s.xxvv = multiply_add(ee, ff, s.xxvv);
+    s.vvvv = multiply_add(ff, ff, s.vvvv);
     if constexpr (central) {
       (Real::load(to->velocity + i) + velocity).store(to->velocity + i);
       (Real::load(to->velocity_square + i) + ff).store(to->velocity_square + i);
-      fma(ff, ff, Real::load(to->velocity_fourth + i)).store(to->velocity_fourth + i);
+      multiply_add(ff, ff, Real::load(to->velocity_fourth + i)).store(to->velocity_fourth + i);
       (Real::load(to->product + i) + ef).store(to->product + i);
     }
   }

@@ -37,12 +37,12 @@ void AdvanceViscous(const ViscousLanes& all, std::size_t members, const double* 
     v.store(velocity + i);
     const Real n0 = Real::load(start + i), n1 = Real::load(end + i), slope = (n0 - n1) * rate;
     const Real q = nfma(stiffness, x, -n0);
-    const Real there = x + fma(v, impulse, fma(q, by_step, slope * ramp));
-    const Real then = fma(v, decay, fma(q, impulse, slope * by_step));
+    const Real there = x + multiply_add(v, impulse, multiply_add(q, by_step, slope * ramp));
+    const Real then = multiply_add(v, decay, multiply_add(q, impulse, slope * by_step));
     const Real before = nfma(zeta, v, q), after = nfma(zeta, then, nfma(stiffness, there, -n1));
     const Real farthest = max(abs(x), abs(there)), peak = max(Real::load(states.peak + i), farthest);
     const Bool turns =
-        ((v * then <= 0) | (before * after <= 0)) & (fma(abs(before) + abs(after), reach, farthest) > peak);
+        ((v * then <= 0) | (before * after <= 0)) & (multiply_add(abs(before) + abs(after), reach, farthest) > peak);
     there.store(states.displacement + i);
     then.store(states.velocity + i);
     peak.store(states.peak + i);

@@ -51,6 +51,9 @@ struct LaneQueue {
     while (next % row_padding != 0) push(lane[0]);
   }
 
+  State state(std::size_t place) const noexcept { return State::at(displacement[place], velocity[place]); }
+  Segment segment(std::size_t place, double duration) const noexcept { return {duration, start[place], end[place]}; }
+
   /// Writes the states back to the row.
   void put_back(const LaneStates& states) const {
     for (std::size_t k = 0; k < count; ++k) {

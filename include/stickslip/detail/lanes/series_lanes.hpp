@@ -18,6 +18,10 @@
 #ifdef STICKSLIP_VECTORS
 namespace stickslip::detail {
 
+#define STICKSLIP_LANES_INLINE
+#include "stickslip/detail/lanes/kernel.inl"
+#undef STICKSLIP_LANES_INLINE
+
 /// A law that becomes a power series of lanes.
 template <class Law>
 concept LawWithLanes = FrictionLaw<Law> && requires(const Law& law, const series::VariableOf<BaselineVector>& x) {
@@ -155,7 +159,7 @@ class SlideOfLanes {
     }
     Stops result{~changed, changed & ~twice, 1.0};
     const Mask searched = result.one & wanted;
-    if (any(searched)) result.part = zero(c, searched);
+    if (any(searched)) result.part = zero_of_polynomials(c, orders_, Vector(0.5), searched);
     return result;
   }
 
@@ -193,29 +197,6 @@ class SlideOfLanes {
     }
     if (k == 1) odd += c[1];
     return (even + odd) + c[0];
-  }
-
-  // Newton's method, kept within its bracket.
-  Vector zero(const Vector* c, const Mask& wanted) const {
-    Mask open = wanted;
-    Vector low = 0.0, high = 1.0;
-    Vector t = 0.5;
-    for (int iteration = 0; iteration < 64 && any(open); ++iteration) {
-      Vector value = c[orders_], slope = 0.0;
-      for (int k = orders_ - 1; k >= 0; --k) {
-        slope = multiply_add(slope, t, value);
-        value = multiply_add(value, t, c[k]);
-      }
-      const Mask before = value > 0.0;
-      low = select(before, t, low);
-      high = select(before, high, t);
-      const Vector newton = t - value / slope;
-      const Vector next = select((newton >= low) & (newton <= high), newton, (low + high) * 0.5);
-      const Mask moves = abs(next - t) > 2 * std::numeric_limits<double>::epsilon();
-      t = select(open, next, t);
-      open = open & moves;
-    }
-    return t;
   }
 
   const Slider<Law>& slider_;
@@ -268,21 +249,16 @@ struct EventsOfLanes {
     for (int round = 0; round < 64; ++round) {
       SlideOfLanes<Law, Vector> slide(lanes.slider, x, speed);
       if (any(stuck)) {
-        // It slips when the load outgrows what holds it: at once, or later in this segment. A reversal is a rest of no
-        // length, so this is both.
         const Vector forward = holds(lanes.slider.law(), x, slide.resists(Direction::forward), Direction::forward);
         const Vector backward = holds(lanes.slider.law(), x, slide.resists(Direction::backward), Direction::backward);
         const Vector last_net = last_load - stiffness * x;
-        const Mask above = net > forward, below = net < -backward, at_once = above | below;
-        const Mask comes_above = last_net > forward, comes_below = last_net < -backward;
-        const Mask goes_forward = above | (comes_above & ~below);
-        const Vector level = select(goes_forward, forward, -backward);
-        const Mask later = stuck & ~at_once & (comes_above | comes_below), slips = later | (stuck & at_once);
+        const DepartureOfLanes<Vector> departure(net, last_net, forward, backward);
+        const Mask later = stuck & departure.later, slips = later | (stuck & departure.at_once);
         // What the load gains beyond the level is positive, however they are rounded.
-        const Vector room = abs(level - net), beyond = abs(last_net - level);
+        const Vector room = abs(departure.level - net), beyond = abs(last_net - departure.level);
         time = select(later, min(time + (1.0 - time) * (room / (room + beyond)), 1.0), time);
-        net = select(later, level, net);
-        s = select(slips, select(goes_forward, 1.0, -1.0), s);
+        net = select(later, departure.level, net);
+        s = select(slips, select(departure.forward, 1.0, -1.0), s);
         step = select(slips, 1.0 - time, step);
         done = done | (stuck & (~slips | (step <= 0.0)));
         from_rest = select_mask(stuck, slips, from_rest);
@@ -369,23 +345,20 @@ void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const doubl
   if (members < 64) eventful &= (std::uint64_t{1} << members) - 1;
   if (eventful == 0) return;
 
-  LaneQueue queue(eventful, start, end, states);
-  std::uint64_t open = 0;
-  for (std::size_t k = 0; k < queue.count; k += Vector::size) {
-    const Vector x = Vector::load(queue.displacement + k), v = Vector::load(queue.velocity + k);
-    const Vector peak = Vector::load(queue.peak + k);
-    EventsOfLanes<Law, Vector> events{lanes, x, v, peak, -Vector::load(queue.start + k), -Vector::load(queue.end + k)};
-    const Mask done = events.run();
-    select(done, events.x, x).store(queue.displacement + k);
-    select(done, events.v, v).store(queue.velocity + k);
-    select(done, events.peak, peak).store(queue.peak + k);
-    open |= bits(~done) << k;
-  }
-  queue.put_back(states);
-  for (std::size_t k = 0; k < queue.count; ++k)
-    if ((open >> k & 1) != 0)
-      advance_alone(slider, Segment{h, queue.start[k], queue.end[k]},
-                    State::at(queue.displacement[k], queue.velocity[k]), states, queue.lane[k]);
+  go_through_events<Vector>(
+      eventful, start, end, states,
+      [&](const LaneQueue& queue, std::size_t k, Vector& x, Vector& v, Vector& peak) {
+        EventsOfLanes<Law, Vector> events{
+            lanes, x, v, peak, -Vector::load(queue.start + k), -Vector::load(queue.end + k)};
+        const Mask done = events.run();
+        x = select(done, events.x, x);
+        v = select(done, events.v, v);
+        peak = select(done, events.peak, peak);
+        return done;
+      },
+      [&](const LaneQueue& queue, std::size_t k) {
+        advance_alone(slider, queue.segment(k, h), queue.state(k), states, queue.lane[k]);
+      });
 }
 
 template <LawWithLanes Law>
