@@ -172,19 +172,13 @@ void advance(const Law& law, const Flows& flows, const Piece& segment, State& st
   }
 }
 
-// Rarely taken; kept out of line so that the common path stays small.
-template <class Work>
-[[gnu::noinline]] auto aside(Work&& work) {
-  return work();
-}
-
 /// What `work` gives with the flows that fit the slider: closed forms where what resists is constant, else Taylor
 /// series.
 template <FrictionLaw Law, class Work>
 auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
-    if (slider.damping() > 0)
-      return aside([&] { return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration}); });
+    if (slider.damping() > 0) [[unlikely]]
+      return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
     if (slider.stiffness() > 0) return work(Harmonic{slider.natural_frequency(), usual_duration});
     return work(Polynomial{});
   } else {
@@ -199,6 +193,21 @@ auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
     if (slider.stiffness() == 0 && slider.damping() == 0) return work(Sinusoidal{omega, usual_duration});
   }
   return work(Taylor<Law>{slider});
+}
+
+/// The state after a segment.
+template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer>
+State advanced(const Law& law, const Flows& flows, const Piece& segment, State state, Observer& observer) {
+  advance(law, flows, segment, state, observer);
+  return state;
+}
+
+/// The same with a damper, kept out of line so that what is more common stays small; all by value, which can then stay
+/// in registers there.
+template <FrictionLaw Law, class Piece, MotionObserver Observer>
+[[gnu::noinline]] State advanced(Law law, Damped flows, Piece segment, State state, Observer& observer) {
+  advance(law, flows, segment, state, observer);
+  return state;
 }
 
 /// Whether all are finite, by their sum: numbers near the largest double count as infinite.
@@ -259,9 +268,7 @@ void advance(const Slider<Law>& slider, const Segment& segment, State& state, Ob
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
   const State moved = detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
-    State moving = state;  // in registers
-    detail::advance(slider.law(), flows, segment, moving, observer);
-    return moving;
+    return detail::advanced(slider.law(), flows, segment, state, observer);
   });
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
     detail::refuse_overflow(moved);
@@ -276,9 +283,7 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
     detail::refuse(segment, state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
   const State moved = detail::with_harmonic_flows(slider, segment.omega, unusual, [&](const auto& flows) {
-    State moving = state;
-    detail::advance(slider.law(), flows, segment, moving, observer);
-    return moving;
+    return detail::advanced(slider.law(), flows, segment, state, observer);
   });
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
     detail::refuse_overflow(moved);

@@ -1,0 +1,49 @@
+// Friction that changes with the speed of sliding, from a slow level to a fast one.
+#pragma once
+
+#include <cmath>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/series/series.hpp"
+
+namespace stickslip {
+
+/// Friction that depends on the speed |x'|, as that of PTFE and other liners of sliding isolators:
+///     a(|x'|) = a_fast - (a_fast - a_slow) exp(-rate |x'|)
+/// At rest it holds a_slow. A liner has a_slow < a_fast; with a_slow > a_fast friction weakens with speed.
+///
+/// Source: M. C. Constantinou, A. Mokha, A. Reinhorn, Teflon bearings in base isolation II: Modeling, Journal of
+/// Structural Engineering 116 (1990), 455-474.
+class VelocityDependent {
+ public:
+  static constexpr bool symmetric = true;
+
+  /// @param slow  a_slow, force per unit mass at rest [m/s^2], finite and at least 0
+  /// @param fast  a_fast, that at high speed [m/s^2], finite and at least 0
+  /// @param rate  [s/m], finite and at least 0; at 1 / rate 63 % of the change is done
+  /// @throws std::invalid_argument naming the value
+  VelocityDependent(double slow, double fast, double rate) : slow_(slow), fast_(fast), rate_(rate) {
+    detail::require(std::isfinite(slow) && slow >= 0, "VelocityDependent: slow must be finite and at least 0", slow,
+                    "m/s^2");
+    detail::require(std::isfinite(fast) && fast >= 0, "VelocityDependent: fast must be finite and at least 0", fast,
+                    "m/s^2");
+    detail::require(std::isfinite(rate) && rate >= 0, "VelocityDependent: rate must be finite and at least 0", rate,
+                    "s/m");
+  }
+
+  double slow() const noexcept { return slow_; }
+  double fast() const noexcept { return fast_; }
+  double rate() const noexcept { return rate_; }
+
+  template <class X, class Speed>
+  auto resist(const X&, Direction, const Speed& speed) const {
+    using std::exp;
+    return fast_ + (slow_ - fast_) * exp(-rate_ * speed);
+  }
+
+ private:
+  double slow_, fast_, rate_;
+};
+
+}  // namespace stickslip
