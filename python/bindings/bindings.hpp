@@ -19,7 +19,7 @@ namespace py = pybind11;
 namespace stickslip::python {
 
 /// A slider of any law that Python knows. A new law is added here and gets all that takes a slider.
-using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>>;
+using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>>;
 
 }  // namespace stickslip::python
 
@@ -31,6 +31,7 @@ namespace stickslip::python {
 void bind_errors(py::module_& m);
 void bind_coulomb(py::module_& m);
 void bind_caster(py::module_& m);
+void bind_velocity_dependent(py::module_& m);
 void bind_slider(py::module_& m);
 void bind_ground_motion(py::module_& m);
 void bind_harmonic_motion(py::module_& m);
@@ -65,6 +66,17 @@ void bind_pulse_superposition(py::module_& m);
 void bind_pulse_chain(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
+
+/// What `work` gives with the slider in its own type; one whose law knows the speed is refused, as theories do.
+template <class Work>
+auto with_position_law(const AnySlider& slider, const char* who, Work&& work) {
+  return std::visit(
+      [&]<class Law>(const Slider<Law>& one) -> decltype(work(std::get<0>(slider))) {
+        if constexpr (!PositionLaw<Law>) detail::refuse_speed_law(who);
+        if constexpr (PositionLaw<Law>) return work(one);
+      },
+      slider);
+}
 
 /// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.
 class HeldFunction {

@@ -30,6 +30,7 @@ PYBIND11_MODULE(_core, m) {
   bind_errors(m);
   bind_coulomb(m);
   bind_caster(m);
+  bind_velocity_dependent(m);
   bind_slider(m);
   bind_viscous(m);
   bind_ground_motion(m);

@@ -34,6 +34,9 @@ inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::b
 template <>
 inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach, &Caster::rolling);
 template <>
+inline constexpr auto parts<VelocityDependent> = std::tuple(&VelocityDependent::slow, &VelocityDependent::fast,
+                                                            &VelocityDependent::rate);
+template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
                                                          &HarmonicMotion::duration, &HarmonicMotion::dt);
 

@@ -78,7 +78,7 @@ x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (2.27), (2.50), (4.2): x th
 
 Parameters
 ----------
-law : Coulomb or Caster
+law : Coulomb, Caster or VelocityDependent
     What holds at rest and what resists sliding.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0, 0 is no spring.
@@ -118,7 +118,7 @@ A pendulum of the length of the bowl's radius less the wheel's: wn = sqrt(g / (c
 
 Parameters
 ----------
-law : Coulomb or Caster
+law : Coulomb, Caster or VelocityDependent
 cup_radius : float
     Radius of curvature of the bowl [m], positive and finite.
 wheel_radius : float, optional

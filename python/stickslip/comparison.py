@@ -193,7 +193,7 @@ def compare(
 
     Parameters
     ----------
-    slider : Slider, Coulomb or Caster
+    slider : Slider or friction law
     excitation : GaussianExcitation or PoissonPulses
         Or an excitation of your own, where a theory of your own covers it.
     times : array_like, shape (T,), optional

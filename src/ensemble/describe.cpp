@@ -14,6 +14,11 @@ std::string parameters(const Caster& law) {
          (law.rolling() > 0 ? ", \"rolling\": " + json(law.rolling()) : "");
 }
 
+std::string parameters(const VelocityDependent& law) {
+  return "\"law\": \"VelocityDependent\", \"slow\": " + json(law.slow()) + ", \"fast\": " + json(law.fast()) +
+         ", \"rate\": " + json(law.rate());
+}
+
 std::string parameters(const char* type, std::span<const double> levels) {
   return std::string("\"law\": \"") + type + "\", \"levels\": " + json(levels);
 }

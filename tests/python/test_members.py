@@ -223,7 +223,7 @@ REFUSED = {
         "motions[7] must be a GroundMotion, got list",
     ),
     "a source among records": (BLOCK, [SHAKING], TypeError, "got GaussianExcitation"),
-    "a class": (ss.Coulomb, RECORDS, TypeError, "sliders must be a Slider, Coulomb"),
+    "a class": (ss.Coulomb, RECORDS, TypeError, "sliders must be a Slider, a friction law"),
     "a law that refuses": (
         ss.Random(ss.Coulomb, mu=ss.Normal(0.1, 0.08)),
         RECORDS,
@@ -234,7 +234,7 @@ REFUSED = {
         ss.Random(lambda mu: mu, mu=ss.Uniform(0, 1)),
         RECORDS,
         TypeError,
-        "a sample of sliders must be a Slider, Coulomb or Caster; that of member",
+        "a sample of sliders must be a Slider or a friction law; that of member",
     ),
 }
 

@@ -29,6 +29,7 @@ block = ss.Coulomb(mu=np.float32(0.2), backward=Fraction(1, 5))
 block = ss.Coulomb.on_slope(mu=0.6, degrees=20)
 wheel = ss.Caster(slip_level=1.0, reach=0.5)
 wheel = ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02, thesis=True)
+liner = ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=50)
 cart = ss.Slider(wheel, natural_frequency=1.3)
 
 quake = ss.GroundMotion([1, 2.0, 3], dt=0.01)
@@ -42,7 +43,7 @@ r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
 r = ss.integrate(block, quake, settle=True)
 x: NDArray[np.float64] = r.displacement
 kinds = r.events["kind"]
-law: ss.Coulomb | ss.Caster = r.slider.law
+law: ss.Coulomb | ss.Caster | ss.VelocityDependent = r.slider.law
 work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy.elastic
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)

@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 import stickslip as ss
-from stickslip import theory
+from stickslip import harmonic, theory
 
 BLOCK, SLOPE = ss.Coulomb(slip_level=1.0), ss.Coulomb(slip_level=1.0, backward=1.5)
 NEWMARK = ss.Coulomb(slip_level=1.0, backward=math.inf)
 SPRUNG, CART = ss.Slider(BLOCK, natural_frequency=2.0), ss.Caster(slip_level=1.0, reach=2.0)
+LINER = ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=50)
 WHITE = ss.Spectrum.white(s0=0.7)
 BAND = ss.Spectrum.band_pass(s0=1.0, low=2.0, high=4.0)
 SOIL = ss.Spectrum.kanai_tajimi(s0=0.02, frequency=15.0, damping=0.6)
@@ -73,6 +74,9 @@ class Mine:
         (ss.Slider(BLOCK, damping=0.3), PULSES, "ELS", "Crtn"),
         (ss.Slider(BLOCK, damping=0.3), SHAKING, "ELS", "Ws"),
         (ss.Slider(CART, damping=0.3), HARMONIC, "", "V"),
+        (LINER, SHAKING, "", "WELSs"),
+        (LINER, PULSES, "", "CELSrtn"),
+        (LINER, HARMONIC, "", "V"),
         ("block", HARMONIC, "", "V"),
     ],
 )
@@ -85,6 +89,20 @@ def test_each_theory_says_what_it_covers(slider, excitation, covering, refusing)
         assert answer.excitation == (letter in covering + refusing)
         assert answer.reason == "" or answer.reason[-1] not in " ."
         assert (answer.reason == "") == bool(answer)
+
+
+def test_what_takes_laws_of_position_alone_refuses_those_of_the_speed():
+    for refusing in [
+        lambda: theory.EquivalentLinearization().predict(LINER, 1.0, [1.0]),
+        lambda: theory.EquivalentLinearization().stationary(LINER, 1.0),
+        lambda: theory.PulseSuperposition().final_rms(LINER, PULSES),
+        lambda: theory.PulseSuperposition().distribution(LINER, PULSES, 1.0),
+        lambda: theory.pulse_response(LINER, 1.0, 1.0),
+        lambda: theory.SlowlyVaryingParameters(LINER),
+        lambda: harmonic.orbits(LINER, 2.0, 1.0),
+    ]:
+        with pytest.raises(ValueError, match="depends on the speed is not covered"):
+            refusing()
 
 
 @pytest.mark.parametrize(
@@ -103,6 +121,7 @@ def test_each_theory_says_what_it_covers(slider, excitation, covering, refusing)
         (theory.PulseSuperposition(), SPRUNG, PULSES, "natural_frequency must be 0, got 2 rad/s"),
         (theory.SlowlyVaryingParameters(), SLOPE, HARMONIC, "resist both ways alike"),
         (theory.SlowlyVaryingParameters(), BLOCK, PULSES, "covers HarmonicMotion"),
+        (theory.EquivalentLinearization(), LINER, 1.0, "depends on the speed is not covered"),
     ],
 )
 def test_the_reason_names_what_is_in_the_way(asked, slider, excitation, reason):

@@ -45,6 +45,11 @@ RARE = ss.PoissonPulses(rate=0.01, half_width=1, sigma=2, duration=100)
 EXAMPLES = {
     ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
     ss.Caster: [WHEEL, ss.Caster(slip_level=1.0, reach=float("inf")), ROLLING],
+    ss.VelocityDependent: [
+        ss.VelocityDependent(slow=0.3, fast=0.6, rate=50),
+        ss.VelocityDependent(slow=0.6, fast=0.3, rate=50),
+        ss.VelocityDependent(slow=0.3, fast=0.6, rate=20),
+    ],
     ss.Slider: [CART, ss.Slider(WHEEL), ss.Slider(BLOCK, 1.3)],
     ss.GroundMotion: [
         EVEN,

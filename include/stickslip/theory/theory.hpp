@@ -65,12 +65,16 @@ theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   }
 }
 
+[[noreturn]] inline void refuse_speed_law(const std::string& theory) {
+  throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
+}
+
 /// Refuses what no theory covers: a resistance that depends on the speed, and static friction that differs from
 /// kinetic.
 template <FrictionLaw Law>
 void require_one_level(const Slider<Law>& slider, const std::string& theory) {
   if constexpr (!PositionLaw<Law>) {
-    throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
+    refuse_speed_law(theory);
   } else if constexpr (LawWithHold<Law>) {
     for (const Direction direction : {Direction::forward, Direction::backward}) {
       const double kinetic = slider.law().resist(0.0, direction);

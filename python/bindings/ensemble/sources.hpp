@@ -119,13 +119,13 @@ class PythonSliders : public PythonSource {
  public:
   PythonSliders(const py::object& object, const std::atomic<bool>& ended)
       : PythonSource(object, ended,
-                     "sliders must be a Slider, Coulomb or Caster, a list of these, or an object with "
+                     "sliders must be a Slider, a friction law, a list of these, or an object with "
                      "sample(*, seed, member) and configuration, as Random") {}
 
   AnySlider sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
       if (auto slider = slider_of(made)) return *std::move(slider);
-      throw py::type_error("run_ensemble: a sample of sliders must be a Slider, Coulomb or Caster; that of member " +
+      throw py::type_error("run_ensemble: a sample of sliders must be a Slider or a friction law; that of member " +
                            std::to_string(member) + " is of type " + type_of(made));
     });
   }
@@ -153,7 +153,7 @@ auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&&
     std::vector<AnySlider> items;
     for (const py::handle item : list->first) {
       auto slider = slider_of(item);
-      if (!slider) refuse_item("sliders", items.size(), "Slider, Coulomb or Caster", item);
+      if (!slider) refuse_item("sliders", items.size(), "Slider or friction law", item);
       items.push_back(*std::move(slider));
     }
     return f(OneOf(std::move(items), list->second));

@@ -22,7 +22,8 @@ struct SlidersBranch {
 std::vector<SlidersOrbit> orbits_of(const AnySlider& slider, double load, double omega) {
   std::vector<Orbit> found = [&] {
     const py::gil_scoped_release released;
-    return std::visit([&](const auto& s) { return orbits(s, load, omega, check_for_interrupt); }, slider);
+    return with_position_law(slider, "orbits",
+                             [&](const auto& s) { return orbits(s, load, omega, check_for_interrupt); });
   }();
   std::vector<SlidersOrbit> result;
   for (Orbit& orbit : found) result.push_back({std::move(orbit), slider});
@@ -34,7 +35,8 @@ SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from,
   OrbitBranch branch = [&] {
     const py::gil_scoped_release released;
     const ContinuationOptions options{largest_step, largest_amplitude, most_orbits, check_for_interrupt};
-    return std::visit([&](const auto& s) { return continuation(s, from.orbit, low, high, options); }, slider);
+    return with_position_law(slider, "continuation",
+                             [&](const auto& s) { return continuation(s, from.orbit, low, high, options); });
   }();
   return {std::move(branch.orbits), std::move(branch.folds), slider};
 }
@@ -43,7 +45,8 @@ SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from,
 py::tuple motion_of(const SlidersOrbit& self, const py::object& times) {
   const std::vector<double> t = to_vector(times, "Orbit.motion: times");
   for (const double time : t) detail::require(std::isfinite(time), "Orbit.motion: times must be finite", time, "s");
-  const auto states = std::visit([&](const auto& s) { return states_at(s, self.orbit, t); }, self.slider);
+  const auto states =
+      with_position_law(self.slider, "Orbit.motion", [&](const auto& s) { return states_at(s, self.orbit, t); });
   std::vector<double> displacement, velocity;
   for (const State& state : states) {
     displacement.push_back(state.displacement);

@@ -28,7 +28,7 @@ peak and energy.
 
 Parameters
 ----------
-slider : Slider, Coulomb or Caster
+slider : Slider or friction law
     What slides; a law alone is a slider without spring and damper.
 motion : GroundMotion
     The ground acceleration.

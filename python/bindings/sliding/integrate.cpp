@@ -42,7 +42,7 @@ breakaways, reversals and arrests, up to two reversals within one straight piece
 
 Parameters
 ----------
-slider : Slider, Coulomb or Caster
+slider : Slider or friction law
     What slides; a law alone is a slider without spring and damper.
 motion : GroundMotion or HarmonicMotion
     The ground acceleration.

@@ -10,8 +10,8 @@ namespace stickslip::python {
 
 struct DisplacementDistribution : theory::DisplacementDistribution {
   DisplacementDistribution(theory::PulseSuperposition by, AnySlider any, PoissonPulses excitation, double at)
-      : theory::DisplacementDistribution(
-            std::visit([&](const auto& s) { return by.distribution(s, excitation, at); }, any)),
+      : theory::DisplacementDistribution(with_position_law(
+            any, "PulseSuperposition", [&](const auto& s) { return by.distribution(s, excitation, at); })),
         theory(by),
         slider(std::move(any)),
         pulses(std::move(excitation)),

@@ -36,18 +36,19 @@ Moments predict(const EquivalentLinearization& self, const AnySlider& slider, co
   const std::vector<double> t = to_vector(times, "EquivalentLinearization: times");
   const theory::ShapedNoise noise = shaped_noise(excitation);
   const py::gil_scoped_release released;
-  return std::visit([&](const auto& s) { return self.predict(s, noise, t, check_for_interrupt); }, slider);
+  return with_position_law(slider, "EquivalentLinearization",
+                           [&](const auto& s) { return self.predict(s, noise, t, check_for_interrupt); });
 }
 
 Moments stationary(const EquivalentLinearization& self, const AnySlider& slider, const AnyShapedNoise& excitation) {
   const theory::ShapedNoise noise = shaped_noise(excitation);
   const py::gil_scoped_release released;
-  return std::visit([&](const auto& s) { return self.stationary(s, noise); }, slider);
+  return with_position_law(slider, "EquivalentLinearization", [&](const auto& s) { return self.stationary(s, noise); });
 }
 
 TransitionTime transition(const AnySlider& slider, const AnyNoise& s0) {
   const auto* const caster = std::get_if<Slider<Caster>>(&slider);
-  if (caster == nullptr) throw py::type_error("transition_time: covers casters without a spring, got Coulomb");
+  if (caster == nullptr) throw py::type_error("transition_time: covers casters without a spring, got another law");
   return theory::transition_time(*caster, white_level(s0));
 }
 
@@ -205,8 +206,9 @@ Good to 1e-9. Takes 0.1 to 5 ms, and the fit of a filter.)")
           .def(
               "coefficients",
               [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {
-                const auto f =
-                    std::visit([&](const auto& s) { return self.coefficients(s.law(), q11, q12, q22); }, slider);
+                const auto f = with_position_law(slider, "EquivalentLinearization", [&](const auto& s) {
+                  return self.coefficients(s.law(), q11, q12, q22);
+                });
                 return std::pair(f.a21, f.a22);
               },
               py::arg("slider"), py::arg("q11"), py::arg("q12"), py::arg("q22"),

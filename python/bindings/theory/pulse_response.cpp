@@ -26,7 +26,8 @@ PulseResponse respond(const AnySlider& slider, double b, double dt,
     steps = PulseShape(to_vector(shape->first, "PulseShape: times"), to_vector(shape->second, "PulseShape: values"));
   const std::vector<double> at = times_of(times, "pulse_response");
   const py::gil_scoped_release released;
-  return std::visit([&](const auto& s) { return theory::pulse_response(s, b, dt, steps, position, at); }, slider);
+  return with_position_law(slider, "pulse_response",
+                           [&](const auto& s) { return theory::pulse_response(s, b, dt, steps, position, at); });
 }
 
 }  // namespace

@@ -30,12 +30,14 @@ Moments superposition_moments(const PulseSuperposition& self, const AnySlider& s
                               const py::object& times) {
   const std::vector<double> at = to_vector(times, "PulseSuperposition: times");
   const py::gil_scoped_release released;
-  return std::visit([&](const auto& s) { return self.predict(s, pulses, at, &check_for_interrupt); }, slider);
+  return with_position_law(slider, "PulseSuperposition",
+                           [&](const auto& s) { return self.predict(s, pulses, at, &check_for_interrupt); });
 }
 
 double superposition_rms(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses) {
   const py::gil_scoped_release released;
-  return std::visit([&](const auto& s) { return self.final_rms(s, pulses, &check_for_interrupt); }, slider);
+  return with_position_law(slider, "PulseSuperposition",
+                           [&](const auto& s) { return self.final_rms(s, pulses, &check_for_interrupt); });
 }
 
 DisplacementDistribution superposition_distribution(const PulseSuperposition& self, const AnySlider& slider,

@@ -14,8 +14,8 @@ using theory::HarmonicSolution;
 /// The theory, which also knows the slider it was made from.
 struct SlowlyVaryingParameters : theory::SlowlyVaryingParameters {
   explicit SlowlyVaryingParameters(AnySlider any)
-      : theory::SlowlyVaryingParameters(
-            std::visit([](const auto& s) { return theory::SlowlyVaryingParameters(s); }, any)),
+      : theory::SlowlyVaryingParameters(with_position_law(
+            any, "SlowlyVaryingParameters", [](const auto& s) { return theory::SlowlyVaryingParameters(s); })),
         slider(std::move(any)) {}
 
   AnySlider slider;

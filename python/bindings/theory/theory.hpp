@@ -71,7 +71,7 @@ Looks at both alone, in microseconds; what only the computation finds `predict` 
 
 Parameters
 ----------
-slider : Slider, Coulomb or Caster
+slider : Slider or friction law
     What slides. Of anything else the answer is no.
 excitation : float, Spectrum, ShapingFilter, GaussianExcitation, PoissonPulses or HarmonicMotion
     A number is the level S0 of white noise [m^2/s^3]. Of anything else the answer is no.

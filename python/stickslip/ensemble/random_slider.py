@@ -23,8 +23,8 @@ class Random:
     Parameters
     ----------
     kind : callable
-        What makes the slider or the law: `Coulomb`, `Caster`, `Slider`, `ViscousSlider`, one of
-        their other constructors, as `Coulomb.on_slope`, or a function. To go to other processes it
+        What makes the slider or the law: a law as `Coulomb`, `Slider`, `ViscousSlider`, one of
+        their constructors, as `Coulomb.on_slope`, or a function. To go to other processes it
         must pickle, which classes and the functions of a module do.
     **parameters
         Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is drawn for each member; a
@@ -91,7 +91,7 @@ class Random:
 
         Returns
         -------
-        Slider, Coulomb or Caster
+        Slider or friction law
             What `kind` made.
 
         Raises

@@ -40,7 +40,7 @@ def run_ensemble(
 
     Parameters
     ----------
-    sliders : Slider, Coulomb, Caster, a list of these, Drawn, Random or SliderSource
+    sliders : Slider, friction law, a list of these, Drawn, Random or SliderSource
         What slides; a law alone is a slider without spring and damper. Of a list of m sliders
         member i has the one at i modulo m, of `Drawn(list)` one drawn at random; `Random` has
         random parameters. A source of your own: `stickslip.ensemble.SliderSource`.

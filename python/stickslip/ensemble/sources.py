@@ -13,6 +13,7 @@ from .._core import (
     GroundMotion,
     PoissonPulses,
     Slider,
+    VelocityDependent,
 )
 
 
@@ -49,7 +50,7 @@ class SliderSource(Protocol):
         """The slider of that name, the same for ever."""
 
 
-AnySlider: TypeAlias = "Slider | Coulomb | Caster"
+AnySlider: TypeAlias = "Slider | Coulomb | Caster | VelocityDependent"
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 AnyMotions: TypeAlias = (
     "GaussianExcitation | PoissonPulses | GroundMotion"

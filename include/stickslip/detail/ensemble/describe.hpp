@@ -11,6 +11,7 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
 
@@ -19,6 +20,7 @@ namespace stickslip::detail {
 /// The parameters of a law, as members of a JSON object.
 std::string parameters(const Coulomb& law);
 std::string parameters(const Caster& law);
+std::string parameters(const VelocityDependent& law);
 /// A law of somebody's own: its type and a few of its levels.
 std::string parameters(const char* type, std::span<const double> levels);
 template <FrictionLaw Law>

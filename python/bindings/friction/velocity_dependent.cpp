@@ -1,0 +1,53 @@
+#include <pybind11/stl.h>
+
+#include "parts.hpp"
+
+namespace stickslip::python {
+
+void bind_velocity_dependent(py::module_& m) {
+  value_class<VelocityDependent>(
+      m, "VelocityDependent",
+      R"(Friction that changes with the speed, as that of PTFE and other liners of sliding isolators.
+
+a(|x'|) = a_fast - (a_fast - a_slow) exp(-rate |x'|), a_slow = mu_slow g, a_fast = mu_fast g: friction force per unit
+mass. At rest it holds a_slow. A liner has mu_slow < mu_fast; with mu_slow > mu_fast friction weakens with speed.
+
+Parameters
+----------
+mu_slow, mu_fast : float, optional
+    Coefficients of friction at rest and at high speed, finite and at least 0. Give both, or slow and fast.
+slow, fast : float, optional
+    a_slow and a_fast [m/s^2], finite and at least 0.
+rate : float
+    [s/m], finite and at least 0. At a speed of 1 / rate 63 % of the change is done; 0 is always slow.
+
+Raises
+------
+ValueError
+    A value out of its range; both or neither of a coefficient and its level.
+
+Notes
+-----
+The motion is a Taylor series in time, near round-off; some 0.3 us a sample, 0.7 us with a spring.
+
+References
+----------
+M. C. Constantinou, A. Mokha, A. Reinhorn, Teflon bearings in base isolation II: Modeling, Journal of Structural
+Engineering 116 (1990), 455-474.)")
+      .def(py::init([](std::optional<double> mu_slow, std::optional<double> mu_fast, std::optional<double> slow,
+                       std::optional<double> fast, double rate) {
+             return VelocityDependent(slip_level_of(mu_slow, slow, "VelocityDependent", "mu_slow", "slow"),
+                                      slip_level_of(mu_fast, fast, "VelocityDependent", "mu_fast", "fast"), rate);
+           }),
+           py::kw_only(), py::arg("mu_slow") = py::none(), py::arg("mu_fast") = py::none(),
+           py::arg("slow") = py::none(), py::arg("fast") = py::none(), py::arg("rate"))
+      .def_property_readonly("slow", &VelocityDependent::slow, "Level at rest [m/s^2].")
+      .def_property_readonly("fast", &VelocityDependent::fast, "Level at high speed [m/s^2].")
+      .def_property_readonly("rate", &VelocityDependent::rate, "How fast the level changes with the speed [s/m].")
+      .def("__repr__", [](const VelocityDependent& law) {
+        return "VelocityDependent(slow=" + detail::shortest(law.slow()) + ", fast=" + detail::shortest(law.fast()) +
+               ", rate=" + detail::shortest(law.rate()) + ")";
+      });
+}
+
+}  // namespace stickslip::python
