@@ -32,24 +32,36 @@ struct HistorySpans {
 template <Motion M, FrictionLaw Law>
 using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
 
+/// Walks over a motion: `go(i, begin, end, segment)` for each of its segments, which last from `begin` to `end` [s],
+/// and `beat()` after each `segments_a_beat` of them but the last.
+template <class Go, class Beat>
+[[gnu::always_inline]] inline void walk(const GroundMotion& motion, std::size_t segments_a_beat, Go&& go, Beat&& beat) {
+  const GroundMotion::Pieces pieces(motion);
+  const std::size_t count = motion.segments();
+  double begin = pieces.time(0);
+  for (std::size_t i = 0; i < count;) {
+    for (const std::size_t next = std::min(i + segments_a_beat, count); i < next; ++i) {
+      const double end = pieces.time(i + 1);
+      go(i, std::exchange(begin, end), end, pieces.segment(i));
+    }
+    if (i < count) beat();
+  }
+}
+
 /// Slides through all segments, one by one.
 /// @tparam Recording  a RecorderFor the motion and law, or NoRecorder
 template <FrictionLaw Law, class Flows, class Recording>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
                           Recording& recorder, const HistorySpans& histories) {
-  const GroundMotion::Pieces pieces(motion);
-  const std::size_t count = motion.segments();
   State moving = state;
-  double begin = pieces.time(0);
-  for (std::size_t i = 0; i < count;) {
-    for (const std::size_t beat = std::min(i + Recording::work_a_beat, count); i < beat; ++i) {
-      const double end = pieces.time(i + 1);
-      recorder.begin_segment(std::exchange(begin, end), end);
-      detail::advance(law, flows, pieces.segment(i), moving, recorder);
-      histories.keep(i + 1, moving);
-    }
-    if (i < count) recorder.heartbeat();
-  }
+  walk(
+      motion, Recording::work_a_beat,
+      [&](std::size_t i, double begin, double end, const Segment& segment) {
+        recorder.begin_segment(begin, end);
+        detail::advance(law, flows, segment, moving, recorder);
+        histories.keep(i + 1, moving);
+      },
+      [&] { recorder.heartbeat(); });
   state = moving;
 }
 

@@ -12,6 +12,7 @@
 
 #include "stickslip/detail/ensemble/block.hpp"
 #include "stickslip/detail/recorder.hpp"
+#include "stickslip/detail/run.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/caster.hpp"
@@ -66,11 +67,9 @@ void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& 
   const auto keep = [&] { keep_at(next++); };
   if (times > 0) keep();
   double wanted = dt;
-  for (std::size_t i = 0; i < motion.segments(); ++i) {
-    if (i % 1024 == 0) block.beat();
-    Segment segment = motion.segment(i);
-    double from = motion.time(i) - begin;
-    const double to = motion.time(i + 1) - begin;
+  const auto through = [&](std::size_t, double segment_begins, double segment_ends, Segment segment) {
+    double from = segment_begins - begin;
+    const double to = segment_ends - begin;
     while (next < times && wanted < to) {
       if (wanted > from) {
         const double middle = segment.start + (segment.end - segment.start) * ((wanted - from) / segment.duration);
@@ -86,7 +85,9 @@ void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& 
       keep();
       wanted = static_cast<double>(next) * dt;
     }
-  }
+  };
+  block.beat();
+  walk(motion, 1024, through, [&] { block.beat(); });
   while (next < times) keep();  // a last time that rounding put past the end
 }
 
