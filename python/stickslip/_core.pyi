@@ -1252,6 +1252,14 @@ class Ensemble(metaclass=_Pybind11Type):
     @property
     def velocity_variance_error(self) -> NDArray[np.float64]: ...
     @property
+    def ground_acceleration_mean(self) -> NDArray[np.float64]: ...
+    @property
+    def ground_acceleration_mean_error(self) -> NDArray[np.float64]: ...
+    @property
+    def ground_acceleration_variance(self) -> NDArray[np.float64]: ...
+    @property
+    def ground_acceleration_variance_error(self) -> NDArray[np.float64]: ...
+    @property
     def peak(self) -> NDArray[np.float64]: ...
     @property
     def residual(self) -> NDArray[np.float64]: ...
@@ -1313,6 +1321,7 @@ def run_ensemble(
     dt: _Number,
     settle: bool,
     velocity_spectrum: bool,
+    ground_acceleration: bool,
     start: Ensemble | None,
     heartbeat: Callable[[int, int, Callable[[], Ensemble]], object] | None,
     interrupted: Callable[[Callable[[], Ensemble]], object] | None,
@@ -1326,6 +1335,7 @@ def run_nothing(
     dt: _Number,
     settle: bool,
     velocity_spectrum: bool,
+    ground_acceleration: bool,
 ) -> Ensemble: ...
 def quantile(
     distribution: Lognormal | Normal | Uniform | _Number, probability: _Number

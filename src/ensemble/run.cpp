@@ -47,8 +47,9 @@ class Threads {
 // Throws where motions are so large that their statistics could overflow.
 void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
   const auto refuse = [](const std::string& got) {
-    throw std::overflow_error("run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
-                              shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
+    throw std::overflow_error(
+        "run_ensemble: displacement [m], velocity [m/s] and ground acceleration [m/s^2] must not exceed " +
+        shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
   };
   for (std::size_t i = 0; i < kept.peak.size(); ++i)
     for (const double x : {kept.peak[i], std::abs(kept.residual[i])})
@@ -72,6 +73,7 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
   empty.configuration = std::move(configuration);
   empty.times = times;
   empty.velocity_spectrum = options.velocity_spectrum;
+  empty.ground_acceleration = options.ground_acceleration;
   Ensemble ensemble(std::move(empty));
   if (start) ensemble.merge(*start);
 
@@ -98,7 +100,7 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
   const auto work = [&] {
     try {
       const std::unique_ptr<Simulator> simulator = make_simulator();
-      Block block(times, options.velocity_spectrum, stopped);
+      Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped);
       for (;;) {
         std::uint64_t number = 0;
         {

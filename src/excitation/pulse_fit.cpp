@@ -90,9 +90,9 @@ std::vector<double> average(const std::vector<double>& value, std::size_t half) 
   for (std::ptrdiff_t j = 0; j < size; ++j) {
     const std::ptrdiff_t last = std::min(j + h, size - 1), first = std::max(j - h, 1 - size);
     const std::ptrdiff_t count = last - first + (first > 0 || last < 0 ? 1 : 0);
-    // Zero alone has nothing but the mean; sums of what is far stronger leave their round-off.
+    // Zero alone has nothing without the mean; sums of what is far stronger leave their round-off.
     means[static_cast<std::size_t>(j)] =
-        count == 0 ? value[1] : std::max((sum_to(last) - sum_to(first - 1)) / static_cast<double>(count), 0.0);
+        count == 0 ? 0 : std::max((sum_to(last) - sum_to(first - 1)) / static_cast<double>(count), 0.0);
   }
   return means;
 }
