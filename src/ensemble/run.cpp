@@ -47,9 +47,8 @@ class Threads {
 // Throws where motions are so large that their statistics could overflow.
 void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
   const auto refuse = [](const std::string& got) {
-    throw std::overflow_error(
-        "run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
-        shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
+    throw std::overflow_error("run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
+                              shortest(Tally::max_motion) + ", since eighth powers are summed, got " + got);
   };
   for (std::size_t i = 0; i < kept.peak.size(); ++i)
     for (const double x : {kept.peak[i], std::abs(kept.residual[i])})
