@@ -7,6 +7,8 @@
 #include "stickslip/excitation/envelope.hpp"
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/poisson.hpp"
+#include "stickslip/excitation/pulse_fit.hpp"
+#include "stickslip/excitation/pulse_shape.hpp"
 #include "stickslip/excitation/random.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/records.hpp"

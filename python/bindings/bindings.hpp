@@ -43,6 +43,7 @@ void bind_integrate(py::module_& m);
 void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
 void bind_strong_motion(py::module_& m);
+void bind_pulse_fit(py::module_& m);
 void bind_viscous(py::module_& m);
 void bind_gaussian(py::module_& m);
 void bind_poisson(py::module_& m);

@@ -46,6 +46,7 @@ PYBIND11_MODULE(_core, m) {
   bind_poisson(m);
   bind_moments(m);
   bind_strong_motion(m);
+  bind_pulse_fit(m);
   bind_theory(m);
   bind_stationary_linearization(m);
   bind_estimates(m);

@@ -83,6 +83,10 @@ inline constexpr auto parts<StrongMotion> = std::tuple(&StrongMotion::arias_inte
                                                        &StrongMotion::end, &StrongMotion::duration,
                                                        &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity,
                                                        &StrongMotion::centre_frequency_hz);
+template <>
+inline constexpr auto parts<PulseFit> = std::tuple(&PulseFit::half_width, &PulseFit::half_width_error,
+                                                   &PulseFit::intensity, &PulseFit::rms_acceleration,
+                                                   &PulseFit::centre_frequency_hz, &PulseFit::misfit);
 
 template <>
 inline constexpr auto parts<theory::Coverage> = std::tuple(&theory::Coverage::reason, &theory::Coverage::excitation);

@@ -32,8 +32,10 @@ struct Block::Spectrum {
   FftwPlan plan;
 };
 
-Block::Block(const EnsembleTimes& times, bool velocity_spectrum, const std::atomic<bool>& stopped)
+Block::Block(const EnsembleTimes& times, bool velocity_spectrum, bool ground_acceleration,
+             const std::atomic<bool>& stopped)
     : times_(times),
+      ground_acceleration_(ground_acceleration),
       width_(Ensemble::block(times.count)),
       stopped_(stopped),
       peak_(width_),
@@ -51,7 +53,8 @@ Block::~Block() = default;
 
 void Block::begin(std::size_t members) {
   members_ = members;
-  tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0);
+  grounds_ = 0;
+  tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0, ground_acceleration_);
   tally_.count = members;
   std::fill(central_.begin(), central_.end(), 0.0);
 }
@@ -68,6 +71,20 @@ void Block::row(std::size_t time, const double* displacement, const double* velo
   const std::size_t marks[] = {begin, begin + length / 2, begin + length};
   for (std::size_t i = 0; i < 3; ++i)
     if (time == marks[i]) std::copy_n(displacement, width_, marks_.data() + i * width_);
+}
+
+void Block::ground(std::span<const double> acceleration) {
+  // One more value to the moments about the mean (Pebay 2008, with one on the right).
+  const auto before = static_cast<double>(grounds_++), after = before + 1, share = 1 / after, weight = before * share;
+  const auto mean = tally_.moment(Tally::n), second = tally_.moment(Tally::nn), third = tally_.moment(Tally::nnn),
+             fourth = tally_.moment(Tally::nnnn);
+  for (std::size_t i = 0; i < acceleration.size(); ++i) {
+    const double d = acceleration[i] - mean[i], part = share * d, square = weight * d * d;
+    fourth[i] += square * (d * d - 3 * part * (d - part)) + 6 * part * part * second[i] - 4 * part * third[i];
+    third[i] += square * (d - 2 * part) - 3 * part * second[i];
+    second[i] += square;
+    mean[i] += part;
+  }
 }
 
 Tally Block::finish() {

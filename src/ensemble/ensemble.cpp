@@ -56,8 +56,9 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
   };
   const EnsembleTimes& times = parts_.times;
   if (times.count == 0) {
-    expect(times.dt == 0 && !parts_.velocity_spectrum,
-           "without times there is no dt, got " + detail::shortest(times.dt) + " s, and no velocity spectrum");
+    expect(times.dt == 0 && !parts_.velocity_spectrum && !parts_.ground_acceleration,
+           "without times there is no dt, got " + detail::shortest(times.dt) +
+               " s, and neither velocity spectrum nor ground acceleration");
   } else {
     expect(std::isfinite(times.dt) && times.dt > 0,
            "dt must be positive and finite, got " + detail::shortest(times.dt) + " s");
@@ -70,6 +71,12 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
            {"velocity_spectrum", parts_.velocity_spectrum ? "true" : "false"}})
     expect(std::ranges::find(parts_.configuration, std::pair(name, text)) != parts_.configuration.end(),
            "the configuration must say that " + name + " is " + text);
+  // What was not asked for is not mentioned: so it is in ensembles from before there was this.
+  const bool says = std::ranges::any_of(parts_.configuration, [](const auto& entry) {
+    return entry == std::pair<std::string, std::string>("ground_acceleration", "true");
+  });
+  expect(says == parts_.ground_acceleration,
+         "the configuration must say whether there are statistics of the ground acceleration");
 
   const std::uint64_t size = block(times.count);
   const auto members_in = [&](std::uint64_t number) {
@@ -86,6 +93,8 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
            "a part has " + std::to_string(tally.times()) + " times and " + std::to_string(tally.frequencies()) +
                " frequencies, the whole " + std::to_string(times.count) + " times and " + std::to_string(frequencies) +
                " frequencies");
+    expect(tally.ground_acceleration() == parts_.ground_acceleration,
+           "all parts must have statistics of the ground acceleration, or none");
     const std::uint64_t begin = place.number << place.level, end = (place.number + 1) << place.level;
     std::uint64_t members = size << place.level;
     for (auto cut = parts_.cut.lower_bound(begin); cut != parts_.cut.end() && cut->first < end; ++cut, ++cuts) {
@@ -166,7 +175,7 @@ Estimates by_time(const detail::TallyTree& tallies, F&& figure) {
   Estimates result{std::vector<double>(total.times()), std::vector<double>(total.times())};
   const auto n = static_cast<double>(total.count);
   for (std::size_t i = 0; i < total.times(); ++i) {
-    const auto moment = [&](Tally::Moment m) { return total.moment(m)[i]; };
+    const auto moment = [&](auto m) { return total.moment(m)[i]; };
     const auto [value, variance] = figure(n, moment);
     result.value[i] = value;
     result.error[i] = std::sqrt(std::max(0.0, variance));
@@ -200,6 +209,12 @@ void Ensemble::need_times() const {
   need_two(members());
 }
 
+void Ensemble::need_ground_acceleration() const {
+  need_times();
+  if (!parts_.ground_acceleration)
+    throw std::domain_error("Ensemble: the ground acceleration was not asked for; run with ground_acceleration = true");
+}
+
 Estimates Ensemble::displacement_mean() const {
   need_times();
   return by_time(parts_.tallies, [](double n, auto moment) {
@@ -227,6 +242,21 @@ Estimates Ensemble::velocity_variance() const {
   return by_time(parts_.tallies, [](double n, auto moment) {
     const double vv = moment(Tally::vv);
     return covariance_of(n, vv, vv, vv, moment(Tally::vvvv));
+  });
+}
+
+Estimates Ensemble::ground_acceleration_mean() const {
+  need_ground_acceleration();
+  return by_time(parts_.tallies, [](double n, auto moment) {
+    return ValueAndVariance{moment(Tally::n), moment(Tally::nn) / (n - 1) / n};
+  });
+}
+
+Estimates Ensemble::ground_acceleration_variance() const {
+  need_ground_acceleration();
+  return by_time(parts_.tallies, [](double n, auto moment) {
+    const double nn = moment(Tally::nn);
+    return covariance_of(n, nn, nn, nn, moment(Tally::nnnn));
   });
 }
 

@@ -72,6 +72,7 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
   empty.configuration = std::move(configuration);
   empty.times = times;
   empty.velocity_spectrum = options.velocity_spectrum;
+  empty.ground_acceleration = options.ground_acceleration;
   Ensemble ensemble(std::move(empty));
   if (start) ensemble.merge(*start);
 
@@ -98,7 +99,7 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
   const auto work = [&] {
     try {
       const std::unique_ptr<Simulator> simulator = make_simulator();
-      Block block(times, options.velocity_spectrum, stopped);
+      Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped);
       for (;;) {
         std::uint64_t number = 0;
         {

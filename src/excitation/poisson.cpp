@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "detail/json.hpp"
+#include "excitation/pulse_shape.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/random.hpp"
 
@@ -132,27 +133,6 @@ std::uint64_t examine(const std::function<void(std::span<double>)>& quantile) {
 
 }  // namespace
 
-PulseShape::PulseShape(std::vector<double> times, std::vector<double> values)
-    : times_(std::move(times)), values_(std::move(values)) {
-  const auto element = [](const char* array, std::size_t i) {
-    return "PulseShape: " + std::string(array) + "[" + std::to_string(i) + "]";
-  };
-  if (values_.empty() || times_.size() != values_.size() + 1)
-    throw std::invalid_argument("PulseShape: needs one time more than values, and a value, got " +
-                                std::to_string(times_.size()) + " times for " + std::to_string(values_.size()) +
-                                " values");
-  for (std::size_t i = 0; i < times_.size(); ++i)
-    detail::require(std::isfinite(times_[i]), element("times", i) + " must be finite", times_[i]);
-  detail::require(times_[0] == 0, "PulseShape: times[0] must be 0, where the pulse arrives", times_[0]);
-  for (std::size_t i = 1; i < times_.size(); ++i)
-    detail::require(times_[i] > times_[i - 1],
-                    element("times", i) + " must be greater than " + detail::shortest(times_[i - 1]), times_[i]);
-  for (std::size_t i = 0; i < values_.size(); ++i)
-    detail::require(std::isfinite(values_[i]), element("values", i) + " must be finite", values_[i]);
-  if (std::ranges::all_of(values_, [](double value) { return value == 0; }))
-    throw std::invalid_argument("PulseShape: values must not all be 0");
-}
-
 PoissonPulses::PoissonPulses(double rate, double half_width, double sigma, double duration, Options options)
     : rate_(rate), half_width_(half_width), sigma_(sigma), duration_(duration), options_(std::move(options)) {
   require_positive(rate, "rate", "per second");
@@ -181,6 +161,16 @@ PoissonPulses PoissonPulses::from_earthquake(double rms_acceleration, double cen
   unit.sigma_ = rms_acceleration / std::sqrt(unit.variance());  // thesis (5.61), for any shape
   require_positive(unit.sigma_, "sigma", "m/s^2");
   return unit;
+}
+
+PoissonPulses PoissonPulses::from_spectrum(const Spectrum& spectrum, double rate, double duration, double dt,
+                                           double tolerance, Options options) {
+  if (options.shape != PulseShape())
+    throw std::invalid_argument("PoissonPulses: from_spectrum finds the shape of the pulses, and must get no other");
+  require_positive(rate, "rate", "per second");
+  detail::SpectralPulse pulse = detail::spectral_pulse(spectrum, dt, tolerance);
+  options.shape = std::move(pulse.shape);
+  return {rate, 1, pulse.peak / std::sqrt(rate), duration, std::move(options)};
 }
 
 PoissonPulses PoissonPulses::event(std::string_view name, Options options) {

@@ -1,5 +1,6 @@
 #include "numerics/ode.hpp"
 
+#include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_version.h>
@@ -22,6 +23,9 @@
 
 #if SUNDIALS_VERSION_MAJOR < 6
 #error "stickslip needs SUNDIALS 6 or newer"
+#endif
+#if SUNDIALS_VERSION_MAJOR >= 7 && defined(__GNUC__)
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // ERKStep's functions have a second name since 7.1
 #endif
 
 namespace stickslip::detail {
@@ -56,25 +60,12 @@ SUNContext make_context() {
   return context;
 }
 
-void silence([[maybe_unused]] void* memory) {
-#if SUNDIALS_VERSION_MAJOR < 7
-  CVodeSetErrHandlerFn(
-      memory, [](int, const char*, const char*, char*, void*) {}, nullptr);
-#endif
-}
-
 void free_context(SUNContext context) { SUNContext_Free(&context); }
-void free_memory(void* memory) { CVodeFree(&memory); }
-struct FreeMemory {
-  void operator()(void* memory) const { free_memory(memory); }
-};
-
 using Context = Owned<SUNContext, &free_context>;
 using Vector = Owned<N_Vector, &N_VDestroy>;
 using Matrix = Owned<SUNMatrix, &SUNMatDestroy>;
 using LinearSolver = Owned<SUNLinearSolver, &SUNLinSolFree>;
 using NonlinearSolver = Owned<SUNNonlinearSolver, &SUNNonlinSolFree>;
-using Memory = std::unique_ptr<void, FreeMemory>;
 
 // SUNDIALS's serial vectors are made for many numbers: with three, an operation is mostly the telling apart of its
 // cases. Those that CVODE does tens of times a step are plain loops here, which spares a third of all instructions.
@@ -124,7 +115,7 @@ int scale_vector_array(int count, double* factors, N_Vector* x, N_Vector* scaled
 struct Problem {
   const OdeRightSide& right_side;
   std::size_t dimension;
-  std::exception_ptr thrown{};  // must not pass through CVODE, which is C
+  std::exception_ptr thrown{};  // must not pass through SUNDIALS, which is C
 };
 
 int slope(double t, N_Vector y, N_Vector dy, void* data) noexcept {
@@ -140,10 +131,123 @@ int slope(double t, N_Vector y, N_Vector dy, void* data) noexcept {
   return std::ranges::all_of(out, [](double value) { return std::isfinite(value); }) ? 0 : 1;
 }
 
-std::string name(int flag) {
-  const std::unique_ptr<char, decltype(&std::free)> text(CVodeGetReturnFlagName(flag), &std::free);
-  return text.get();
+void set(int flag) {
+  if (flag == CV_MEM_FAIL) throw std::bad_alloc();
+  if (flag != CV_SUCCESS) throw std::invalid_argument("solve_ode: flag " + std::to_string(flag));
 }
+
+#if SUNDIALS_VERSION_MAJOR < 7
+void say_nothing(int, const char*, const char*, char*, void*) {}
+#endif
+
+/// What CVODE and ARKODE do, in CVODE's flags.
+class Solver {
+ public:
+  Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+  virtual ~Solver() = default;
+  virtual int advance(double time, N_Vector y, double* reached) = 0;
+  virtual long steps() = 0;
+  virtual long evaluations() = 0;
+  virtual char* name(int flag) = 0;
+};
+
+static_assert(int{ARK_SUCCESS} == int{CV_SUCCESS} && int{ARK_TOO_MUCH_WORK} == int{CV_TOO_MUCH_WORK} &&
+              int{ARK_ILL_INPUT} == int{CV_ILL_INPUT} && int{ARK_TOO_CLOSE} == int{CV_TOO_CLOSE} &&
+              int{ARK_MEM_FAIL} == int{CV_MEM_FAIL});
+
+class Multistep : public Solver {
+ public:
+  Multistep(Problem& problem, double t0, double last, N_Vector y, N_Vector tolerance, const OdeOptions& options,
+            SUNContext context)
+      : bdf_(options.method == OdeMethod::bdf), memory_(made(CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context))) {
+#if SUNDIALS_VERSION_MAJOR < 7
+    CVodeSetErrHandlerFn(memory_.get(), &say_nothing, nullptr);
+#endif
+    set(CVodeInit(memory_.get(), &slope, t0, y));
+    set(CVodeSetUserData(memory_.get(), &problem));
+    set(CVodeSVtolerances(memory_.get(), options.relative_tolerance, tolerance));
+    set(CVodeSetMaxNumSteps(memory_.get(), steps_a_beat));
+    set(CVodeSetMaxHnilWarns(memory_.get(), -1));
+    set(CVodeSetStopTime(memory_.get(), last));  // the equations may make no sense beyond
+    if (bdf_) {
+      const auto size = static_cast<sunindextype>(problem.dimension);
+      matrix_.reset(made(SUNDenseMatrix(size, size, context)));
+      linear_.reset(made(SUNLinSol_Dense(y, matrix_.get(), context)));
+      set(CVodeSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()));
+    } else {
+      nonlinear_.reset(made(SUNNonlinSol_FixedPoint(y, 0, context)));
+      set(CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()));
+    }
+  }
+
+  int advance(double time, N_Vector y, double* reached) override {
+    return CVode(memory_.get(), time, y, reached, CV_NORMAL);
+  }
+  long steps() override {
+    long steps = 0;
+    CVodeGetNumSteps(memory_.get(), &steps);
+    return steps;
+  }
+  long evaluations() override {
+    long evaluations = 0, jacobian = 0;
+    CVodeGetNumRhsEvals(memory_.get(), &evaluations);
+    if (bdf_) CVodeGetNumLinRhsEvals(memory_.get(), &jacobian);
+    return evaluations + jacobian;
+  }
+  char* name(int flag) override { return CVodeGetReturnFlagName(flag); }
+
+ private:
+  struct Free {
+    void operator()(void* memory) const { CVodeFree(&memory); }
+  };
+
+  bool bdf_;
+  Matrix matrix_;
+  LinearSolver linear_;
+  NonlinearSolver nonlinear_;
+  std::unique_ptr<void, Free> memory_;
+};
+
+class RungeKutta : public Solver {
+ public:
+  RungeKutta(Problem& problem, double t0, double last, N_Vector y, N_Vector tolerance, const OdeOptions& options,
+             SUNContext context)
+      : memory_(made(ERKStepCreate(&slope, t0, y, context))) {
+#if SUNDIALS_VERSION_MAJOR < 7
+    ERKStepSetErrHandlerFn(memory_.get(), &say_nothing, nullptr);
+#endif
+    set(ERKStepSetTableNum(memory_.get(), ARKODE_DORMAND_PRINCE_7_4_5));
+    set(ERKStepSetUserData(memory_.get(), &problem));
+    set(ERKStepSVtolerances(memory_.get(), options.relative_tolerance, tolerance));
+    set(ERKStepSetMaxNumSteps(memory_.get(), steps_a_beat));
+    set(ERKStepSetMaxHnilWarns(memory_.get(), -1));
+    set(ERKStepSetStopTime(memory_.get(), last));
+  }
+
+  int advance(double time, N_Vector y, double* reached) override {
+    return ERKStepEvolve(memory_.get(), time, y, reached, ARK_NORMAL);
+  }
+  long steps() override {
+    long steps = 0;
+    ERKStepGetNumSteps(memory_.get(), &steps);
+    return steps;
+  }
+  long evaluations() override {
+    long evaluations = 0;
+    ERKStepGetNumRhsEvals(memory_.get(), &evaluations);
+    return evaluations;
+  }
+  char* name(int flag) override { return ERKStepGetReturnFlagName(flag); }
+
+ private:
+  struct Free {
+    void operator()(void* memory) const { ERKStepFree(&memory); }
+  };
+
+  std::unique_ptr<void, Free> memory_;
+};
 
 void check(std::size_t dimension, double t0, std::span<const double> times, const OdeOptions& options) {
   const auto& absolute = options.absolute_tolerance;
@@ -191,37 +295,19 @@ OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const
   operations->nvscaleaddmulti = &scale_add_multi;
   operations->nvlinearcombination = &linear_combination;
   operations->nvscalevectorarray = &scale_vector_array;
-  Matrix matrix;
-  LinearSolver linear;
-  NonlinearSolver nonlinear;
-  const Memory memory(made(CVodeCreate(options.stiff ? CV_BDF : CV_ADAMS, context.get())));
-  silence(memory.get());
-  const auto set = [&](int flag) {
-    if (flag == CV_MEM_FAIL) throw std::bad_alloc();
-    if (flag != CV_SUCCESS) throw std::invalid_argument("solve_ode: " + name(flag));
-  };
-  set(CVodeInit(memory.get(), &slope, t0, y.get()));
-  set(CVodeSetUserData(memory.get(), &problem));
-  set(CVodeSVtolerances(memory.get(), options.relative_tolerance, tolerance.get()));
-  set(CVodeSetMaxNumSteps(memory.get(), steps_a_beat));
-  set(CVodeSetMaxHnilWarns(memory.get(), -1));
-  set(CVodeSetStopTime(memory.get(), times.back()));  // the equations may make no sense beyond
-  if (options.stiff) {
-    matrix.reset(made(SUNDenseMatrix(size, size, context.get())));
-    linear.reset(made(SUNLinSol_Dense(y.get(), matrix.get(), context.get())));
-    set(CVodeSetLinearSolver(memory.get(), linear.get(), matrix.get()));
-  } else {
-    nonlinear.reset(made(SUNNonlinSol_FixedPoint(y.get(), 0, context.get())));
-    set(CVodeSetNonlinearSolver(memory.get(), nonlinear.get()));
-  }
+  std::unique_ptr<Solver> solver;
+  if (options.method == OdeMethod::runge_kutta)
+    solver = std::make_unique<RungeKutta>(problem, t0, times.back(), y.get(), tolerance.get(), options, context.get());
+  else
+    solver = std::make_unique<Multistep>(problem, t0, times.back(), y.get(), tolerance.get(), options, context.get());
 
   double reached = t0;
   const auto give_up = [&](const std::string& why) { throw OdeFailure(reached, times.back(), why); };
   double beat = t0;
   for (const double time : times) {
     int flag;
-    while ((flag = CVode(memory.get(), time, y.get(), &reached, CV_NORMAL)) == CV_TOO_MUCH_WORK) {
-      CVodeGetNumSteps(memory.get(), &solution.steps);
+    while ((flag = solver->advance(time, y.get(), &reached)) == CV_TOO_MUCH_WORK) {
+      solution.steps = solver->steps();
       if (solution.steps >= options.most_steps)
         give_up(std::to_string(solution.steps) + " steps done, no more are allowed");
       if (reached == std::exchange(beat, reached)) give_up("steps have become too short to get on");
@@ -233,16 +319,11 @@ OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const
     if (flag == CV_TOO_CLOSE)  // to t0, by round-off
       std::ranges::copy(y0, state.begin());
     else if (flag < 0)
-      give_up(name(flag));
+      give_up(std::unique_ptr<char, decltype(&std::free)>(solver->name(flag), &std::free).get());
     keep();
   }
-  CVodeGetNumSteps(memory.get(), &solution.steps);
-  CVodeGetNumRhsEvals(memory.get(), &solution.evaluations);
-  if (options.stiff) {
-    long jacobian = 0;
-    CVodeGetNumLinRhsEvals(memory.get(), &jacobian);
-    solution.evaluations += jacobian;
-  }
+  solution.steps = solver->steps();
+  solution.evaluations = solver->evaluations();
   return solution;
 }
 

@@ -18,11 +18,12 @@ void Tally::merge(const Tally& right) {
     *this = right;
     return;
   }
-  assert(times_ == right.times_ && frequencies_ == right.frequencies_);
-  const auto n_left = static_cast<double>(count), n_right = static_cast<double>(right.count), n = n_left + n_right;
-  merge_moments(n_left, n_right, sums_.data(), right.sums_.data(), times_);
+  assert(times_ == right.times_ && frequencies_ == right.frequencies_ && ground_times_ == right.ground_times_);
+  const auto members_left = static_cast<double>(count), members_right = static_cast<double>(right.count),
+             members = members_left + members_right;
+  merge_moments(members_left, members_right, sums_.data(), right.sums_.data(), times_);
 
-  const double share = n_right / n, weight = n_left * share;
+  const double share = members_right / members, weight = members_left * share;
   const std::span<double> mean_density = density_mean(), scatter_density = density_scatter();
   for (std::size_t i = 0; i < frequencies_; ++i) {
     const double difference = right.density_mean()[i] - mean_density[i];
@@ -35,6 +36,16 @@ void Tally::merge(const Tally& right) {
     mean(a) += share * difference[a];
     for (std::size_t b = 0; b < features; ++b)
       scatter(a, b) += right.scatter(a, b) + weight * difference[a] * difference[b];
+  }
+  for (std::size_t i = 0; i < ground_times_; ++i) {
+    const double d = right.moment(n)[i] - moment(n)[i], a = members_left / members, b = share;
+    const double left_2 = moment(nn)[i], right_2 = right.moment(nn)[i], left_3 = moment(nnn)[i],
+                 right_3 = right.moment(nnn)[i];
+    moment(n)[i] += b * d;
+    moment(nn)[i] += right_2 + weight * d * d;
+    moment(nnn)[i] += right_3 + weight * (a - b) * d * d * d + 3 * d * (a * right_2 - b * left_2);
+    moment(nnnn)[i] += right.moment(nnnn)[i] + weight * (a * a - a * b + b * b) * d * d * d * d +
+                       6 * d * d * (a * a * right_2 + b * b * left_2) + 4 * d * (a * right_3 - b * left_3);
   }
   count += right.count;
 }
@@ -49,20 +60,22 @@ bool is_bounded(double mean, double squares, double members, double largest) {
 }  // namespace
 
 std::optional<std::size_t> Tally::out_of_range() const {
-  const auto n = static_cast<double>(count);
+  const auto members = static_cast<double>(count);
   for (std::size_t i = 0; i < times_; ++i)
-    if (!is_bounded(moment(x)[i], moment(xx)[i], n, max_motion) ||
-        !is_bounded(moment(v)[i], moment(vv)[i], n, max_motion))
+    if (!is_bounded(moment(x)[i], moment(xx)[i], members, max_motion) ||
+        !is_bounded(moment(v)[i], moment(vv)[i], members, max_motion))
       return i;
+  for (std::size_t i = 0; i < ground_times_; ++i)
+    if (!is_bounded(moment(Tally::n)[i], moment(nn)[i], members, max_motion)) return i;
   for (std::size_t k = 0; k < frequencies_; ++k)
-    if (!is_bounded(density_mean()[k], density_scatter()[k], n, max_feature)) return times_;
+    if (!is_bounded(density_mean()[k], density_scatter()[k], members, max_feature)) return times_;
   for (std::size_t a = 0; a < features; ++a)
-    if (!is_bounded(mean(a), scatter(a, a), n, max_feature)) return times_;
+    if (!is_bounded(mean(a), scatter(a, a), members, max_feature)) return times_;
   return std::nullopt;
 }
 
 bool Tally::is_possible() const {
-  const auto n = static_cast<double>(count);
+  const auto members = static_cast<double>(count);
   constexpr double slack = 2;  // for round-off on the bounds of `out_of_range`
   const auto is_at_most = [](std::span<const double> values, double largest) {
     return std::ranges::all_of(values, [largest](double value) { return std::abs(value) <= largest; });
@@ -74,12 +87,17 @@ bool Tally::is_possible() const {
   for (std::size_t m = x; m < moments; ++m) {
     const std::span<const double> values = moment(static_cast<Moment>(m));
     const double largest = m <= v    ? slack * max_motion
-                           : m <= vv ? slack * slack * max_motion * max_motion * n
-                                     : max_feature * n;
+                           : m <= vv ? slack * slack * max_motion * max_motion * members
+                                     : max_feature * members;
     if (!is_at_most(values, largest)) return false;
     if ((m == xx || m == vv || m >= xxxx) && !is_positive(values)) return false;
   }
-  const double largest_scatter = slack * slack * max_feature * max_feature * n;
+  if (ground_times_ > 0 && !(is_at_most(moment(Tally::n), slack * max_motion) &&
+                             is_at_most(moment(nn), slack * slack * max_motion * max_motion * members) &&
+                             is_positive(moment(nn)) && is_at_most(moment(nnn), max_feature * members) &&
+                             is_at_most(moment(nnnn), max_feature * members) && is_positive(moment(nnnn))))
+    return false;
+  const double largest_scatter = slack * slack * max_feature * max_feature * members;
   if (!is_at_most(density_mean(), slack * max_feature) || !is_positive(density_mean()) ||
       !is_at_most(density_scatter(), largest_scatter) || !is_positive(density_scatter()))
     return false;

@@ -196,13 +196,14 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
   for (const double time : times) ln_times.push_back(std::log(time / last));
   const std::array<double, 3> y0 = {start.ln_r11, start.c, start.ln_r22};
   try {
-    const auto states = solve_ode(
-        std::cref(equations), std::log(t0 / last), y0, ln_times,
-        {.relative_tolerance = options.tolerance / 10,
-         .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
-         .stiff = last > 1000 * unit,  // Coulomb's velocity settles within unit; up to there no slower without
-         .most_steps = 300'000,        // a second; it is the periods of a spring that take so many
-         .heartbeat = heartbeat});
+    const auto states =
+        solve_ode(std::cref(equations), std::log(t0 / last), y0, ln_times,
+                  {.relative_tolerance = options.tolerance / 10,
+                   .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
+                   // Coulomb's velocity settles within unit; up to there no slower without
+                   .method = last > 1000 * unit ? OdeMethod::bdf : OdeMethod::adams,
+                   .most_steps = 300'000,  // a second; it is the periods of a spring that take so many
+                   .heartbeat = heartbeat});
     solution.steps = states.steps;
     solution.evaluations = states.evaluations;
     for (std::size_t i = 0; i < times.size(); ++i) {

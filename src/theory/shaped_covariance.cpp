@@ -124,23 +124,22 @@ class Equations {
         noise_(noise),
         floor_(floor),
         columns_(columns),
-        q_(Matrix::Zero(system.size(), system.size())) {
+        q_(Matrix::Zero(system.size(), system.size())),
+        product_(q_) {
     q_.bottomRightCorner(system.size() - f, system.size() - f) = system.filter;
+    for (Eigen::Index i = 0; i < q_.rows(); ++i)
+      for (Eigen::Index k = 0; k < q_.cols(); ++k)
+        if (system.a(i, k) != 0) entries_.push_back({i, k, system.a(i, k)});
   }
 
   void operator()(double t, std::span<const double> y, std::span<double> slope) {
     unpack(y.data(), columns_, q_);
-    a_ = system_.a;
-    b_ = system_.b;
-    if (noise_.envelope()) {
-      const double gain = (*noise_.envelope())(t);
-      if (noise_.envelope_at_source()) {
-        b_ *= gain;
-      } else {
-        b_(v) *= gain;
-        a_.row(v).tail(a_.cols() - f) *= gain;
-      }
-    }
+    double out = 1, in = 1;  // factors of what leaves the filter, and of what enters it
+    if (noise_.envelope()) (noise_.envelope_at_source() ? in : out) = (*noise_.envelope())(t);
+    product_.setZero();
+    for (const Entry& entry : entries_)
+      add(entry.row, entry.column, entry.row == v && entry.column >= f ? out * entry.value : entry.value);
+
     const bool drifts = friction_.drifts();
     const double* const mean = y.data() + packed_size(q_.rows(), columns_);
     if (!friction_.none()) {
@@ -152,24 +151,39 @@ class Equations {
         mean_slope[0] = mean[1];
         mean_slope[1] = system_.a(v, x) * mean[0] + system_.a(v, v) * mean[1] - average.mean;
       }
-      a_(v, x) += average.a21;
-      a_(v, v) += average.a22;
+      add(v, x, average.a21);
+      add(v, v, average.a22);
     }
-    product_.noalias() = a_.lazyProduct(q_);
+    const auto enters = [&](Eigen::Index i) { return (i == v ? out : 1) * in * system_.b(i); };
     double* to = slope.data();
-    for (Eigen::Index j = 0; j < columns_; ++j)
+    for (Eigen::Index j = 0; j < columns_; ++j) {
+      const double source = system_.intensity * enters(j);
       for (Eigen::Index i = j; i < q_.cols(); ++i)
-        *to++ = product_(i, j) + product_(j, i) + system_.intensity * b_(i) * b_(j);
+        *to++ = product_(i, j) + product_(j, i) + (source != 0 ? source * enters(i) : 0);
+    }
   }
 
  private:
+  struct Entry {
+    Eigen::Index row, column;
+    double value;
+  };
+
+  /// One entry of A times its row of Q, as far as it is asked for: all of the first rows, whose columns change, and the
+  /// first columns of the others. Column i of the product's matrix is row i of A Q.
+  void add(Eigen::Index i, Eigen::Index k, double value) {
+    const double* const from = q_.col(k).data();
+    double* const to = product_.col(i).data();
+    for (Eigen::Index j = 0, end = i < columns_ ? q_.cols() : columns_; j < end; ++j) to[j] += value * from[j];
+  }
+
   const System& system_;
   const AverageFriction& friction_;
   const theory::ShapedNoise& noise_;
   double floor_;
-  Eigen::Index columns_;  // that change: those of x and x' alone where the filter's own covariance is stationary
-  Matrix q_, a_, product_;
-  Vector b_;
+  Eigen::Index columns_;        // that change: those of x and x' alone where the filter's own covariance is stationary
+  std::vector<Entry> entries_;  // of A that are not 0: few, for the filter is a chain of companion matrices
+  Matrix q_, product_;
 };
 
 /// Times at which the envelope jumps or bends sharply, and its largest factor.
@@ -233,11 +247,16 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
                                 white ? squared(friction.level()) / system.intensity : 0});
   const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
   const bool stiff = !friction.none() && !(moves && last * rate < 1000);
+  // Slopes are cheap: explicit steps of fifth order are the fastest unless the tolerance is so tight that Adams' orders
+  // up to 12 need far fewer.
+  const OdeMethod method = stiff                               ? OdeMethod::bdf
+                           : problem.options.tolerance >= 1e-9 ? OdeMethod::runge_kutta
+                                                               : OdeMethod::adams;
   // With implicit steps its square must be above the absolute tolerance.
   const double floor = (stiff ? std::sqrt(tolerance / 10) : 1e-7) * velocity;
   OdeOptions ode{.relative_tolerance = tolerance,
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
-                 .stiff = stiff,
+                 .method = method,
                  .most_steps = 300'000,
                  .heartbeat = heartbeat};
   pack(tolerance * scale * scale.transpose(), columns, ode.absolute_tolerance.data());

@@ -11,6 +11,7 @@
 
 #include "stickslip/excitation/random.hpp"
 #include "support/catch.hpp"
+#include "support/mean.hpp"
 #include "support/motions.hpp"
 
 using namespace stickslip;
@@ -78,14 +79,6 @@ Ground ground_after(const GroundMotion& motion) {
   }
   return g;
 }
-
-/// Mean of independent numbers and its standard error.
-struct Mean {
-  double sum = 0, squares = 0, count = 0;
-  void add(double x) { sum += x, squares += x * x, ++count; }
-  double value() const { return sum / count; }
-  double error() const { return std::sqrt((squares / count - value() * value()) / (count - 1)); }
-};
 
 /// The Kolmogorov-Smirnov statistic sqrt(n) D; over 1.9495 once in 1000 times.
 template <class Cdf>

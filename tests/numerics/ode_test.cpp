@@ -1,4 +1,4 @@
-// The wrapper of CVODE: solves what is known in closed form, and lets no error pass.
+// The wrapper of SUNDIALS: solves what is known in closed form, and lets no error pass.
 #include "numerics/ode.hpp"
 
 #include <array>
@@ -13,6 +13,7 @@
 using namespace stickslip;
 using namespace test;
 using Catch::Matchers::ContainsSubstring;
+using detail::OdeMethod;
 using detail::OdeOptions;
 using detail::solve_ode;
 
@@ -28,14 +29,14 @@ void oscillator(double, std::span<const double> y, std::span<double> slope) {
 TEST_CASE("an oscillator returns to where it was, within the tolerance", "[ode]") {
   const std::array<double, 2> start = {1, 0};
   const std::array<double, 4> times = {0, 1, std::numbers::pi, 2 * std::numbers::pi};
-  for (const bool stiff : {false, true})
+  for (const OdeMethod method : {OdeMethod::adams, OdeMethod::bdf, OdeMethod::runge_kutta})
     for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
       const auto y = solve_ode(oscillator, 0, start, times,
-                               {.relative_tolerance = tolerance, .absolute_tolerance = {tolerance}, .stiff = stiff});
-      CAPTURE(stiff, tolerance, y.steps, y.evaluations);
+                               {.relative_tolerance = tolerance, .absolute_tolerance = {tolerance}, .method = method});
+      CAPTURE(static_cast<int>(method), tolerance, y.steps, y.evaluations);
       REQUIRE(y.states.size() == 8);
       // Local errors add up over a hundred steps or so.
-      const double close = (stiff ? 300 : 100) * tolerance;
+      const double close = (method == OdeMethod::bdf ? 300 : 100) * tolerance;
       for (std::size_t i = 0; i < times.size(); ++i) {
         CHECK(std::abs(y.at(i)[0] - std::cos(times[i])) < close);
         CHECK(std::abs(y.at(i)[1] + std::sin(times[i])) < close);
@@ -51,8 +52,8 @@ TEST_CASE("what decays in a millionth of the time asked for takes few steps when
     slope[0] = -1e6 * (y[0] - std::cos(t));
   };
   const std::array<double, 1> start = {0}, times = {1};
-  const auto y =
-      solve_ode(fast, 0, start, times, {.relative_tolerance = 1e-8, .absolute_tolerance = {1e-8}, .stiff = true});
+  const auto y = solve_ode(fast, 0, start, times,
+                           {.relative_tolerance = 1e-8, .absolute_tolerance = {1e-8}, .method = OdeMethod::bdf});
   CHECK(y.at(0)[0] == Approx((std::cos(1) + 1e-6 * std::sin(1)) / (1 + 1e-12)).epsilon(1e-7));
   CHECK(y.steps < 1000);
 }
@@ -81,6 +82,23 @@ TEST_CASE("times no further from the start than round-off answer the start", "[o
   CHECK(solve_ode(oscillator, 0, start, {}).states.empty());
 }
 
+TEST_CASE("between the steps answers are as good as at them", "[ode]") {
+  // A thousand times, far closer together than the steps.
+  const std::array<double, 2> start = {1, 0};
+  std::vector<double> times;
+  for (int i = 1; i <= 1000; ++i) times.push_back(0.01 * i);
+  for (const OdeMethod method : {OdeMethod::adams, OdeMethod::bdf, OdeMethod::runge_kutta}) {
+    const auto y = solve_ode(oscillator, 0, start, times,
+                             {.relative_tolerance = 1e-7, .absolute_tolerance = {1e-7}, .method = method});
+    CAPTURE(static_cast<int>(method), y.steps);
+    CHECK(y.steps < 500);
+    double largest = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      largest = std::max(largest, std::hypot(y.at(i)[0] - std::cos(times[i]), y.at(i)[1] + std::sin(times[i])));
+    CHECK(largest < (method == OdeMethod::bdf ? 300 : 100) * 1e-7);
+  }
+}
+
 TEST_CASE("what is thrown inside comes out", "[ode]") {
   struct Stop {};
   const std::array<double, 2> start = {1, 0};
@@ -89,23 +107,27 @@ TEST_CASE("what is thrown inside comes out", "[ode]") {
     if (t > 0.5) throw Stop();
     oscillator(t, y, slope);
   };
-  CHECK_THROWS_AS(solve_ode(thrower, 0, start, times, {.absolute_tolerance = {1e-10}}), Stop);
-  OdeOptions options{.absolute_tolerance = {1e-10}};
-  int beats = 0;
-  options.heartbeat = [&] {
-    if (++beats == 3) throw Stop();
-  };
-  CHECK_THROWS_AS(solve_ode(oscillator, 0, start, times, options), Stop);
-  CHECK(beats == 3);
+  for (const OdeMethod method : {OdeMethod::adams, OdeMethod::bdf, OdeMethod::runge_kutta}) {
+    OdeOptions options{.absolute_tolerance = {1e-10}, .method = method};
+    CHECK_THROWS_AS(solve_ode(thrower, 0, start, times, options), Stop);
+    int beats = 0;
+    options.heartbeat = [&] {
+      if (++beats == 3) throw Stop();
+    };
+    CHECK_THROWS_AS(solve_ode(oscillator, 0, start, times, options), Stop);
+    CHECK(beats == 3);
+  }
 }
 
 TEST_CASE("a solver that gives up says how far it came", "[ode]") {
   const std::array<double, 1> start = {1}, times = {2};
   // y' = y^2 is 1 / (1 - t): infinite at t = 1.
   const auto explosive = [](double, std::span<const double> y, std::span<double> slope) { slope[0] = y[0] * y[0]; };
-  CHECK_THROWS_AS(solve_ode(explosive, 0, start, times), ConvergenceError);
-  CHECK_THROWS_WITH(solve_ode(explosive, 0, start, times),
-                    ContainsSubstring("reached t = 0.99") || ContainsSubstring("reached t = 1"));
+  for (const OdeMethod method : {OdeMethod::adams, OdeMethod::bdf, OdeMethod::runge_kutta}) {
+    CHECK_THROWS_AS(solve_ode(explosive, 0, start, times, {.method = method}), ConvergenceError);
+    CHECK_THROWS_WITH(solve_ode(explosive, 0, start, times, {.method = method}),
+                      ContainsSubstring("reached t = 0.99") || ContainsSubstring("reached t = 1"));
+  }
   const auto unknown = [](double t, std::span<const double>, std::span<double> slope) {
     slope[0] = t > 1.5 ? not_a_number : 1;
   };

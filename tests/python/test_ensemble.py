@@ -1,5 +1,6 @@
 """Ensembles: the statistics of single members, the same bits in whatever way, and files."""
 
+import concurrent.futures
 import contextlib
 import json
 import math
@@ -522,10 +523,60 @@ def test_an_ensemble_pickles(ensemble):
 def test_a_file_needs_nothing_but_numpy_to_be_read(ensemble, tmp_path):
     ensemble.save(tmp_path / "run.npz")
     with np.load(tmp_path / "run.npz", allow_pickle=False) as arrays:
-        assert str(arrays["format"]) == "stickslip ensemble 2"
+        assert str(arrays["format"]) == "stickslip ensemble 3"
         assert str(arrays["library"]) == ss.__version__
         assert np.array_equal(arrays["peak"], ensemble.peak)
         assert dict(json.loads(str(arrays["configuration"])))["seed"] == "1"
+
+
+def test_a_file_of_the_former_format_is_read(ensemble, tmp_path):
+    # It had all but whether there are statistics of the ground acceleration.
+    ensemble.save(tmp_path / "new.npz")
+    with np.load(tmp_path / "new.npz", allow_pickle=False) as arrays:
+        former = dict(arrays)
+    assert not former.pop("ground_acceleration")
+    np.savez(tmp_path / "old.npz", **former | {"format": "stickslip ensemble 2"})
+    assert same_bits(ss.Ensemble.load(tmp_path / "old.npz"), ensemble)
+    np.savez(tmp_path / "odd.npz", **former)
+    with pytest.raises(ValueError, match=r"missing or unknown ground_acceleration"):
+        ss.Ensemble.load(tmp_path / "odd.npz")
+
+
+def test_the_ground_acceleration_is_there_where_it_is_asked_for(ensemble, tmp_path):
+    assert "ground_acceleration" not in ensemble.configuration
+    for name in ("mean", "mean_error", "variance", "variance_error"):
+        with pytest.raises(ValueError, match="run with ground_acceleration = true"):
+            getattr(ensemble, f"ground_acceleration_{name}")
+    pulses = ss.PoissonPulses(rate=3, half_width=0.25, sigma=2, duration=4, stationary_start=True)
+    options = dict(seed=1, dt=0.5, ground_acceleration=True)
+    e = ss.run_ensemble(BLOCK, pulses, members=200, **options)
+    assert e.configuration["ground_acceleration"] is True
+    n = np.zeros((200, len(e.time)))
+    for member, row in enumerate(n):
+        motion = pulses.sample(seed=1, member=member)
+        last = len(motion.acceleration) - 2  # the last value holds no longer
+        at = np.searchsorted(motion.time, e.time, side="right") - 1
+        row[:] = motion.acceleration[np.minimum(at, last)]
+    assert e.ground_acceleration_mean == pytest.approx(n.mean(axis=0), abs=1e-12)
+    assert e.ground_acceleration_variance == pytest.approx(n.var(axis=0, ddof=1), rel=1e-12)
+    error = n.std(axis=0, ddof=1) / math.sqrt(200)
+    assert e.ground_acceleration_mean_error == pytest.approx(error, rel=1e-12)
+    # Four standard errors at nine times: once in 1700 times by chance, were the seed another.
+    off = np.abs(e.ground_acceleration_variance - pulses.variance)
+    assert (off < 4 * e.ground_acceleration_variance_error).all()
+    # In files, pickles, parts and other threads.
+    e.save(tmp_path / "run.npz")
+    assert same_bits(ss.Ensemble.load(tmp_path / "run.npz"), e)
+    assert same_bits(pickle.loads(pickle.dumps(e)), e)
+    parts = ss.run_ensemble(BLOCK, pulses, members=72, first_member=128, **options)
+    parts.merge(ss.run_ensemble(BLOCK, pulses, members=128, threads=1, **options))
+    assert same_bits(parts, e)
+    with concurrent.futures.ThreadPoolExecutor(1) as executor:
+        options["executor"] = executor
+        assert same_bits(ss.run_ensemble(BLOCK, pulses, members=200, **options), e)
+    plain = ss.run_ensemble(BLOCK, pulses, members=64, seed=1, dt=0.5, first_member=256)
+    with pytest.raises(ValueError, match="cannot merge what differs: ground_acceleration true"):
+        e.merge(plain)
 
 
 def test_a_truncated_file_is_refused(ensemble, tmp_path):
@@ -568,7 +619,7 @@ def test_a_file_of_something_else_is_refused_by_name(ensemble, tmp_path):
         archive.writestr("letter.txt", "hello")
     with pytest.raises(ValueError, match=r"words\.npz' is "):
         ss.Ensemble.load(tmp_path / "words.npz")
-    for form in ("stickslip ensemble 1", "stickslip ensemble 3"):
+    for form in ("stickslip ensemble 1", "stickslip ensemble 4"):
         np.savez(tmp_path / "other.npz", format=form, library="9.0")
         with pytest.raises(ValueError, match=rf"of format '{form}', of stickslip 9\.0"):
             ss.Ensemble.load(tmp_path / "other.npz")

@@ -34,7 +34,7 @@ def run(tmp_path, monkeypatch, pyslammer_files):
 
 def test_all_examples_are_here():
     numbers = sorted(file.stem for file in EXAMPLES.glob("0*.py"))
-    assert [number[:2] for number in numbers] == [f"0{i}" for i in range(1, 9)]
+    assert [number[:2] for number in numbers] == [f"0{i}" for i in range(1, 10)]
     assert {f"test_{number}" for number in numbers} <= set(globals())
 
 
@@ -164,3 +164,18 @@ def test_08_time_loop(run):
     r = ss.integrate(ss.Coulomb(mu=0.3), ss.GroundMotion(names["floor"], dt=0.005))
     assert names["block"] == pytest.approx(r.displacement, abs=1e-5)
     assert np.abs(names["floor"]).max() > 0.3 * G
+
+
+def test_09_pulses_of_a_record(run):
+    names = run("09_pulses_of_a_record")
+    quake, fit, spectrum = names["quake"], names["fit"], names["spectrum"]
+    assert quake.name.startswith("Loma")
+    # What the strong part has in acceleration the spectrum has, but for its mean and the highest
+    # frequencies; both kinds of pulses have what they were asked for.
+    assert spectrum.variance == pytest.approx(names["strong"].rms_acceleration ** 2, rel=0.01)
+    assert names["rectangular"].variance == pytest.approx(fit.rms_acceleration**2, rel=1e-12)
+    omega = np.linspace(0.5, 300, 2000)
+    asked, had = spectrum(omega), names["shaped"].density(omega)
+    assert np.abs(had - asked).sum() < 0.011 * asked.sum()
+    fitted = names["rectangular"].density(omega)
+    assert np.abs(fitted - asked).sum() / asked.sum() == pytest.approx(fit.misfit, rel=0.03)

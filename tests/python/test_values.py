@@ -98,6 +98,7 @@ EXAMPLES = {
     ss.Energy: [r.energy for r in RESPONSES],
     ss.Response: RESPONSES,
     ss.StrongMotion: [ss.strong_motion(PULSES.sample(seed=1, member=m)) for m in (0, 1)],
+    ss.PulseFit: [ss.fit_pulses(PULSES.sample(seed=1, member=m)) for m in (0, 1)],
     ss.Estimate: [ENSEMBLE.stationary.growth_rate, COMPARED.theories["PulseChain"].growth_rate],
     ss.Interval: [ENSEMBLE.quantile(0.5), ENSEMBLE.quantile(0.999)],
     ss.Stationary: [ENSEMBLE.stationary, SMALLER.stationary],

@@ -172,7 +172,7 @@ struct Simulated {
 
 Simulated simulate(detail::Simulator& simulator, const EnsembleTimes& times, std::uint64_t first, std::size_t members) {
   const std::atomic<bool> stopped = false;
-  detail::Block block(times, true, stopped);
+  detail::Block block(times, true, false, stopped);
   block.begin(members);
   simulator.simulate(first, members, block);
   const auto count = static_cast<std::ptrdiff_t>(members);

@@ -44,7 +44,7 @@ TEST_CASE("blocks under pulses in lanes end and peak as single ones, on every in
            {Coulomb(0.5), Coulomb(1.96, 0.4), Coulomb(1, std::numeric_limits<double>::infinity()), Coulomb(0)}) {
         const EnsembleTimes times{0.25, 81};
         const std::atomic<bool> stopped = false;
-        detail::Block block(times, false, stopped);
+        detail::Block block(times, false, false, stopped);
         const auto lanes = detail::lanes_simulator(Slider(law), pulses, 5, false);
         if (pulses.options().shape.times().size() > 16) {
           CHECK(lanes == nullptr);

@@ -52,6 +52,7 @@ class Ensemble {
     Configuration configuration;
     EnsembleTimes times;
     bool velocity_spectrum = false;
+    bool ground_acceleration = false;
     detail::TallyTree tallies;
     std::map<std::uint64_t, std::size_t> cut;  ///< blocks that are not whole, and how many members they have
     std::map<std::uint64_t, Kept> kept;        ///< by the block's number; empty once there are more than `most_kept`
@@ -91,6 +92,13 @@ class Ensemble {
   Estimates velocity_mean() const;      ///< of x' [m/s], by time
   Estimates velocity_variance() const;  ///< of x' [m^2/s^2], by time
 
+  /// Of the ground acceleration n [m/s^2], by time; where it jumps, of what it is from then on.
+  /// @throws std::domain_error where it was not asked for, or without times
+  Estimates ground_acceleration_mean() const;
+  /// Of n about its mean, with the divisor members - 1 [m^2/s^4], by time; thesis 4.4.
+  /// @throws std::domain_error also with fewer than two members
+  Estimates ground_acceleration_variance() const;
+
   /// All of these and the stationary growth rate, as a theory answers.
   Moments moments() const;
 
@@ -126,6 +134,7 @@ class Ensemble {
   void insert(std::uint64_t block, detail::Tally tally, Kept kept);
   void bound_memory();
   void need_times() const;
+  void need_ground_acceleration() const;
 
   Parts parts_;
 };

@@ -25,6 +25,9 @@ struct EnsembleOptions {
   double dt = 0;                  ///< between the times of the statistics [s]; 0: the motions', or 1/512 of it all
   bool settle = false;            ///< residual and peak after the slider has come to rest without ground acceleration
   bool velocity_spectrum = true;  ///< also the velocity's spectral density; some 2 ns a sample
+  /// Also the moments of the ground acceleration by time; each motion is made once more for it, some 5 to 30 ns a
+  /// sample.
+  bool ground_acceleration = false;
   /// Called every tenth of a second or so, in the thread that called; may throw to end the work.
   std::function<void(const EnsembleProgress&)> heartbeat{};
 };

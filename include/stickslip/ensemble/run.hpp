@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "stickslip/detail/ensemble/lanes_simulator.hpp"
 #include "stickslip/detail/ensemble/simulator.hpp"
@@ -34,6 +35,31 @@ std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, std::uin
   return std::make_unique<MemberSimulator<PairedMembers<S, M>>>(source, seed, settle);
 }
 
+/// Also gives the block what the ground does: it makes each motion once more, so that all simulators can, and those
+/// that are not asked do nothing for it.
+template <MemberSource Source>
+class GroundSimulator final : public Simulator {
+ public:
+  GroundSimulator(const Source& source, std::uint64_t seed, std::unique_ptr<Simulator> sliders)
+      : source_(source), seed_(seed), sliders_(std::move(sliders)) {}
+
+  void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
+    sliders_->simulate(first_member, members, block);
+    for (std::size_t i = 0; i < members; ++i) {
+      block.beat();
+      const auto& member = source_.member(seed_, first_member + i);
+      accelerations(member.motion, block.times(), acceleration_);
+      block.ground(acceleration_);
+    }
+  }
+
+ private:
+  const Source& source_;
+  std::uint64_t seed_;
+  std::unique_ptr<Simulator> sliders_;
+  std::vector<double> acceleration_;
+};
+
 }  // namespace detail
 
 /// Slides through many members and takes the statistics of displacement and velocity over them.
@@ -62,14 +88,20 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
   const EnsembleTimes times = detail::ensemble_times(options.dt, source.time_base());
   EnsembleOptions asked = options;
   asked.velocity_spectrum = options.velocity_spectrum && times.count > 0;
+  asked.ground_acceleration = options.ground_acceleration && times.count > 0;
   EnsembleConfiguration configuration = source.configuration();
   configuration.insert(configuration.end(), {{"seed", std::to_string(options.seed)},
                                              {"dt", detail::shortest(times.dt)},
                                              {"times", std::to_string(times.count)},
                                              {"settle", options.settle ? "true" : "false"},
                                              {"velocity_spectrum", asked.velocity_spectrum ? "true" : "false"}});
-  return detail::run_ensemble(std::move(configuration), times, asked, start,
-                              [&] { return detail::simulator(source, options.seed, options.settle); });
+  if (asked.ground_acceleration) configuration.emplace_back("ground_acceleration", "true");
+  return detail::run_ensemble(std::move(configuration), times, asked, start, [&] {
+    std::unique_ptr<detail::Simulator> sliders = detail::simulator(source, options.seed, options.settle);
+    if (asked.ground_acceleration)
+      sliders = std::make_unique<detail::GroundSimulator<Source>>(source, options.seed, std::move(sliders));
+    return sliders;
+  });
 }
 
 /// The same for members by index: one slider, or one of a source of sliders, under the motions of a source.

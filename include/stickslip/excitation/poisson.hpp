@@ -13,34 +13,11 @@
 #include <vector>
 
 #include "stickslip/excitation/envelope.hpp"
+#include "stickslip/excitation/pulse_shape.hpp"
+#include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 
 namespace stickslip {
-
-/// The shape w of a pulse: piecewise constant, zero before it starts and after it ends.
-///
-/// Times are multiples of the half width: one shape serves pulses of any length. With a half width of 1 s they are
-/// seconds.
-class PulseShape {
- public:
-  /// The symmetric rectangular pulse, thesis (5.29): +1 from 0 to 1, -1 from 1 to 2.
-  PulseShape() = default;
-
-  /// @param times   where the pieces begin and end, finite and increasing; the first is 0
-  /// @param values  of the pieces, one fewer than times, finite, not all zero
-  /// @throws std::invalid_argument naming the value refused and its index
-  PulseShape(std::vector<double> times, std::vector<double> values);
-
-  std::span<const double> times() const noexcept { return times_; }
-  std::span<const double> values() const noexcept { return values_; }
-  double length() const noexcept { return times_.back(); }
-
-  friend bool operator==(const PulseShape&, const PulseShape&) = default;
-
- private:
-  std::vector<double> times_ = {0, 1, 2};
-  std::vector<double> values_ = {1, -1};
-};
 
 /// What makes `PoissonPulses` other than the thesis's.
 struct PoissonOptions {
@@ -119,6 +96,20 @@ class PoissonPulses {
   /// Very near field: within 20 km of the fault; near field: 20 to 50 km.
   /// @throws std::invalid_argument listing the names
   static PoissonPulses event(std::string_view name, Options options = {});
+
+  /// Pulses of minimum phase whose spectral density (5.20) is a given one: `PulseShape::from_spectrum`, with a half
+  /// width of 1 s, so that the shape's times are seconds. Below pi / dt `density` is the spectrum, within the
+  /// tolerance; above, the pieces of constant acceleration leave an image of it. Rate and sigma share lambda sigma^2:
+  /// sigma is the rms of the largest acceleration of a pulse. Many pulses at a time, a large rate times the length of
+  /// the pulse, make a process that is nearly Gaussian.
+  /// @param spectrum  of the ground acceleration
+  /// @param rate      lambda, pulses per second, positive and finite
+  /// @param duration  of the motion [s], positive and finite
+  /// @param dt, tolerance  as of `PulseShape::from_spectrum`
+  /// @param options   all but the shape
+  /// @throws std::invalid_argument naming the value refused, and where `options` has another shape
+  static PoissonPulses from_spectrum(const Spectrum& spectrum, double rate, double duration, double dt,
+                                     double tolerance = 1e-3, Options options = {});
 
   /// The names that `event` knows.
   static std::span<const std::string_view> events() noexcept;

@@ -48,7 +48,8 @@ enum Feature : std::size_t {
 };
 
 /// What a set of members leaves behind: for each time the joint moments of displacement and velocity about their means,
-/// for each frequency the mean and scatter of the velocity periodogram, and mean and scatter of the features.
+/// for each frequency the mean and scatter of the velocity periodogram, mean and scatter of the features, and, where it
+/// is asked for, for each time the moments of the ground acceleration.
 ///
 /// Two sets merge into their union: each is shifted to the common mean and the sums are added (Pebay 2008,
 /// SAND2008-6212).
@@ -57,17 +58,26 @@ class Tally {
   /// The order of the moments at one time: sums of (x - mean)^p (x' - mean)^q, after the two means.
   enum Moment : std::size_t { x, v, xx, xv, vv, xxx, xxv, xvv, vvv, xxxx, xxvv, vvvv, moments };
 
+  /// The moments of the ground acceleration n at one time: its mean, and sums of (n - mean)^p.
+  enum GroundMoment : std::size_t { n, nn, nnn, nnnn, ground_moments };
+
   Tally() = default;
-  Tally(std::size_t times, std::size_t frequencies)
-      : times_(times), frequencies_(frequencies), sums_(size(times, frequencies)) {}
+  Tally(std::size_t times, std::size_t frequencies, bool ground_acceleration = false)
+      : times_(times),
+        frequencies_(frequencies),
+        ground_times_(ground_acceleration ? times : 0),
+        sums_(size(times, frequencies, ground_acceleration)) {}
 
   /// How many sums there are.
-  static constexpr std::size_t size(std::size_t times, std::size_t frequencies) noexcept {
-    return moments * times + 2 * frequencies + features * (features + 1);
+  static constexpr std::size_t size(std::size_t times, std::size_t frequencies,
+                                    bool ground_acceleration = false) noexcept {
+    return moments * times + 2 * frequencies + features * (features + 1) +
+           (ground_acceleration ? ground_moments * times : 0);
   }
 
   std::size_t times() const noexcept { return times_; }
   std::size_t frequencies() const noexcept { return frequencies_; }
+  bool ground_acceleration() const noexcept { return ground_times_ > 0; }
 
   /// Members in it.
   std::uint64_t count = 0;
@@ -82,6 +92,12 @@ class Tally {
   std::span<const double> density_mean() const noexcept { return {sums_.data() + moments * times_, frequencies_}; }
   std::span<const double> density_scatter() const noexcept {
     return {density_mean().data() + frequencies_, frequencies_};
+  }
+
+  /// One moment of the ground acceleration at all times; empty where it was not asked for.
+  std::span<double> moment(GroundMoment m) noexcept { return {ground() + m * ground_times_, ground_times_}; }
+  std::span<const double> moment(GroundMoment m) const noexcept {
+    return {ground() + m * ground_times_, ground_times_};
   }
 
   double& mean(std::size_t feature) noexcept { return tail()[feature]; }
@@ -114,8 +130,12 @@ class Tally {
   double* tail() noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
   const double* tail() const noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
 
+  double* ground() noexcept { return tail() + features * (features + 1); }
+  const double* ground() const noexcept { return tail() + features * (features + 1); }
+
   std::size_t times_ = 0;
   std::size_t frequencies_ = 0;
+  std::size_t ground_times_ = 0;  // 0 or times_
   std::vector<double> sums_;
 };
 

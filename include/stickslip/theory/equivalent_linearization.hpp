@@ -118,9 +118,10 @@ class EquivalentLinearization {
   /// Under white noise without envelope, unequal levels and damper integrated over the logarithm of time, in variables
   /// that keep the covariance positive definite: the logarithms of q11 and q22 relative to those without friction,
   /// (3.41) and (3.43), and the correlation. So any scale will do. A slider without friction is answered in closed form
-  /// there. Otherwise all n (n + 1) / 2 entries of Q are integrated in time by backward differentiation. A velocity of
-  /// sqrt(tolerance) / 10 of that at the first time asked for, or of the rms acceleration over the filter's mean rate,
-  /// then counts as rest, which is about the relative error just after an abrupt start, and soon fades.
+  /// there. Otherwise Q is integrated in time, its rows of x and x' alone where the filter's own covariance stays
+  /// stationary: by backward differentiation where friction may hold the slider, by explicit steps elsewhere. A
+  /// velocity of sqrt(tolerance) / 10 of that at the first time asked for, or of the rms acceleration over the filter's
+  /// mean rate, then counts as rest, which is about the relative error just after an abrupt start, and soon fades.
   ///
   /// @param slider     the law, its spring and damper
   /// @param noise      level S0 of white ground acceleration, two-sided [m^2/s^3], a Spectrum, a ShapingFilter, a

@@ -117,6 +117,21 @@ members and figures are equal; they can be copied and pickled, but not hashed, f
       .def_property_readonly("velocity_variance_error",
                              &statistic_by_time<&Ensemble::velocity_variance, &Estimates::error>,
                              "Its standard error [m^2/s^2], from the fourth moment.")
+      .def_property_readonly("ground_acceleration_mean",
+                             &statistic_by_time<&Ensemble::ground_acceleration_mean, &Estimates::value>,
+                             "Mean of the ground acceleration by time [m/s^2]; ValueError where it was not asked for.")
+      .def_property_readonly("ground_acceleration_mean_error",
+                             &statistic_by_time<&Ensemble::ground_acceleration_mean, &Estimates::error>,
+                             "Its standard error [m/s^2].")
+      .def_property_readonly(
+          "ground_acceleration_variance",
+          &statistic_by_time<&Ensemble::ground_acceleration_variance, &Estimates::value>,
+          R"(Variance of the ground acceleration about its mean by time, with the divisor members - 1 [m^2/s^4].
+
+Where the acceleration jumps, of what it is from then on. ValueError where it was not asked for.)")
+      .def_property_readonly("ground_acceleration_variance_error",
+                             &statistic_by_time<&Ensemble::ground_acceleration_variance, &Estimates::error>,
+                             "Its standard error [m^2/s^4], from the fourth moment.")
       .def_property_readonly(
           "peak", [](const Ensemble& e) { return array_of(e.peak()); },
           R"(Largest |x| of each member, between samples too, in the order of the members [m].

@@ -67,6 +67,7 @@ py::dict state_of(const Ensemble& ensemble) {
   state["dt"] = parts.times.dt;
   state["times"] = parts.times.count;
   state["velocity_spectrum"] = parts.velocity_spectrum;
+  state["ground_acceleration"] = parts.ground_acceleration;
   state["level"] = array_of(std::move(level));
   state["number"] = array_of(std::move(number));
   state["count"] = array_of(std::move(count));
@@ -87,6 +88,7 @@ Ensemble ensemble_of(const py::dict& state) {
   parts.configuration = state["configuration"].cast<Ensemble::Configuration>();
   parts.times = {state["dt"].cast<double>(), state["times"].cast<std::size_t>()};
   parts.velocity_spectrum = state["velocity_spectrum"].cast<bool>();
+  parts.ground_acceleration = state["ground_acceleration"].cast<bool>();
   expect(parts.times.count <= Ensemble::max_times, "there are too many times");
 
   const auto level = column<std::uint64_t>(state, "level"), number = column<std::uint64_t>(state, "number"),
@@ -97,13 +99,13 @@ Ensemble ensemble_of(const py::dict& state) {
   expect(level.size() == rows && number.size() == rows && count.size() == rows,
          "level, number, count and sums must go together");
   // Before any room is made for them.
-  expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies),
+  expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies, parts.ground_acceleration),
          "sums must have one column for each sum");
   for (std::size_t i = 0; i < rows; ++i) {
     constexpr unsigned most = 61;  // blocks have eight members at least
     expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "a part is at no possible place");
     const detail::TallyTree::Place place{static_cast<unsigned>(level[i]), number[i]};
-    detail::Tally tally(parts.times.count, frequencies);
+    detail::Tally tally(parts.times.count, frequencies, parts.ground_acceleration);
     expect(!parts.tallies.overlaps(place), "two parts hold the same members");
     tally.count = count[i];
     std::copy_n(sums.data() + i * width, width, tally.sums().data());

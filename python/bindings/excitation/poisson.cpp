@@ -193,6 +193,59 @@ Raises
 ValueError
     A value out of its range.)")
       .def_static(
+          "from_spectrum",
+          [](const Spectrum& spectrum, double rate, double duration, double dt, double tolerance, bool stationary_start,
+             std::optional<py::function> quantile, std::optional<Envelope> envelope) {
+            return PoissonPulses::from_spectrum(
+                spectrum, rate, duration, dt, tolerance,
+                options_of(stationary_start, std::nullopt, std::move(quantile), std::move(envelope)));
+          },
+          py::arg("spectrum"), py::kw_only(), py::arg("rate"), py::arg("duration"), py::arg("dt"),
+          py::arg("tolerance") = 1e-3, py::arg("stationary_start") = false, py::arg("quantile") = py::none(),
+          py::arg("envelope") = py::none(),
+          R"(Pulses of minimum phase whose spectral density is a given one.
+
+The spectrum gives the amplitude of the pulse's Fourier transform, by (5.20). That it is zero before it begins gives the
+phase, the Hilbert transform of the amplitude's logarithm (thesis 5.3): of all causal pulses with this amplitude it is the
+one of minimum phase, which has its energy earliest. It is found by FFT on the cepstrum, in pieces of length dt, for whose
+steps the amplitude is corrected. A spectrum that is zero at omega = 0 gets a shape that leaves no velocity, exactly but
+for rounding, and one that falls as omega^4 no displacement either.
+
+The half width is 1 s, so that the times of `shape` are seconds, and the largest value of the shape is 1: sigma is the rms
+of the largest acceleration of a pulse. Rate and sigma share lambda sigma^2. Many pulses at a time, a large rate times the
+length of the pulse, make a process that is nearly Gaussian.
+
+Parameters
+----------
+spectrum : Spectrum
+    Of the ground acceleration: positive from 0 to pi / dt but for single frequencies, where it may be zero. Of other
+    spectra no pulse that begins at a time exists (Paley and Wiener); that of a record or a band can be given a floor.
+rate : float
+    lambda, pulses per second, positive and finite.
+duration : float
+    Of a motion [s], positive and finite.
+dt : float
+    Length of a piece [s], positive and finite. The spectrum is had below pi / dt; beyond, steps leave an image of it.
+tolerance : float, optional
+    The integral of abs(density - S) over that of S, from 0 to pi / dt; from 1e-6 to 0.1. The shape is cut where that
+    allows it: a tighter one takes more pieces.
+stationary_start, quantile, envelope
+    As of PoissonPulses.
+
+Raises
+------
+ValueError
+    A value out of its range; a spectrum that ends below pi / dt, or is zero over a band, with the frequency; one that half
+    a million pieces do not hold.
+
+Notes
+-----
+1 to 20 ms.
+
+References
+----------
+Thesis 5.3; A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing (1989), 12.)")
+      .def_static(
           "events",
           [] {
             const auto names = PoissonPulses::events();

@@ -145,9 +145,10 @@ W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik
 
 Means are zero but for unequal levels. Under white noise, without envelope, unequal levels and damper, integrated over the
 logarithm of time, in variables that keep the covariance positive definite, so any scale will do; a slider without
-friction is answered in closed form there. Otherwise all entries of Q are integrated in time. A velocity of sqrt(tolerance) / 10 of
-that at the first time, or of the rms acceleration over the filter's mean rate, then counts as rest,
-which is about the relative error just after an abrupt start, and soon fades.
+friction is answered in closed form there. Otherwise Q is integrated in time, its rows of x and x' alone where the filter's
+own covariance stays stationary: by backward differentiation where friction may hold the slider, by explicit steps
+elsewhere. A velocity of sqrt(tolerance) / 10 of that at the first time, or of the rms acceleration over the filter's mean
+rate, then counts as rest, which is about the relative error just after an abrupt start, and soon fades.
 
 Parameters
 ----------

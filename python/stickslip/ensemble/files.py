@@ -14,10 +14,11 @@ from .. import _core
 from .._core import Ensemble
 from .._files import check_regular, replacing
 
-_FORMAT = "stickslip ensemble 2"
+_FORMAT = "stickslip ensemble 3"
+_FORMER = "stickslip ensemble 2"  # had nothing of the ground acceleration
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
-    *("configuration", "dt", "times", "velocity_spectrum"),
+    *("configuration", "dt", "times", "velocity_spectrum", "ground_acceleration"),
     *("level", "number", "count", "sums", "cut_block", "cut_size"),
     *("kept_block", "kept_size", "peak", "residual", "bin", "bin_count"),
 }
@@ -55,21 +56,25 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
             raise refuse(f"is damaged: {error}") from error
         if not str(about.get("format")).startswith("stickslip ensemble "):
             raise refuse(f"is no ensemble: it holds {', '.join(sorted(entries)) or 'nothing'}")
-        if str(about["format"]) != _FORMAT:
+        former = str(about["format"]) == _FORMER
+        names = _NAMES - {"ground_acceleration"} if former else _NAMES
+        if str(about["format"]) != _FORMAT and not former:
             raise refuse(
                 f"is of format '{about['format']}', of stickslip {about.get('library')}; this is"
-                f" stickslip {_core.__version__}, which reads '{_FORMAT}'"
+                f" stickslip {_core.__version__}, which reads '{_FORMAT}' and"
+                f" '{_FORMER}'"
             )
-        if entries.keys() != _NAMES:
-            odd = ", ".join(sorted(entries.keys() ^ _NAMES))
+        if entries.keys() != names:
+            odd = ", ".join(sorted(entries.keys() ^ names))
             raise refuse(f"does not hold what an ensemble does: missing or unknown {odd}")
         try:
-            state = {name: _array(archive, entries[name]) for name in _NAMES - _ABOUT}
+            state = {name: _array(archive, entries[name]) for name in names - _ABOUT}
         except Exception as error:
             raise refuse(f"is damaged: {error}") from error
     ensemble = Ensemble.__new__(Ensemble)
     try:
         plain = {name: array.item() if array.ndim == 0 else array for name, array in state.items()}
+        plain.setdefault("ground_acceleration", False)
         plain["configuration"] = [tuple(entry) for entry in json.loads(plain["configuration"])]
         ensemble.__setstate__(plain)
     except (RuntimeError, TypeError, ValueError) as error:

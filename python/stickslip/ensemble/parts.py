@@ -71,7 +71,8 @@ class Parts:
         self.size = 1  # blocks in the next part
         self.window = 8  # parts under way; opens with each that comes back
         times = len(self.whole.time)
-        self.bytes_of_part = 8 * times * (13 if options["velocity_spectrum"] else 12)
+        sums = 12 + options["velocity_spectrum"] + 4 * options["ground_acceleration"]
+        self.bytes_of_part = 8 * times * sums
 
     def run(self, show: Progress, keeper: Checkpoint) -> Ensemble:
         try:

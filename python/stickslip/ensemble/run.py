@@ -28,6 +28,7 @@ def run_ensemble(
     dt: float | None = None,
     settle: bool = False,
     velocity_spectrum: bool = True,
+    ground_acceleration: bool = False,
     progress: bool | Progress = False,
     executor: Executor | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
@@ -66,6 +67,9 @@ def run_ensemble(
         it never does without friction: ConvergenceError.
     velocity_spectrum : bool, optional
         The velocity's spectral density too, at an FFT a member, where durations are the same.
+    ground_acceleration : bool, optional
+        Mean and variance of the ground acceleration by time too, where durations are the same: each
+        motion is made once more for it.
     progress : bool or callable, optional
         True: a bar on stderr (a line at each tenth where that is no terminal). A callable is called
         with the members done and to do, ten times a second or so.
@@ -140,6 +144,7 @@ def run_ensemble(
         "dt": 0.0 if dt is None else _positive("dt", dt),
         "settle": settle,
         "velocity_spectrum": velocity_spectrum,
+        "ground_acceleration": ground_acceleration,
     }
     keeper = Checkpoint(checkpoint, checkpoint_every)
     start = keeper.load(range(first, first + total))

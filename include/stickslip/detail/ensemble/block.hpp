@@ -15,7 +15,7 @@ namespace stickslip::detail {
 /// The members of one block, while they are simulated: takes their motion row by row.
 class Block {
  public:
-  Block(const EnsembleTimes& times, bool velocity_spectrum, const std::atomic<bool>& stopped);
+  Block(const EnsembleTimes& times, bool velocity_spectrum, bool ground_acceleration, const std::atomic<bool>& stopped);
   ~Block();
   Block(const Block&) = delete;
   Block& operator=(const Block&) = delete;
@@ -27,6 +27,9 @@ class Block {
   /// The motion of all members at one time; each time in turn.
   /// @param displacement, velocity  `width()` of each; what is past the last member does not count
   void row(std::size_t time, const double* displacement, const double* velocity);
+
+  /// The ground acceleration of one member at all times, where it is asked for; each member in turn.
+  void ground(std::span<const double> acceleration);
 
   /// Of each member, set by who simulates.
   std::span<double> peak() noexcept { return {peak_.data(), width_}; }
@@ -45,7 +48,8 @@ class Block {
  private:
   struct Spectrum;
   EnsembleTimes times_;
-  std::size_t members_ = 0;
+  bool ground_acceleration_;
+  std::size_t members_ = 0, grounds_ = 0;
   std::size_t width_;
   const std::atomic<bool>& stopped_;
   std::vector<double> peak_, residual_;

@@ -91,6 +91,20 @@ void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& 
   while (next < times) keep();  // a last time that rounding put past the end
 }
 
+/// The ground acceleration at the times of the statistics; where it jumps, what it is from then on.
+inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times, std::vector<double>& values) {
+  values.resize(times.count);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < motion.segments() && next < times.count; ++i) {
+    const Segment s = motion.segment(i);
+    const double from = motion.time(i) - motion.time(0), to = motion.time(i + 1) - motion.time(0);
+    const bool last = i + 1 == motion.segments();
+    for (double at; next < times.count && ((at = static_cast<double>(next) * times.dt) < to || last); ++next)
+      values[next] =
+          s.duration > 0 ? s.start + (s.end - s.start) * std::clamp((at - from) / s.duration, 0.0, 1.0) : s.end;
+  }
+}
+
 /// Takes the largest |x| of a member, and beats.
 template <FrictionLaw Law>
 class PeakObserver {
