@@ -23,9 +23,8 @@ struct PulseFit {
 /// of the part between 5 % and 95 % of the Arias intensity without its mean, averaged over a band about each frequency
 /// (Daniell). A table, up to twice the sampling rate of the record or more.
 /// @param motion     a record, lines or steps, which count as they are between samples too
-/// @param bandwidth  of the average [Hz], positive and finite, at least 1 / duration of the strong part; the standard
-/// error
-///                   of a value is 1 / sqrt(bandwidth x duration) of it
+/// @param bandwidth  of the average [Hz], positive and finite, at least 1 / duration of the strong part; a value's
+///                   standard error is 1 / sqrt(bandwidth x duration) of it
 /// @throws std::invalid_argument  a bandwidth out of its range; a motion without acceleration, see `strong_motion`
 /// Reference: M. B. Priestley, Spectral Analysis and Time Series (1981), 6.2.
 Spectrum estimate_spectrum(const GroundMotion& motion, double bandwidth);
@@ -43,10 +42,9 @@ Spectrum estimate_spectrum(const GroundMotion& motion, double bandwidth);
 /// others: `strong_motion` goes by the ground velocity instead. Where the two frequencies differ much the record's
 /// spectrum has another form than the pulses'.
 /// @param motion  a record, lines or steps
-/// @throws std::invalid_argument  where nothing fits: the nearest pulses are longer than an eighth of the strong part
-/// or
-///                                shorter than eight of its time steps, or the misfit is 1 or more, as much as without
-///                                any pulses; a motion without acceleration
+/// @throws std::invalid_argument  where nothing fits: the nearest pulses are longer than an eighth of the strong part,
+///                                or shorter than eight of its time steps, or the misfit is 1 or more, as much as
+///                                without any pulses; a motion without acceleration
 /// Cost: one FFT and some 150 sums over it, 5 to 50 ms.
 PulseFit fit_pulses(const GroundMotion& motion);
 

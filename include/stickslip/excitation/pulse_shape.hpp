@@ -33,14 +33,12 @@ class PulseShape {
   /// @param spectrum   positive from 0 to pi / dt but for single frequencies, where it may be zero: of other spectra no
   ///                   pulse that begins at a time exists (Paley and Wiener). That of a record or a band can be given a
   ///                   floor.
-  /// @param dt         length of a piece, in the unit of the shape's times: seconds for a half width of 1 s; positive
-  /// and
-  ///                   finite. The spectrum is had below pi / dt; beyond, steps leave an image of it.
+  /// @param dt         length of a piece, in the unit of the shape's times: seconds for a half width of 1 s; finite
+  ///                   and positive. The spectrum is had below pi / dt; beyond, steps leave an image of it.
   /// @param tolerance  the integral of |S of the pulses - S| over that of S, from 0 to pi / dt; from 1e-6 to 0.1. The
   ///                   shape is cut where that allows it: a tighter one takes more pieces.
-  /// @throws std::invalid_argument naming the value refused, or the frequency at which the spectrum is zero; where half
-  /// a
-  ///         million pieces do not hold the pulse
+  /// @throws std::invalid_argument naming the value refused, or the frequency at which the spectrum is zero; where
+  ///         half a million pieces do not hold the pulse
   /// Cost: some ten FFTs of 4,096 to a million points.
   /// Reference: thesis 5.3; A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing (1989), 12.
   static PulseShape from_spectrum(const Spectrum& spectrum, double dt, double tolerance = 1e-3);
