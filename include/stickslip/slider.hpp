@@ -20,8 +20,8 @@ class Slider {
   /// @param law                what holds and what resists
   /// @param natural_frequency  wn, of the spring and the mass without friction [rad/s], finite and at least 0; 0 is no
   ///                           spring
-  /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the damping
-  /// ratio
+  /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the
+  ///                           damping ratio
   /// @throws std::invalid_argument naming the value
   explicit Slider(Law law, double natural_frequency = 0, double damping = 0)
       : law_(std::move(law)),

@@ -15,9 +15,8 @@ namespace stickslip::detail {
 using OdeRightSide = std::function<void(double t, std::span<const double> y, std::span<double> slope)>;
 
 enum class OdeMethod {
-  /// Adams' formulas of orders to 12 with fixed-point iteration: one or two slopes a step, for slopes that cost more
-  /// than
-  /// the bookkeeping, some 0.5 us, and for tight tolerances.
+  /// Adams' formulas of orders to 12 with fixed-point iteration: one or two slopes a step, for slopes that cost
+  /// more than the bookkeeping, some 0.5 us, and for tight tolerances.
   adams,
   /// Backward differentiation and Newton iteration on a dense Jacobian of differences, for what decays far faster than
   /// it is looked at.

@@ -110,8 +110,8 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
 ///     run_ensemble(RandomSlider([](double mu) { return Coulomb::from_friction(mu); }, Lognormal(0.3, 0.3)),
 ///                  OneOf(std::vector{kobe, chi_chi}), {.members = 1000});
 ///
-/// @param sliders  a Slider with any law, spring and damper; a law alone; or a SliderSource: a RandomSlider, OneOf a
-/// list
+/// @param sliders  a Slider with any law, spring and damper; a law alone; or a SliderSource: a RandomSlider, OneOf
+///                 a list
 /// @param motions  an Excitation, or OneOf<GroundMotion>. Where motions differ in duration, there are no statistics by
 ///                 time
 ///

@@ -97,10 +97,9 @@ class GaussianExcitation {
   ///                  pi / dt; one without is cut there, see `lost_variance`
   /// @param dt        between samples [s], positive and finite
   /// @param samples   of one motion, at least 2
-  /// @throws std::invalid_argument for a value out of its range; for a band beyond the Nyquist frequency (saying which
-  /// dt
-  ///         would do); for a band in which no line lies (saying which period would do); for a period of more than
-  ///         2147483647 samples
+  /// @throws std::invalid_argument for a value out of its range; for a band beyond the Nyquist frequency (saying
+  ///         which dt would do); for a band in which no line lies (saying which period would do); for a period of
+  ///         more than 2147483647 samples
   GaussianExcitation(Spectrum spectrum, double dt, std::size_t samples, Options options = {});
 
   /// One motion, from time 0 to `duration()`.

@@ -522,9 +522,8 @@ inline Orbit moved(Orbit orbit, double distance) {
 /// @param omega   [rad/s], positive, with a finite square
 /// @param heartbeat  called some times a second; may throw to end the work; optional
 /// @return orbits in order of amplitude
-/// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring (the
-/// slider
-///                                drifts)
+/// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring
+///                                (the slider drifts)
 /// Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us
 /// without a spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff
 /// spring swings many times a period. Reference: J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous
