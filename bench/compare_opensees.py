@@ -17,7 +17,6 @@ import time
 import numpy as np
 import openseespy.opensees as ops
 import stickslip as ss
-from stickslip.demo import sample_records
 
 CASES = ((1e-3, 1), (1e-3, 10), (1e-4, 10), (1e-4, 40), (1e-5, 10))  # yield [m], steps a sample
 
@@ -58,7 +57,7 @@ def main() -> None:
     parser.add_argument("--mu", type=float, nargs="+", default=[0.1, 0.2])
     args = parser.parse_args()
     wn = 2 * math.pi / args.period
-    quakes = [ss.read_record(file) for file in sample_records()]
+    quakes = ss.sample_records()
     print("yield [mm], steps a sample, mu: peak median, largest; residual median, largest; ns")
     for yields, steps in CASES:
         for mu in args.mu:

@@ -9,7 +9,6 @@ import argparse
 from pathlib import Path
 
 import stickslip as ss
-from stickslip.demo import sample_records
 from stickslip.plotting import save
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -18,8 +17,7 @@ ask.add_argument("--mu", type=float, default=0.2, help="coefficient of friction 
 ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
 args = ask.parse_args()
 
-file = args.record or next(f for f in sample_records() if f.name.startswith("Kobe"))
-quake = ss.read_record(file)
+quake = ss.read_record(args.record) if args.record else ss.sample_record("Kobe")
 r = ss.integrate(ss.Coulomb(mu=args.mu), quake, settle=True)  # on until it rests
 
 print(

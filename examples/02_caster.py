@@ -13,7 +13,6 @@ from pathlib import Path
 
 import stickslip as ss
 from matplotlib.figure import Figure
-from stickslip.demo import sample_records
 from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -24,8 +23,10 @@ ask.add_argument("--width", type=float, default=0.032, help="of the wheel [m]")
 ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
 args = ask.parse_args()
 
-files = [f for f in sample_records() if f.name.startswith(("Kobe", "Nahanni"))]
-quakes = [ss.read_record(f) for f in ([args.record] if args.record else files)]
+if args.record:
+    quakes = [ss.read_record(args.record)]
+else:
+    quakes = [ss.sample_record("Kobe"), ss.sample_record("Nahanni")]
 casters = ss.Caster.from_geometry(mu=args.mu, trail=args.trail, wheel_width=args.width)
 things = {
     "on casters": casters,

@@ -15,7 +15,6 @@ from pathlib import Path
 import numpy as np
 import stickslip as ss
 from matplotlib.figure import Figure
-from stickslip.demo import sample_records
 from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -25,7 +24,7 @@ ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture
 args = ask.parse_args()
 
 g, wn = ss.STANDARD_GRAVITY, 2 * math.pi / args.period
-quakes = [ss.read_record(f) for f in args.records or sample_records()]
+quakes = [ss.read_record(f) for f in args.records] or ss.sample_records()
 mu = np.array([0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1, 0.12, 0.15, 0.2, 0.25, 0.3])
 
 peak, residual, transmitted = np.zeros((3, len(quakes), len(mu)))  # [m], [m], [m/s^2]

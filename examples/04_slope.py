@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 import stickslip as ss
 from matplotlib.figure import Figure
-from stickslip.demo import sample_records
 from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -25,8 +24,7 @@ ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture
 args = ask.parse_args()
 
 g = ss.STANDARD_GRAVITY
-file = args.record or next(f for f in sample_records() if f.name.startswith("Kobe"))
-quake = ss.read_record(file)
+quake = ss.read_record(args.record) if args.record else ss.sample_record("Kobe")
 uphill = 2 * g * math.sin(math.radians(args.degrees))  # what the level is larger by [m/s^2]
 
 

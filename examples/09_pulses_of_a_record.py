@@ -12,16 +12,14 @@ from pathlib import Path
 import numpy as np
 import stickslip as ss
 from matplotlib.figure import Figure
-from stickslip.demo import sample_records
 from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
 ask.add_argument("record", nargs="?", type=Path, help="default: Loma Prieta 1989, of pyslammer")
 ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
 args = ask.parse_args()
-file = args.record or next(f for f in sample_records() if f.name.startswith("Loma_Prieta"))
 
-quake = ss.read_record(file)
+quake = ss.read_record(args.record) if args.record else ss.sample_record("Loma_Prieta")
 strong = ss.strong_motion(quake)
 fit = ss.fit_pulses(quake)
 spectrum = ss.estimate_spectrum(quake, fit.centre_frequency_hz / 3)

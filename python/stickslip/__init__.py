@@ -5,7 +5,7 @@ A friction law makes a slider, a record or a list of numbers makes a ground moti
 
     import stickslip as ss
 
-    quake = ss.read_record("kobe.AT2")
+    quake = ss.sample_record("Kobe")  # or ss.read_record("a file of yours")
     r = ss.integrate(ss.Coulomb(mu=0.2), quake)
     print(r.peak, r.residual)  # metres
 
@@ -61,6 +61,7 @@ TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of 
 if TYPE_CHECKING:
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, run_ensemble
+    from .samples import sample_record, sample_records
 
 __all__ = [
     "STANDARD_GRAVITY",
@@ -103,6 +104,8 @@ __all__ = [
     "integrate",
     "read_record",
     "run_ensemble",
+    "sample_record",
+    "sample_records",
     "strong_motion",
     "theory",
 ]
@@ -119,6 +122,10 @@ if not TYPE_CHECKING:
             from . import comparison
 
             return globals().setdefault(name, getattr(comparison, name))
+        if name in ("sample_record", "sample_records"):
+            from . import samples
+
+            return globals().setdefault(name, getattr(samples, name))
         raise AttributeError(f"module 'stickslip' has no attribute {name!r}")
 
     def __dir__():

@@ -46,6 +46,7 @@ from . import (
     build_info,
     integrate,
     read_record,
+    sample_record,
 )
 from ._core import acceleration_unit
 from ._files import check_writable, replacing
@@ -53,6 +54,7 @@ from ._text import printable
 
 __all__ = ["main"]
 
+_SAMPLE = "sample:"  # before the name of a sample record, in place of a file
 _FAILURES = (ConvergenceError, ImportError, MemoryError, OSError, OverflowError, ValueError)
 
 
@@ -285,7 +287,13 @@ def _add_slide(commands: argparse._SubParsersAction) -> None:
         " code 2 before any file is read.",
     )
     add = parser.add_argument
-    add("records", nargs="+", type=Path, metavar="RECORD", help="file: AT2, COSMOS, GeoNet, CSV")
+    add(
+        "records",
+        nargs="+",
+        type=Path,
+        metavar="RECORD",
+        help="file: AT2, COSMOS, GeoNet, CSV; or sample:Kobe, a sample record",
+    )
     add(
         "--mu",
         nargs="+",
@@ -353,7 +361,7 @@ def _slide(args: argparse.Namespace) -> str:
 
     for place, record in enumerate(args.records):
         with reported(record):
-            motion = read_record(record, units=args.units, component=args.component)
+            motion = _read(record, args)
             if args.scale != 1:
                 motion = motion.scaled(args.scale)
             responses = {}
@@ -368,6 +376,12 @@ def _slide(args: argparse.Namespace) -> str:
     if args.json:
         return _json({"results": rows, "errors": errors, "figures": written})
     return "\n".join([*_table(rows), *(f"wrote {printable(name)}" for name in written)])
+
+
+def _read(record: Path, args: argparse.Namespace) -> GroundMotion:
+    if str(record).startswith(_SAMPLE):
+        return sample_record(str(record).removeprefix(_SAMPLE))
+    return read_record(record, units=args.units, component=args.component)
 
 
 def _pictures(args: argparse.Namespace) -> Iterator[Path]:

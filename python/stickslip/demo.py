@@ -7,7 +7,6 @@ Prints a table and draws two pictures.
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import math
 import sys
 import time
@@ -15,9 +14,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from . import STANDARD_GRAVITY, Caster, Coulomb, GroundMotion, Slider, integrate, read_record
+from . import (
+    STANDARD_GRAVITY,
+    Caster,
+    Coulomb,
+    GroundMotion,
+    Slider,
+    integrate,
+    sample_records,
+)
 
-__all__ = ["THINGS", "Thing", "main", "sample_records"]
+__all__ = ["THINGS", "Thing", "main"]
 
 
 class Thing(NamedTuple):
@@ -64,30 +71,6 @@ Peak: largest distance from where it stood. Residual: where it rests in the end,
 record's positive direction. A dash: it never slips; 0.0: less than half a millimetre.
 (x) beyond its reach: the casters come into line with the motion, where small disturbances, which
     the model leaves out, decide. "rolls": more than 10 reaches off and still rolling at the end."""
-
-
-def sample_records() -> list[Path]:
-    """The files of the strong-motion records that pyslammer carries; it is not imported.
-
-    Returns
-    -------
-    list of Path
-        In order of name: seconds and g, for `read_record`.
-
-    Raises
-    ------
-    ImportError
-        pyslammer is not installed, or without its records.
-    """
-    found = importlib.util.find_spec("pyslammer")
-    folders = (found and found.submodule_search_locations) or []
-    files = [f for folder in folders for f in Path(folder).glob("sample_ground_motions/*.csv")]
-    if not files:
-        raise ImportError(
-            "stickslip.demo: the earthquake records are those of the package pyslammer, which is"
-            " missing; pip install stickslip[records]"
-        )
-    return sorted(files)
 
 
 def table(motions: Sequence[GroundMotion]) -> list[str]:
@@ -154,7 +137,7 @@ def main(argv: list[str] | None = None) -> int:
     args = parser.parse_args(argv)
     began = time.perf_counter()
     try:
-        motions = [read_record(file) for file in sample_records()]
+        motions = sample_records()
     except ImportError as error:
         print(error, file=sys.stderr)
         return 2

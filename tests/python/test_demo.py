@@ -5,7 +5,7 @@ import sys
 
 import pytest
 import stickslip as ss
-from stickslip import demo
+from stickslip import demo, samples
 
 needs_records = pytest.mark.skipif(
     importlib.util.find_spec("pyslammer") is None,
@@ -16,13 +16,13 @@ needs_records = pytest.mark.skipif(
 @needs_records
 def test_there_are_eighteen_records_and_pyslammer_is_not_imported():
     before = "pyslammer" in sys.modules
-    assert len(demo.sample_records()) == 18
+    assert len(samples.sample_files()) == 18
     assert ("pyslammer" in sys.modules) == before
 
 
 @needs_records
 def test_the_table_holds_the_numbers_of_integrate():
-    motions = [ss.read_record(file) for file in demo.sample_records()]
+    motions = ss.sample_records()
     _, units, *rows = demo.table(motions)
     assert units.split()[:2] == ["record", "[g]"]
     assert units.endswith("[cm]")
