@@ -128,14 +128,35 @@ def test_the_chain_says_what_it_covers():
     assert repr(ss.theory.PulseChain(refined=True)) == "PulseChain(refined=True)"
     with pytest.raises(ValueError, match="covers Coulomb friction"):
         chain.predict(ss.Caster(slip_level=1, reach=2), PULSES, [1])
-    with pytest.raises(ValueError, match="both slip levels"):
-        chain.predict(ss.Coulomb(slip_level=1, backward=2), PULSES, [1])
+    with pytest.raises(ValueError, match="covers Coulomb friction"):
+        chain.distribution(ss.Caster(slip_level=1, reach=2), PULSES, 1)
+    with pytest.raises(ValueError, match="at most 20 slip levels"):
+        strong = ss.PoissonPulses(rate=1, half_width=1, sigma=30, duration=10)
+        chain.predict(ss.Coulomb(slip_level=1, backward=2), strong, [1])
     with pytest.raises(TypeError):
         chain.predict(BLOCK, ss.Spectrum.white(s0=1), [1])
     with pytest.raises(TypeError):
         ss.theory.PulseChain(True)
     weak = ss.PoissonPulses(rate=0.5, half_width=1, sigma=0.25, duration=100)
     assert "refined" in chain.predict(BLOCK, weak, [100]).remark
+
+
+def test_the_chain_drifts_where_levels_differ_and_has_quantiles():
+    # The mean within 8 %, a quantile within 6 %: 3 standard errors on top, a false alarm in 400.
+    slider = ss.Coulomb(slip_level=1, backward=2)
+    pulses = ss.PoissonPulses(rate=0.5, half_width=1, sigma=1, duration=100)
+    e = ss.run_ensemble(slider, pulses, members=20_000, seed=3, dt=50)
+    chain = ss.theory.PulseChain()
+    m = chain.predict(slider, pulses, [100])
+    found, error = e.residual.mean(), e.residual.std() / np.sqrt(20_000)
+    assert abs(m.displacement_mean[0] - found) < 0.08 * found + 3 * error
+    assert m.velocity_mean[0] > 0
+    law = chain.distribution(slider, pulses, 100)
+    assert law.mean == pytest.approx(m.displacement_mean[0], rel=1e-3)
+    assert law == chain.distribution(slider, pulses, 100)
+    error = 3 * np.sqrt(0.95 * 0.05 / 20_000)
+    low, high = np.quantile(e.residual, [0.95 - error, 0.95 + error])
+    assert 0.94 * low < law.quantile(0.95) < 1.06 * high
 
 
 def test_the_peak_of_brownian_motion():
