@@ -906,6 +906,9 @@ class PulseSuperposition(metaclass=_Pybind11Type):
     def predict(
         self, slider: Slider | Coulomb | Caster, excitation: PoissonPulses, times: _Samples
     ) -> Moments: ...
+    def from_rest(
+        self, slider: Slider | Coulomb, pulses: PoissonPulses, times: _Samples
+    ) -> Moments: ...
     def final_rms(self, slider: Slider | Coulomb | Caster, pulses: PoissonPulses) -> float: ...
     def distribution(
         self, slider: Slider | Coulomb | Caster, pulses: PoissonPulses, time: _Number

@@ -108,6 +108,26 @@ def test_what_a_quantile_function_raises_comes_through():
         ss.theory.PulseChain().predict(BLOCK, pulses, [100])
 
 
+def test_superposition_from_rest_has_the_responses_of_single_pulses():
+    # lambda times the integral of the mean response and of its square, over
+    # 4000 amplitudes of equal probability: 1 %.
+    pulses = ss.PoissonPulses(rate=1e-3, half_width=1, sigma=2, duration=10)
+    slider = ss.Coulomb(slip_level=1, backward=1.5)
+    time = np.linspace(0, 2.5, 501)
+    amplitudes = 2 * stats.norm.ppf((np.arange(4000) + 0.5) / 4000)
+    responses = np.array(
+        [ss.theory.pulse_response(slider, b, 1, times=time).displacement for b in amplitudes]
+    )
+    m = ss.theory.PulseSuperposition("none").from_rest(slider, pulses, [2.5, 0])
+    mean = integrate.simpson(responses.mean(axis=0), x=time)
+    assert m.displacement_mean[0] == pytest.approx(1e-3 * mean, rel=0.01)
+    assert m.velocity_mean[0] == pytest.approx(1e-3 * responses[:, -1].mean(), rel=0.01)
+    assert m.covariance[0] == pytest.approx(1e-3 * np.mean(responses[:, -1] ** 2) / 2, rel=0.01)
+    assert m.displacement_variance[1] == 0
+    with pytest.raises(ValueError, match="from_rest covers Coulomb friction"):
+        ss.theory.PulseSuperposition().from_rest(ss.Caster(slip_level=1, reach=2), pulses, [1])
+
+
 def test_the_chain_is_nearer_to_an_ensemble_than_superposition():
     # Factors of 0.02 to 0.16 against one that is right to 9 %: no seed would change that.
     pulses = ss.PoissonPulses(rate=0.5, half_width=1, sigma=0.5, duration=400)
