@@ -15,6 +15,7 @@
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/theory/pulse_response.hpp"
+#include "theory/slip_walk.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -174,6 +175,11 @@ constexpr std::size_t orders = 4;
 using Moment = std::array<double, orders + 2>;
 constexpr std::size_t squared_velocity = orders, slipped = orders + 1;
 
+/// What two pulses have done in the end, and on the way: squares of the displacement and of the largest one.
+struct Farthest {
+  double last = 0, largest = 0;
+};
+
 /// The chance that a load moves a block at rest, where loads are the nodes of a lattice: half of it at the level
 /// itself, for the node stands for all loads nearer to it than to others.
 double chance_to_move(const Coulomb& law, double load) {
@@ -195,8 +201,12 @@ int reach_of(const Steps& steps) { return 4 * static_cast<int>(steps.values.size
 
 /// The moments of two pulses, the second one `offset` later, after each half of a step.
 void pair(const Slider<Coulomb>& block, const Steps& steps, double b1, double b2, double offset,
-          std::span<Moment> found) {
+          std::span<Moment> found, Farthest* farthest = nullptr) {
   detail::Ride ride;
+  double largest = 0;
+  const auto look = [&](double, const detail::Ride& there) {
+    largest = std::max(largest, std::abs(there.state.displacement));
+  };
   double moved = 0;
   const auto moment_of = [&] {
     const double x = ride.state.displacement;
@@ -205,7 +215,8 @@ void pair(const Slider<Coulomb>& block, const Steps& steps, double b1, double b2
   const auto hold = [&](double n, double duration) {
     if (duration <= 0) return;
     moved = std::max(moved, chance_to_move(block.law(), n));
-    detail::hold(block, n, duration, ride, detail::NoKnot{});
+    detail::hold(block, n, duration, ride, look);
+    look(0, ride);
   };
   const auto count = static_cast<int>(steps.values.size());
   const double whole = std::floor(offset), part = offset - whole;
@@ -226,6 +237,7 @@ void pair(const Slider<Coulomb>& block, const Steps& steps, double b1, double b2
     hold(n + b2 * value(i - shift), 0.5 - change);
     moment = moment_of();
   }
+  if (farthest) *farthest = {ride.state.displacement * ride.state.displacement, largest * largest};
 }
 
 /// What single pulses and pairs do, of each quantity.
@@ -261,6 +273,26 @@ class Pairs {
       for (std::size_t i = 0; i < tables[k].size(); ++i)
         tables[k][i] = {single_[k].limit(i), integral[k].limit(i), limit ? lattice[k].limit(i) : lattice[k].coarse[i]};
     return tables;
+  }
+
+  /// How much farther blocks are on the way than in the end, in the mean square of one pulse alone and of two that
+  /// overlap.
+  double overshoot(double rate) {
+    Farthest sum;
+    const auto add = [&](int i, int j, double offset, double weight) {
+      Farthest found;
+      pair(block_, steps_, i * coarse_.spacing, j * coarse_.spacing, offset, both_, &found);
+      sum.last += weight * found.last;
+      sum.largest += weight * found.largest;
+    };
+    const int reach = coarse_.reach, length = static_cast<int>(steps_.values.size());
+    for (int i = -reach; i <= reach; ++i) add(i, 0, 0, coarse_[i]);
+    for (int s = 0; s < length; ++s)
+      numerics::gauss_points<points>(s, s + 1.0, [&](double offset, double weight) {
+        for (int i = -reach; i <= reach; ++i)
+          for (int j = -reach; j <= reach; ++j) add(i, j, offset, rate * weight * coarse_[i] * coarse_[j]);
+      });
+    return sum.last > 0 ? std::sqrt(sum.largest / sum.last) : 1;
   }
 
  private:
@@ -1117,17 +1149,39 @@ void PulseChain::check(const Slider<Coulomb>& slider, const PoissonPulses& pulse
   steps_of(problem.shape, two_slots(problem.sigma, refined_) ? 2 : 1);
 }
 
-DisplacementDistribution PulseChain::distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
-                                                  double time, const std::function<void()>& heartbeat) const {
-  const Problem problem(slider, pulses);
-  require(std::isfinite(time) && time >= 0, "PulseChain: time must be finite and at least 0", time, "s");
-  if (problem.sigma < weakest || time == 0) return DisplacementDistribution(detail::Slips{});
-  const Growth growth = growth_of<4>(problem, refined_, heartbeat);
+namespace {
+
+/// Of the displacement at a time [s], by the chain's cumulants.
+detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& heartbeat) {
+  if (problem.sigma < weakest || time == 0) return {};
+  const Growth growth = growth_of<orders>(problem, refined, heartbeat);
   const double t = time / problem.step, unit = problem.acceleration() * problem.step * problem.step;
   std::array<double, orders> found;
   double power = 1;
   for (std::size_t n = 0; n < orders; ++n) found[n] = (power *= unit) * growth.sum(n, t);
-  return DisplacementDistribution(detail::gamma_slips(growth.sum(slipped, t), found));
+  return detail::gamma_slips(growth.sum(slipped, t), found);
+}
+
+}  // namespace
+
+double PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
+                        const std::function<void()>& heartbeat) const {
+  const Problem problem(slider, pulses);
+  require(probability > 0 && probability < 1, "PulseChain: probability must lie in (0, 1)", probability);
+  const detail::Slips slips = slips_of(problem, pulses.duration(), refined_, heartbeat);
+  if (slips.count == 0) return 0;
+  const Steps steps = steps_of(problem.shape, 1);
+  const Chain chain(problem.block, steps, problem.arrivals, 1, problem.drifting());
+  const double overshoot = chain.pairs().overshoot(problem.arrivals.rate);
+  return detail::slip_walk_peak(
+      slips, [&](double slip) { return overshoot * slip; }, probability);
+}
+
+DisplacementDistribution PulseChain::distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
+                                                  double time, const std::function<void()>& heartbeat) const {
+  const Problem problem(slider, pulses);
+  require(std::isfinite(time) && time >= 0, "PulseChain: time must be finite and at least 0", time, "s");
+  return DisplacementDistribution(slips_of(problem, time, refined_, heartbeat));
 }
 
 Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,

@@ -192,6 +192,10 @@ def test_the_peak_of_brownian_motion():
     assert 0.9 < estimate / found.value < 1.05
     with pytest.raises(ValueError, match=r"probability must lie in \(0, 1\), got 1"):
         ss.theory.peak_from_growth(1, 1, 1)
+    walk = ss.theory.PulseChain().peak(BLOCK, pulses, 0.9)
+    assert 0.95 < walk / found.value < 1.05
+    with pytest.raises(ValueError, match=r"probability must lie in \(0, 1\), got 0"):
+        ss.theory.PulseChain().peak(BLOCK, pulses, 0)
 
 
 def value(text):

@@ -215,7 +215,7 @@ of eigenfunctions, or of reflections, whichever converges at once. An estimate: 
 motion only over many slips, and the way out and back within a pulse comes on top. Of the peak that 5 % of blocks exceed
 in the thesis's four events it is, with the growth by `PulseChain`, 0.96 to 0.99 for sigma / a from 0.5 to 5 in the great
 events (60 s), 0.89 to 0.98 in the moderate ones (15 s), and from 0.88 to 1.32 down to sigma / a = 0.2. Below that fewer
-than 5 % may slip at all, and it means nothing.
+than 5 % may slip at all, and it means nothing. `PulseChain.peak` is nearer, at other probabilities too.
 
 Parameters
 ----------
