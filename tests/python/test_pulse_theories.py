@@ -179,6 +179,15 @@ def test_the_chain_drifts_where_levels_differ_and_has_quantiles():
     assert 0.94 * low < law.quantile(0.95) < 1.06 * high
 
 
+def test_a_block_that_slides_one_way_moves_as_the_guide_to_slopes_says():
+    block = ss.Coulomb(mu=0.1, backward=math.inf)
+    quakes = ss.PoissonPulses.event("great near field")
+    law = ss.theory.PulseChain().distribution(block, quakes, quakes.duration)
+    assert law.mean == pytest.approx(1.01, abs=0.005)
+    assert np.sqrt(law.variance) == pytest.approx(0.24, abs=0.005)
+    assert 1 - law.cdf(0.5) == pytest.approx(0.994, abs=0.0005)
+
+
 def test_the_peak_of_brownian_motion():
     peak = ss.theory.peak_from_growth(growth_rate=0.04, duration=25, probability=0.9)
     # P(|x| > L) of a walk of unit spread: the first reflections, of which the next ones are 1e-8.
