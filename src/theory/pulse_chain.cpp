@@ -1154,6 +1154,16 @@ namespace {
 /// Of the displacement at a time [s], by the chain's cumulants.
 detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& heartbeat) {
   if (problem.sigma < weakest || time == 0) return {};
+  require(
+      problem.sigma >= least_refined,
+      "PulseChain: a distribution is known for sigma of at least 0.12 slip levels, or below 0.05 where nothing slips",
+      problem.sigma);
+  require(problem.arrivals.rate <= 4, "PulseChain: a distribution is known for at most 4 pulses to a step of the pulse",
+          problem.arrivals.rate);
+  const double length = problem.shape.length() / problem.shape.times()[1] * problem.step;
+  require(time >= length,
+          "PulseChain: a distribution is known at time 0 and from the length of a pulse on, " + shortest(length) + " s",
+          time, "s");
   const Growth growth = growth_of<orders>(problem, refined, heartbeat);
   const double t = time / problem.step, unit = problem.acceleration() * problem.step * problem.step;
   std::array<double, orders> found;

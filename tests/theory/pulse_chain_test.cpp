@@ -603,6 +603,13 @@ TEST_CASE("PulseChain refuses what it does not cover", "[pulse_chain]") {
   CHECK_THROWS_WITH(chain.predict(block(1), PoissonPulses(100, 1, 1, 10), late), ContainsSubstring("at most 50"));
   CHECK_THROWS_WITH(chain.predict(block(1), PoissonPulses(2, 1, 1000, 10), late), ContainsSubstring("256 slip levels"));
   CHECK_THROWS_WITH(chain.predict(block(1), PoissonPulses(40, 1, 0.04, 10), late), ContainsSubstring("a twentieth"));
+  CHECK_THROWS_WITH(chain.distribution(block(1), pulses, 1.9),
+                    ContainsSubstring("length of a pulse on, 2 s, got 1.9 s"));
+  CHECK_THROWS_WITH(chain.distribution(block(1), pulses, -1), ContainsSubstring("finite and at least 0, got -1 s"));
+  CHECK_THROWS_WITH(chain.distribution(block(1), PoissonPulses(5, 1, 1, 10), 10),
+                    ContainsSubstring("at most 4 pulses to a step of the pulse, got 5"));
+  CHECK_THROWS_WITH(chain.distribution(block(1), PoissonPulses(1, 1, 0.1, 10), 10),
+                    ContainsSubstring("at least 0.12 slip levels"));
   const auto stop = [] { throw std::runtime_error("stop"); };
   CHECK_THROWS_WITH(chain.predict(block(1), pulses, late, stop), "stop");
 }

@@ -83,7 +83,8 @@ class PulseChain {
   /// than 0.03 for sigma / a from 1/2 to 20, refined from 1/3 on; refined by less than 0.07 at 1/4 and 1/5.
   /// @param slider  as for `predict`
   /// @param pulses  as for `predict`
-  /// @param time    [s], finite and at least 0
+  /// @param time    [s], finite, 0 or at least the length of a pulse; sigma / a must be at least 0.12 (or below 0.05,
+  ///                where nothing slips) and pulses to a step at most 4
   /// @param heartbeat  called now and then; what it throws ends the work
   /// @throws std::invalid_argument naming what is not covered or the value refused; also where the kurtosis is below
   ///         what a sum of slips can have by more than 0.1

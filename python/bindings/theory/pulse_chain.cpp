@@ -111,7 +111,7 @@ slider : Slider or Coulomb
 pulses : PoissonPulses
     As for `predict`.
 time : float
-    [s], finite and at least 0.
+    [s], finite, 0 or at least the length of a pulse.
 
 Returns
 -------
@@ -121,7 +121,8 @@ DisplacementDistribution
 Raises
 ------
 ValueError
-    What is not covered; a value out of its range; a kurtosis below what a sum of slips can have by more than 0.1.
+    What is not covered; a value out of its range; sigma / a from 0.05 to 0.12 and more than 4 pulses to a step; a
+    kurtosis below what a sum of slips can have by more than 0.1.
 ConvergenceError
     As for `predict`.
 
