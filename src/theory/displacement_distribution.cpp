@@ -1,6 +1,7 @@
 #include "stickslip/theory/displacement_distribution.hpp"
 
 #include <fftw3.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,86 @@
 
 #include "numerics/fftw_plan.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+using Powers = std::array<double, 5>;  ///< means of the powers 0 to 4
+
+/// The moments of theta if theta times a gamma variate of shape 1 / q, and of mean 1, has these.
+Powers of_scale(Powers m, double q) {
+  double factor = 1;
+  for (int n = 1; n < 5; ++n) m[static_cast<std::size_t>(n)] /= factor *= 1 + (n - 1) * q;
+  return m;
+}
+
+/// Hankel's determinant: 0 where the moments are those of a law of two points, above where of a wider one.
+double hankel(const Powers& m) {
+  return m[2] * m[4] - m[3] * m[3] - m[1] * (m[1] * m[4] - m[2] * m[3]) + m[2] * (m[1] * m[3] - m[2] * m[2]);
+}
+
+}  // namespace
+
+Slips gamma_slips(double count, const std::array<double, 4>& moments) {
+  Slips slips;
+  if (!(count > 0 && moments[1] > 0)) return slips;
+  const double unit = std::sqrt(moments[1] / count);
+  Powers m{1};
+  for (std::size_t n = 1; n < 5; ++n) m[n] = moments[n - 1] / count / std::pow(unit, static_cast<double>(n));
+  m[1] = std::clamp(m[1], -0.999, 0.999);
+  const double least = (m[3] * m[3] + m[2] * m[2] * m[2] - 2 * m[1] * m[2] * m[3]) / (m[2] - m[1] * m[1]);
+  require(
+      m[4] >= least - 0.1 * count,
+      "DisplacementDistribution: the kurtosis must be at least that of as many slips, " + shortest(3 + least / count),
+      3 + m[4] / count);
+  m[4] = std::max(m[4], least);
+  const auto enough = [&](double q) { return hankel(of_scale(m, q)) <= 0; };
+  double most = 1;
+  while (!enough(most) && most < 1e6) most *= 2;
+  const double q = hankel(m) <= 1e-12 * m[4] ? 0 : numerics::first_where(0, most, enough);
+  const Powers s = of_scale(m, q);
+  const double a = (s[3] - s[1] * s[2]) / (s[2] - s[1] * s[1]), b = s[2] - a * s[1];
+  const double root = std::sqrt(std::max(a * a + 4 * b, 0.0));
+  const std::array<double, 2> scales = {(a + root) / 2, (a - root) / 2};
+  const double first = (s[1] - scales[1]) / root;
+  const std::array<double, 2> counts = {count * first, count * (1 - first)};
+  const double shape = 1 / std::max(q, 1e-3);
+
+  slips.count = count;
+  for (std::size_t n = 0; n < 4; ++n) slips.moments[n] = count * m[n + 1] * std::pow(unit, static_cast<double>(n + 1));
+  constexpr int cells = 2000;
+  double begin = 1, end = 1;
+  while (begin > 1e-7 && gsl_cdf_gamma_P(begin, shape, 1 / shape) > 1e-9) begin /= 1.2;
+  while (gsl_cdf_gamma_Q(end, shape, 1 / shape) > 1e-15) end *= 1.1;
+  std::array<double, cells + 1> edges{}, below{};
+  for (int i = 1; i <= cells; ++i)
+    edges[static_cast<std::size_t>(i)] = begin * std::pow(end / begin, (i - 1.0) / (cells - 1));
+  for (std::size_t i = 1; i <= cells; ++i) below[i] = gsl_cdf_gamma_P(edges[i], shape, 1 / shape);
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < cells; ++i)
+      slips.pieces.push_back(
+          {unit * scales[k] * edges[i], unit * scales[k] * edges[i + 1], counts[k] * (below[i + 1] - below[i])});
+  // Chernoff's bounds, by the logarithm of the moment-generating function.
+  const auto bound = [&](double sign) {
+    constexpr double tail = 32;
+    const double steepest = std::max({sign * scales[0], sign * scales[1], 0.0}) / shape;
+    double best = std::numeric_limits<double>::infinity();
+    for (double theta = 1e-4; theta < 1e4; theta *= 1.02) {
+      if (theta * steepest >= 1) break;
+      double log_mean = 0;
+      for (std::size_t k = 0; k < 2; ++k)
+        log_mean += counts[k] * std::expm1(-shape * std::log1p(-theta * sign * scales[k] / shape));
+      best = std::min(best, (log_mean + tail) / theta);
+    }
+    return unit * best;
+  };
+  slips.greatest = bound(1);
+  slips.least = -bound(-1);
+  return slips;
+}
+
+}  // namespace stickslip::detail
 
 namespace stickslip::theory {
 namespace {

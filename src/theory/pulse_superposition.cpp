@@ -214,6 +214,13 @@ struct Rates {
   double lost = 0;             ///< share of the pulses that carry it off for good, left out of the others
 };
 
+/// What pulses that began by a time have done.
+struct History {
+  double mean = 0, variance = 0;                    ///< of x [m], [m^2]
+  double velocity_mean = 0, velocity_variance = 0;  ///< of x' [m/s], [m^2/s^2]
+  double growth = 0;                                ///< of the variance of x [m^2/s]
+};
+
 class Pulses {
  public:
   Pulses(const detail::PulseSystem& system, const PoissonPulses& pulses, Overlap overlap,
@@ -266,6 +273,48 @@ class Pulses {
       add_gaussian_cells(cells, law.components, law.down, -1);
     }
     return cells;
+  }
+
+  /// At the times `times`, ascending: Campbell's theorem, (5.25) and (5.28), for responses of constant accelerations
+  /// between their knots, whose displacement and velocity are squared and integrated in closed form.
+  std::vector<History> histories(std::span<const double> times, double sigma) const {
+    std::vector<History> histories(times.size());
+    const Law law = this->law(0, sigma);
+    for (const auto& [b, weight] : nodes(law, sigma)) {
+      if (weight == 0) continue;
+      if (heartbeat_) heartbeat_();
+      const std::vector<detail::PulseKnot> knots = system_.motion(b);
+      const double w = law.rate * weight;
+      double sum = 0, square = 0, velocity_square = 0;  // integrals up to knot k
+      std::size_t k = 0;
+      for (std::size_t i = 0; i < times.size(); ++i) {
+        const auto within = [&](double s) {  // what follows knot k, for a time s
+          struct {
+            double x, sum, square, velocity_square;
+          } r;
+          const bool last = k + 1 == knots.size();
+          const double x = knots[k].ride.state.displacement, v = last ? 0 : knots[k].ride.state.velocity;
+          const double length = last ? 0 : knots[k + 1].time - knots[k].time;
+          const double a = length > 0 ? (knots[k + 1].ride.state.velocity - v) / length : 0;
+          r.x = x + s * (v + s * a / 2);
+          r.sum = s * (x + s * (v / 2 + s * a / 6));
+          r.square = s * (x * x + s * (x * v + s * ((v * v + x * a) / 3 + s * (v * a / 4 + s * a * a / 20))));
+          r.velocity_square = s * (v * v + s * (v * a + s * a * a / 3));
+          return r;
+        };
+        for (; k + 1 < knots.size() && knots[k + 1].time <= times[i]; ++k) {
+          const auto whole = within(knots[k + 1].time - knots[k].time);
+          sum += whole.sum, square += whole.square, velocity_square += whole.velocity_square;
+        }
+        const auto part = within(times[i] - knots[k].time);
+        histories[i].mean += w * (sum + part.sum);
+        histories[i].variance += w * (square + part.square);
+        histories[i].velocity_mean += w * part.x;
+        histories[i].velocity_variance += w * (velocity_square + part.velocity_square);
+        histories[i].growth += w * part.x * part.x;
+      }
+    }
+    return histories;
   }
 
   /// At x, with amplitudes of rms `sigma`.
@@ -570,7 +619,39 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
   if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < early; }); n > 0)
     remark(moments, std::to_string(n) + " of the times are below " + shortest(early) +
                         " s, 40 half widths: too short for (5.39), which takes the velocity for stationary and the "
-                        "offsets for all there is.");
+                        "offsets for all there is; from_rest has no such bound under Coulomb friction.");
+  return moments;
+}
+
+Moments PulseSuperposition::from_rest(const detail::PulseSystem& system, const PoissonPulses& pulses,
+                                      std::span<const double> times, const std::function<void()>& heartbeat) const {
+  if (pulses.options().envelope)
+    throw std::invalid_argument("PulseSuperposition: from_rest does not cover an envelope, predict does");
+  Moments moments = predict(system, pulses, {}, heartbeat);  // the growth rate, and what is refused
+  std::vector<std::size_t> order(times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return times[i]; });
+  std::vector<double> ascending;
+  for (const std::size_t i : order) {
+    require(std::isfinite(times[i]) && times[i] >= 0, "PulseSuperposition: times must be finite and at least 0",
+            times[i], "s");
+    ascending.push_back(times[i]);
+  }
+  const std::vector<History> histories =
+      Pulses(system, pulses, overlap_, heartbeat).histories(ascending, pulses.sigma());
+  moments.time.assign(times.begin(), times.end());
+  const auto fill = [&](Estimates& estimates, double History::*part, double factor) {
+    estimates.value.resize(times.size());
+    estimates.error.assign(times.size(), 0);
+    for (std::size_t k = 0; k < order.size(); ++k) estimates.value[order[k]] = factor * histories[k].*part;
+  };
+  fill(moments.displacement_mean, &History::mean, 1);
+  fill(moments.displacement_variance, &History::variance, 1);
+  fill(moments.covariance, &History::growth, 0.5);  // thesis (5.59)
+  fill(moments.velocity_mean, &History::velocity_mean, 1);
+  fill(moments.velocity_variance, &History::velocity_variance, 1);
+  if (pulses.options().stationary_start)
+    remark(moments, "From rest as if no pulse had arrived before time zero: a stationary start is not followed.");
   return moments;
 }
 

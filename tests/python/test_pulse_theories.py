@@ -108,6 +108,26 @@ def test_what_a_quantile_function_raises_comes_through():
         ss.theory.PulseChain().predict(BLOCK, pulses, [100])
 
 
+def test_superposition_from_rest_has_the_responses_of_single_pulses():
+    # lambda times the integral of the mean response and of its square, over
+    # 4000 amplitudes of equal probability: 1 %.
+    pulses = ss.PoissonPulses(rate=1e-3, half_width=1, sigma=2, duration=10)
+    slider = ss.Coulomb(slip_level=1, backward=1.5)
+    time = np.linspace(0, 2.5, 501)
+    amplitudes = 2 * stats.norm.ppf((np.arange(4000) + 0.5) / 4000)
+    responses = np.array(
+        [ss.theory.pulse_response(slider, b, 1, times=time).displacement for b in amplitudes]
+    )
+    m = ss.theory.PulseSuperposition("none").from_rest(slider, pulses, [2.5, 0])
+    mean = integrate.simpson(responses.mean(axis=0), x=time)
+    assert m.displacement_mean[0] == pytest.approx(1e-3 * mean, rel=0.01)
+    assert m.velocity_mean[0] == pytest.approx(1e-3 * responses[:, -1].mean(), rel=0.01)
+    assert m.covariance[0] == pytest.approx(1e-3 * np.mean(responses[:, -1] ** 2) / 2, rel=0.01)
+    assert m.displacement_variance[1] == 0
+    with pytest.raises(ValueError, match="from_rest covers Coulomb friction"):
+        ss.theory.PulseSuperposition().from_rest(ss.Caster(slip_level=1, reach=2), pulses, [1])
+
+
 def test_the_chain_is_nearer_to_an_ensemble_than_superposition():
     # Factors of 0.02 to 0.16 against one that is right to 9 %: no seed would change that.
     pulses = ss.PoissonPulses(rate=0.5, half_width=1, sigma=0.5, duration=400)
@@ -128,14 +148,44 @@ def test_the_chain_says_what_it_covers():
     assert repr(ss.theory.PulseChain(refined=True)) == "PulseChain(refined=True)"
     with pytest.raises(ValueError, match="covers Coulomb friction"):
         chain.predict(ss.Caster(slip_level=1, reach=2), PULSES, [1])
-    with pytest.raises(ValueError, match="both slip levels"):
-        chain.predict(ss.Coulomb(slip_level=1, backward=2), PULSES, [1])
+    with pytest.raises(ValueError, match="covers Coulomb friction"):
+        chain.distribution(ss.Caster(slip_level=1, reach=2), PULSES, 1)
+    with pytest.raises(ValueError, match="at most 20 slip levels"):
+        strong = ss.PoissonPulses(rate=1, half_width=1, sigma=30, duration=10)
+        chain.predict(ss.Coulomb(slip_level=1, backward=2), strong, [1])
     with pytest.raises(TypeError):
         chain.predict(BLOCK, ss.Spectrum.white(s0=1), [1])
     with pytest.raises(TypeError):
         ss.theory.PulseChain(True)
     weak = ss.PoissonPulses(rate=0.5, half_width=1, sigma=0.25, duration=100)
     assert "refined" in chain.predict(BLOCK, weak, [100]).remark
+
+
+def test_the_chain_drifts_where_levels_differ_and_has_quantiles():
+    # The mean within 8 %, a quantile within 6 %: 3 standard errors on top, a false alarm in 400.
+    slider = ss.Coulomb(slip_level=1, backward=2)
+    pulses = ss.PoissonPulses(rate=0.5, half_width=1, sigma=1, duration=100)
+    e = ss.run_ensemble(slider, pulses, members=20_000, seed=3, dt=50)
+    chain = ss.theory.PulseChain()
+    m = chain.predict(slider, pulses, [100])
+    found, error = e.residual.mean(), e.residual.std() / np.sqrt(20_000)
+    assert abs(m.displacement_mean[0] - found) < 0.08 * found + 3 * error
+    assert m.velocity_mean[0] > 0
+    law = chain.distribution(slider, pulses, 100)
+    assert law.mean == pytest.approx(m.displacement_mean[0], rel=1e-3)
+    assert law == chain.distribution(slider, pulses, 100)
+    error = 3 * np.sqrt(0.95 * 0.05 / 20_000)
+    low, high = np.quantile(e.residual, [0.95 - error, 0.95 + error])
+    assert 0.94 * low < law.quantile(0.95) < 1.06 * high
+
+
+def test_a_block_that_slides_one_way_moves_as_the_guide_to_slopes_says():
+    block = ss.Coulomb(mu=0.1, backward=math.inf)
+    quakes = ss.PoissonPulses.event("great near field")
+    law = ss.theory.PulseChain().distribution(block, quakes, quakes.duration)
+    assert law.mean == pytest.approx(1.01, abs=0.005)
+    assert np.sqrt(law.variance) == pytest.approx(0.24, abs=0.005)
+    assert 1 - law.cdf(0.5) == pytest.approx(0.994, abs=0.0005)
 
 
 def test_the_peak_of_brownian_motion():
@@ -151,6 +201,10 @@ def test_the_peak_of_brownian_motion():
     assert 0.9 < estimate / found.value < 1.05
     with pytest.raises(ValueError, match=r"probability must lie in \(0, 1\), got 1"):
         ss.theory.peak_from_growth(1, 1, 1)
+    walk = ss.theory.PulseChain().peak(BLOCK, pulses, 0.9)
+    assert 0.95 < walk / found.value < 1.05
+    with pytest.raises(ValueError, match=r"probability must lie in \(0, 1\), got 0"):
+        ss.theory.PulseChain().peak(BLOCK, pulses, 0)
 
 
 def value(text):

@@ -143,6 +143,7 @@ EXAMPLES = {
     theory.DisplacementDistribution: [
         theory.PulseSuperposition().distribution(BLOCK, RARE, 50),
         theory.PulseSuperposition().distribution(BLOCK, RARE, 60),
+        theory.PulseChain().distribution(BLOCK, RARE, 50),
     ],
     theory.PulseChain: [theory.PulseChain(), theory.PulseChain(refined=True)],
     theory.PulseResponse: [

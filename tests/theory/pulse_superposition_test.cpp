@@ -152,6 +152,98 @@ TEST_CASE("short times are said to be short", "[pulse_superposition]") {
   CHECK(m.displacement_variance.value[0] == 0);
 }
 
+TEST_CASE("from rest: without friction the ground's moments, at any time", "[pulse_superposition]") {
+  const double rate = 3, half_width = 1.0 / 6, sigma = 2.5;
+  const PoissonPulses pulses(rate, half_width, sigma, 20);
+  std::vector<double> times;
+  for (const double t : {0.0, 0.01, 0.5, 1.0, 1.3, 1.99, 5.0, 60.0}) times.push_back(t * half_width);
+  const Moments m = PulseSuperposition(Overlap::none).from_rest(block(0), pulses, times);
+  const double unit = pulses.ground_displacement_variance(half_width);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    // A pulse has moved the ground by t^2 / 2, then by 1 - (2 - t)^2 / 2, then by 1: squares, integrated.
+    const double t = times[i] / half_width, u = std::max(2 - t, 0.0);
+    const double x = t < 1   ? std::pow(t, 5) / 20
+                     : t < 2 ? 1.0 / 20 + (t - 1) - (1 - u * u * u) / 3 + (1 - std::pow(u, 5)) / 20
+                             : t - 37.0 / 30;
+    CHECK(m.displacement_variance.value[i] == Approx(unit * x).epsilon(1e-9));
+    CHECK(m.velocity_variance.value[i] ==
+          Approx(pulses.ground_velocity_variance() * (t < 1 ? t * t * t : 2 - u * u * u) / 2).epsilon(1e-9));
+    CHECK(m.displacement_mean.value[i] == Approx(0).margin(1e-12));
+  }
+}
+
+TEST_CASE("from rest: rates are derivatives, and late moments are lines beside those of predict",
+          "[pulse_superposition]") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const Coulomb law : {Coulomb(1), Coulomb(1, 1.6), Coulomb(0.8, infinity)})
+    for (const Overlap overlap : overlaps) {
+      const PoissonPulses pulses(0.2, 1, 1.4, 100);
+      const PulseSuperposition theory(overlap);
+      const double h = 1e-3;
+      for (const double t : {0.3, 1.2, 1.9, 2.7, 3.5}) {
+        const Moments m = theory.from_rest(Slider(law), pulses, std::vector<double>{t - h, t, t + h});
+        // The second-order error of the difference and, where a response stops within it, h^2 of a step of the slope.
+        const auto slope = [&](const Estimates& e) { return (e.value[2] - e.value[0]) / (2 * h); };
+        CHECK(slope(m.displacement_variance) == Approx(2 * m.covariance.value[1]).epsilon(1e-4));
+        CHECK(slope(m.displacement_mean) == Approx(m.velocity_mean.value[1]).epsilon(1e-4).margin(1e-12));
+      }
+      // The last one that moves stops at 4 dt; with levels that differ later, one in 1e12 after 20 dt.
+      const std::vector<double> times = {400, 50, 100};
+      const Moments m = theory.from_rest(Slider(law), pulses, times),
+                    late_ones = theory.predict(Slider(law), pulses, times);
+      CHECK(m.remark.empty());
+      CHECK(m.growth_rate.value == late_ones.growth_rate.value);
+      CHECK(m.displacement_variance.value[0] - m.displacement_variance.value[2] ==
+            Approx(300 * m.growth_rate.value).epsilon(1e-9));
+      CHECK(m.displacement_mean.value[0] - m.displacement_mean.value[2] ==
+            Approx(late_ones.displacement_mean.value[0] - late_ones.displacement_mean.value[2])
+                .epsilon(1e-9)
+                .margin(1e-12));
+      for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(m.velocity_variance.value[i] == Approx(late_ones.velocity_variance.value[i]).epsilon(1e-9));
+        CHECK(m.velocity_mean.value[i] == Approx(late_ones.velocity_mean.value[i]).epsilon(1e-9).margin(1e-12));
+        CHECK(m.covariance.value[i] == Approx(late_ones.covariance.value[i]).epsilon(1e-9));
+        // By where the line begins: within the 4 dt that a response takes, either side of 0.
+        CHECK(std::abs(m.displacement_variance.value[i] / late_ones.displacement_variance.value[i] - 1) < 4 / times[i]);
+      }
+    }
+  const PoissonPulses pulses(0.2, 1, 1.4, 100);
+  PoissonOptions envelope;
+  envelope.envelope = Envelope(1, 10, 1);
+  CHECK_THROWS_WITH(PulseSuperposition().from_rest(block(1), PoissonPulses(0.2, 1, 1, 100, envelope), late),
+                    ContainsSubstring("does not cover an envelope"));
+  CHECK_THROWS_WITH(PulseSuperposition().from_rest(block(1), pulses, std::vector<double>{-1}),
+                    ContainsSubstring("finite and at least 0, got -1 s"));
+}
+
+TEST_CASE("from rest: rare pulses follow an ensemble's at every time", "[pulse_superposition][statistics]") {
+  // Overlaps matter by a few times lambda dt = 0.003: 3 %. Three standard errors on top, 80 comparisons of fixed seeds:
+  // drawn anew one of them would fail one time in five if each were at its bound.
+  for (const double sigma : {1.0, 3.0}) {
+    const Slider slider(Coulomb(1, 1.6));
+    const PoissonPulses pulses(3e-3, 1, sigma, 8);
+    EnsembleOptions options;
+    options.members = 400'000;
+    options.seed = 4;
+    options.dt = 0.25;
+    options.velocity_spectrum = false;
+    const Moments found = run_ensemble(slider, pulses, options).moments();
+    const Moments m = PulseSuperposition(Overlap::none).from_rest(slider, pulses, found.time);
+    for (const double time : {0.5, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0}) {
+      const auto i = static_cast<std::size_t>(std::lround(time / 0.25));
+      const auto within = [&](const Estimates& theory, const Estimates& e) {
+        CAPTURE(sigma, time, theory.value[i], e.value[i], e.error[i]);
+        CHECK(std::abs(theory.value[i] - e.value[i]) < 0.03 * std::abs(theory.value[i]) + 3 * e.error[i]);
+      };
+      within(m.displacement_mean, found.displacement_mean);
+      within(m.displacement_variance, found.displacement_variance);
+      within(m.covariance, found.covariance);
+      within(m.velocity_mean, found.velocity_mean);
+      within(m.velocity_variance, found.velocity_variance);
+    }
+  }
+}
+
 TEST_CASE("unequal levels and amplitudes of nonzero mean drift", "[pulse_superposition][statistics]") {
   // Rare pulses: superposition becomes right, and the ensemble says so. Three standard errors, five comparisons of
   // fixed seeds: drawn anew they would fail one time in 75. What overlaps do at lambda Dt = 1e-3 is a part in 200.

@@ -1,6 +1,7 @@
 // The distribution of a displacement that is the sum of slips.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -24,6 +25,13 @@ struct Slips {
   double least = 0, greatest = 0;  ///< bounds that x exceeds with a probability below 1e-13 each [m]
 };
 
+/// Slips of gamma-distributed lengths: the density of either way is as |d|^(k-1) exp(-|d| / theta), one k, two theta.
+/// @param count    expected number, at least 0
+/// @param moments  sums of their powers, expected [m] to [m^4]: four equations for k, both theta and how many go which
+///                 way. Where so many slips cannot have so small a fourth one, it is the least that they can
+/// @throws std::invalid_argument where the kurtosis is below that by more than 0.1
+Slips gamma_slips(double count, const std::array<double, 4>& moments);
+
 }  // namespace stickslip::detail
 
 namespace stickslip::theory {
@@ -35,7 +43,8 @@ namespace stickslip::theory {
 ///
 /// the thesis's programme at the end of 5.3: all moments, by them the characteristic function, by it the density. There
 /// is an atom at x = 0, the chance exp(-int nu) that nothing slips; the rest has a density. Made by
-/// `PulseSuperposition::distribution`.
+/// `PulseSuperposition::distribution` from what single pulses do; `PulseChain::distribution` fits slips of
+/// gamma-distributed lengths to four cumulants and the atom.
 ///
 /// The density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes` points of a
 /// window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their number and

@@ -20,7 +20,8 @@ void bind_displacement_distribution(py::module_& m) {
 The slips d_k are independent, their number is Poisson's: a compound Poisson law. With nu(d) the expected number of slips
 per length, E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) dd), and the cumulants are int d^n nu(d) dd: thesis 5.3, (5.21) to
 (5.28). There is an atom at x = 0, the chance exp(-int nu) that nothing slips; the rest has a density, the Fourier
-transform of the characteristic function less the atom. `PulseSuperposition.distribution` makes it.
+transform of the characteristic function less the atom. `PulseSuperposition.distribution` makes it from what single
+pulses do; `PulseChain.distribution` fits slips of gamma-distributed lengths to four cumulants and the atom.
 
 Notes
 -----

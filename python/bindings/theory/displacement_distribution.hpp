@@ -1,6 +1,7 @@
 // A distribution of the displacement that knows what it was predicted from.
 #pragma once
 
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -8,16 +9,34 @@
 
 namespace stickslip::python {
 
+/// Predicts distributions.
+using DistributionTheory = std::variant<theory::PulseSuperposition, theory::PulseChain>;
+
+inline const Slider<Coulomb>& coulomb_of(const AnySlider& slider) {
+  if (const auto* block = std::get_if<Slider<Coulomb>>(&slider)) return *block;
+  throw std::invalid_argument("PulseChain: covers Coulomb friction; PulseSuperposition covers other laws");
+}
+
+inline theory::DisplacementDistribution distribution_of(const theory::PulseSuperposition& by, const AnySlider& any,
+                                                        const PoissonPulses& pulses, double at) {
+  return with_position_law(any, "PulseSuperposition", [&](const auto& s) { return by.distribution(s, pulses, at); });
+}
+
+inline theory::DisplacementDistribution distribution_of(const theory::PulseChain& by, const AnySlider& any,
+                                                        const PoissonPulses& pulses, double at) {
+  return by.distribution(coulomb_of(any), pulses, at, &check_for_interrupt);
+}
+
 struct DisplacementDistribution : theory::DisplacementDistribution {
-  DisplacementDistribution(theory::PulseSuperposition by, AnySlider any, PoissonPulses excitation, double at)
-      : theory::DisplacementDistribution(with_position_law(
-            any, "PulseSuperposition", [&](const auto& s) { return by.distribution(s, excitation, at); })),
+  DisplacementDistribution(DistributionTheory by, AnySlider any, PoissonPulses excitation, double at)
+      : theory::DisplacementDistribution(
+            std::visit([&](const auto& t) { return distribution_of(t, any, excitation, at); }, by)),
         theory(by),
         slider(std::move(any)),
         pulses(std::move(excitation)),
         time(at) {}
 
-  theory::PulseSuperposition theory;
+  DistributionTheory theory;
   AnySlider slider;
   PoissonPulses pulses;
   double time;  // [s]

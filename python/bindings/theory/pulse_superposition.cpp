@@ -34,6 +34,15 @@ Moments superposition_moments(const PulseSuperposition& self, const AnySlider& s
                            [&](const auto& s) { return self.predict(s, pulses, at, &check_for_interrupt); });
 }
 
+Moments superposition_from_rest(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses,
+                                const py::object& times) {
+  const std::vector<double> at = to_vector(times, "PulseSuperposition: times");
+  const auto* block = std::get_if<Slider<Coulomb>>(&slider);
+  if (block == nullptr) throw std::invalid_argument("PulseSuperposition: from_rest covers Coulomb friction");
+  const py::gil_scoped_release released;
+  return self.from_rest(*block, pulses, at, &check_for_interrupt);
+}
+
 double superposition_rms(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses) {
   const py::gil_scoped_release released;
   return with_position_law(slider, "PulseSuperposition",
@@ -116,6 +125,36 @@ Notes
 -----
 Integrals over the amplitudes to 1e-12 for Coulomb friction, 60 us. A caster takes 0.1 to 10 s, most where it spreads
 far; Ctrl-C ends it.)")
+          .def("from_rest", &superposition_from_rest, py::arg("slider"), py::arg("pulses"), py::arg("times"),
+               R"(Moments at any time from rest on, under Coulomb friction.
+
+Campbell's theorem: with z(u) the response to a pulse that began u ago, E[x(t)] = lambda E[int_0^t z du] and
+Var[x(t)] = lambda E[int_0^t z^2 du], thesis (5.25), (5.28); the same of z' for the velocity. The covariance is
+lambda E[z(t)^2] / 2, (5.59).
+
+Parameters
+----------
+slider : Slider or Coulomb
+    Without a spring; the levels may differ.
+pulses : PoissonPulses
+    Without an envelope, from rest as if no pulse had arrived before time zero.
+times : array_like
+    Where to answer [s], shape (T,), finite, at least 0.
+
+Returns
+-------
+Moments
+    Late ones tend to the lines of `predict`; `growth_rate` is theirs.
+
+Raises
+------
+ValueError
+    What is not covered; a value out of its range.
+
+Notes
+-----
+Responses that overlap are added: exact for lambda dt -> 0 at every time, and without friction with 'none'. Integrals over
+time in closed form, over the amplitudes to 1e-5; 0.1 to 1 ms, and some 10 us for each time.)")
           .def("final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
                R"((E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration; thesis 5.6 and figure 5.7.
 
@@ -178,7 +217,7 @@ of eigenfunctions, or of reflections, whichever converges at once. An estimate: 
 motion only over many slips, and the way out and back within a pulse comes on top. Of the peak that 5 % of blocks exceed
 in the thesis's four events it is, with the growth by `PulseChain`, 0.96 to 0.99 for sigma / a from 0.5 to 5 in the great
 events (60 s), 0.89 to 0.98 in the moderate ones (15 s), and from 0.88 to 1.32 down to sigma / a = 0.2. Below that fewer
-than 5 % may slip at all, and it means nothing.
+than 5 % may slip at all, and it means nothing. `PulseChain.peak` is nearer, at other probabilities too.
 
 Parameters
 ----------
