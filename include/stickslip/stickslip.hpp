@@ -10,6 +10,7 @@
 #include "stickslip/excitation/random.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/records.hpp"
+#include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/ground/strong_motion.hpp"
 #include "stickslip/harmonic/continuation.hpp"
 #include "stickslip/harmonic/orbit.hpp"

@@ -79,6 +79,9 @@ template <>
 inline constexpr auto parts<VelocitySpectrum> = std::tuple(&VelocitySpectrum::omega, &VelocitySpectrum::density,
                                                            &VelocitySpectrum::error);
 template <>
+inline constexpr auto parts<ResponseSpectrum> = std::tuple(&ResponseSpectrum::kind, &ResponseSpectrum::periods,
+                                                           &ResponseSpectrum::damping, &ResponseSpectrum::values);
+template <>
 inline constexpr auto parts<StrongMotion> = std::tuple(&StrongMotion::arias_intensity, &StrongMotion::begin,
                                                        &StrongMotion::end, &StrongMotion::duration,
                                                        &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity,
