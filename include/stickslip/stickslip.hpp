@@ -9,6 +9,8 @@
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/excitation/random.hpp"
 #include "stickslip/excitation/spectrum.hpp"
+#include "stickslip/ground/intensity_measures.hpp"
+#include "stickslip/ground/processing.hpp"
 #include "stickslip/ground/records.hpp"
 #include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/ground/strong_motion.hpp"

@@ -82,10 +82,11 @@ template <>
 inline constexpr auto parts<ResponseSpectrum> = std::tuple(&ResponseSpectrum::kind, &ResponseSpectrum::periods,
                                                            &ResponseSpectrum::damping, &ResponseSpectrum::values);
 template <>
-inline constexpr auto parts<StrongMotion> = std::tuple(&StrongMotion::arias_intensity, &StrongMotion::begin,
-                                                       &StrongMotion::end, &StrongMotion::duration,
-                                                       &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity,
-                                                       &StrongMotion::centre_frequency_hz);
+inline constexpr auto parts<StrongMotion> =
+    std::tuple(&StrongMotion::peak_acceleration, &StrongMotion::peak_velocity, &StrongMotion::peak_displacement,
+               &StrongMotion::cumulative_absolute_velocity, &StrongMotion::mean_period, &StrongMotion::arias_intensity,
+               &StrongMotion::begin, &StrongMotion::end, &StrongMotion::duration, &StrongMotion::duration_5_75,
+               &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity, &StrongMotion::centre_frequency_hz);
 
 template <>
 inline constexpr auto parts<theory::Coverage> = std::tuple(&theory::Coverage::reason, &theory::Coverage::excitation);

@@ -59,8 +59,8 @@ void bind_response_spectrum(py::module_& m) {
           },
           R"(Draws the values over the period, a line for each damping ratio.
 
-Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; returns the
-Axes.)")
+Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
+is drawn above. Returns the matplotlib Figure.)")
       .def("__repr__", [](const ResponseSpectrum& s) {
         return "<ResponseSpectrum: " + name_of(s.kind) + ", " + std::to_string(s.periods.size()) +
                (s.periods.size() == 1 ? " period, " : " periods, ") +
