@@ -42,6 +42,7 @@ void bind_response(py::module_& m);
 void bind_integrate(py::module_& m);
 void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
+void bind_response_spectrum(py::module_& m);
 void bind_strong_motion(py::module_& m);
 void bind_pulse_fit(py::module_& m);
 void bind_viscous(py::module_& m);
@@ -171,6 +172,15 @@ inline std::vector<double> to_vector(const py::object& values, const std::string
   const Numbers numbers = to_numbers(values, name);
   if (numbers.ndim() != 1)
     throw std::invalid_argument(name + " must be one-dimensional, got " + std::to_string(numbers.ndim()) +
+                                " dimensions");
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+/// A number, or a one-dimensional array of them, as a vector.
+inline std::vector<double> to_vector_or_number(const py::object& values, const std::string& name) {
+  const Numbers numbers = to_numbers(values, name);
+  if (numbers.ndim() > 1)
+    throw std::invalid_argument(name + " must be a number or one-dimensional, got " + std::to_string(numbers.ndim()) +
                                 " dimensions");
   return {numbers.data(), numbers.data() + numbers.size()};
 }

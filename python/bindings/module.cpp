@@ -45,6 +45,7 @@ PYBIND11_MODULE(_core, m) {
   bind_gaussian(m);
   bind_poisson(m);
   bind_moments(m);
+  bind_response_spectrum(m);
   bind_strong_motion(m);
   bind_pulse_fit(m);
   bind_theory(m);

@@ -79,10 +79,14 @@ template <>
 inline constexpr auto parts<VelocitySpectrum> = std::tuple(&VelocitySpectrum::omega, &VelocitySpectrum::density,
                                                            &VelocitySpectrum::error);
 template <>
-inline constexpr auto parts<StrongMotion> = std::tuple(&StrongMotion::arias_intensity, &StrongMotion::begin,
-                                                       &StrongMotion::end, &StrongMotion::duration,
-                                                       &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity,
-                                                       &StrongMotion::centre_frequency_hz);
+inline constexpr auto parts<ResponseSpectrum> = std::tuple(&ResponseSpectrum::kind, &ResponseSpectrum::periods,
+                                                           &ResponseSpectrum::damping, &ResponseSpectrum::values);
+template <>
+inline constexpr auto parts<StrongMotion> =
+    std::tuple(&StrongMotion::peak_acceleration, &StrongMotion::peak_velocity, &StrongMotion::peak_displacement,
+               &StrongMotion::cumulative_absolute_velocity, &StrongMotion::mean_period, &StrongMotion::arias_intensity,
+               &StrongMotion::begin, &StrongMotion::end, &StrongMotion::duration, &StrongMotion::duration_5_75,
+               &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity, &StrongMotion::centre_frequency_hz);
 template <>
 inline constexpr auto parts<PulseFit> = std::tuple(&PulseFit::half_width, &PulseFit::half_width_error,
                                                    &PulseFit::intensity, &PulseFit::rms_acceleration,

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/units.hpp"
@@ -60,6 +61,12 @@ StrongMotion strong_motion(const GroundMotion& motion) {
   StrongMotion result{};
   result.begin = time_of(0.05);
   result.end = time_of(0.95);
+  result.duration_5_75 = time_of(0.75) - result.begin;
+  result.peak_acceleration = peak;
+  result.peak_velocity = peak_velocity(motion);
+  result.peak_displacement = peak_displacement(motion);
+  result.cumulative_absolute_velocity = cumulative_absolute_velocity(motion);
+  result.mean_period = mean_period(motion);
   const double duration = result.duration = result.end - result.begin;
   result.arias_intensity = std::numbers::pi / (2 * standard_gravity) * total * peak * peak;
   result.rms_acceleration = std::sqrt(0.9 * total / duration) * peak;

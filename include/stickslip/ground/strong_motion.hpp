@@ -1,22 +1,29 @@
-// The strong part of a record: how long, how strong, how fast.
+// The strong motion of a record: how long, how strong, how fast.
 #pragma once
 
 #include "stickslip/ground/ground_motion.hpp"
 
 namespace stickslip {
 
-/// What a record's strong motion is like, for a random process to be made like it: see `strong_motion`.
+/// What a record's strong motion is like, for engineers and for a random process to be made like it: see
+/// `strong_motion`. Spectral accelerations come from `response_spectrum`.
 struct StrongMotion {
-  double arias_intensity;      ///< of the whole record [m/s]: pi / 2g int n^2 dt
-  double begin, end;           ///< when 5 % and 95 % of it have come [s]
-  double duration;             ///< from `begin` to `end` [s], the significant duration
+  double peak_acceleration;             ///< of the whole record [m/s^2], the PGA
+  double peak_velocity;                 ///< of the whole record [m/s], the PGV; from rest, the baseline as it is
+  double peak_displacement;             ///< of the whole record [m], the PGD; the same
+  double cumulative_absolute_velocity;  ///< of the whole record [m/s], the CAV: int |n| dt
+  double mean_period;                   ///< of the whole record [s], T_m; NaN where `stickslip::mean_period` has none
+  double arias_intensity;               ///< of the whole record [m/s]: pi / 2g int n^2 dt
+  double begin, end;                    ///< when 5 % and 95 % of it have come [s]
+  double duration;                      ///< from `begin` to `end` [s], the significant duration D5-95
+  double duration_5_75;        ///< from `begin` to when 75 % of it have come [s], the significant duration D5-75
   double rms_acceleration;     ///< within it [m/s^2]
   double rms_velocity;         ///< of the ground within it, about a straight line [m/s]
   double centre_frequency_hz;  ///< f_c [Hz], of the pulses with these rms values
 };
 
-/// Estimates strong-motion duration, rms acceleration and centre frequency from a record, for the pulse process of
-/// thesis 5.6:
+/// Computes the intensity measures of a record and estimates strong-motion duration, rms acceleration and centre
+/// frequency from a record, for the pulse process of thesis 5.6:
 ///
 ///     const StrongMotion s = strong_motion(record);
 ///     PoissonPulses::from_earthquake(s.rms_acceleration, s.centre_frequency_hz, s.duration);
@@ -37,7 +44,7 @@ struct StrongMotion {
 ///                                strong part
 /// Slow drifts of a record that bend within the strong part count as velocity and lower f_c: correct the baseline, or
 /// take out what is slower than some ten seconds, first. One motion of 60 pulses has f_c within some 7 %, one standard
-/// error. Cost: two passes.
+/// error. Cost: some passes and one FFT.
 /// Reference: A. Arias, A measure of earthquake intensity, in Seismic Design for Nuclear Power Plants (1970); M. D.
 /// Trifunac, A. G. Brady, Bull. Seism. Soc. Am. 65 (1975), 581-626; thesis 5.6.
 StrongMotion strong_motion(const GroundMotion& motion);

@@ -6,10 +6,12 @@ namespace stickslip::python {
 namespace {
 
 GroundMotion make(const py::object& acceleration, std::optional<double> dt, const std::optional<py::object>& times,
-                  const std::string& interpolation, std::string name) {
+                  const std::string& interpolation, std::string name, const std::string& units) {
   if (dt.has_value() == times.has_value())
     throw std::invalid_argument(std::string("GroundMotion: give either dt or times, got ") + (dt ? "both" : "neither"));
   std::vector<double> samples = to_vector(acceleration, "GroundMotion: acceleration");
+  if (const double unit = acceleration_unit(units); unit != 1)
+    for (double& n : samples) n *= unit;
   if (dt) return {std::move(samples), *dt, interpolation_of(interpolation, "GroundMotion"), std::move(name)};
   return {std::move(samples), to_vector(*times, "GroundMotion: times"), interpolation_of(interpolation, "GroundMotion"),
           std::move(name)};
@@ -22,6 +24,20 @@ py::array_t<double> times_of(const GroundMotion& motion) {
   return times;
 }
 
+GroundMotion from_obspy(const py::object& trace, const std::string& units, const std::optional<std::string>& name) {
+  if (!py::hasattr(trace, "data") || !py::hasattr(trace, "stats")) {
+    const auto type = py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>();
+    throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " + type +
+                         (type == "Stream" ? "; select one of its traces, as stream[0]" : ""));
+  }
+  return make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt, "linear",
+              name ? *name : py::str(trace.attr("id")).cast<std::string>(), units);
+}
+
+py::object plot(const py::object& self, const py::kwargs& options) {
+  return py::module_::import("stickslip.plotting").attr("plot_ground_motion")(self, **options);
+}
+
 std::optional<double> dt_of(const GroundMotion& motion) {
   return std::isnan(motion.dt()) ? std::nullopt : std::optional(motion.dt());
 }
@@ -29,7 +45,7 @@ std::optional<double> dt_of(const GroundMotion& motion) {
 }  // namespace
 
 void bind_ground_motion(py::module_& m) {
-  py::class_<GroundMotion>(m, "GroundMotion", R"(The acceleration history n(t) of the ground.
+  py::class_<GroundMotion> type(m, "GroundMotion", R"(The acceleration history n(t) of the ground.
 
 Motions with the same samples, dt or times, interpolation and name are equal; they can be hashed, copied and pickled.
 
@@ -49,12 +65,46 @@ interpolation : {'linear', 'constant'}, optional
 name : str, optional
     Where the motion comes from; shown in plots.
 
+units : str, optional
+    Unit of the acceleration: 'm/s^2', 'g', 'cm/s^2', 'gal', 'mm/s^2', 'ft/s^2', 'in/s^2'. The motion holds m/s^2.
+
 Raises
 ------
 ValueError
-    Naming the value refused and its index.)")
-      .def(py::init(&make), py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(),
-           py::arg("times") = py::none(), py::arg("interpolation") = "linear", py::arg("name") = "")
+    Naming the value refused and its index.
+
+Notes
+-----
+`2 * motion`, `motion / 2` and `-motion` are motions, too: `scaled` by the factor.)");
+  type.attr("__array_ufunc__") = py::none();  // a factor of NumPy then asks the motion
+  type.def(py::init(&make), py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(),
+           py::arg("times") = py::none(), py::arg("interpolation") = "linear", py::arg("name") = "",
+           py::arg("units") = "m/s^2")
+      .def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
+                  py::arg("name") = py::none(),
+                  R"(The ground motion in a trace of ObsPy.
+
+Parameters
+----------
+trace : obspy.Trace
+    One component of acceleration: with the response of the instrument removed, as by
+    `trace.remove_response(output="ACC")`, not in counts. The samples are copied, and must have no gaps.
+units : str, optional
+    Unit of the samples, as the constructor takes it. ObsPy does not state it; `remove_response` gives m/s^2.
+name : str, optional
+    The trace's id if not given.
+
+Returns
+-------
+GroundMotion
+    Linear between samples; times begin at 0.
+
+Raises
+------
+TypeError
+    No trace.
+ValueError
+    A masked sample (a gap), or one that is not finite.)")
       .def_property_readonly(
           "acceleration",
           [](const py::object& self) { return view(self.cast<const GroundMotion&>().acceleration(), self); },
@@ -69,6 +119,84 @@ ValueError
       .def_property_readonly("name", &GroundMotion::name, "Where the motion comes from.")
       .def("scaled", &GroundMotion::scaled, py::arg("factor"),
            R"(The same motion with every acceleration multiplied by `factor` (finite; -1 mirrors it).)")
+      .def(
+          "scaled_to",
+          [](const GroundMotion& motion, std::optional<double> pga_g, std::optional<double> arias,
+             std::optional<double> pgv) {
+            if (pga_g) *pga_g *= standard_gravity;
+            return scaled_to(motion, {pga_g, arias, pgv});
+          },
+          py::kw_only(), py::arg("pga_g") = py::none(), py::arg("arias") = py::none(), py::arg("pgv") = py::none(),
+          R"(The motion times the positive factor that gives it a PGA, an Arias intensity or a PGV.
+
+Parameters
+----------
+pga_g : float, optional
+    Largest acceleration [g], positive. Give exactly one of the three.
+arias : float, optional
+    Arias intensity [m/s], positive.
+pgv : float, optional
+    Largest ground velocity [m/s], positive: from rest at the first sample, the baseline as it is.
+
+Raises
+------
+ValueError
+    None or several of them; one that is not positive and finite; a motion of zeros.)")
+      .def("resampled", &resampled, py::arg("dt"),
+           R"(The motion read off at 0, dt, 2 dt, ... after its first sample.
+
+Values are read off its straight lines, or are those that are held. Nothing is filtered: a shorter step adds nothing,
+and a longer step folds higher frequencies back. Where the duration is no multiple of dt, the rest at the end is left
+out. Times begin at 0.
+
+Parameters
+----------
+dt : float
+    Time between samples [s], positive, at most the duration.)")
+      .def("cut", &cut, py::arg("begin"), py::arg("end"),
+           R"(The part of the motion from `begin` to `end`.
+
+At its ends it is read off where there is no sample. Times begin at 0; even times stay even where both ends are samples.
+
+Parameters
+----------
+begin, end : float
+    Times of the motion [s], begin < end.)")
+      .def("detrended", &detrended, py::arg("order") = 0,
+           R"(The motion without its polynomial trend of least squares over time.
+
+Order 0 takes away the mean, after which the ground velocity ends at zero; 1 a straight line. The fit is exact for lines
+and for values that are held. Of a trend that is curved between samples, or inclined and taken from held values, a
+fraction (dt / duration)^2 or so is left.
+
+Parameters
+----------
+order : int, optional
+    From 0 to 10.)")
+      .def_property_readonly(
+          "velocity", [](const GroundMotion& g) { return array_of(ground_history(g).velocity); },
+          "Ground velocity at the samples [m/s], shape (N,): the exact integral, from rest; computed anew each time.")
+      .def_property_readonly(
+          "displacement", [](const GroundMotion& g) { return array_of(ground_history(g).displacement); },
+          "Ground displacement at the samples [m], shape (N,): the exact integral, from rest; computed anew each time.")
+      .def("plot", &plot,
+           R"(Draws the acceleration [g] over time.
+
+Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
+stands for the name. Returns the matplotlib Figure.)")
+      .def(
+          "__mul__", [](const GroundMotion& g, double factor) { return g.scaled(factor); }, py::is_operator())
+      .def(
+          "__rmul__", [](const GroundMotion& g, double factor) { return g.scaled(factor); }, py::is_operator())
+      .def(
+          "__truediv__",
+          [](const GroundMotion& g, double divisor) {
+            detail::require(std::isfinite(divisor) && divisor != 0,
+                            "GroundMotion: a divisor must be finite and not zero", divisor);
+            return g.scaled(1 / divisor);
+          },
+          py::is_operator())
+      .def("__neg__", [](const GroundMotion& g) { return g.scaled(-1); })
       .def("__len__", &GroundMotion::samples)
       .def("__repr__",
            [](const GroundMotion& g) {
@@ -95,7 +223,7 @@ ValueError
           },
           [](const py::tuple& t) {
             return make(t[0], t[1].cast<std::optional<double>>(), t[2].cast<std::optional<py::object>>(),
-                        t[3].cast<std::string>(), t[4].cast<std::string>());
+                        t[3].cast<std::string>(), t[4].cast<std::string>(), "m/s^2");
           }));
 }
 

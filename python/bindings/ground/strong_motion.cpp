@@ -6,11 +6,27 @@ namespace stickslip::python {
 
 void bind_strong_motion(py::module_& m) {
   value_class<StrongMotion>(m, "StrongMotion", "What a record's strong motion is like; what `strong_motion` returns.")
+      .def_readonly("peak_acceleration", &StrongMotion::peak_acceleration, "Of the whole record [m/s^2], the PGA.")
+      .def_readonly(
+          "peak_velocity", &StrongMotion::peak_velocity,
+          "Of the whole record [m/s], the PGV: the ground from rest at the first sample, the baseline as it is.")
+      .def_readonly(
+          "peak_displacement", &StrongMotion::peak_displacement,
+          "Of the whole record [m], the PGD: the ground from rest at the first sample, the baseline as it is.")
+      .def_readonly("cumulative_absolute_velocity", &StrongMotion::cumulative_absolute_velocity,
+                    R"(Of the whole record [m/s], the CAV: the integral of \|n\| dt.)")
+      .def_readonly(
+          "mean_period", &StrongMotion::mean_period,
+          "Of the whole record [s], T_m of Rathje et al. (1998): the mean of 1 / f over 0.25 to 20 Hz, weighted "
+          "with the squared Fourier amplitudes of the samples, to which zeros are added up to 20 s. NaN where "
+          "samples are 2 s apart or more.")
       .def_readonly("arias_intensity", &StrongMotion::arias_intensity,
                     "Of the whole record [m/s]: pi / 2g times the integral of n^2 dt.")
       .def_readonly("begin", &StrongMotion::begin, "When 5 % of it have come [s].")
       .def_readonly("end", &StrongMotion::end, "When 95 % of it have come [s].")
-      .def_readonly("duration", &StrongMotion::duration, "From begin to end [s], the significant duration.")
+      .def_readonly("duration", &StrongMotion::duration, "From begin to end [s], the significant duration D5-95.")
+      .def_readonly("duration_5_75", &StrongMotion::duration_5_75,
+                    "From begin to when 75 % of the Arias intensity have come [s], the significant duration D5-75.")
       .def_readonly("rms_acceleration", &StrongMotion::rms_acceleration, "Between begin and end [m/s^2].")
       .def_readonly("rms_velocity", &StrongMotion::rms_velocity,
                     "Of the ground between begin and end, about a straight line [m/s].")
@@ -23,9 +39,12 @@ void bind_strong_motion(py::module_& m) {
       });
 
   m.def("strong_motion", &strong_motion, py::arg("motion"), py::call_guard<py::gil_scoped_release>(),
-        R"(Estimates strong-motion duration, rms acceleration and centre frequency from a record.
+        R"(Computes intensity measures of a record, and estimates what a pulse process needs to be like it.
 
-They make the pulse process of thesis 5.6::
+PGA, PGV, PGD, CAV, Arias intensity, significant durations D5-75 and D5-95 and mean period are those of the field;
+integrals and maxima are exact for lines and steps. Spectral accelerations come from `response_spectrum`.
+
+The rms acceleration, the centre frequency and the duration make the pulse process of thesis 5.6::
 
     s = strong_motion(record)
     PoissonPulses.from_earthquake(
@@ -64,7 +83,7 @@ out what is slower than some ten seconds, first. One motion of 60 pulses has f_c
 References
 ----------
 A. Arias, A measure of earthquake intensity (1970); M. D. Trifunac, A. G. Brady, Bull. Seism. Soc. Am. 65 (1975),
-581-626; thesis 5.6.)");
+581-626; E. M. Rathje, N. A. Abrahamson, J. D. Bray, J. Geotech. Geoenviron. Eng. 124 (1998), 150-159; thesis 5.6.)");
 }
 
 }  // namespace stickslip::python
