@@ -244,6 +244,8 @@ OSError
           R"(Draws the variances of displacement and velocity, the distribution of the peaks, the velocity's spectrum.
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+      .def("_repr_html_",
+           [](const py::object& self) { return py::module_::import("stickslip._tables").attr("ensemble_html")(self); })
       .def("__repr__", &repr_of_ensemble)
       .def(
           "__eq__", [](const Ensemble& a, const Ensemble& b) { return a == b; }, py::is_operator())
