@@ -19,6 +19,8 @@
 #include "stickslip/harmonic/continuation.hpp"
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/harmonic/orbits.hpp"
+#include "stickslip/sliding/effective.hpp"
+#include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/statistics/distribution.hpp"
 #include "stickslip/statistics/moments.hpp"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses
+from ._tables import html_table
 from .ensemble import run_ensemble
 from .theory import THEORIES, Coverage
 
@@ -143,6 +144,22 @@ class Comparison:
         notes += [f"{name}: {m.remark}" for name, m in self.theories.items() if m.remark]
         notes += [f"{name} does not apply: {why}" for name, why in self.refused.items()]
         return "\n".join(lines + ([""] if notes else []) + notes)
+
+    def _repr_html_(self) -> str:
+        """The same for a notebook."""
+        tables = []
+        times = [f"{t:.4g} s" for t in self.time]
+        for statistic, unit in zip(_FIGURES[:2], ("m²", "m²/s²")):
+            value, error = self.simulated(statistic)
+            rows = [(f"simulation [{unit}]", *(f"{v:.4g} ± {e:.1g}" for v, e in zip(value, error)))]
+            for name, moments in self.theories.items():
+                if not np.isnan(getattr(moments, statistic)).all():
+                    ratio, _ = self.ratio(name, statistic)
+                    rows.append((f"{name} / simulation", *(f"{r:.3f}" for r in ratio)))
+            tables.append(html_table(statistic.replace("_", " "), ["time", *times], rows))
+        if self.refused:
+            tables.append(html_table("theories that do not apply", [], self.refused.items()))
+        return "".join(tables)
 
     def plot(self, figure: FigureBase | None = None, title: str | None = None) -> FigureBase:
         """Variances by time: the ensemble with its errors, and every theory as a line.

@@ -40,6 +40,7 @@ __all__ = [
     "plot_comparison",
     "plot_ensemble",
     "plot_friction_sweep",
+    "plot_hysteresis",
     "plot_response",
     "plot_responses",
     "save",
@@ -287,13 +288,72 @@ def plot_responses(
     return figure
 
 
+def plot_hysteresis(
+    response: Response,
+    figure: FigureBase | None = None,
+    title: str | None = None,
+    *,
+    ax: Axes | None = None,
+) -> FigureBase | Axes:
+    """Force between the mass and the ground against displacement.
+
+    The force is friction + damper + spring over the weight: per unit mass, in g. On a spring, the
+    secant of the loop with the largest displacement is drawn, with its `Response.effective_period`
+    and `effective_damping`.
+
+    Parameters
+    ----------
+    response : Response
+        What `integrate` returned.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; a new figure of 6 x 4.5 inches if not given.
+    title : str, optional
+        The name of the motion if not given.
+    ax : matplotlib Axes, optional
+        Where to draw, instead of `figure`.
+
+    Returns
+    -------
+    matplotlib Figure, SubFigure or Axes
+        The axes if they were given, else the figure.
+
+    Raises
+    ------
+    ValueError
+        Both figure and ax.
+    """
+    with style():
+        figure, axes = _one_panel("plot_hysteresis", figure, ax, 6, 4.5)
+        x, force = _force_path(response)
+        length, unit = _unit(response.peak)
+        axes.plot(x * length, force / STANDARD_GRAVITY, color=BLUE, linewidth=0.9)
+        axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+        axes.axvline(0, color=GREY, linewidth=0.6, zorder=0)
+        axes.set_xlabel(f"relative displacement [{unit}]")
+        axes.set_ylabel("force per unit mass [g]")
+        _title(axes, response.motion, title, _describe(response.slider))
+        try:
+            period, damping = response.effective_period, response.effective_damping
+        except ValueError:
+            pass  # there is no such loop
+        else:
+            reach = np.array([-response.peak, response.peak])
+            secant = (2 * np.pi / period) ** 2 * reach / STANDARD_GRAVITY
+            label = f"effective period {_digits(period)} s, damping {_digits(100 * damping)} %"
+            axes.plot(reach * length, secant, color=VERMILION, linestyle="--", label=label)
+            axes.legend(loc="upper left", fontsize=8)
+    return figure if ax is None else ax
+
+
 def plot_friction_sweep(
     mu: Sequence[float],
     displacement: Sequence[Sequence[float]],
     names: Sequence[str],
     highlight: Sequence[str] = (),
     figure: FigureBase | None = None,
-) -> FigureBase:
+    *,
+    ax: Axes | None = None,
+) -> FigureBase | Axes:
     """Displacement against the coefficient of friction for many records, on log axes.
 
     Parameters
@@ -308,15 +368,18 @@ def plot_friction_sweep(
         Names to draw in colour and to label, six at most.
     figure : matplotlib Figure or SubFigure, optional
         Where to draw; a new figure of 7 x 5 inches if not given.
+    ax : matplotlib Axes, optional
+        Where to draw, instead of `figure`.
 
     Returns
     -------
-    matplotlib Figure or SubFigure
+    matplotlib Figure, SubFigure or Axes
+        The axes if they were given, else the figure.
 
     Raises
     ------
     ValueError
-        Shapes that do not fit.
+        Shapes that do not fit; both figure and ax.
     """
     mu, displacement = np.asarray(mu, float), np.asarray(displacement, float)
     if displacement.shape != (len(names), len(mu)):
@@ -330,8 +393,7 @@ def plot_friction_sweep(
         (i for i, name in enumerate(names) if name in set(highlight)), key=lambda i: -lines[i, 0]
     )
     with style():
-        figure = figure or new_figure(7, 5)
-        axes = figure.subplots()
+        figure, axes = _one_panel("plot_friction_sweep", figure, ax, 7, 5)
         for line in np.delete(lines, lifted, axis=0):
             axes.plot(mu, line, color="#c4c4c4", linewidth=0.8)
         for i, colour in zip(lifted, COLOURS):
@@ -351,7 +413,7 @@ def plot_friction_sweep(
         axes.set_title(f"How far a block slides in {len(names)} earthquake records")
         for text in axes.legend(loc="lower left", fontsize=8).get_texts():
             text.set_parse_math(False)  # a dollar in the name of a file is one
-    return figure
+    return figure if ax is None else ax
 
 
 class _Comparison(Protocol):
@@ -512,6 +574,18 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+def _one_panel(
+    who: str, figure: FigureBase | None, ax: Axes | None, width: float, height: float
+) -> tuple[FigureBase, Axes]:
+    """Where a picture of one panel is drawn: in the axes or the figure given, or in a new one."""
+    if ax is not None:
+        if figure is not None:
+            raise ValueError(f"{who}: give figure or ax, got both")
+        return ax.figure, ax
+    figure = figure or new_figure(width, height)
+    return figure, figure.subplots()
+
+
 def _render(figure: Figure, kind: str) -> bytes:
     buffer = io.BytesIO()
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
@@ -549,6 +623,33 @@ def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return t, x, v
     dense = (np.concatenate(column) for column in zip(*pieces))
     return tuple(np.insert(a, where, b) for a, b in zip((t, x, v), dense))
+
+
+def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements [m] and forces [m/s^2] to draw: at the samples, and on both sides of events."""
+    slider, events = response.slider, response.events
+    t, x, v = (events[name] for name in ("time", "displacement", "velocity"))
+    ways = np.sign(np.diff(x))  # of the slips between events, 0 of sticks
+
+    def force(at: np.ndarray, speed: np.ndarray, way: np.ndarray) -> np.ndarray:
+        friction = [
+            w * slider.resist(one, abs(u), backward=w < 0)
+            for one, u, w in zip(at.tolist(), speed.tolist(), way.tolist())
+        ]
+        return np.array(friction) + slider.damping * speed + slider.natural_frequency**2 * at
+
+    ends, begins = np.flatnonzero(ways) + 1, np.flatnonzero(ways)
+    times = np.concatenate([t[ends], t[begins], response.time])
+    places = np.concatenate([x[ends], x[begins], response.displacement])
+    forces = np.concatenate(
+        [
+            force(x[ends], v[ends], ways[ends - 1]),
+            force(x[begins], v[begins], ways[begins]),
+            response.force,
+        ]
+    )
+    order = np.argsort(times, kind="stable")
+    return places[order], forces[order]
 
 
 def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

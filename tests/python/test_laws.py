@@ -215,9 +215,73 @@ def test_what_is_no_number_or_has_no_name_is_a_type_error(make):
         make()
 
 
+@pytest.mark.parametrize(
+    "make, message",
+    [
+        (
+            lambda: ss.Coulomb(0.2),
+            r"Coulomb: give mu= or slip_level= .*by name, got Coulomb\(0\.2\)",
+        ),
+        (
+            lambda: ss.Coulomb(mu="0.2"),
+            r"Coulomb: give mu= or slip_level= .*got Coulomb\(mu='0\.2'\)",
+        ),
+        (
+            lambda: ss.Coulomb(mew=0.2),
+            r"Coulomb: give mu= or slip_level= .*got Coulomb\(mew=0\.2\)",
+        ),
+        (
+            lambda: ss.Caster(0.2, 0.5),
+            r"Caster: give mu= or slip_level= .*got Caster\(0\.2, 0\.5\)",
+        ),
+        (lambda: ss.Caster(mu=0.2), r"Caster: .* and reach= \[m\], .*got Caster\(mu=0\.2\)"),
+        (
+            lambda: ss.VelocityDependent(0.03, 0.06, rate=50),
+            r"VelocityDependent: give mu_slow= and mu_fast=, .*got VelocityDependent\(0\.03, 0\.06, rate=50\)",
+        ),
+        (lambda: ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06), r"and rate= \[s/m\]"),
+    ],
+)
+def test_a_number_without_its_name_is_refused_with_the_names(make, message):
+    with pytest.raises(TypeError, match=message) as caught:
+        make()
+    assert "\n" not in str(caught.value)  # no list of signatures
+
+
 @pytest.mark.parametrize("law", LAWS, ids=repr)
 def test_repr_evaluates_back_to_the_same_law(law):
     assert eval(repr(law), vars(ss)) == law
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Coulomb(mu=0.2)",
+        "Coulomb(mu=0.123456)",
+        "Coulomb(mu=0.2, mu_backward=0.3)",
+        "Coulomb(mu=0.2, backward=float('inf'))",
+        "Coulomb(mu=0.2, backward=2.5)",
+        "Coulomb(slip_level=1)",
+        "Coulomb(slip_level=1.5, mu_backward=0.2)",
+        "Coulomb(slip_level=0)",
+        "Caster(mu=0.2, reach=0.5)",
+        "Caster(mu=0.2, reach=float('inf'), rolling=0.1)",
+        "Caster(slip_level=1, reach=0.5)",
+        "VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=50)",
+        "VelocityDependent(slow=0.3, mu_fast=0.06, rate=50)",
+    ],
+)
+def test_a_law_is_written_as_short_as_it_can_be_given(text):
+    law = eval(text, vars(ss))
+    assert repr(law) == text
+    assert repr(pickle.loads(pickle.dumps(law))) == text
+
+
+def test_every_coefficient_of_three_digits_is_written_as_one():
+    for mu in range(1, 2000):
+        law = ss.Coulomb(mu=mu / 1000)
+        assert repr(law) == f"Coulomb(mu={mu / 1000:g})"
+        assert eval(repr(law), vars(ss)) == law
 
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)

@@ -163,6 +163,52 @@ def test_a_response_is_drawn_into_a_given_figure():
     assert len(figure.axes) == 3
 
 
+def test_the_area_under_the_drawn_force_is_the_energy(response):
+    """Of Coulomb friction the force is straight between events, and the trapezoidal rule exact."""
+    (axes,) = response.plot_hysteresis().axes
+    unit = {"[mm]": 1e3, "[cm]": 1e2, "[m]": 1}[axes.get_xlabel().split()[-1]]
+    assert axes.get_ylabel().endswith("[g]")
+    x, f = axes.lines[0].get_data()
+    x, f = x / unit, f * G
+    work = np.sum((f[1:] + f[:-1]) * np.diff(x)) / 2
+    e = response.energy
+    # of a caster the force bends: h^2 / 12 of its second derivative, level / reach^2, of the way
+    allowed = 1e-12 if isinstance(response.slider.law, ss.Coulomb) else 1e-3
+    assert work == pytest.approx(e.dissipated + e.elastic, rel=allowed, abs=1e-15)
+
+
+def test_the_drawn_secant_is_the_effective_stiffness():
+    r = ss.integrate(SLIDERS["spring"], motion(), settle=True)
+    (axes,) = r.plot_hysteresis().axes
+    x, f = axes.lines[-1].get_data()
+    slope = (f[1] - f[0]) / (x[1] - x[0]) * G * {"[mm]": 1e3, "[cm]": 1e2}[axes.get_xlabel()[-4:]]
+    assert 2 * math.pi / math.sqrt(slope) == pytest.approx(r.effective_period)
+    (text,) = axes.get_legend().get_texts()
+    assert f"{r.effective_period:.2f} s" in text.get_text()
+    assert ss.integrate(SLIDERS["block"], motion()).plot_hysteresis().axes[0].get_legend() is None
+
+
+def test_a_picture_of_one_panel_is_drawn_into_given_axes():
+    from matplotlib.figure import Figure
+
+    r = ss.integrate(SLIDERS["spring"], motion())
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    assert r.plot_hysteresis(ax=left, title="mine") is left
+    assert left.get_title(loc="left") == "mine"
+    assert plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], ["a"], ax=right) is right
+    assert len(left.lines) > 1 < len(right.lines)
+    assert figure.axes == [left, right]
+    whole = Figure()
+    assert r.plot_hysteresis(figure=whole) is whole
+    assert plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], ["a"], figure=Figure()).axes
+    with pytest.raises(ValueError, match="plot_hysteresis: give figure or ax, got both"):
+        r.plot_hysteresis(ax=left, figure=figure)
+    with pytest.raises(ValueError, match="plot_friction_sweep: give figure or ax, got both"):
+        plotting.plot_friction_sweep([0.1, 0.2], [[1, 0.5]], ["a"], figure=figure, ax=left)
+    assert r.plot_hysteresis()._repr_png_().startswith(b"\x89PNG")
+
+
 def test_a_notebook_shows_the_picture_without_pyplot(response):
     assert response.plot()._repr_png_().startswith(b"\x89PNG")
 

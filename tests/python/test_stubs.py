@@ -45,6 +45,11 @@ x: NDArray[np.float64] = r.displacement
 kinds = r.events["kind"]
 law: ss.Coulomb | ss.Caster | ss.VelocityDependent = r.slider.law
 work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy.elastic
+forces: NDArray[np.float64] = r.force + r.acceleration
+sticking: NDArray[np.bool_] = ~r.stuck
+file: Path = r.to_csv("r.csv")
+table, dataset = r.to_dataframe(), r.to_xarray()
+r.plot_hysteresis(title="mine")
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)
 words: dict[str, str] = ss.build_info()
@@ -80,6 +85,11 @@ e = ss.run_ensemble(block, Mine(), members=10, seed=1, progress=print, checkpoin
 error: NDArray[np.float64] = e.displacement_variance_error
 bounds: tuple[float, float] = (e.quantile(0.95).low, e.exceedance(0.1).high)
 rate: ss.Estimate = e.stationary.growth_rate
+growth, its_error = rate
+middle, lowest, highest = e.quantile(0.5)
+several: list[ss.Interval] = sorted(e.quantile([0.5, 0.84, 0.95]))
+rises: bool = several[0] < 0.3 or rate > 0 or float(rate) > several[0]
+text: str = f"{rate:.3f} {several[0]:.2g}"
 line: NDArray[np.float64] = e.velocity_spectrum.density / e.velocity_spectrum.error
 e.merge(ss.Ensemble.load("a.npz"))
 e.save(Path("b.npz"))

@@ -148,20 +148,30 @@ which `quantile` and `exceedance` come.)")
                              "Averages over the central half of the motions, as Stationary.")
       .def_property_readonly("velocity_spectrum", &Ensemble::velocity_spectrum,
                              "As VelocitySpectrum; ValueError where it was not asked for, or without times.")
-      .def("quantile", &Ensemble::quantile, py::arg("probability"), py::arg("confidence") = 0.95,
-           R"(The peak that a share of the members does not exceed.
+      .def(
+          "quantile",
+          [](const Ensemble& self, const py::object& probability, double confidence) -> py::object {
+            const Numbers shares = to_numbers(probability, "quantile: probability");
+            if (shares.ndim() == 0) return py::cast(self.quantile(*shares.data(), confidence));
+            py::list intervals;
+            for (const double share : to_vector(shares, "quantile: probability"))
+              intervals.append(self.quantile(share, confidence));
+            return intervals;
+          },
+          py::arg("probability"), py::arg("confidence") = 0.95,
+          R"(The peak that a share of the members does not exceed.
 
 Parameters
 ----------
-probability : float
+probability : float or array_like, shape (P,)
     The share, in (0, 1).
 confidence : float, optional
     That the true quantile lies between the bounds, in (0, 1).
 
 Returns
 -------
-Interval
-    [m]. The bounds are order statistics, by the binomial law; 0 and infinity where the members are too few.
+Interval or list of Interval
+    [m]; one for each probability. The bounds are order statistics, by the binomial law; 0 and infinity where the members are too few.
 
 Raises
 ------
@@ -259,6 +269,8 @@ OSError
           R"(Draws the variances of displacement and velocity, the distribution of the peaks, the velocity's spectrum.
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+      .def("_repr_html_",
+           [](const py::object& self) { return py::module_::import("stickslip._tables").attr("ensemble_html")(self); })
       .def("__repr__", &repr_of_ensemble)
       .def(
           "__eq__", [](const Ensemble& a, const Ensemble& b) { return a == b; }, py::is_operator())

@@ -1,12 +1,14 @@
 #include <pybind11/stl.h>
 
+#include "friction/arguments.hpp"
 #include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_caster(py::module_& m) {
-  value_class<Caster>(m, "Caster",
-                      R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach) + rolling.
+  auto type =
+      value_class<Caster>(m, "Caster",
+                          R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach) + rolling.
 
 The thesis writes 3l for the reach and has no rolling resistance, which acts along the wheel, on the part
 |tanh(x / reach)| of the way that it rolls. The law takes it as the same everywhere: too much by up to `rolling` where the
@@ -27,8 +29,8 @@ rolling : float, optional
 Raises
 ------
 ValueError
-    A value out of its range, both or neither of mu and slip_level.)")
-      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach, double rolling) {
+    A value out of its range, both or neither of mu and slip_level.)");
+  type.def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach, double rolling) {
              return Caster(slip_level_of(mu, slip_level, "Caster"), reach, rolling);
            }),
            py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(), py::arg("reach"),
@@ -77,10 +79,11 @@ Accurate to a few units of the last digit for every l/w > 0; about 2.5 us.)")
       .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
       .def_property_readonly("rolling", &Caster::rolling, "Rolling resistance [m/s^2].")
       .def("__repr__", [](const Caster& law) {
-        return "Caster(slip_level=" + detail::shortest(law.slip_level()) +
+        return "Caster(" + level_argument(law.slip_level()) +
                ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) +
                (law.rolling() > 0 ? ", rolling=" + detail::shortest(law.rolling()) : "") + ")";
       });
+  explain_constructor(type, "Caster: give mu= or slip_level= [m/s^2], and reach= [m]");
 }
 
 }  // namespace stickslip::python

@@ -1,11 +1,12 @@
 #include <pybind11/stl.h>
 
+#include "friction/arguments.hpp"
 #include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_coulomb(py::module_& m) {
-  value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
+  auto type = value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
 
 f = a sgn(x'), a = mu g the slip level: friction force per unit mass. The two directions may differ: on an inclined
 plane they do, and with an infinite level one way the block is Newmark's, which slides the other way only.
@@ -29,8 +30,8 @@ ValueError
 
 References
 ----------
-N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (1965), 139-160 (one-way sliding).)")
-      .def(py::init([](std::optional<double> mu, std::optional<double> slip_level, std::optional<double> backward,
+N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (1965), 139-160 (one-way sliding).)");
+  type.def(py::init([](std::optional<double> mu, std::optional<double> slip_level, std::optional<double> backward,
                        std::optional<double> mu_backward) {
              const double forward = slip_level_of(mu, slip_level, "Coulomb");
              if (!backward && !mu_backward) return Coulomb(forward);
@@ -59,12 +60,12 @@ ValueError
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
       .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
       .def("__repr__", [](const Coulomb& law) {
-        std::string text = "Coulomb(slip_level=" + detail::shortest(law.forward());
-        if (law.backward() != law.forward())
-          text +=
-              std::isinf(law.backward()) ? ", backward=float('inf')" : ", backward=" + detail::shortest(law.backward());
-        return text + ")";
+        return "Coulomb(" + level_argument(law.forward()) +
+               (law.backward() != law.forward() ? ", " + level_argument(law.backward(), "mu_backward", "backward")
+                                                : "") +
+               ")";
       });
+  explain_constructor(type, "Coulomb: give mu= or slip_level= [m/s^2]");
 }
 
 }  // namespace stickslip::python

@@ -1,11 +1,12 @@
 #include <pybind11/stl.h>
 
+#include "friction/arguments.hpp"
 #include "parts.hpp"
 
 namespace stickslip::python {
 
 void bind_velocity_dependent(py::module_& m) {
-  value_class<VelocityDependent>(
+  auto type = value_class<VelocityDependent>(
       m, "VelocityDependent",
       R"(Friction that changes with the speed, as that of PTFE and other liners of sliding isolators.
 
@@ -33,8 +34,8 @@ The motion is a Taylor series in time, near round-off; some 0.3 us a sample, 0.7
 References
 ----------
 M. C. Constantinou, A. Mokha, A. Reinhorn, Teflon bearings in base isolation II: Modeling, Journal of Structural
-Engineering 116 (1990), 455-474.)")
-      .def(py::init([](std::optional<double> mu_slow, std::optional<double> mu_fast, std::optional<double> slow,
+Engineering 116 (1990), 455-474.)");
+  type.def(py::init([](std::optional<double> mu_slow, std::optional<double> mu_fast, std::optional<double> slow,
                        std::optional<double> fast, double rate) {
              return VelocityDependent(slip_level_of(mu_slow, slow, "VelocityDependent", "mu_slow", "slow"),
                                       slip_level_of(mu_fast, fast, "VelocityDependent", "mu_fast", "fast"), rate);
@@ -45,9 +46,11 @@ Engineering 116 (1990), 455-474.)")
       .def_property_readonly("fast", &VelocityDependent::fast, "Level at high speed [m/s^2].")
       .def_property_readonly("rate", &VelocityDependent::rate, "How fast the level changes with the speed [s/m].")
       .def("__repr__", [](const VelocityDependent& law) {
-        return "VelocityDependent(slow=" + detail::shortest(law.slow()) + ", fast=" + detail::shortest(law.fast()) +
-               ", rate=" + detail::shortest(law.rate()) + ")";
+        return "VelocityDependent(" + level_argument(law.slow(), "mu_slow", "slow") + ", " +
+               level_argument(law.fast(), "mu_fast", "fast") + ", rate=" + detail::shortest(law.rate()) + ")";
       });
+  explain_constructor(type,
+                      "VelocityDependent: give mu_slow= and mu_fast=, or slow= and fast= [m/s^2], and rate= [s/m]");
 }
 
 }  // namespace stickslip::python

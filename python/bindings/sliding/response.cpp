@@ -77,6 +77,54 @@ py::object time_of(Recording& recording) {
   });
 }
 
+// What `work` gives with the slider and the motion in their own types.
+template <class Work>
+auto with_inputs(const Recording& recording, Work&& work) {
+  return std::visit(
+      [&](const auto& slider) {
+        if (py::isinstance<GroundMotion>(recording.motion))
+          return work(slider, recording.motion.cast<const GroundMotion&>());
+        return work(slider, recording.motion.cast<const HarmonicMotion&>());
+      },
+      recording.slider.cast<const AnySlider&>());
+}
+
+const Forces& forces_of(Recording& recording) {
+  if (!recording.forces)
+    recording.forces = with_inputs(
+        recording, [&](const auto& slider, const auto& motion) { return forces(slider, motion, recording.response); });
+  return *recording.forces;
+}
+
+// A read-only array of what `value(forces, i)` gives at each sample.
+template <class Value>
+auto at_samples(Value&& value) {
+  return [value](Recording& recording) {
+    const Forces& all = forces_of(recording);
+    std::vector<double> values(all.friction.size());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(all, i);
+    return array_of(std::move(values));
+  };
+}
+
+template <auto member>
+auto force() {
+  return [](const py::object& self) { return view(forces_of(self.cast<Recording&>()).*member, self); };
+}
+
+Loop loop_of(const Recording& recording) {
+  return with_inputs(recording, [&](const auto& slider, const auto& motion) {
+    return largest_loop(slider, motion, recording.response);
+  });
+}
+
+// A function of Python that takes the response and options by name.
+auto in_python(const char* module, const char* function) {
+  return [=](const py::object& self, const py::kwargs& options) {
+    return py::module_::import(module).attr(function)(self, **options);
+  };
+}
+
 template <auto member>
 auto history() {
   return [](const py::object& self) { return view(self.cast<const Recording&>().response.*member, self); };
@@ -123,6 +171,29 @@ Those of the ground motion. With `settle=True`, where the slider still moves at 
 the motion's last step up to the first at or after rest, so that `displacement[-1]` is `residual`; but see `truncated`.)")
       .def_property_readonly("displacement", history<&Response::displacement>(), "x at `time` [m], shape (N,).")
       .def_property_readonly("velocity", history<&Response::velocity>(), "x' at `time` [m/s], shape (N,).")
+      .def_property_readonly("acceleration",
+                             at_samples([](const Forces& f, std::size_t i) { return -f.total(i) + 0.0; }),
+                             R"(Absolute acceleration of the mass at `time` [m/s^2], shape (N,).
+
+x'' + n = -force; that of the ground where the slider sticks. At a sample where a slip begins, turns or stops, or where a
+held ground acceleration jumps, this and the forces are the values just after it. At the end of the ground motion they
+belong to its last value (of held values, the last that acts), and later to a ground at rest.)")
+      .def_property_readonly("friction", force<&Forces::friction>(),
+                             R"(Friction force per unit mass at `time` [m/s^2], shape (N,).
+
+resist sgn(x') during a slip; while the slider sticks what balances the other forces, -n - wn^2 x. Like the other forces
+it is positive where it pulls toward negative x: x'' + friction + damper + spring = -n.)")
+      .def_property_readonly("spring", force<&Forces::spring>(),
+                             "Force of the spring per unit mass at `time`, wn^2 x [m/s^2], shape (N,).")
+      .def_property_readonly("damper", force<&Forces::damper>(),
+                             "Force of the damper per unit mass at `time`, c x' [m/s^2], shape (N,).")
+      .def_property_readonly("force", at_samples([](const Forces& f, std::size_t i) { return f.total(i); }),
+                             R"(friction + damper + spring at `time` [m/s^2], shape (N,).
+
+The force per unit mass between the mass and the ground, as of an isolator, positive with the displacement.)")
+      .def_property_readonly(
+          "stuck", [](Recording& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
+          "Whether the slider sticks at `time` (bool), shape (N,); just after a sample where that changes.")
       .def_property_readonly("truncated", number<&Response::truncated>(),
                              R"(Whether the samples end before the slider rests (bool).
 
@@ -149,14 +220,67 @@ under way at the start is entered as a breakaway there.)")
           "Number of slips; a reversal ends one and begins another.")
       .def_property_readonly("time_sliding", number<&Response::time_sliding>(), "Time spent sliding [s].")
       .def_property_readonly("energy", number<&Response::energy>(), "Where the energy went, per unit mass [m^2/s^2].")
-      .def(
-          "plot",
-          [](const py::object& self, const py::kwargs& options) {
-            return py::module_::import("stickslip.plotting").attr("plot_response")(self, **options);
-          },
-          R"(Draws ground acceleration with the slip level, velocity with sticks shaded, and displacement.
+      .def_property_readonly(
+          "effective_period", [](const Recording& r) { return loop_of(r).period(); },
+          R"(2 pi / sqrt(k_eff) of the hysteresis loop with the largest displacement [s].
 
-Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+k_eff = F / D: D is `peak`, F the force of spring and friction there, before the slider turns or stops. With Coulomb
+friction k_eff = wn^2 + slip_level / D. ValueError without a spring, where no force draws the mass back; where it never
+slips; where |x| is largest at the start, or at the end of a slip that is not over.)")
+      .def_property_readonly(
+          "effective_damping", [](const Recording& r) { return loop_of(r).damping(); },
+          R"(E_d / (2 pi k_eff D^2) of the same loop, a part of critical damping.
+
+A motion under an earthquake closes no loop: E_d is the energy [m^2/s^2] that a cycle from D to -D and back dissipates in
+friction and damper, per way, as the swing up to the peak does. In a steady cycle about x = 0 that is the area of the
+loop; with Coulomb friction E_d = 4 slip_level D. ValueError as for `effective_period`.)")
+      .def("plot", in_python("stickslip.plotting", "plot_response"),
+           R"(Draws ground acceleration with the slip level, velocity with sticks shaded, and displacement.
+
+Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
+`title`. Returns the figure, see `stickslip.plotting.plot_response`.)")
+      .def("plot_hysteresis", in_python("stickslip.plotting", "plot_hysteresis"),
+           R"(Draws force against displacement.
+
+Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, and `title`. Returns the
+axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
+      .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),
+           R"(The histories as a pandas DataFrame.
+
+Its index is 'time [s]'; the columns are named with their units: ground acceleration, displacement, velocity,
+acceleration, friction, spring, damper and force, and 'stuck' (bool). The ground acceleration is that of the samples, and
+0 after the motion. ImportError without pandas.)")
+      .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
+           R"(The histories as an xarray Dataset over the coordinate `time`.
+
+The variables are those of `to_dataframe`, each with the attributes `units` and `long_name`. Attributes of the whole:
+slider, motion (its name), peak [m], residual [m]. ImportError without xarray.)")
+      .def(
+          "to_csv",
+          [](const py::object& self, const py::object& path) {
+            return py::module_::import("stickslip._tables").attr("to_csv")(self, path);
+          },
+          py::arg("path"),
+          R"(Writes the histories to a file of comma-separated values, whole or not at all.
+
+Parameters
+----------
+path : path-like
+    A file there is replaced.
+
+Returns
+-------
+Path
+
+Raises
+------
+OSError
+    The folder is missing or cannot be written; the file is read-only, or no regular file.
+
+Notes
+-----
+One line of names with units, then one line a sample; every number reads back to the same double.)")
+      .def("_repr_html_", in_python("stickslip._tables", "response_html"))
       .def("__repr__", [](const Recording& r) {
         return "<Response: peak " + detail::shortest(r.response.peak) + " m, residual " +
                detail::shortest(r.response.residual) + " m, " + std::to_string(r.response.events.size()) + " events" +

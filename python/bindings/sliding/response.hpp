@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,8 @@ struct Recording {
   Response response;
   py::object slider;
   py::object motion;
-  py::object time{}, events{};  // arrays, made when first asked for
+  py::object time{}, events{};     // arrays, made when first asked for
+  std::optional<Forces> forces{};  // and these
 
   Recording(Response&& answer, py::object what, py::object under)
       : response(std::move(answer)), slider(std::move(what)), motion(std::move(under)) {}

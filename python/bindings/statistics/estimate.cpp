@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <optional>
 
 #include "parts.hpp"
 
@@ -29,19 +31,87 @@ std::string with_error(const Estimate& estimate) {
   return text;
 }
 
-void bind_estimates(py::module_& m) {
-  value_class<Estimate>(m, "Estimate", "A figure and its standard error, in the same unit.")
-      .def_readonly("value", &Estimate::value, "The figure.")
-      .def_readonly("error", &Estimate::error, "Its standard error, from the scatter between members.")
-      .def("__repr__", [](const Estimate& e) { return "<Estimate: " + with_error(e) + ">"; });
+namespace {
 
-  value_class<Interval>(m, "Interval", "A figure between its confidence bounds, in the same unit.")
-      .def_readonly("value", &Interval::value, "The figure.")
+/// The value of an estimate, an interval or a number; none of anything else, as of an array, which compares elements.
+std::optional<double> value_of(const py::object& object) {
+  if (py::isinstance<Estimate>(object)) return object.cast<const Estimate&>().value;
+  if (py::isinstance<Interval>(object)) return object.cast<const Interval&>().value;
+  if (!PyFloat_Check(object.ptr()) && !PyLong_Check(object.ptr()) &&
+      (!py::hasattr(object, "__float__") || py::hasattr(object, "__len__")))
+    return std::nullopt;
+  const double value = PyFloat_AsDouble(object.ptr());
+  if (PyErr_Occurred()) throw py::error_already_set();
+  return value;
+}
+
+/// What is the same for both: a value that stands for the whole.
+template <class T>
+void add_value(py::class_<T>& type) {
+  const auto compare = [&](const char* name, auto holds) {
+    type.def(
+        name,
+        [holds](const T& self, const py::object& other) -> py::object {
+          const std::optional<double> value = value_of(other);
+          if (!value) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+          return py::bool_(holds(self.value, *value));
+        },
+        py::is_operator(), py::arg("other"));
+  };
+  compare("__lt__", std::less<>());
+  compare("__le__", std::less_equal<>());
+  compare("__gt__", std::greater<>());
+  compare("__ge__", std::greater_equal<>());
+  type.def("__float__", [](const T& self) { return self.value; });
+}
+
+/// By a format of Python's, as ".3f".
+std::string formatted(double value, const py::str& specification) {
+  return py::module_::import("builtins").attr("format")(value, specification).cast<std::string>();
+}
+
+}  // namespace
+
+void bind_estimates(py::module_& m) {
+  auto estimate = value_class<Estimate>(m, "Estimate", R"(A value and its standard error, in the same unit.
+
+`value, error = estimate` unpacks it, `float(estimate)` is the value, and `f"{estimate:.3f}"` writes both. `<`, `<=`, `>`
+and `>=` compare the value, with numbers too; `==` compares both parts, with estimates alone.)");
+  estimate.def_readonly("value", &Estimate::value, "The value.")
+      .def_readonly("error", &Estimate::error, "Its standard error, from the scatter between members.")
+      .def("__iter__", [](const Estimate& e) { return py::iter(py::make_tuple(e.value, e.error)); })
+      .def(
+          "__format__",
+          [](const py::object& self, const py::str& specification) -> std::string {
+            if (py::len(specification) == 0) return py::str(self);
+            const auto& e = self.cast<const Estimate&>();
+            return formatted(e.value, specification) + " +- " + formatted(e.error, specification);
+          },
+          py::arg("specification"))
+      .def("__repr__", [](const Estimate& e) { return "<Estimate: " + with_error(e) + ">"; });
+  add_value(estimate);
+
+  auto interval = value_class<Interval>(m, "Interval", R"(A value between its confidence bounds, in the same unit.
+
+`value, low, high = interval` unpacks it, `float(interval)` is the value, and `f"{interval:.3f}"` writes all three. `<`,
+`<=`, `>` and `>=` compare the value, with numbers too; `==` compares all parts, with intervals alone.)");
+  interval.def_readonly("value", &Interval::value, "The value.")
       .def_readonly("low", &Interval::low, "Lower bound.")
       .def_readonly("high", &Interval::high, "Upper bound; infinite where the members are too few to bound it.")
+      .def("__iter__", [](const Interval& i) { return py::iter(py::make_tuple(i.value, i.low, i.high)); })
+      .def(
+          "__format__",
+          [](const py::object& self, const py::str& specification) -> std::string {
+            if (py::len(specification) == 0) return py::str(self);
+            const auto& i = self.cast<const Interval&>();
+            return formatted(i.value, specification) + " (" + formatted(i.low, specification) + " to " +
+                   formatted(i.high, specification) + ")";
+          },
+          py::arg("specification"))
       .def("__repr__", [](const Interval& i) {
         return "<Interval: " + digits(i.value) + ", from " + digits(i.low) + " to " + digits(i.high) + ">";
       });
+  add_value(interval);
 }
 
 }  // namespace stickslip::python

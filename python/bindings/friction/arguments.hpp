@@ -1,0 +1,58 @@
+// How the laws take their levels and coefficients of friction by name, and how they are written.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+/// A level [m/s^2] as the argument that gives it back to the bit: "mu=0.2" where a coefficient of friction of six
+/// digits at most does, and is shorter than "slip_level=1.9613300000000001".
+inline std::string level_argument(double level, const std::string& mu_name = "mu",
+                                  const std::string& level_name = "slip_level") {
+  if (std::isinf(level)) return level_name + "=float('inf')";
+  const std::string itself = detail::shortest(level);
+  for (int digits = 1; digits <= 6; ++digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, level / standard_gravity);
+    const double mu = std::strtod(text, nullptr);
+    if (mu * standard_gravity == level && detail::shortest(mu).size() < itself.size())
+      return mu_name + "=" + detail::shortest(mu);
+  }
+  return level_name + "=" + itself;
+}
+
+/// Says what a law's constructor takes where the arguments are others, as a number without a name.
+/// @param rule  as "Coulomb: give mu= or slip_level= [m/s^2]"
+template <class Law>
+void explain_constructor(py::class_<Law>& type, const char* rule) {
+  const py::object take = type.attr("__init__");
+  const std::string doc = py::str(take.attr("__doc__"));
+  py::options options;
+  options.disable_function_signatures();
+  type.attr("__init__") = py::cpp_function(
+      [take, rule](const py::args& self_and_others, const py::kwargs& named) {
+        try {
+          take(*self_and_others, **named);
+        } catch (const py::error_already_set& error) {
+          if (!error.matches(PyExc_TypeError)) throw;
+          const py::object shown = py::module_::import("reprlib").attr("repr");
+          std::string given;
+          for (std::size_t i = 1; i < self_and_others.size(); ++i)
+            given += (given.empty() ? "" : ", ") + std::string(py::str(shown(self_and_others[i])));
+          for (const auto& [name, value] : named)
+            given +=
+                (given.empty() ? "" : ", ") + std::string(py::str(name)) + "=" + std::string(py::str(shown(value)));
+          const std::string text = rule;
+          throw py::type_error(text + ", as numbers by name, got " + text.substr(0, text.find(':')) + "(" + given +
+                               ")");
+        }
+      },
+      py::name("__init__"), py::is_method(type), doc.c_str());
+}
+
+}  // namespace stickslip::python

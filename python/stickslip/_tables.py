@@ -1,0 +1,184 @@
+"""Responses and ensembles as tables: of pandas and xarray, in files, in notebooks."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._core import Ensemble, Estimate, Interval, Response
+from ._files import replacing
+from ._text import printable
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = [
+    "ensemble_html",
+    "html_table",
+    "response_html",
+    "to_csv",
+    "to_dataframe",
+    "to_xarray",
+]
+
+# Name, unit, and what it is.
+_HISTORIES = (
+    ("ground acceleration", "m/s^2", "ground acceleration"),
+    ("displacement", "m", "displacement relative to the ground"),
+    ("velocity", "m/s", "velocity relative to the ground"),
+    ("acceleration", "m/s^2", "absolute acceleration of the mass"),
+    ("friction", "m/s^2", "friction force per unit mass"),
+    ("spring", "m/s^2", "spring force per unit mass"),
+    ("damper", "m/s^2", "damper force per unit mass"),
+    ("force", "m/s^2", "sum of friction, spring and damper force per unit mass"),
+    ("stuck", "", "whether the slider sticks"),
+)
+
+
+def to_dataframe(response: Response) -> Any:
+    """The histories of a response as a pandas DataFrame; see `Response.to_dataframe`."""
+    try:
+        import pandas
+    except ImportError as error:
+        raise _missing("to_dataframe", "pandas") from error
+    index = pandas.Index(response.time, name="time [s]")
+    return pandas.DataFrame(
+        {_heading(name, unit): _history(response, name) for name, unit, _ in _HISTORIES}, index
+    )
+
+
+def to_xarray(response: Response) -> Any:
+    """The histories of a response as an xarray Dataset; see `Response.to_xarray`."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise _missing("to_xarray", "xarray") from error
+    variables = {
+        name.replace(" ", "_"): (
+            "time",
+            _history(response, name),
+            {"long_name": what} | ({"units": unit} if unit else {}),
+        )
+        for name, unit, what in _HISTORIES
+    }
+    return xarray.Dataset(
+        variables,
+        coords={"time": ("time", response.time, {"long_name": "time", "units": "s"})},
+        attrs={
+            "slider": repr(response.slider),
+            "motion": response.motion.name,
+            "peak": response.peak,
+            "peak_units": "m",
+            "residual": response.residual,
+            "residual_units": "m",
+        },
+    )
+
+
+def to_csv(response: Response, path: str | os.PathLike[str]) -> Path:
+    """Write the histories of a response to a file; see `Response.to_csv`."""
+    names = ["time [s]", *(_heading(name, unit) for name, unit, _ in _HISTORIES)]
+    columns = [response.time, *(_history(response, name) for name, _, _ in _HISTORIES)]
+    columns[-1] = columns[-1].astype(int)
+    with replacing(path) as stream:
+        stream.write((",".join(names) + "\n").encode())
+        for rows in _rows(columns):
+            stream.write("".join(",".join(map(repr, row)) + "\n" for row in rows).encode())
+    return Path(path)
+
+
+def response_html(response: Response) -> str:
+    """A table of the main results of a response."""
+    energy = response.energy
+    rows = [
+        ("slider", repr(response.slider)),
+        ("ground motion", printable(response.motion.name) or repr(response.motion)),
+        ("peak displacement", f"{response.peak:.4g} m"),
+        (
+            "residual displacement" if response.at_rest else "displacement at the end, sliding",
+            f"{response.residual:.4g} m",
+        ),
+        ("sliding distance", f"{response.sliding_distance:.4g} m"),
+        ("slips", f"{response.slips:,}"),
+        ("time sliding", f"{response.time_sliding:.4g} s"),
+        ("dissipated by friction", f"{energy.dissipated:.4g} m²/s²"),
+    ]
+    if response.slider.damping > 0:
+        rows.append(("dissipated by the damper", f"{energy.damped:.4g} m²/s²"))
+    try:
+        rows.append(("effective period", f"{response.effective_period:.4g} s"))
+        rows.append(("effective damping", f"{100 * response.effective_damping:.3g} %"))
+    except ValueError:
+        pass  # no loop
+    return html_table("Response", [], rows)
+
+
+def ensemble_html(ensemble: Ensemble) -> str:
+    """A table of the main statistics of an ensemble."""
+    members = ensemble.members
+    rows = [("members", f"{members:,}"), ("seed", str(ensemble.configuration.get("seed", "")))]
+    if members > 1:
+        for p, name in ((0.5, "median"), (0.84, "84 %"), (0.95, "95 %")):
+            rows.append((f"peak displacement, {name}", _of_interval(ensemble.quantile(p))))
+        if ensemble.time.size:
+            s = ensemble.stationary
+            rows.append(("variance of x'", _of_estimate(s.velocity_variance, "m²/s²")))
+            rows.append(("growth of the variance of x", _of_estimate(s.growth_rate, "m²/s")))
+            if s.remark:
+                rows.append(("remark", s.remark))
+    return html_table("Ensemble", [], rows)
+
+
+def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table of texts for a notebook; its first column is set as headings."""
+
+    def row(cells: Sequence[str], tag: str) -> str:
+        first, *rest = map(html.escape, cells)
+        return (
+            f'<tr><th style="text-align: left">{first}</th>'
+            + "".join(f'<{tag} style="text-align: left">{cell}</{tag}>' for cell in rest)
+            + "</tr>"
+        )
+
+    head = f"<thead>{row(heading, 'th')}</thead>" if heading else ""
+    body = "".join(row(cells, "td") for cells in rows)
+    return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
+
+
+def _missing(method: str, library: str) -> ImportError:
+    return ImportError(
+        f"Response.{method}: needs {library}, which is missing; pip install stickslip[tables]"
+    )
+
+
+def _heading(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name
+
+
+def _history(response: Response, name: str) -> NDArray[Any]:
+    """A copy, which may be written to."""
+    if name == "ground acceleration":
+        n = np.zeros(response.time.size)
+        n[: len(response.motion)] = response.motion.acceleration
+        return n
+    return np.array(getattr(response, name))
+
+
+def _rows(columns: Sequence[NDArray[Any]]) -> Iterable[Iterable[tuple[float, ...]]]:
+    """Rows of Python numbers, some thousands at a time."""
+    for begin in range(0, len(columns[0]), 4096):
+        yield zip(*(column[begin : begin + 4096].tolist() for column in columns))
+
+
+def _of_interval(interval: Interval) -> str:
+    high = f"{interval.high:.3g}" if np.isfinite(interval.high) else "∞"
+    return f"{interval.value:.4g} m (95 % confidence: {interval.low:.3g} to {high})"
+
+
+def _of_estimate(estimate: Estimate, unit: str) -> str:
+    return f"{estimate.value:.4g} ± {estimate.error:.2g} {unit}"

@@ -1,0 +1,190 @@
+"""Responses as tables: of pandas and xarray, in files, and in notebooks."""
+
+import io
+import os
+import sys
+import xml.etree.ElementTree
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+UNITS = {
+    "ground acceleration": "m/s^2",
+    "displacement": "m",
+    "velocity": "m/s",
+    "acceleration": "m/s^2",
+    "friction": "m/s^2",
+    "spring": "m/s^2",
+    "damper": "m/s^2",
+    "force": "m/s^2",
+    "stuck": "",
+}
+COLUMNS = [f"{name} [{unit}]" if unit else name for name, unit in UNITS.items()]
+SLIDER = ss.Slider(ss.Coulomb(mu=0.05), period=3, damping_ratio=0.1)
+
+
+@pytest.fixture(
+    params=[
+        ss.GroundMotion([0, 3, -4, 2, 0.1], dt=0.3, name="shaking"),
+        ss.GroundMotion([0, 3, -4, 2, 0.1], times=[0, 0.3, 0.5, 1, 2]),
+        ss.HarmonicMotion(2, 3, 4),
+    ],
+    ids=["even", "uneven", "harmonic"],
+)
+def response(request):
+    return ss.integrate(SLIDER, request.param, settle=True)
+
+
+def histories(r):
+    """What the columns must hold, in order."""
+    ground = np.zeros(r.time.size)
+    ground[: r.motion.time.size] = r.motion.acceleration
+    named = ("displacement", "velocity", "acceleration", "friction", "spring", "damper", "force")
+    return [ground, *(getattr(r, name) for name in named), r.stuck]
+
+
+def test_a_data_frame_has_every_history_under_its_unit(response):
+    pandas = pytest.importorskip("pandas")
+    frame = response.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame)
+    assert frame.index.name == "time [s]"
+    assert np.array_equal(frame.index, response.time)
+    assert list(frame.columns) == COLUMNS
+    for name, history in zip(COLUMNS, histories(response), strict=True):
+        assert np.array_equal(frame[name], history), name
+    assert frame["stuck"].dtype == bool
+    assert frame["displacement [m]"].abs().max() <= response.peak
+    frame["mine"] = frame["force [m/s^2]"] * 2  # a table of one's own
+    frame.loc[frame.index[0], "displacement [m]"] = 5.0
+    assert response.displacement[0] == 0
+
+
+def test_a_dataset_has_every_history_with_its_unit(response):
+    xarray = pytest.importorskip("xarray")
+    data = response.to_xarray()
+    assert isinstance(data, xarray.Dataset)
+    assert np.array_equal(data["time"], response.time)
+    assert data["time"].attrs["units"] == "s"
+    for (name, unit), history in zip(UNITS.items(), histories(response), strict=True):
+        variable = data[name.replace(" ", "_")]
+        assert variable.dims == ("time",)
+        assert np.array_equal(variable, history), name
+        assert variable.attrs.get("units", "") == unit
+        assert variable.attrs["long_name"]
+    assert data.attrs["peak"] == response.peak
+    assert data.attrs["residual"] == response.residual
+    assert data.attrs["peak_units"] == data.attrs["residual_units"] == "m"
+    assert data.attrs["motion"] == response.motion.name
+    assert eval(data.attrs["slider"], vars(ss)) == response.slider
+    # positions by time, as xarray's users ask
+    at = float(data["displacement"].interp(time=0.15))
+    assert at == pytest.approx(np.interp(0.15, response.time, response.displacement))
+
+
+def test_a_file_reads_back_to_the_bit(response, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    path = tmp_path / "r.csv"
+    assert response.to_csv(path) == path
+    frame = pandas.read_csv(path, index_col=0)
+    assert frame.index.name == "time [s]"
+    assert list(frame.columns) == COLUMNS
+    # a reader that may round, by a unit of the last digit; NumPy's does not
+    assert frame["displacement [m]"].to_numpy() == pytest.approx(response.displacement, rel=5e-16)
+    table = np.loadtxt(path, delimiter=",", skiprows=1)
+    assert np.array_equal(table[:, 0], response.time)
+    for column, history in zip(table.T[1:], histories(response), strict=True):
+        assert np.array_equal(column, history)
+    assert set(table[:, -1]) <= {0, 1}
+
+
+def test_a_long_file_has_all_its_lines(tmp_path):
+    r = ss.integrate(SLIDER, ss.GroundMotion(np.sin(np.arange(10_001)), dt=0.01))
+    r.to_csv(str(tmp_path / "r.csv"))
+    table = np.loadtxt(tmp_path / "r.csv", delimiter=",", skiprows=1)
+    assert np.array_equal(table[:, 0], r.time)
+    assert np.array_equal(table[:, 8], r.force)
+
+
+def test_a_file_is_written_whole_or_not_at_all(response, tmp_path, monkeypatch):
+    path = tmp_path / "r.csv"
+    path.write_text("what was there")
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        response.to_csv(tmp_path / "nowhere" / "r.csv")
+
+    def fill_the_disk(descriptor):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", fill_the_disk)
+    with pytest.raises(OSError, match="No space left"):
+        response.to_csv(path)
+    assert path.read_text() == "what was there"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("library, method", [("pandas", "dataframe"), ("xarray", "xarray")])
+def test_without_the_library_the_message_says_what_to_install(
+    response, monkeypatch, library, method
+):
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(ImportError, match=rf"needs {library}.*pip install stickslip\[tables\]"):
+        getattr(response, f"to_{method}")()
+
+
+# ---- notebooks
+
+NAME = "<script>alert('$')</script> & \x1b"
+
+
+def cells(page):
+    """Rows of the tables, as text; fails where the markup is not well-formed."""
+    root = xml.etree.ElementTree.parse(io.StringIO(f"<div>{page}</div>")).getroot()
+    assert not root.findall(".//script")
+    for address in ("http", "src=", "href="):
+        assert address not in page
+    return {row[0].text: [cell.text for cell in row[1:]] for row in root.iter("tr") if len(row) > 1}
+
+
+def test_a_response_shows_its_numbers_with_units_in_a_notebook():
+    quake = ss.GroundMotion([0, 3, -4, 2, 0.1], dt=0.3, name=NAME)
+    r = ss.integrate(SLIDER, quake, settle=True)
+    shown = cells(r._repr_html_())
+    assert shown["ground motion"] == [NAME.replace("\x1b", r"\x1b")]
+    assert eval(shown["slider"][0], vars(ss)) == SLIDER
+    assert shown["peak displacement"] == [f"{r.peak:.4g} m"]
+    assert shown["residual displacement"] == [f"{r.residual:.4g} m"]
+    assert shown["time sliding"] == [f"{r.time_sliding:.4g} s"]
+    assert shown["effective period"] == [f"{r.effective_period:.4g} s"]
+    assert shown["dissipated by the damper"] == [f"{r.energy.damped:.4g} m²/s²"]
+    moving = cells(ss.integrate(SLIDER.law, ss.GroundMotion([0, 3], dt=0.3))._repr_html_())
+    assert "displacement at the end, sliding" in moving
+    assert "effective period" not in moving
+
+
+def test_an_ensemble_shows_quantiles_with_bounds_in_a_notebook():
+    pulses = ss.PoissonPulses.event("moderate near field")
+    e = ss.run_ensemble(ss.Coulomb(mu=0.02), pulses, members=500, seed=7)
+    shown = cells(e._repr_html_())
+    assert (shown["members"], shown["seed"]) == (["500"], ["7"])
+    median = e.quantile(0.5)
+    text = f"{median.value:.4g} m (95 % confidence: {median.low:.3g} to {median.high:.3g})"
+    assert shown["peak displacement, median"] == [text]
+    assert shown["growth of the variance of x"][0].endswith("m²/s")
+    alone = cells(ss.run_ensemble(ss.Coulomb(mu=0.02), pulses, members=1, seed=7)._repr_html_())
+    assert alone["members"] == ["1"]
+    suite = [ss.GroundMotion([0, 2, -2], dt=dt) for dt in (0.1, 0.2)]
+    shown = cells(ss.run_ensemble(ss.Coulomb(mu=0.02), suite, members=9, seed=7)._repr_html_())
+    assert "growth of the variance of x" not in shown
+
+
+def test_a_comparison_shows_theory_over_simulation_in_a_notebook():
+    pulses = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
+    c = ss.compare(ss.Coulomb(slip_level=0.5), pulses, [2, 4], members=640)
+    shown = cells(c._repr_html_())
+    assert shown["time"] == ["2 s", "4 s"]
+    ratio, _ = c.ratio("PulseChain", "velocity_variance")
+    assert shown["PulseChain / simulation"] == [f"{r:.3f}" for r in ratio]
+    value, error = c.simulated("velocity_variance")
+    assert shown["simulation [m²/s²]"] == [f"{v:.4g} ± {e:.1g}" for v, e in zip(value, error)]
+    for name, why in c.refused.items():
+        assert shown[name] == [why]

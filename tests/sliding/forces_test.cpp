@@ -1,0 +1,94 @@
+#include "stickslip/sliding/forces.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/sliding/integrate.hpp"
+#include "support/catch.hpp"
+#include "support/motions.hpp"
+
+using namespace stickslip;
+using namespace test;
+
+namespace {
+
+// Work of friction and damper by the trapezoidal rule, over what the response accounts for; and what friction is off
+// its level or its bounds at most.
+struct Balance {
+  double friction, damper, beyond;
+};
+
+template <class Law>
+Balance balance(const Slider<Law>& slider, const GroundMotion& motion) {
+  const Response r = integrate(slider, motion);
+  const Forces f = forces(slider, motion, r);
+  REQUIRE(f.friction.size() == motion.samples());
+  Balance result{-r.energy.dissipated, -r.energy.damped, 0};
+  for (std::size_t i = 0; i < motion.samples(); ++i) {
+    const double v = r.velocity[i], x = r.displacement[i];
+    const double weight = motion.dt() * (i == 0 || i + 1 == motion.samples() ? 0.5 : 1);
+    result.friction += weight * f.friction[i] * v;
+    result.damper += weight * f.damper[i] * v;
+    CHECK(f.total(i) == f.friction[i] + f.damper[i] + f.spring[i]);
+    if (f.stuck[i] != 0) {
+      CHECK(v == 0);
+      CHECK(std::abs(f.total(i) + motion.acceleration()[i]) < 1e-14);
+      result.beyond = std::max({result.beyond, f.friction[i] - hold(slider.law(), x, Direction::forward),
+                                -f.friction[i] - hold(slider.law(), x, Direction::backward)});
+    } else if (v != 0) {
+      const Direction direction = v > 0 ? Direction::forward : Direction::backward;
+      CHECK(f.friction[i] == sign(direction) * resist(slider.law(), x, direction, std::abs(v)));
+    }
+  }
+  result.friction /= r.energy.dissipated;
+  result.damper /= std::max(r.energy.damped, std::numeric_limits<double>::min());
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("forces balance, and their work is the energy that is dissipated", "[forces]") {
+  std::vector<double> n;
+  const std::vector<double> coarse = record_a_samples();
+  for (std::size_t k = 0; k < 400 * 64; ++k)
+    n.push_back(std::lerp(coarse[k / 64], coarse[k / 64 + 1], static_cast<double>(k % 64) / 64));
+  const GroundMotion motion(n, 0.1 / 64);
+  const auto check = [&](const auto& slider) {
+    const Balance b = balance(slider, motion);
+    // h^2 / 12 of the second derivative of F v, some (2 pi / 0.2 s)^2 of it
+    CHECK(std::abs(b.friction) < 1e-3);
+    CHECK(std::abs(b.damper) < (slider.damping() > 0 ? 1e-3 : 1e-300));
+    CHECK(b.beyond < 1e-14);
+  };
+  for (const double wn : {0.0, 1.3})
+    for (const double c : {0.0, 0.4}) {
+      check(Slider(Coulomb(1), wn, c));
+      check(Slider(Coulomb(1, 1.6), wn, c));
+      check(Slider(Caster(1, 0.5), wn, c));
+      check(Slider(VelocityDependent(0.6, 1.2, 5), wn, c));
+      check(Slider(Bump{1, 0.3}, wn, c));
+    }
+}
+
+TEST_CASE("where a slip begins, turns or stops, the forces are those just after it", "[forces]") {
+  const Coulomb block(1);
+  const auto friction = [&](const GroundMotion& motion) {
+    return forces(block, motion, integrate(block, motion)).friction;
+  };
+  CHECK(friction(steps({0.5, 3, 0.5})) == std::vector<double>{-0.5, -1, -1, -1});
+  CHECK(friction(steps({3, 0, 0, 0.25})) == std::vector<double>{-1, -1, -1, -0.25, -0.25});
+  CHECK(friction(steps({2, 0, -3})) == std::vector<double>{-1, -1, 1, 1});
+}
+
+TEST_CASE("after the ground motion what a stuck slider holds is its spring", "[forces]") {
+  const Slider slider(Coulomb(1), 1.3);
+  const GroundMotion motion = steps({4, -4});
+  const Response r = integrate(slider, motion, from(0, 0, true));
+  const Forces f = forces(slider, motion, r);
+  REQUIRE(r.displacement.size() > motion.samples());
+  CHECK(f.stuck.back() == 1);
+  CHECK(f.total(r.displacement.size() - 1) == 0);
+  CHECK(f.friction.back() == -slider.stiffness() * r.residual);
+}
