@@ -18,7 +18,7 @@ using namespace stickslip;
 
 namespace {
 
-constexpr double averages[] = {0.5, 1, 1.25, 1.3, 2, 4, 8};  // B/a
+constexpr double strengths[] = {0.5, 1, 1.25, 1.3, 2, 4, 8};  // B/a
 constexpr std::size_t points = 400;
 constexpr double natural_frequency = 0.7;
 
@@ -41,7 +41,7 @@ struct Own {
 /// A and the frequency, for A from far below the reach to far above it.
 double along_amplitudes(const theory::SlowlyVaryingParameters& svp, const std::vector<double>& amplitudes) {
   double sum = 0;
-  for (const double B : averages)
+  for (const double B : strengths)
     for (const double amplitude : amplitudes) {
       const double frequency = svp.frequency(B, amplitude).upper;
       if (frequency > 0) sum += frequency;
@@ -51,7 +51,7 @@ double along_amplitudes(const theory::SlowlyVaryingParameters& svp, const std::v
 
 double along_frequencies(const theory::SlowlyVaryingParameters& svp, const std::vector<double>& frequencies) {
   double sum = 0;
-  for (const double B : averages)
+  for (const double B : strengths)
     for (const double omega : frequencies)
       for (const theory::HarmonicSolution& solution : svp.response(B, omega)) sum += solution.amplitude;
   return sum;
@@ -61,7 +61,7 @@ void check(const std::string& name, const theory::SlowlyVaryingParameters& svp, 
            const std::vector<double>& frequencies) {
   std::size_t found = 0;
   double worst = 0;
-  for (const double B : averages)
+  for (const double B : strengths)
     for (const double omega : frequencies)
       for (const theory::HarmonicSolution& solution : svp.response(B, omega)) {
         const double s = svp.dissipative(solution.amplitude),
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   check("law of one's own", own, 0, 1e-8, {0.1, 0.5, 1, 2});  // S by quadrature to 1e-10
   if (options.check) return EXIT_SUCCESS;
 
-  const double curve_points = static_cast<double>(std::size(averages) * points);
+  const double curve_points = static_cast<double>(std::size(strengths) * points);
   bench::Bench work(1);
   work.add("caster, by amplitude", curve_points * 1e3, [&] { bench::keep(along_amplitudes(caster, amplitudes)); });
   work.add("Coulomb, by frequency", curve_points * 1e3, [&] { bench::keep(along_frequencies(coulomb, frequencies)); });
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
   work.add("caster, spring, by frequency", curve_points * 1e3,
            [&] { bench::keep(along_frequencies(sprung, frequencies)); });
   const std::vector<double> few{0.1, 0.5, 1, 2};
-  work.add("law of one's own, by frequency", static_cast<double>(std::size(averages) * few.size()) * 1e3,
+  work.add("law of one's own, by frequency", static_cast<double>(std::size(strengths) * few.size()) * 1e3,
            [&] { bench::keep(along_frequencies(own, few)); });
   const std::vector<bench::Timing> timings = work.run(options.rounds);
 
