@@ -237,7 +237,7 @@ def test_what_is_no_number_or_has_no_name_is_a_type_error(make):
         (lambda: ss.Caster(mu=0.2), r"Caster: .* and reach= \[m\], .*got Caster\(mu=0\.2\)"),
         (
             lambda: ss.VelocityDependent(0.03, 0.06, rate=50),
-            r"VelocityDependent: give mu_slow= and mu_fast=, .*got VelocityDependent\(0\.03, 0\.06, rate=50\)",
+            r"give mu_slow= and mu_fast=, .*got VelocityDependent\(0\.03, 0\.06, rate=50\)",
         ),
         (lambda: ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06), r"and rate= \[s/m\]"),
     ],
