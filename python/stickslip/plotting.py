@@ -353,6 +353,8 @@ def plot_hysteresis(
             secant = (2 * np.pi / period) ** 2 * reach / STANDARD_GRAVITY
             label = f"effective period {_digits(period)} s, damping {_digits(100 * damping)} %"
             axes.plot(reach * length, secant, color=VERMILION, linestyle="--", label=label)
+            low, high = axes.get_ylim()
+            axes.set_ylim(low, high + 0.12 * (high - low))  # room for the legend
             axes.legend(loc="upper left", fontsize=8)
     return figure if ax is None else ax
 
