@@ -11,7 +11,7 @@ import os
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, overload
 
 import numpy as np
 
@@ -288,6 +288,18 @@ def plot_responses(
     return figure
 
 
+@overload
+def plot_hysteresis(
+    response: Response,
+    figure: FigureBase | None = None,
+    title: str | None = None,
+    *,
+    ax: None = None,
+) -> FigureBase: ...
+@overload
+def plot_hysteresis(
+    response: Response, figure: None = None, title: str | None = None, *, ax: Axes
+) -> Axes: ...
 def plot_hysteresis(
     response: Response,
     figure: FigureBase | None = None,
@@ -341,10 +353,32 @@ def plot_hysteresis(
             secant = (2 * np.pi / period) ** 2 * reach / STANDARD_GRAVITY
             label = f"effective period {_digits(period)} s, damping {_digits(100 * damping)} %"
             axes.plot(reach * length, secant, color=VERMILION, linestyle="--", label=label)
+            low, high = axes.get_ylim()
+            axes.set_ylim(low, high + 0.12 * (high - low))  # room for the legend
             axes.legend(loc="upper left", fontsize=8)
     return figure if ax is None else ax
 
 
+@overload
+def plot_friction_sweep(
+    mu: Sequence[float],
+    displacement: Sequence[Sequence[float]],
+    names: Sequence[str],
+    highlight: Sequence[str] = (),
+    figure: FigureBase | None = None,
+    *,
+    ax: None = None,
+) -> FigureBase: ...
+@overload
+def plot_friction_sweep(
+    mu: Sequence[float],
+    displacement: Sequence[Sequence[float]],
+    names: Sequence[str],
+    highlight: Sequence[str] = (),
+    figure: None = None,
+    *,
+    ax: Axes,
+) -> Axes: ...
 def plot_friction_sweep(
     mu: Sequence[float],
     displacement: Sequence[Sequence[float]],

@@ -73,10 +73,10 @@ void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, do
 
 /// The hysteresis loop with the largest displacement, as sliding isolators are designed by.
 ///
-/// D is the peak |x|, F the force of spring and friction there, before the slider turns or stops. A motion under an
-/// earthquake closes no loop: the area is that of a cycle from D to -D and back which dissipates, per way, what the
-/// swing up to the peak does, E_d = 4 D (dissipated + damped) / |swing|. In a steady cycle about x = 0 that is the area
-/// of the loop. With Coulomb friction of level a, and wn^2 of a spring,
+/// D is the peak |x|, F the force of spring and friction there, before the slider turns or stops. An earthquake
+/// response closes no loop. The area is therefore that of a cycle from D to -D and back: 4 D times the energy per meter
+/// that friction and damper took in the swing up to the peak. In a steady cycle about x = 0 that is the area of the
+/// loop. With Coulomb friction of level a, and wn^2 of a spring,
 ///     k_eff = wn^2 + a / D,    E_d = 4 a D,    E_d / (2 pi k_eff D^2) = (2 / pi) a / (a + wn^2 D).
 ///
 /// @param slider    the slider that moved, on a spring
@@ -84,7 +84,7 @@ void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, do
 /// @param response  what `integrate` returned for them
 /// @throws std::invalid_argument  no spring; it never slips; |x| is largest at the start, or at the end of a slip that
 ///                                is not over
-/// As accurate as `integrate`. Takes as long as the motion of that swing.
+/// As accurate as `integrate`. One pass over the events, and the motion of that swing again.
 template <FrictionLaw Law, Motion M>
 Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& response) {
   if (!(slider.stiffness() > 0))

@@ -64,7 +64,7 @@ inline std::vector<double> acting(const HarmonicMotion& motion, std::size_t samp
 /// @param motion    the ground motion it moved under
 /// @param response  what `integrate` returned for them
 /// @return vectors as long as `response.displacement`
-/// Friction as accurate as the displacement and the velocity. Some 10 ns a sample with Coulomb friction.
+/// Friction is as accurate as the displacement and the velocity. One pass over the samples and events.
 template <FrictionLaw Law, Motion M>
 Forces forces(const Slider<Law>& slider, const M& motion, const Response& response) {
   const std::size_t samples = response.displacement.size();

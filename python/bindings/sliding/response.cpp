@@ -118,8 +118,13 @@ Loop loop_of(const Recording& recording) {
   });
 }
 
-// A function of Python that takes the response and options by name.
+// A function of Python that takes the response.
 auto in_python(const char* module, const char* function) {
+  return [=](const py::object& self) { return py::module_::import(module).attr(function)(self); };
+}
+
+// One that takes options by name, too.
+auto with_options(const char* module, const char* function) {
   return [=](const py::object& self, const py::kwargs& options) {
     return py::module_::import(module).attr(function)(self, **options);
   };
@@ -231,15 +236,15 @@ slips; where |x| is largest at the start, or at the end of a slip that is not ov
           "effective_damping", [](const Recording& r) { return loop_of(r).damping(); },
           R"(E_d / (2 pi k_eff D^2) of the same loop, a part of critical damping.
 
-A motion under an earthquake closes no loop: E_d is the energy [m^2/s^2] that a cycle from D to -D and back dissipates in
-friction and damper, per way, as the swing up to the peak does. In a steady cycle about x = 0 that is the area of the
+An earthquake response closes no loop. E_d is therefore that of a cycle from D to -D and back: 4 D times the energy per
+meter that friction and damper took in the swing up to the peak. In a steady cycle about x = 0 that is the area of the
 loop; with Coulomb friction E_d = 4 slip_level D. ValueError as for `effective_period`.)")
-      .def("plot", in_python("stickslip.plotting", "plot_response"),
+      .def("plot", with_options("stickslip.plotting", "plot_response"),
            R"(Draws ground acceleration with the slip level, velocity with sticks shaded, and displacement.
 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
 `title`. Returns the figure, see `stickslip.plotting.plot_response`.)")
-      .def("plot_hysteresis", in_python("stickslip.plotting", "plot_hysteresis"),
+      .def("plot_hysteresis", with_options("stickslip.plotting", "plot_hysteresis"),
            R"(Draws force against displacement.
 
 Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, and `title`. Returns the
