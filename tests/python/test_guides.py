@@ -13,7 +13,12 @@ import pytest
 import stickslip as ss
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = [DOCS / "start.md", DOCS / "conventions.md", *sorted((DOCS / "guides").glob("*.md"))]
+PAGES = [
+    DOCS / "start.md",
+    DOCS / "ground_motions.md",
+    DOCS / "conventions.md",
+    *sorted((DOCS / "guides").glob("*.md")),
+]
 
 
 def blocks(language):

@@ -29,7 +29,7 @@ std::string name_of(SpectrumKind kind) {
   return std::string(std::ranges::find(kinds, kind, [](const auto& pair) { return pair.first; })->second);
 }
 
-py::array_t<double> values_of(const py::object& self) {
+py::array_t<double> rows_of(const py::object& self) {
   const auto& spectrum = self.cast<const ResponseSpectrum&>();
   py::array_t<double> flat = view(spectrum.values, self);
   if (spectrum.damping.size() == 1) return flat;
@@ -49,7 +49,7 @@ void bind_response_spectrum(py::module_& m) {
       .def_property_readonly(
           "damping", [](const py::object& self) { return view(self.cast<const ResponseSpectrum&>().damping, self); },
           "Ratios of critical damping, shape (D,); read-only.")
-      .def_property_readonly("values", &values_of,
+      .def_property_readonly("values", &rows_of,
                              "The largest response [m/s^2, m/s or m], shape (P,) for one damping ratio, (D, P) for "
                              "several; read-only.")
       .def(
