@@ -119,6 +119,18 @@ def test_values_come_in_the_shape_and_order_of_the_periods(kind):
     assert kind in repr(table) and "4 periods" in repr(table)
 
 
+def test_the_largest_sample_misses_what_the_documentation_says():
+    # (wn dt)^2 / 8 of it at most, 5 % at T = 10 dt.
+    period, worst = 0.2, 0.0
+    for start in range(0, 180, 5):
+        motion = ss.GroundMotion(np.append(NOISE[start : start + 20], np.zeros(20)), dt=0.02)
+        spring = ss.ViscousSlider(0.0, natural_frequency=2 * math.pi / period)
+        at_samples = np.abs(ss.histories(spring, motion)[0]).max()
+        exact = ss.response_spectrum(motion, period, 0, kind="displacement").values[0]
+        worst = max(worst, 1 - at_samples / exact)
+    assert 0.02 < worst <= (2 * math.pi / 10) ** 2 / 8
+
+
 def test_real_records_have_spectra(pyslammer_files):
     for file in pyslammer_files[:3]:
         record = ss.read_record(file)

@@ -111,7 +111,8 @@ damper = ss.ViscousSlider(1, natural_frequency=np.float64(2))
 r = ss.integrate(damper, quake)
 e = ss.run_ensemble(damper, shaking, members=10, seed=1)
 strong = ss.strong_motion(quake)
-seconds: float = strong.mean_period + strong.duration_5_75 + strong.duration + strong.centre_frequency_hz
+seconds: float = strong.mean_period + strong.duration_5_75
+seconds = strong.duration + strong.centre_frequency_hz
 linearized = ss.theory.StationaryLinearization().predict(block, soil)
 linearized = ss.theory.StationaryLinearization().predict(ss.Slider(block, 2), soil)
 spread: float = linearized.velocity_std + linearized.velocity_spectrum(3)
