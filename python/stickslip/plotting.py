@@ -32,6 +32,7 @@ from ._core import (
     GroundMotion,
     Moments,
     Response,
+    ResponseSpectrum,
 )
 from ._files import replacing
 from ._text import printable
@@ -40,8 +41,10 @@ __all__ = [
     "plot_comparison",
     "plot_ensemble",
     "plot_friction_sweep",
+    "plot_ground_motion",
     "plot_hysteresis",
     "plot_response",
+    "plot_response_spectrum",
     "plot_responses",
     "save",
     "sticks",
@@ -286,6 +289,95 @@ def plot_responses(
         way.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), alignment="left")
         figure.align_ylabels()
     return figure
+
+
+def plot_ground_motion(
+    motion: GroundMotion, ax: Axes | None = None, title: str | None = None
+) -> FigureBase:
+    """Ground acceleration over time, with its peak.
+
+    Parameters
+    ----------
+    motion : GroundMotion
+    ax : matplotlib Axes, optional
+        Where to draw; those of a new figure of 7 x 2.5 inches if not given.
+    title : str, optional
+        The name of the motion if not given.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+    """
+    with style():
+        ax = ax or new_figure(7, 2.5).subplots()
+        t, n = motion.time, motion.acceleration / STANDARD_GRAVITY
+        held = motion.interpolation == "constant"
+        ax.plot(t, n, color=INK, linewidth=0.6, drawstyle="steps-post" if held else "default")
+        acting = n[:-1] if held else n
+        peak = int(np.abs(acting).argmax())
+        ax.plot(t[peak], n[peak], "o", color=VERMILION, markersize=4)
+        ax.annotate(
+            f"PGA {abs(n[peak]):.3g} g",
+            (t[peak], n[peak]),
+            xytext=(5, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8,
+        )
+        ax.set(xlabel="time [s]", ylabel="ground acceleration [g]", xlim=(t[0], t[-1]))
+        _title(ax, motion, title)
+    return ax.figure
+
+
+_SPECTRUM_LABELS = {
+    "pseudo_acceleration": "pseudo-acceleration [g]",
+    "pseudo_velocity": "pseudo-velocity [m/s]",
+    "displacement": "relative displacement [m]",
+    "velocity": "relative velocity [m/s]",
+    "acceleration": "absolute acceleration [g]",
+}
+
+
+def plot_response_spectrum(
+    spectrum: ResponseSpectrum, ax: Axes | None = None, title: str | None = None
+) -> FigureBase:
+    """The values of a response spectrum over the period, a line for each damping ratio.
+
+    Accelerations are drawn in g. Periods are drawn in increasing order.
+
+    Parameters
+    ----------
+    spectrum : ResponseSpectrum
+    ax : matplotlib Axes, optional
+        Where to draw; those of a new figure of 6 x 4 inches if not given.
+    title : str, optional
+        No title if not given.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+    """
+    with style():
+        ax = ax or new_figure(6, 4).subplots()
+        order = np.argsort(spectrum.periods, kind="stable")
+        factor = 1 / STANDARD_GRAVITY if spectrum.kind.endswith("acceleration") else 1.0
+        for zeta, values in zip(spectrum.damping, np.atleast_2d(spectrum.values)):
+            ax.plot(
+                spectrum.periods[order],
+                factor * values[order],
+                marker="o" if len(order) == 1 else None,
+                label=f"{100 * zeta:g} % damping",
+            )
+        ax.set(xlabel="period [s]", ylabel=_SPECTRUM_LABELS[spectrum.kind])
+        ax.set_ylim(bottom=0)
+        if len(order) > 1:
+            ax.set_xlim(spectrum.periods.min(), spectrum.periods.max())
+        ax.grid(color=PALE, linewidth=0.6)
+        ax.set_axisbelow(True)
+        if title:
+            ax.set_title(title)
+        ax.legend(fontsize=8)
+    return ax.figure
 
 
 @overload

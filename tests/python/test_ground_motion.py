@@ -305,3 +305,142 @@ def test_a_motion_survives_pickling_and_copying(motion):
 def test_motions_do_not_change():
     with pytest.raises(AttributeError):
         ss.GroundMotion(SAMPLES, dt=1).name = "other"
+
+
+NOISE = ss.GroundMotion(np.random.default_rng(1).standard_normal(500), dt=0.02, name="noise")
+
+
+def test_factors_scale_a_motion():
+    two = NOISE.scaled(2)
+    for product in (2 * NOISE, NOISE * 2, np.float64(2) * NOISE, np.int64(2) * NOISE, NOISE / 0.5):
+        assert product == two
+    mirrored = -NOISE
+    assert mirrored == NOISE.scaled(-1)
+    assert (2 * NOISE).name == "noise"
+    for bad, rule in ((0, "not zero, got 0"), (NAN, "got nan"), (INF, "got inf")):
+        with pytest.raises(ValueError, match=rule):
+            NOISE / bad
+    with pytest.raises(ValueError, match="must be finite, got nan"):
+        NOISE * NAN
+    for wrong in ("2", None, [2], NOISE):
+        with pytest.raises(TypeError):
+            NOISE * wrong
+    with pytest.raises(TypeError):
+        2 / NOISE
+
+
+def test_units_of_the_acceleration():
+    g = ss.GroundMotion(SAMPLES, dt=0.25, units="g")
+    assert np.array_equal(g.acceleration, np.multiply(SAMPLES, ss.STANDARD_GRAVITY))
+    assert ss.GroundMotion(SAMPLES, dt=0.25, units="m/s^2") == ss.GroundMotion(SAMPLES, dt=0.25)
+    assert ss.GroundMotion([0, 100], dt=1, units="gal").peak_acceleration == 1
+    assert pickle.loads(pickle.dumps(g)) == g
+    with pytest.raises(ValueError, match="furlong"):
+        ss.GroundMotion(SAMPLES, dt=0.25, units="furlong")
+
+
+def test_a_motion_is_scaled_to_a_target():
+    assert NOISE.scaled_to(pga_g=0.4).peak_acceleration == pytest.approx(0.4 * ss.STANDARD_GRAVITY)
+    assert ss.strong_motion(NOISE.scaled_to(arias=1.5)).arias_intensity == pytest.approx(1.5)
+    assert ss.strong_motion(NOISE.scaled_to(pgv=0.3)).peak_velocity == pytest.approx(0.3)
+    for targets, count in (({}, 0), ({"pga_g": 1, "pgv": 1}, 2)):
+        with pytest.raises(ValueError, match=f"exactly one .* got {count}"):
+            NOISE.scaled_to(**targets)
+    with pytest.raises(ValueError, match="positive and finite PGV, got -1 m/s"):
+        NOISE.scaled_to(pgv=-1)
+    with pytest.raises(ValueError, match="zeros only"):
+        ss.GroundMotion([0, 0], dt=1).scaled_to(pga_g=1)
+
+
+def test_velocity_and_displacement_are_exact_integrals():
+    # n = 2 t - 1 from t = 0 to 4, at uneven times: v = t^2 - t, d = t^3 / 3 - t^2 / 2.
+    t = np.array([0, 0.3, 1, 2.5, 4])
+    motion = ss.GroundMotion(2 * t - 1, times=t)
+    assert np.allclose(motion.velocity, t**2 - t, rtol=1e-14, atol=1e-14)
+    assert np.allclose(motion.displacement, t**3 / 3 - t**2 / 2, rtol=1e-14, atol=1e-14)
+    # As a slider without friction: relative to the ground it moves as the ground, backward.
+    free = ss.histories(ss.ViscousSlider(0.0), NOISE)
+    assert np.allclose(-free[1], NOISE.velocity, atol=1e-12)
+    assert np.allclose(-free[0], NOISE.displacement, atol=1e-12)
+
+
+def test_a_resampled_motion_lies_on_the_lines():
+    fine = NOISE.resampled(0.005)
+    assert fine.dt == 0.005
+    assert np.allclose(
+        fine.acceleration, np.interp(fine.time, NOISE.time, NOISE.acceleration), atol=1e-12
+    )
+    assert fine.velocity[-1] == pytest.approx(NOISE.velocity[-1], rel=1e-11)
+    r, s = (ss.integrate(ss.Coulomb(slip_level=0.5), q, settle=True) for q in (NOISE, fine))
+    assert r.residual == pytest.approx(s.residual, rel=1e-9)
+    with pytest.raises(ValueError, match=r"at most the duration, 9.98 s, got 20 s"):
+        NOISE.resampled(20)
+
+
+def test_a_motion_is_cut():
+    part = NOISE.cut(1.0, 3.0)
+    assert (part.dt, part.duration, part.time[0]) == (0.02, 2.0, 0)
+    assert np.array_equal(part.acceleration, NOISE.acceleration[50:151])
+    odd = NOISE.cut(1.01, 3)
+    assert odd.acceleration[0] == pytest.approx(NOISE.acceleration[50:52].mean())
+    assert odd.duration == pytest.approx(1.99)
+    with pytest.raises(ValueError, match=r"from 0 to 9.98 s, got 10 s"):
+        NOISE.cut(0, 10)
+
+
+def test_a_trend_is_taken_away():
+    flat = NOISE.detrended()
+    assert abs(flat.velocity[-1]) <= 1e-12
+    offset = ss.GroundMotion(flat.acceleration + 0.1, dt=0.02, name="noise")
+    assert np.allclose(offset.detrended().acceleration, flat.acceleration, atol=1e-13)
+    inclined = ss.GroundMotion(flat.acceleration + 0.1 - 0.03 * flat.time, dt=0.02)
+    assert np.allclose(
+        inclined.detrended(1).acceleration, flat.detrended(1).acceleration, atol=1e-12
+    )
+    with pytest.raises(ValueError, match="from 0 to 10, got 11"):
+        NOISE.detrended(11)
+
+
+def test_a_motion_plots_itself():
+    pytest.importorskip("matplotlib")
+    from matplotlib.figure import Figure
+
+    (axes,) = NOISE.plot().axes
+    assert axes.get_title(loc="left") == "noise"
+    assert np.allclose(axes.lines[0].get_ydata() * ss.STANDARD_GRAVITY, NOISE.acceleration)
+    mine = Figure().subplots()
+    assert NOISE.plot(ax=mine, title="mine") is mine.figure
+    assert any("PGA" in text.get_text() for text in mine.texts)
+
+
+class Stats:
+    delta = 0.01
+
+
+class Trace:
+    data, stats, id = np.array([1, -2, 3], dtype=np.int32), Stats(), "XX.STA..HNE"
+
+
+def test_a_trace_becomes_a_motion():
+    motion = ss.GroundMotion.from_obspy(Trace(), units="gal")
+    assert motion == ss.GroundMotion([0.01, -0.02, 0.03], dt=0.01, name="XX.STA..HNE")
+    assert ss.GroundMotion.from_obspy(Trace(), name="mine").name == "mine"
+    gap = Trace()
+    gap.data = np.ma.masked_array([1.0, 2, 3], [0, 1, 0])
+    with pytest.raises(ValueError, match="masked value at index 1"):
+        ss.GroundMotion.from_obspy(gap)
+    with pytest.raises(TypeError, match="needs one obspy Trace, got list"):
+        ss.GroundMotion.from_obspy([1, 2, 3])
+
+
+def test_a_trace_of_obspy_itself_becomes_a_motion():
+    obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
+    header = {"delta": 0.005, "network": "XX", "station": "STA", "channel": "HNE"}
+    trace = obspy.Trace(np.array([0.0, 1.5, -2.0]), header)
+    motion = ss.GroundMotion.from_obspy(trace)
+    assert motion == ss.GroundMotion([0.0, 1.5, -2.0], dt=0.005, name="XX.STA..HNE")
+    offset = obspy.Trace(np.sin(np.arange(400)) + 0.02, header)
+    with pytest.warns(ss.PlausibilityWarning, match=r"from_obspy \(XX.STA..HNE\): the mean"):
+        ss.GroundMotion.from_obspy(offset)
+    with pytest.raises(TypeError, match=r"got Stream; select one of its traces, as stream\[0\]"):
+        ss.GroundMotion.from_obspy(obspy.Stream([trace]))

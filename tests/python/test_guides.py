@@ -13,7 +13,12 @@ import pytest
 import stickslip as ss
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = [DOCS / "start.md", DOCS / "conventions.md", *sorted((DOCS / "guides").glob("*.md"))]
+PAGES = [
+    DOCS / "start.md",
+    DOCS / "ground_motions.md",
+    DOCS / "conventions.md",
+    *sorted((DOCS / "guides").glob("*.md")),
+]
 
 
 def blocks(language):
@@ -45,7 +50,7 @@ def kobe(tmp_path, monkeypatch, pyslammer_files):
 
 
 def test_every_guide_has_code():
-    assert len(PAGES) == 7
+    assert len(PAGES) == 8
     pages = {param.id.rsplit("-", 1)[0] for kind in ("python", "cpp") for param in blocks(kind)}
     assert pages == {page.stem for page in PAGES}
 

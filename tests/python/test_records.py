@@ -322,3 +322,50 @@ def test_cosmos(agency_files):
         assert "Point MacKenzie" in motion.name
         return
     pytest.skip("no cosmos/akbmr_bnz.v2c among the agency files")
+
+
+# ---- warnings
+
+
+def written(file, acceleration, dt=0.01, unit="m/s^2"):
+    rows = "\n".join(f"{i * dt:.6g}, {a:.17g}" for i, a in enumerate(acceleration))
+    file.write_text(f"Time (s), Acceleration ({unit})\n{rows}\n")
+    return file
+
+
+WAVE = np.sin(2 * np.pi * np.arange(401) / 40)  # whole periods: no mean
+
+
+def test_a_record_that_is_hardly_one_is_warned_of(tmp_path):
+    file = tmp_path / "a.csv"
+    for factor in (0.02, 1, 29):
+        ss.read_record(written(file, factor * WAVE))
+    for factor in (0.009, 31, 981, 0):
+        with pytest.warns(ss.PlausibilityWarning, match=r"not from 0.01 to 30 m/s\^2.*units"):
+            record = ss.read_record(written(file, factor * WAVE))
+        assert record.peak_acceleration == pytest.approx(factor, abs=1e-12)
+    ss.read_record(written(file, WAVE + 0.0049))
+    for offset in (-0.0052, 0.0052, 0.5):
+        with pytest.warns(ss.PlausibilityWarning, match=r"the mean acceleration.*detrended"):
+            record = ss.read_record(written(file, WAVE + offset))
+        ss.read_record(written(file, record.detrended().acceleration))
+    ss.read_record(written(file, 100 + WAVE[:99]))  # too few to be a record
+    with pytest.raises(ss.PlausibilityWarning):  # the filter of these tests
+        ss.read_record(written(file, 100 * WAVE))
+    assert issubclass(ss.PlausibilityWarning, UserWarning)
+
+
+def test_real_records_are_plausible_and_with_an_offset_they_are_not(pyslammer_files, tmp_path):
+    # Without a warning, which would be an error here. The offset of 0.01 g that no one saw.
+    records = {file.stem: ss.read_record(file) for file in pyslammer_files}
+    assert max(abs(r.velocity[-1]) / r.duration / r.peak_acceleration for r in records.values()) < (
+        2e-4
+    )
+    kobe = records["Kobe_1995_TAK-090"]
+    shifted = np.asarray(kobe.acceleration) + 0.01 * ss.STANDARD_GRAVITY
+    with pytest.warns(ss.PlausibilityWarning, match=r"0.5 % of the peak"):
+        off = ss.read_record(written(tmp_path / "kobe.csv", shifted, kobe.dt))
+    peaks = [ss.integrate(ss.Coulomb(mu=0.1), q, settle=True).peak for q in (kobe, off)]
+    assert np.round(peaks, 2).tolist() == [0.29, 0.55]  # docs/ground_motions.md
+    fraction = 0.01 * ss.STANDARD_GRAVITY / kobe.peak_acceleration
+    assert fraction == pytest.approx(0.016, abs=5e-4)

@@ -87,3 +87,48 @@ def test_records_of_agencies_have_strong_motion(agency_files):
     )
     check_record(ss.read_record(agency_files / "smc/0111a.smc"))
     check_record(ss.read_record(agency_files / "cosmos/akbmr_bnz.v2c"))
+
+
+def test_intensity_measures_are_what_numpy_says():
+    n = np.random.default_rng(4).standard_normal(2001)
+    dt, fine = 0.01, 200  # of the trapezoidal rule, between straight lines
+    motion = ss.GroundMotion(n, dt)
+    s = ss.strong_motion(motion)
+    t = np.arange((len(n) - 1) * fine + 1) * dt / fine
+    a = np.interp(t, motion.time, n)
+
+    def integral(y):
+        return np.concatenate([[0], np.cumsum((y[1:] + y[:-1]) / 2)]) * dt / fine
+
+    v = integral(a)
+    assert s.peak_acceleration == np.abs(n).max() == motion.peak_acceleration
+    assert s.peak_velocity == pytest.approx(np.abs(v).max(), rel=1e-4)
+    assert s.peak_displacement == pytest.approx(np.abs(integral(v)).max(), rel=1e-4)
+    assert s.cumulative_absolute_velocity == pytest.approx(integral(np.abs(a))[-1], rel=1e-4)
+    husid = integral(a**2)
+    begin, end = np.interp([0.05 * husid[-1], 0.75 * husid[-1]], husid, t)
+    assert s.duration_5_75 == pytest.approx(end - begin, abs=1e-3)
+    assert 0 < s.duration_5_75 < s.duration
+
+
+def test_the_mean_period_is_that_of_rathje_and_others():
+    # Rathje, Abrahamson & Bray (1998), with NumPy's FFT; 10 s with zeros up to 20 s.
+    n = np.random.default_rng(4).standard_normal(1001)
+    f = np.fft.rfftfreq(2000, 0.01)
+    power = np.abs(np.fft.rfft(n, 2000)) ** 2
+    band = (f >= 0.25) & (f <= 20)
+    expected = (power[band] / f[band]).sum() / power[band].sum()
+    assert ss.strong_motion(ss.GroundMotion(n, 0.01)).mean_period == pytest.approx(
+        expected, rel=1e-9
+    )
+    steps = ss.GroundMotion(np.resize([3.0, -3.0, 1.0], 20), 3.0, interpolation="constant")
+    assert math.isnan(ss.strong_motion(steps).mean_period)  # up to 1 / 6 Hz
+
+
+def test_kobe_has_the_peaks_that_peer_gives(pyslammer_files):
+    # KOBE/TAK090 of the PEER strong motion database: 0.616 g, 120.7 cm/s, 32.72 cm.
+    (file,) = (f for f in pyslammer_files if f.stem == "Kobe_1995_TAK-090")
+    s = ss.strong_motion(ss.read_record(file))
+    assert s.peak_acceleration / ss.STANDARD_GRAVITY == pytest.approx(0.616, abs=5e-4)
+    assert s.peak_velocity == pytest.approx(1.207, abs=5e-4)
+    assert s.peak_displacement == pytest.approx(0.3272, abs=1e-3)

@@ -38,6 +38,14 @@ quake = ss.GroundMotion(array("d", [1, 2, 3]), times=(0, 1, 2))
 quake = ss.GroundMotion(np.ones(3, np.float32), times=np.arange(3), interpolation="constant")
 quake = ss.read_record(Path("kobe.AT2"), units="g", component=1)
 step: float | None = quake.dt
+quake = ss.GroundMotion([0, 1], dt=0.01, units="g").scaled_to(pga_g=0.4).cut(0, np.float64(0.01))
+quake = -(2 * quake / np.float32(3)).resampled(0.005).detrended(order=1) * 2
+ground: NDArray[np.float64] = quake.velocity + quake.displacement
+picture = quake.plot(title="mine")
+spectrum = ss.response_spectrum(quake, np.geomspace(0.01, 10, 20), [0.02, 0.05], kind="velocity")
+sa: NDArray[np.float64] = ss.response_spectrum(quake, 1.0).values
+picture = spectrum.plot()
+warned: type[UserWarning] = ss.PlausibilityWarning
 
 r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
 r = ss.integrate(block, quake, settle=True)
@@ -113,7 +121,8 @@ damper = ss.ViscousSlider(1, natural_frequency=np.float64(2))
 r = ss.integrate(damper, quake)
 e = ss.run_ensemble(damper, shaking, members=10, seed=1)
 strong = ss.strong_motion(quake)
-seconds: float = strong.duration + strong.centre_frequency_hz
+seconds: float = strong.mean_period + strong.duration_5_75
+seconds = strong.duration + strong.centre_frequency_hz
 linearized = ss.theory.StationaryLinearization().predict(block, soil)
 linearized = ss.theory.StationaryLinearization().predict(ss.Slider(block, 2), soil)
 spread: float = linearized.velocity_std + linearized.velocity_spectrum(3)

@@ -97,6 +97,11 @@ EXAMPLES = {
     ],
     ss.Energy: [r.energy for r in RESPONSES],
     ss.Response: RESPONSES,
+    ss.ResponseSpectrum: [
+        ss.response_spectrum(EVEN, [0, 0.5]),
+        ss.response_spectrum(EVEN, [0, 0.5], 0.02),
+        ss.response_spectrum(EVEN, [0, 0.5], [0.05, 0.02], kind="velocity"),
+    ],
     ss.StrongMotion: [ss.strong_motion(PULSES.sample(seed=1, member=m)) for m in (0, 1)],
     ss.PulseFit: [ss.fit_pulses(PULSES.sample(seed=1, member=m)) for m in (0, 1)],
     ss.Estimate: [ENSEMBLE.stationary.growth_rate, COMPARED.theories["PulseChain"].growth_rate],
@@ -118,6 +123,7 @@ EXAMPLES = {
     ],
     ss.Comparison: [COMPARED, ss.compare(CART.law, PULSES, [2, 4], members=64)],
     ss.ConvergenceError: [ss.ConvergenceError("not yet")],
+    ss.PlausibilityWarning: [ss.PlausibilityWarning("other units")],
     ss.EnsembleError: [ss.EnsembleError("no motion here", range(64, 70), SMALLER)],
     harmonic.Orbit: [
         *harmonic.orbits(WHEEL, 0.9, 0.5),

@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include "ground/plausibility.hpp"
 #include "parts.hpp"
 
 namespace stickslip::python {
@@ -30,8 +31,10 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
     throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " + type +
                          (type == "Stream" ? "; select one of its traces, as stream[0]" : ""));
   }
-  return make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt, "linear",
-              name ? *name : py::str(trace.attr("id")).cast<std::string>(), units);
+  GroundMotion motion = make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt,
+                             "linear", name ? *name : py::str(trace.attr("id")).cast<std::string>(), units);
+  warn_if_implausible(motion, "GroundMotion.from_obspy");
+  return motion;
 }
 
 py::object plot(const py::object& self, const py::kwargs& options) {
@@ -104,7 +107,12 @@ Raises
 TypeError
     No trace.
 ValueError
-    A masked sample (a gap), or one that is not finite.)")
+    A masked sample (a gap), or one that is not finite.
+
+Warns
+-----
+PlausibilityWarning
+    As `read_record` does.)")
       .def_property_readonly(
           "acceleration",
           [](const py::object& self) { return view(self.cast<const GroundMotion&>().acceleration(), self); },

@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings.hpp"
+#include "ground/plausibility.hpp"
 
 namespace stickslip::python {
 
@@ -18,6 +19,16 @@ void bind_records(py::module_& m) {
     }
   });
 
+  m.attr("PlausibilityWarning") = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
+      "stickslip.PlausibilityWarning",
+      "A record that is hardly what it is taken for: in other units, or with an error of the baseline.\n\n"
+      "`read_record` and `GroundMotion.from_obspy` warn where the largest acceleration is below 0.01 or above\n"
+      "30 m/s^2, and where the mean acceleration is above 0.5 % of the largest; fewer than 100 samples are not\n"
+      "looked at. Of processed records the mean is below 0.02 % of the largest; an offset of 0.01 g in a record of\n"
+      "0.6 g, 1.6 %, can double a displacement. Silence the warning by Python's own filter:\n"
+      "`warnings.simplefilter(\"ignore\", stickslip.PlausibilityWarning)`.",
+      PyExc_UserWarning, nullptr));
+
   m.def(
       "read_record",
       [](const std::filesystem::path& file, const std::optional<std::string>& units,
@@ -26,8 +37,12 @@ void bind_records(py::module_& m) {
         if (component)
           options.component = std::holds_alternative<int>(*component) ? std::to_string(std::get<int>(*component))
                                                                       : std::get<std::string>(*component);
-        const py::gil_scoped_release released;
-        return read_record(file, options);
+        GroundMotion record = [&] {
+          const py::gil_scoped_release released;
+          return read_record(file, options);
+        }();
+        warn_if_implausible(record, "read_record");
+        return record;
       },
       py::arg("file"), py::kw_only(), py::arg("units") = py::none(), py::arg("component") = py::none(),
       R"(Reads one component of a strong-motion record.
@@ -59,6 +74,12 @@ OSError
 ValueError
     Naming the file and the line or value: no known format, velocity or displacement, no or unknown units, text, NaN or
     infinity among the numbers, another count of samples than the header states, a time step that is not positive.
+
+Warns
+-----
+PlausibilityWarning
+    The largest acceleration is below 0.01 or above 30 m/s^2; or the mean acceleration is above 0.5 % of the largest,
+    which is an error of the baseline: `detrended` takes it away. Fewer than 100 samples are not looked at.
 
 Notes
 -----

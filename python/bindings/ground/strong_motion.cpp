@@ -14,7 +14,7 @@ void bind_strong_motion(py::module_& m) {
           "peak_displacement", &StrongMotion::peak_displacement,
           "Of the whole record [m], the PGD: the ground from rest at the first sample, the baseline as it is.")
       .def_readonly("cumulative_absolute_velocity", &StrongMotion::cumulative_absolute_velocity,
-                    R"(Of the whole record [m/s], the CAV: the integral of \|n\| dt.)")
+                    R"(Of the whole record [m/s], the CAV: the integral of |n| dt.)")
       .def_readonly(
           "mean_period", &StrongMotion::mean_period,
           "Of the whole record [s], T_m of Rathje et al. (1998): the mean of 1 / f over 0.25 to 20 Hz, weighted "

@@ -1,0 +1,48 @@
+// A warning about recorded ground motions that cannot be what they are taken for.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+
+/// Recorded peaks are within these; PGAs above 30 m/s^2 are in other units. (The largest ever is some 4 g.)
+inline constexpr double least_plausible_peak = 0.01, most_plausible_peak = 30;  // [m/s^2]
+/// A mean above this fraction of the peak is an offset: of processed records it is below 2e-4, and 0.01 g in a record
+/// of 0.6 g is 1.6e-2.
+inline constexpr double most_plausible_mean = 0.005;
+
+/// Fewer samples are an example, not a record: they are not looked at.
+inline constexpr std::size_t fewest_samples = 100;
+
+/// Warns by Python's `warnings`; throws where they are made errors.
+inline void warn_if_implausible(const GroundMotion& motion, const std::string& who) {
+  if (motion.samples() < fewest_samples) return;
+  const auto warn = [&](const std::string& what) {
+    const py::object type = py::module_::import("stickslip._core").attr("PlausibilityWarning");
+    const std::string text = who + (motion.name().empty() ? std::string() : " (" + motion.name() + ")") + ": " + what;
+    if (PyErr_WarnEx(type.ptr(), text.c_str(), 1) != 0) throw py::error_already_set();
+  };
+  const auto rounded = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return std::string(text);
+  };
+  const double peak = motion.peak_acceleration();
+  if (!(peak >= least_plausible_peak && peak <= most_plausible_peak)) {
+    warn("the largest acceleration, " + rounded(peak) +
+         " m/s^2, is not from 0.01 to 30 m/s^2 as in recorded earthquakes; check the units");
+    return;
+  }
+  const double velocity = ground_history(motion).velocity.back(), mean = velocity / motion.duration();
+  if (std::abs(mean) > most_plausible_mean * peak)
+    warn("the mean acceleration, " + rounded(mean) +
+         " m/s^2, is more than 0.5 % of the peak and leaves the ground moving at " + rounded(velocity) +
+         " m/s; this is an error of the baseline, which .detrended() takes away");
+}
+
+}  // namespace stickslip::python
