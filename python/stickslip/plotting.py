@@ -897,7 +897,9 @@ def _describe(slider: Any) -> str:
     words = []
     if slider.damping > 0:
         words.append(f"viscous damping {_digits(slider.damping)} 1/s")
-    if not _has_friction(slider):
+    if hasattr(slider.law, "fast"):
+        words.insert(0, _by_speed(slider.law.slow, slider.law.fast))
+    elif not _has_friction(slider):
         words.insert(0, "no friction")
     else:
         ahead, back = (slider.resist(backward=b) / STANDARD_GRAVITY for b in (False, True))
@@ -913,6 +915,11 @@ def _describe(slider: Any) -> str:
     if wn > 0:
         words.append(f"period {_digits(2 * np.pi / wn)} s")
     return ", ".join(words)
+
+
+def _by_speed(slow: float, fast: float) -> str:
+    slow, fast = slow / STANDARD_GRAVITY, fast / STANDARD_GRAVITY
+    return f"slip level {_digits(slow)} g slow, {_digits(fast)} g fast"
 
 
 def _band(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, colour: str) -> None:
@@ -1010,6 +1017,8 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
         words.append(f"viscous damping {_digits(slider['damping'])} 1/s")
     if slider.get("slip_level") == 0 == slider.get("backward"):
         words.append("no friction")
+    elif "fast" in slider:
+        words.append(_by_speed(slider["slow"], slider["fast"]))
     elif "slip_level" in slider:
         ahead = slider["slip_level"] / STANDARD_GRAVITY
         words.append(f"slip level {_digits(ahead)} g")

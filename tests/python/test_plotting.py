@@ -281,6 +281,11 @@ def test_an_ensemble_says_what_slid(ensemble):
     assert figure.get_suptitle().endswith("slip level 0.0200 g, never backward, period 2.00 s")
     assert len(figure.axes) == 3
     assert e.plot(title="mine").get_suptitle() == "mine"
+    liner = ss.VelocityDependent(mu_slow=0.02, mu_fast=0.06, rate=50)
+    e = ss.run_ensemble(liner, SHAKING, members=2, seed=1, velocity_spectrum=False)
+    assert e.plot().get_suptitle().endswith("slip level 0.0200 g slow, 0.0600 g fast")
+    told = ss.integrate(liner, SHAKING.sample(seed=1, member=0)).plot().axes[0].texts
+    assert any("0.0200 g slow, 0.0600 g fast" in text.get_text() for text in told)
     assert e.plot()._repr_png_().startswith(b"\x89PNG")
 
 
