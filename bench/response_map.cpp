@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   check("Coulomb", coulomb, 0, 1e-14, frequencies);
   check("caster", caster, 0, 1e-14, frequencies);
   check("caster, spring", sprung, natural_frequency, 1e-14, frequencies);
-  check("law of one's own", own, 0, 1e-8, {0.1, 0.5, 1, 2});  // S by quadrature to 1e-10
+  check("user's law", own, 0, 1e-8, {0.1, 0.5, 1, 2});  // S by quadrature to 1e-10
   if (options.check) return EXIT_SUCCESS;
 
   const double curve_points = static_cast<double>(std::size(strengths) * points);
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
   work.add("caster, spring, by frequency", curve_points * 1e3,
            [&] { bench::keep(along_frequencies(sprung, frequencies)); });
   const std::vector<double> few{0.1, 0.5, 1, 2};
-  work.add("law of one's own, by frequency", static_cast<double>(std::size(strengths) * few.size()) * 1e3,
+  work.add("user's law, by frequency", static_cast<double>(std::size(strengths) * few.size()) * 1e3,
            [&] { bench::keep(along_frequencies(own, few)); });
   const std::vector<bench::Timing> timings = work.run(options.rounds);
 

@@ -28,7 +28,7 @@ struct Slips {
 /// Slips of gamma-distributed lengths: the density of either way is as |d|^(k-1) exp(-|d| / theta), one k, two theta.
 /// @param count    expected number, at least 0
 /// @param moments  sums of their powers, expected [m] to [m^4]: four equations for k, both theta and how many go which
-///                 way. Where so many slips cannot have so small a fourth one, it is the least that they can
+///                 way. Where the fourth is below the least possible for that number of slips, the least is taken
 /// @throws std::invalid_argument where the kurtosis is below that by more than 0.1
 Slips gamma_slips(double count, const std::array<double, 4>& moments);
 

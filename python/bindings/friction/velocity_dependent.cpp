@@ -29,7 +29,8 @@ ValueError
 
 Notes
 -----
-The motion is a Taylor series in time, near round-off; some 0.3 us a sample, 0.7 us with a spring.
+The motion is a Taylor series in time, near round-off. A sample of the Kobe record (dt = 0.01 s) on a spring takes 0.25 us;
+one of random accelerations 0.1 s apart, twice the fast level, 2.8 us, with a spring or without.
 
 References
 ----------

@@ -94,15 +94,16 @@ void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& 
 /// The ground acceleration at the times of the statistics; where it jumps, what it is from then on.
 inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times, std::vector<double>& values) {
   values.resize(times.count);
+  const double begin = motion.time(0);
   std::size_t next = 0;
-  for (std::size_t i = 0; i < motion.segments() && next < times.count; ++i) {
-    const Segment s = motion.segment(i);
-    const double from = motion.time(i) - motion.time(0), to = motion.time(i + 1) - motion.time(0);
+  const auto read_off = [&](std::size_t i, double segment_begins, double segment_ends, const Segment& s) {
+    const double from = segment_begins - begin, to = segment_ends - begin;
     const bool last = i + 1 == motion.segments();
     for (double at; next < times.count && ((at = static_cast<double>(next) * times.dt) < to || last); ++next)
       values[next] =
           s.duration > 0 ? s.start + (s.end - s.start) * std::clamp((at - from) / s.duration, 0.0, 1.0) : s.end;
-  }
+  };
+  walk(motion, motion.segments(), read_off, [] {});
 }
 
 /// Takes the largest |x| of a member, and beats.
