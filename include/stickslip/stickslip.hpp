@@ -12,6 +12,7 @@
 #include "stickslip/excitation/random.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
+#include "stickslip/ground/orientation.hpp"
 #include "stickslip/ground/processing.hpp"
 #include "stickslip/ground/records.hpp"
 #include "stickslip/ground/response_spectrum.hpp"

@@ -51,7 +51,7 @@ template <>
 inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Response::velocity, &Response::events,
                                                    &Response::peak, &Response::residual, &Response::sliding_distance,
                                                    &Response::time_sliding, &Response::energy, &Response::truncated,
-                                                   &Response::state);
+                                                   &Response::components, &Response::state);
 template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,

@@ -185,6 +185,9 @@ class GroundMotion(metaclass=_Pybind11Type):
         interpolation: _Interpolation = "linear",
         name: str = "",
         units: _AccelerationUnit = "m/s^2",
+        transverse: _Samples | None = None,
+        vertical: _Samples | None = None,
+        orientation: str = "",
     ) -> None: ...
     @overload
     def __init__(
@@ -196,6 +199,9 @@ class GroundMotion(metaclass=_Pybind11Type):
         interpolation: _Interpolation = "linear",
         name: str = "",
         units: _AccelerationUnit = "m/s^2",
+        transverse: _Samples | None = None,
+        vertical: _Samples | None = None,
+        orientation: str = "",
     ) -> None: ...
     @staticmethod
     def from_obspy(
@@ -203,6 +209,11 @@ class GroundMotion(metaclass=_Pybind11Type):
     ) -> GroundMotion: ...
     @property
     def acceleration(self) -> NDArray[np.float64]: ...
+    @property
+    def transverse(self) -> NDArray[np.float64] | None: ...
+    @property
+    def vertical(self) -> NDArray[np.float64] | None: ...
+    def component(self, which: Literal["axis", "transverse", "vertical"]) -> GroundMotion: ...
     @property
     def time(self) -> NDArray[np.float64]: ...
     @property
@@ -215,6 +226,8 @@ class GroundMotion(metaclass=_Pybind11Type):
     def interpolation(self) -> _Interpolation: ...
     @property
     def name(self) -> str: ...
+    @property
+    def orientation(self) -> str: ...
     @property
     def velocity(self) -> NDArray[np.float64]: ...
     @property
@@ -234,6 +247,7 @@ class GroundMotion(metaclass=_Pybind11Type):
     ) -> GroundMotion: ...
     def resampled(self, dt: _Number) -> GroundMotion: ...
     def cut(self, begin: _Number, end: _Number) -> GroundMotion: ...
+    def rotated(self, degrees: _Number) -> GroundMotion: ...
     def detrended(self, order: SupportsIndex = 0) -> GroundMotion: ...
     def plot(self, *, ax: Axes | None = None, title: str | None = None) -> FigureBase: ...
     __array_ufunc__: ClassVar[None]
@@ -247,11 +261,27 @@ class GroundMotion(metaclass=_Pybind11Type):
     def __getstate__(
         self,
     ) -> tuple[
-        NDArray[np.float64], float | None, NDArray[np.float64] | None, _Interpolation, str
+        NDArray[np.float64],
+        float | None,
+        NDArray[np.float64] | None,
+        _Interpolation,
+        str,
+        NDArray[np.float64] | None,
+        NDArray[np.float64] | None,
+        str,
     ]: ...
     def __setstate__(
         self,
-        state: tuple[_Samples, float | None, _Samples | None, _Interpolation, str],
+        state: tuple[
+            _Samples,
+            float | None,
+            _Samples | None,
+            _Interpolation,
+            str,
+            _Samples | None,
+            _Samples | None,
+            str,
+        ],
         /,
     ) -> None: ...
 
@@ -548,6 +578,8 @@ class Response(metaclass=_Pybind11Type):
     def stuck(self) -> NDArray[np.bool_]: ...
     @property
     def truncated(self) -> bool: ...
+    @property
+    def components(self) -> str: ...
     @property
     def events(self) -> NDArray[np.void]: ...
     @property

@@ -64,7 +64,10 @@ std::string describe_list(std::span<const GroundMotion> motions, const char* ord
   for (const GroundMotion& motion : motions) {
     digest.add(std::uint64_t{motion.samples()});
     digest.add(std::uint64_t{motion.interpolation() == Interpolation::constant});
-    for (const double acceleration : motion.acceleration()) digest.add(acceleration);
+    for (const auto samples : {motion.acceleration(), motion.transverse(), motion.vertical()})
+      for (const double acceleration : samples) digest.add(acceleration);
+    if (motion.has_transverse() || motion.has_vertical())
+      digest.add(std::uint64_t{motion.has_transverse()} + 2 * std::uint64_t{motion.has_vertical()});
     for (std::size_t i = 0; i < motion.segments(); ++i) digest.add(motion.segment(i).duration);
   }
   return "{\"motions\": " + std::to_string(motions.size()) + ", \"digest\": \"" + digest.text() + "\", \"order\": \"" +

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "stickslip/ground/intensity_measures.hpp"
+#include "stickslip/ground/orientation.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/units.hpp"
 
@@ -46,6 +49,24 @@ class Reader {
   std::size_t i_ = 0;
 };
 
+/// One component with these samples, on the times of a motion.
+GroundMotion with_axis(const GroundMotion& motion, std::vector<double> samples) {
+  if (std::isnan(motion.dt())) return {std::move(samples), times_of(motion), motion.interpolation(), motion.name()};
+  return {std::move(samples), motion.dt(), motion.interpolation(), motion.name()};
+}
+
+/// What `work` makes of each component alone, together.
+template <class Work>
+GroundMotion each_component(const GroundMotion& motion, Work&& work) {
+  const auto samples = [&](bool there, Component which) {
+    return there ? acceleration_of(work(motion.component(which))) : std::vector<double>();
+  };
+  return work(motion.component(Component::axis))
+      .with_orientation(motion.orientation())
+      .with_components(samples(motion.has_transverse(), Component::transverse),
+                       samples(motion.has_vertical(), Component::vertical));
+}
+
 /// The Legendre polynomials up to an order.
 std::array<double, max_order + 1> legendre(double s, int order) {
   std::array<double, max_order + 1> p{1, s};
@@ -54,6 +75,92 @@ std::array<double, max_order + 1> legendre(double s, int order) {
     p[k + 1] = ((2 * n + 1) * s * p[k] - n * p[k - 1]) / (n + 1);
   }
   return p;
+}
+
+// ---- of one component
+
+GroundMotion resampled_alone(const GroundMotion& motion, double dt) {
+  const double duration = motion.duration(), steps = std::floor(duration / dt * (1 + 1e-12));
+  if (!(std::isfinite(dt) && dt > 0 && steps >= 1))
+    detail::refuse("GroundMotion: the time step of resampled must be positive and at most the duration, " +
+                       detail::shortest(duration) + " s",
+                   dt, "s");
+  detail::require(steps < 1e9, "GroundMotion: resampled must give fewer than 10^9 samples", steps + 1);
+  std::vector<double> samples(static_cast<std::size_t>(steps) + 1);
+  Reader reader(motion);
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = reader.at(motion.time(0) + static_cast<double>(i) * dt);
+  if (motion.interpolation() == Interpolation::constant && samples.size() > 1 && steps * dt >= duration * (1 - 1e-12))
+    samples.back() = motion.acceleration().back();
+  return {std::move(samples), dt, motion.interpolation(), motion.name()};
+}
+
+GroundMotion cut_alone(const GroundMotion& motion, double begin, double end) {
+  const double first = motion.time(0), last = motion.time(motion.samples() - 1);
+  for (const double time : {begin, end})
+    if (!(time >= first && time <= last))
+      detail::refuse("GroundMotion: cut needs times within the motion, from " + detail::shortest(first) + " to " +
+                         detail::shortest(last) + " s",
+                     time, "s");
+  if (!(begin < end))
+    detail::refuse("GroundMotion: cut needs an end after the beginning, " + detail::shortest(begin) + " s", end, "s");
+  const std::span<const double> n = motion.acceleration();
+  if (const double dt = motion.dt(); !std::isnan(dt)) {
+    const double from = std::round(begin / dt), to = std::round(end / dt);
+    if (std::abs(begin / dt - from) <= 1e-6 && std::abs(end / dt - to) <= 1e-6 && from < to)
+      return {std::vector<double>(n.begin() + static_cast<std::ptrdiff_t>(from),
+                                  n.begin() + static_cast<std::ptrdiff_t>(to) + 1),
+              dt, motion.interpolation(), motion.name()};
+  }
+  Reader at_begin(motion), at_end(motion);
+  std::vector<double> samples{at_begin.at(begin)}, times{0};
+  for (std::size_t i = 0; i < motion.samples(); ++i)
+    if (motion.time(i) > begin && motion.time(i) < end) {
+      samples.push_back(n[i]);
+      times.push_back(motion.time(i) - begin);
+    }
+  samples.push_back(end < last ? at_end.at(end) : n.back());
+  times.push_back(end - begin);
+  return {std::move(samples), std::move(times), motion.interpolation(), motion.name()};
+}
+
+GroundMotion detrended_alone(const GroundMotion& motion, int order) {
+  if (order < 0 || order > max_order)
+    throw std::invalid_argument("GroundMotion: the order of detrended must be from 0 to " + std::to_string(max_order) +
+                                ", got " + std::to_string(order));
+  const auto count = static_cast<std::size_t>(order) + 1;
+  const double first = motion.time(0), duration = motion.duration();
+  const auto place = [&](double time) { return 2 * (time - first) / duration - 1; };
+  std::array<double, max_order + 1> weight{};  // of each polynomial in the trend: they are orthogonal
+  for (std::size_t i = 0; i < motion.segments(); ++i) {
+    const Segment s = motion.segment(i);
+    if (!(s.duration > 0)) continue;
+    const double from = motion.time(i);
+    numerics::gauss_points<8>(0, s.duration, [&](double t, double w) {  // exact to the fifteenth power
+      const auto p = legendre(place(from + t), order);
+      const double n = s.start + (s.end - s.start) * (t / s.duration);
+      for (std::size_t k = 0; k < count; ++k) weight[k] += w * n * p[k] * static_cast<double>(2 * k + 1) / duration;
+    });
+  }
+  const auto trend = [&](double time) {
+    const auto p = legendre(place(time), order);
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += weight[k] * p[k];
+    return sum;
+  };
+  std::vector<double> samples = acceleration_of(motion);
+  const bool held = motion.interpolation() == Interpolation::constant;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double duration_here = held && i < motion.segments() ? motion.segment(i).duration : 0;
+    if (duration_here > 0) {
+      double mean = 0;
+      numerics::gauss_points<8>(motion.time(i), motion.time(i) + duration_here,
+                                [&](double t, double w) { mean += w * trend(t) / duration_here; });
+      samples[i] -= mean;
+    } else {
+      samples[i] -= trend(motion.time(i));
+    }
+  }
+  return with_axis(motion, std::move(samples));
 }
 
 }  // namespace
@@ -96,88 +203,39 @@ GroundMotion scaled_to(const GroundMotion& motion, const ScaleTarget& target) {
 }
 
 GroundMotion resampled(const GroundMotion& motion, double dt) {
-  const double duration = motion.duration(), steps = std::floor(duration / dt * (1 + 1e-12));
-  if (!(std::isfinite(dt) && dt > 0 && steps >= 1))
-    detail::refuse("GroundMotion: the time step of resampled must be positive and at most the duration, " +
-                       detail::shortest(duration) + " s",
-                   dt, "s");
-  detail::require(steps < 1e9, "GroundMotion: resampled must give fewer than 10^9 samples", steps + 1);
-  std::vector<double> samples(static_cast<std::size_t>(steps) + 1);
-  Reader reader(motion);
-  for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = reader.at(motion.time(0) + static_cast<double>(i) * dt);
-  if (motion.interpolation() == Interpolation::constant && samples.size() > 1 && steps * dt >= duration * (1 - 1e-12))
-    samples.back() = motion.acceleration().back();
-  return {std::move(samples), dt, motion.interpolation(), motion.name()};
+  return each_component(motion, [&](const GroundMotion& one) { return resampled_alone(one, dt); });
 }
 
 GroundMotion cut(const GroundMotion& motion, double begin, double end) {
-  const double first = motion.time(0), last = motion.time(motion.samples() - 1);
-  for (const double time : {begin, end})
-    if (!(time >= first && time <= last))
-      detail::refuse("GroundMotion: cut needs times within the motion, from " + detail::shortest(first) + " to " +
-                         detail::shortest(last) + " s",
-                     time, "s");
-  if (!(begin < end))
-    detail::refuse("GroundMotion: cut needs an end after the beginning, " + detail::shortest(begin) + " s", end, "s");
-  const std::span<const double> n = motion.acceleration();
-  if (const double dt = motion.dt(); !std::isnan(dt)) {
-    const double from = std::round(begin / dt), to = std::round(end / dt);
-    if (std::abs(begin / dt - from) <= 1e-6 && std::abs(end / dt - to) <= 1e-6 && from < to)
-      return {std::vector<double>(n.begin() + static_cast<std::ptrdiff_t>(from),
-                                  n.begin() + static_cast<std::ptrdiff_t>(to) + 1),
-              dt, motion.interpolation(), motion.name()};
+  return each_component(motion, [&](const GroundMotion& one) { return cut_alone(one, begin, end); });
+}
+
+GroundMotion rotated(const GroundMotion& motion, double degrees) {
+  detail::require(std::isfinite(degrees), "GroundMotion: the angle of rotated must be finite", degrees, "degrees");
+  if (!motion.has_transverse())
+    throw std::invalid_argument("GroundMotion: rotated needs a transverse component; this motion has none");
+  int quarters = 0;
+  const double rest = std::remquo(degrees, 90, &quarters) * (std::numbers::pi / 180);
+  double c = std::cos(rest), s = std::sin(rest);
+  for (int turn = quarters & 3; turn > 0; --turn) c = -std::exchange(s, c);
+  std::vector<double> n = acceleration_of(motion), t(motion.transverse().begin(), motion.transverse().end());
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const double along = n[i], across = t[i];
+    n[i] = along * c + across * s;
+    t[i] = across * c - along * s;
   }
-  Reader at_begin(motion), at_end(motion);
-  std::vector<double> samples{at_begin.at(begin)}, times{0};
-  for (std::size_t i = 0; i < motion.samples(); ++i)
-    if (motion.time(i) > begin && motion.time(i) < end) {
-      samples.push_back(n[i]);
-      times.push_back(motion.time(i) - begin);
-    }
-  samples.push_back(end < last ? at_end.at(end) : n.back());
-  times.push_back(end - begin);
-  return {std::move(samples), std::move(times), motion.interpolation(), motion.name()};
+  std::string orientation = motion.orientation();
+  if (rest != 0 || quarters % 4 != 0) {
+    const std::optional<double> azimuth = azimuth_of(orientation);
+    orientation = azimuth ? orientation_at(*azimuth + degrees) : std::string();
+  }
+  return with_axis(motion, std::move(n))
+      .with_orientation(std::move(orientation))
+      .with_components(std::move(t), {motion.vertical().begin(), motion.vertical().end()});
 }
 
 GroundMotion detrended(const GroundMotion& motion, int order) {
-  if (order < 0 || order > max_order)
-    throw std::invalid_argument("GroundMotion: the order of detrended must be from 0 to " + std::to_string(max_order) +
-                                ", got " + std::to_string(order));
-  const auto count = static_cast<std::size_t>(order) + 1;
-  const double first = motion.time(0), duration = motion.duration();
-  const auto place = [&](double time) { return 2 * (time - first) / duration - 1; };
-  std::array<double, max_order + 1> weight{};  // of each polynomial in the trend: they are orthogonal
-  for (std::size_t i = 0; i < motion.segments(); ++i) {
-    const Segment s = motion.segment(i);
-    if (!(s.duration > 0)) continue;
-    const double from = motion.time(i);
-    numerics::gauss_points<8>(0, s.duration, [&](double t, double w) {  // exact to the fifteenth power
-      const auto p = legendre(place(from + t), order);
-      const double n = s.start + (s.end - s.start) * (t / s.duration);
-      for (std::size_t k = 0; k < count; ++k) weight[k] += w * n * p[k] * static_cast<double>(2 * k + 1) / duration;
-    });
-  }
-  const auto trend = [&](double time) {
-    const auto p = legendre(place(time), order);
-    double sum = 0;
-    for (std::size_t k = 0; k < count; ++k) sum += weight[k] * p[k];
-    return sum;
-  };
-  std::vector<double> samples = acceleration_of(motion);
-  const bool held = motion.interpolation() == Interpolation::constant;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double duration_here = held && i < motion.segments() ? motion.segment(i).duration : 0;
-    if (duration_here > 0) {
-      double mean = 0;
-      numerics::gauss_points<8>(motion.time(i), motion.time(i) + duration_here,
-                                [&](double t, double w) { mean += w * trend(t) / duration_here; });
-      samples[i] -= mean;
-    } else {
-      samples[i] -= trend(motion.time(i));
-    }
-  }
-  if (std::isnan(motion.dt())) return {std::move(samples), times_of(motion), motion.interpolation(), motion.name()};
-  return {std::move(samples), motion.dt(), motion.interpolation(), motion.name()};
+  return each_component(motion, [&](const GroundMotion& one) { return detrended_alone(one, order); });
 }
 
 }  // namespace stickslip

@@ -1,4 +1,6 @@
 // Ground motions: what they hold, and what they refuse.
+#include "stickslip/stickslip.hpp"
+
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 
@@ -38,6 +40,76 @@ TEST_CASE("a scaled motion is the same but for the factor", "[ground_motion]") {
   CHECK(motion.acceleration()[1] == -3);
 }
 
+TEST_CASE("a motion may have a transverse and a vertical component on its times", "[ground_motion][components]") {
+  const GroundMotion axis({1, -3, 2}, {0, 1, 5}, Interpolation::linear, "name");
+  CHECK(!axis.has_transverse());
+  CHECK(!axis.has_vertical());
+  CHECK(axis.transverse().empty());
+  const GroundMotion all = axis.with_components({4, 5, 6}, {-7, 8, -9}).with_orientation("N28W");
+  CHECK(all.transverse()[2] == 6);
+  CHECK(all.vertical()[0] == -7);
+  CHECK(all.peak_acceleration() == 3);
+  CHECK(all.component(Component::axis) == axis.with_orientation("N28W"));
+  CHECK(all.component(Component::transverse) == GroundMotion({4, 5, 6}, {0, 1, 5}, Interpolation::linear, "name"));
+  CHECK(all.component(Component::transverse).peak_acceleration() == 6);
+  CHECK(all.component(Component::vertical).orientation() == "up");
+  CHECK(all.with_components({}) == axis.with_orientation("N28W"));
+  CHECK_THROWS_WITH(axis.component(Component::vertical), "GroundMotion: has no vertical component");
+  CHECK_THROWS_WITH(all.component(Component::axis).component(Component::transverse),
+                    "GroundMotion: has no transverse component");
+}
+
+TEST_CASE("a negative factor turns the horizontal components and never the vertical one",
+          "[ground_motion][components]") {
+  const GroundMotion all = GroundMotion({1, -3, 2}, 0.1).with_components({4, 5, 6}, {-7, 8, -9});
+  CHECK(all.scaled(-2) == GroundMotion({-2, 6, -4}, 0.1).with_components({-8, -10, -12}, {-14, 16, -18}));
+  CHECK(all.scaled(-1).scaled(-1) == all);
+}
+
+TEST_CASE("each component is checked as the first one", "[ground_motion][components][errors]") {
+  const GroundMotion axis({1, 2, 3}, 0.01);
+  const std::string rule = " must be finite and at most 1e100 m/s^2 in magnitude, got ";
+  CHECK_THROWS_WITH(axis.with_components({1, 2}),
+                    "GroundMotion: transverse must have as many samples as acceleration, 3, got 2");
+  CHECK_THROWS_WITH(axis.with_components({}, {1, 2, 3, 4}),
+                    "GroundMotion: vertical must have as many samples as acceleration, 3, got 4");
+  CHECK_THROWS_WITH(axis.with_components({1, not_a_number, 3}), "GroundMotion: transverse[1]" + rule + "nan m/s^2");
+  CHECK_THROWS_WITH(axis.with_components({1, 2, 3}, {1, 2, -infinity}),
+                    "GroundMotion: vertical[2]" + rule + "-inf m/s^2");
+  CHECK_THROWS_WITH(axis.with_components({1, 2, 3}, {2, 1, 1}).scaled(-1e100),
+                    "GroundMotion: acceleration[1]" + rule + "-2e+100 m/s^2");
+  CHECK_THROWS_WITH(axis.with_components({}, {20, 1, 1}).scaled(-1e99),
+                    "GroundMotion: vertical[0]" + rule + "2e+100 m/s^2");
+}
+
+TEST_CASE("a vertical component is refused by all that slides, a transverse one never acts",
+          "[ground_motion][components][integrate]") {
+  const char* const refusal = "the vertical component of a ground motion cannot act on a slider yet";
+  const GroundMotion axis = record_a(), across = axis.with_components(std::vector<double>(axis.samples(), 3.0));
+  const GroundMotion up = axis.with_components({}, std::vector<double>(axis.samples(), 3.0));
+  const GroundMotion record = resampled(up, axis.dt() / 32);  // long enough to be cut in pieces
+  REQUIRE(record.samples() > 8192);
+  for (const GroundMotion& motion : {up, record}) {
+    CHECK_THROWS_WITH(integrate(Coulomb(1), motion), ContainsSubstring(refusal));
+    CHECK_THROWS_WITH(integrate(Slider(Coulomb(1), 2), motion), ContainsSubstring(refusal));
+    CHECK_THROWS_WITH(integrate(Caster(1, 1), motion), ContainsSubstring(refusal));
+    CHECK_THROWS_WITH(histories(Coulomb(1), motion), ContainsSubstring(refusal));
+    CHECK_THROWS_WITH(run_ensemble(Coulomb(1), OneOf(std::vector{motion}), {.members = 2}), ContainsSubstring(refusal));
+  }
+  const Response with = integrate(Coulomb(1), across), without = integrate(Coulomb(1), axis);
+  CHECK(with.displacement == without.displacement);
+  CHECK(with.components == "axis");
+  CHECK(integrate(Coulomb(1), HarmonicMotion(2, 3, 4)).components == "axis");
+}
+
+TEST_CASE("ensembles tell motions apart by all their components", "[ground_motion][components]") {
+  const GroundMotion axis({1, 2, 3}, 0.01);
+  const std::vector<GroundMotion> motions{axis, axis.with_components({1, 2, 3}), axis.with_components({}, {1, 2, 3})};
+  for (const GroundMotion& a : motions)
+    for (const GroundMotion& b : motions)
+      CHECK((OneOf(std::vector{a}).configuration() == OneOf(std::vector{b}).configuration()) == (&a == &b));
+}
+
 TEST_CASE("motions are equal where all of them is the same", "[ground_motion]") {
   const std::vector<double> samples{1, -3, 2};
   const std::vector<GroundMotion> motions{{samples, 0.5},
@@ -46,7 +118,10 @@ TEST_CASE("motions are equal where all of them is the same", "[ground_motion]") 
                                           {samples, 0.5, Interpolation::linear, "name"},
                                           {samples, {0, 0.5, 1}},
                                           {samples, {0, 0.5, 2}},
-                                          {{1, -3, 4}, 0.5}};
+                                          {{1, -3, 4}, 0.5},
+                                          GroundMotion(samples, 0.5).with_components({1, 2, 3}),
+                                          GroundMotion(samples, 0.5).with_components({}, {1, 2, 3}),
+                                          GroundMotion(samples, 0.5).with_orientation("90")};
   for (const GroundMotion& a : motions)
     for (const GroundMotion& b : motions) CHECK((a == b) == (&a == &b));
   CHECK(motions[4] == GroundMotion(samples, {0, 0.5, 1}));

@@ -98,3 +98,64 @@ TEST_CASE("a trend that was added is taken away", "[processing]") {
   CHECK_THROWS_WITH(detrended(line(0, 1, 1), -1), ContainsSubstring("from 0 to 10, got -1"));
   CHECK_THROWS_WITH(detrended(line(0, 1, 1), 11), ContainsSubstring("got 11"));
 }
+
+TEST_CASE("what makes a motion does the same to every component", "[processing][components]") {
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::constant}) {
+    const GroundMotion n = broadband(3, 200, false, interpolation), t = broadband(5, 200, false, interpolation),
+                       v = broadband(7, 200, false, interpolation);
+    const auto values = [](const GroundMotion& m) {
+      return std::vector<double>(m.acceleration().begin(), m.acceleration().end());
+    };
+    const GroundMotion all = n.with_components(values(t), values(v)).with_orientation("N28W");
+    const auto check = [&](const auto& make) {
+      CHECK(make(all) == make(n).with_components(values(make(t)), values(make(v))).with_orientation("N28W"));
+    };
+    check([](const GroundMotion& m) { return m.scaled(2.5); });
+    check([](const GroundMotion& m) { return resampled(m, 0.07); });
+    check([](const GroundMotion& m) { return cut(m, 0.3, 2.75); });
+    check([](const GroundMotion& m) { return cut(m, 0.3, 12.7); });
+    check([](const GroundMotion& m) { return detrended(m, 1); });
+    const GroundMotion scaled = scaled_to(all, {.peak_acceleration = 4});
+    CHECK(scaled == all.scaled(4 / n.peak_acceleration()));
+    CHECK(difference(ground_history(all).velocity, ground_history(n).velocity) == 0);
+  }
+}
+
+TEST_CASE("a rotated motion keeps its length in every direction", "[processing][components]") {
+  const GroundMotion n = broadband(3, 200), t = broadband(5, 200), v = broadband(7, 200);
+  const auto values = [](std::span<const double> m) { return std::vector<double>(m.begin(), m.end()); };
+  const GroundMotion all = n.with_components(values(t.acceleration()), values(v.acceleration()));
+  const double scale = n.peak_acceleration() + t.peak_acceleration();
+  for (const double degrees : {-725.0, -30.0, 17.5, 45.0, 90.0, 200.0, 1e6}) {
+    CAPTURE(degrees);
+    const GroundMotion turned = rotated(all, degrees);
+    double off = 0;
+    for (std::size_t i = 0; i < all.samples(); ++i)
+      off = std::max(off, std::abs(std::hypot(turned.acceleration()[i], turned.transverse()[i]) -
+                                   std::hypot(all.acceleration()[i], all.transverse()[i])));
+    CHECK(off <= 1e-15 * scale);
+    CHECK(values(turned.vertical()) == values(all.vertical()));
+    const GroundMotion back = rotated(turned, -degrees);
+    CHECK(difference(back.acceleration(), all.acceleration()) <= 1e-15 * scale);
+    CHECK(difference(back.transverse(), all.transverse()) <= 1e-15 * scale);
+  }
+  // A pulse at 30 degrees from the axis toward the transverse one lies along the axis that is turned there.
+  const GroundMotion pulse = GroundMotion({0, std::sqrt(0.75), 0}, 0.1).with_components({0, 0.5, 0});
+  CHECK(rotated(pulse, 30).acceleration()[1] == Approx(1).epsilon(1e-15));
+  CHECK(std::abs(rotated(pulse, 30).transverse()[1]) <= 1e-15);
+  // Quarters are exact: the axis becomes the transverse one, which becomes the other way of the axis.
+  CHECK(values(rotated(all, 90).acceleration()) == values(all.transverse()));
+  CHECK(values(rotated(all, 90).transverse()) == values(n.scaled(-1).acceleration()));
+  CHECK(rotated(all, 360) == all);
+  CHECK(rotated(all, -270) == rotated(all, 90));
+  CHECK_THROWS_WITH(rotated(n, 30), ContainsSubstring("needs a transverse component"));
+  CHECK_THROWS_WITH(rotated(all, infinity), ContainsSubstring("must be finite, got inf degrees"));
+}
+
+TEST_CASE("a rotated motion knows where its axis points", "[processing][components]") {
+  const GroundMotion all = GroundMotion({0, 1, 0}, 0.1).with_components({0, 2, 0}).with_orientation("N28W");
+  CHECK(rotated(all, 30).orientation() == "2");
+  CHECK(rotated(all, -32.5).orientation() == "299.5");
+  CHECK(rotated(all, 720).orientation() == "N28W");
+  CHECK(rotated(all.with_orientation("fault normal"), 30).orientation().empty());
+}

@@ -444,3 +444,91 @@ def test_a_trace_of_obspy_itself_becomes_a_motion():
         ss.GroundMotion.from_obspy(offset)
     with pytest.raises(TypeError, match=r"got Stream; select one of its traces, as stream\[0\]"):
         ss.GroundMotion.from_obspy(obspy.Stream([trace]))
+
+
+# ---- components
+
+ACROSS, UP = [4.0, 5.0, -6.0, 7.0], [-7.0, 8.0, -9.0, 0.5]
+ALL = ss.GroundMotion(
+    SAMPLES, dt=0.25, name="Kobe", transverse=ACROSS, vertical=UP, orientation="N28W"
+)
+
+
+def test_a_motion_has_the_components_that_it_was_given():
+    axis = ss.GroundMotion(SAMPLES, dt=0.25)
+    assert axis.transverse is None
+    assert axis.vertical is None
+    assert axis.orientation == ""
+    assert np.array_equal(ALL.transverse, ACROSS)
+    assert np.array_equal(ALL.vertical, UP)
+    assert not ALL.transverse.flags.writeable
+    assert not ALL.vertical.flags.writeable
+    assert ALL.orientation == "N28W"
+    assert repr(axis).endswith("linear>")
+    assert repr(ALL).endswith("linear, with transverse and vertical>")
+    in_g = ss.GroundMotion(SAMPLES, dt=0.25, units="g", transverse=ACROSS, vertical=UP)
+    assert np.array_equal(in_g.vertical, np.multiply(UP, ss.STANDARD_GRAVITY))
+    assert np.array_equal(in_g.transverse, np.multiply(ACROSS, ss.STANDARD_GRAVITY))
+
+
+def test_one_component_alone_is_a_motion():
+    assert ALL.component("transverse") == ss.GroundMotion(ACROSS, dt=0.25, name="Kobe")
+    assert ALL.component("vertical").orientation == "up"
+    assert ALL.component("vertical").peak_acceleration == 9
+    assert ALL.component("axis").transverse is None
+    with pytest.raises(ValueError, match="has no vertical component"):
+        ALL.component("axis").component("vertical")
+    with pytest.raises(ValueError, match="must be 'axis', 'transverse' or 'vertical', got 'up'"):
+        ALL.component("up")
+
+
+@pytest.mark.parametrize("array", ["transverse", "vertical"])
+def test_a_component_is_checked_as_the_first_one(array):
+    with pytest.raises(ValueError, match=array + r"\[1\] must be finite .* got nan m/s\^2"):
+        ss.GroundMotion(SAMPLES, dt=0.25, **{array: [0, NAN, 1, 2]})
+    for wrong in ([], [0, 1, 2]):
+        with pytest.raises(ValueError, match=f"{array} must have as many samples .* 4, got"):
+            ss.GroundMotion(SAMPLES, dt=0.25, **{array: wrong})
+    with pytest.raises(ValueError, match=f"{array} must be one-dimensional"):
+        ss.GroundMotion(SAMPLES, dt=0.25, **{array: [[0, 1, 2, 3]]})
+
+
+def test_what_makes_a_motion_carries_all_components():
+    for motion in (2 * ALL, ALL.cut(0.25, 0.75), ALL.resampled(0.125), ALL.detrended(), ALL / 2):
+        assert motion.transverse is not None
+        assert len(motion.vertical) == len(motion.transverse) == len(motion)
+        assert motion.orientation == "N28W"
+    mirror = -2 * ALL
+    assert np.array_equal(mirror.transverse, np.multiply(ACROSS, -2))
+    assert np.array_equal(mirror.vertical, np.multiply(UP, 2))
+    assert np.array_equal((-ALL).vertical, UP)
+    assert ALL.scaled_to(pga_g=0.5) == ALL * (0.5 * ss.STANDARD_GRAVITY / ALL.peak_acceleration)
+
+
+def test_horizontal_axes_are_turned():
+    quarter = ALL.rotated(90)
+    assert np.array_equal(quarter.acceleration, ACROSS)
+    assert np.array_equal(quarter.transverse, np.multiply(SAMPLES, -1))
+    assert np.array_equal(quarter.vertical, UP)
+    assert quarter.orientation == "62"
+    half = ALL.rotated(30).rotated(150)
+    np.testing.assert_allclose(half.acceleration, np.multiply(SAMPLES, -1), atol=1e-14)
+    with pytest.raises(ValueError, match="needs a transverse component"):
+        ALL.component("axis").rotated(30)
+
+
+def test_a_response_names_the_components_that_acted():
+    across = ss.GroundMotion(SAMPLES, dt=0.25, transverse=ACROSS)
+    law = ss.Coulomb(slip_level=0.5)
+    response = ss.integrate(law, across)
+    assert response.components == "axis"
+    expected = ss.integrate(law, across.component("axis")).displacement
+    assert np.array_equal(response.displacement, expected)
+    for work in (
+        lambda: ss.integrate(law, ALL),
+        lambda: ss.histories(law, ALL),
+        lambda: ss.run_ensemble(law, ALL, members=2, seed=1),
+        lambda: ss.run_ensemble(law, [across, ALL], members=2, seed=1),
+    ):
+        with pytest.raises(ValueError, match=r"vertical component .* cannot act on a slider yet"):
+            work()

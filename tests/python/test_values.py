@@ -59,6 +59,12 @@ EXAMPLES = {
         ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.2),
         ss.GroundMotion([0.0, 2.0, -2.0, 0.1], times=[0, 0.1, 0.2, 0.3]),
         ss.GroundMotion([0.0, 2.0, -2.0, 0.2], dt=0.1),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, transverse=[0, 1, 2, 3]),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, vertical=[0, 1, 2, 3]),
+        ss.GroundMotion(
+            [0.0, 2.0, -2.0, 0.1], dt=0.1, transverse=[0, 1, 2, 3], vertical=[1, 1, 1, 1]
+        ),
+        ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, orientation="N28W"),
     ],
     ss.HarmonicMotion: [ss.HarmonicMotion(2, 3, 4), ss.HarmonicMotion(2, 3, 4, dt=0.1)],
     ss.Envelope: [

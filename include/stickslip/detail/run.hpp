@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "stickslip/detail/min_max.hpp"
@@ -65,9 +66,14 @@ template <FrictionLaw Law, class Flows, class Recording>
   state = moving;
 }
 
-/// Calls `work` with the flows that fit the slider under a motion.
+/// Calls `work` with the flows that fit the slider under a motion. All that slides under a GroundMotion comes by here.
+/// @throws std::invalid_argument  a motion with a vertical component, which no slider takes yet
 template <FrictionLaw Law, class Work>
 void with_flows(const Slider<Law>& slider, const GroundMotion& motion, Work&& work) {
+  if (motion.has_vertical())
+    throw std::invalid_argument(
+        "integrate: the vertical component of a ground motion cannot act on a slider yet; take one component, as "
+        "motion.component(\"axis\")");
   with_flows(slider, motion.dt(), std::forward<Work>(work));
 }
 template <FrictionLaw Law, class Work>

@@ -1,4 +1,4 @@
-// One history of ground acceleration.
+// The history of ground acceleration.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,18 @@ namespace stickslip {
 /// What the ground does between two samples: a straight line, or the earlier value held.
 enum class Interpolation { linear, constant };
 
+/// A component of a ground motion: along the slider's axis, horizontal across it, or vertical.
+enum class Component { axis, transverse, vertical };
+
+inline const char* name_of(Component component) noexcept {
+  return component == Component::axis ? "axis" : component == Component::transverse ? "transverse" : "vertical";
+}
+
 /// The acceleration history n(t) of the ground [m/s^2], at even or uneven times.
+///
+/// `acceleration()` is along the slider's axis. `with_components` adds the other horizontal and the vertical component
+/// on the same times; without them a motion has one component. Peaks, integrals and intensity measures are those of the
+/// axis; `component` gives each of the others as a motion along the axis.
 ///
 /// N samples make N - 1 segments; the motion lasts from the first time to the last. With
 /// `Interpolation::linear` the acceleration is a straight line between samples (thesis 4.56); with
@@ -74,8 +85,17 @@ class GroundMotion {
   std::size_t samples() const noexcept { return acceleration_.size(); }
   std::size_t segments() const noexcept { return acceleration_.size() - 1; }
 
-  /// Ground acceleration at the samples [m/s^2].
+  /// Ground acceleration along the axis at the samples [m/s^2].
   std::span<const double> acceleration() const noexcept { return acceleration_; }
+
+  /// The horizontal component across the axis at the samples [m/s^2]; empty where there is none.
+  std::span<const double> transverse() const noexcept { return transverse_; }
+
+  /// The vertical component at the samples [m/s^2], positive upward; empty where there is none.
+  std::span<const double> vertical() const noexcept { return vertical_; }
+
+  bool has_transverse() const noexcept { return !transverse_.empty(); }
+  bool has_vertical() const noexcept { return !vertical_.empty(); }
 
   /// Time of sample i [s]; past the last sample times continue with the last step.
   double time(std::size_t i) const noexcept {
@@ -100,7 +120,11 @@ class GroundMotion {
   Interpolation interpolation() const noexcept { return interpolation_; }
   const std::string& name() const noexcept { return name_; }
 
-  /// Largest magnitude of the ground acceleration [m/s^2], the PGA.
+  /// Where the axis points: an azimuth as "N28W" or "332" [degrees clockwise from north], or "up"; empty where that is
+  /// not known. The transverse component then points 90 degrees clockwise from it.
+  const std::string& orientation() const noexcept { return orientation_; }
+
+  /// Largest magnitude of the ground acceleration along the axis [m/s^2], the PGA.
   double peak_acceleration() const noexcept { return peak_; }
 
   /// The pieces as a loop wants them: what is the same for all is looked up once. Refers to the motion.
@@ -128,34 +152,80 @@ class GroundMotion {
   /// The i-th piece, between samples i and i + 1.
   Segment segment(std::size_t i) const noexcept { return Pieces(*this).segment(i); }
 
-  /// The same motion with every acceleration multiplied by `factor` (finite; -1 mirrors it).
-  GroundMotion scaled(double factor) const {
-    detail::require(std::isfinite(factor), "GroundMotion: a scale factor must be finite", factor);
+  /// The same motion with these components beside the axis, on its times and interpolated as it is.
+  /// @param transverse  the other horizontal component at the samples [m/s^2], finite; empty for none
+  /// @param vertical    the vertical component [m/s^2], positive upward, finite; empty for none
+  /// @throws std::invalid_argument  another number of samples than the axis has; naming the value refused and its index
+  GroundMotion with_components(std::vector<double> transverse, std::vector<double> vertical = {}) const {
     GroundMotion result = *this;
-    for (double& n : result.acceleration_) n *= factor;
+    result.transverse_ = std::move(transverse);
+    result.vertical_ = std::move(vertical);
     result.check_samples();
     return result;
   }
 
-  /// Whether samples, times, interpolation and name are the same; even times differ from a list of them.
+  /// The same motion, which says that its axis points there; see `orientation`. Not checked.
+  GroundMotion with_orientation(std::string orientation) const {
+    GroundMotion result = *this;
+    result.orientation_ = std::move(orientation);
+    return result;
+  }
+
+  /// One component alone, as a motion along the axis. The orientation of a transverse component is not known to it.
+  /// @throws std::invalid_argument  a component that the motion does not have
+  GroundMotion component(Component which) const {
+    GroundMotion result = *this;
+    if (which != Component::axis) {
+      result.acceleration_ = which == Component::transverse ? transverse_ : vertical_;
+      if (result.acceleration_.empty())
+        throw std::invalid_argument(std::string("GroundMotion: has no ") + name_of(which) + " component");
+      result.orientation_ = which == Component::vertical ? "up" : "";
+    }
+    return result.with_components({});
+  }
+
+  /// The same motion with every acceleration multiplied by `factor` (finite). A negative factor turns the horizontal
+  /// components around and never the vertical one, which is multiplied by the magnitude.
+  GroundMotion scaled(double factor) const {
+    detail::require(std::isfinite(factor), "GroundMotion: a scale factor must be finite", factor);
+    GroundMotion result = *this;
+    for (auto* horizontal : {&result.acceleration_, &result.transverse_})
+      for (double& n : *horizontal) n *= factor;
+    for (double& n : result.vertical_) n *= std::abs(factor);
+    result.check_samples();
+    return result;
+  }
+
+  /// Whether samples of all components, times, interpolation, name and orientation are the same; even times differ from
+  /// a list of them.
   friend bool operator==(const GroundMotion& a, const GroundMotion& b) {
     const bool same_dt = a.dt_ == b.dt_ || (std::isnan(a.dt_) && std::isnan(b.dt_));
-    return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ &&
-           a.interpolation_ == b.interpolation_ && a.name_ == b.name_;
+    return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ && a.transverse_ == b.transverse_ &&
+           a.vertical_ == b.vertical_ && a.interpolation_ == b.interpolation_ && a.name_ == b.name_ &&
+           a.orientation_ == b.orientation_;
   }
 
  private:
   void check_samples() {
     if (samples() < 2)
       throw std::invalid_argument("GroundMotion: needs at least two samples, got " + std::to_string(samples()));
-    for (std::size_t i = 0; i < samples(); ++i)
-      if (!(std::abs(acceleration_[i]) <= largest_acceleration))
-        detail::refuse(
-            "GroundMotion: " + element("acceleration", i) + " must be finite and at most 1e100 m/s^2 in magnitude",
-            acceleration_[i], "m/s^2");
+    check("acceleration", acceleration_);
+    if (has_transverse()) check("transverse", transverse_);
+    if (has_vertical()) check("vertical", vertical_);
     peak_ = 0;
     const std::size_t acting = samples() - (interpolation_ == Interpolation::constant ? 1 : 0);
     for (std::size_t i = 0; i < acting; ++i) peak_ = std::max(peak_, std::abs(acceleration_[i]));
+  }
+
+  void check(const char* array, const std::vector<double>& values) const {
+    if (values.size() != samples())
+      throw std::invalid_argument(std::string("GroundMotion: ") + array +
+                                  " must have as many samples as acceleration, " + std::to_string(samples()) +
+                                  ", got " + std::to_string(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!(std::abs(values[i]) <= largest_acceleration))
+        detail::refuse("GroundMotion: " + element(array, i) + " must be finite and at most 1e100 m/s^2 in magnitude",
+                       values[i], "m/s^2");
   }
 
   static std::string element(const char* array, std::size_t i) {
@@ -163,11 +233,12 @@ class GroundMotion {
   }
 
   std::vector<double> acceleration_;
-  std::vector<double> times_;  // empty where samples are evenly spaced
+  std::vector<double> transverse_{}, vertical_{};  // empty where there are none
+  std::vector<double> times_{};                    // empty where samples are evenly spaced
   double dt_ = std::numeric_limits<double>::quiet_NaN();
   double peak_ = 0;
   Interpolation interpolation_;
-  std::string name_;
+  std::string name_, orientation_{};
 };
 
 }  // namespace stickslip

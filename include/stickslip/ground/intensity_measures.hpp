@@ -5,9 +5,10 @@
 
 namespace stickslip {
 
-// Velocity and displacement of the ground are integrals from rest at the first sample, of the acceleration as it is: an
-// error of the baseline goes into both. Integrals and maxima are exact for lines and steps, but for round-off, and the
-// maxima are in continuous time. Cost: one pass, some 5 ns a sample.
+// Of the component along the axis: `component` gives the others. Velocity and displacement of the ground are integrals
+// from rest at the first sample, of the acceleration as it is: an error of the baseline goes into both. Integrals and
+// maxima are exact for lines and steps, but for round-off, and the maxima are in continuous time. Cost: one pass, some
+// 5 ns a sample.
 
 /// Largest magnitude of the ground velocity [m/s], the PGV.
 double peak_velocity(const GroundMotion& motion);

@@ -1,4 +1,6 @@
-// Ground motions made from a ground motion: scaled, resampled, cut, without a trend; and its integrals.
+// Ground motions made from a ground motion: scaled, resampled, cut, rotated, without a trend; and its integrals.
+//
+// What makes a motion does the same to all its components; targets and integrals are those of the axis.
 #pragma once
 
 #include <optional>
@@ -14,7 +16,7 @@ struct GroundHistory {
   std::vector<double> displacement;  ///< [m]
 };
 
-/// Integrates the acceleration: exact for lines and steps, but for round-off.
+/// Integrates the acceleration along the axis: exact for lines and steps, but for round-off.
 GroundHistory ground_history(const GroundMotion& motion);
 
 /// What `scaled_to` aims at: exactly one of them, positive and finite.
@@ -24,7 +26,7 @@ struct ScaleTarget {
   std::optional<double> peak_velocity;      ///< PGV [m/s], from rest, with the baseline as it is
 };
 
-/// The motion times the positive factor that gives it this PGA, Arias intensity or PGV.
+/// The motion, with all its components, times the positive factor that gives its axis this PGA, Arias intensity or PGV.
 /// @throws std::invalid_argument  none or several targets; one that is not positive and finite; a motion of zeros
 GroundMotion scaled_to(const GroundMotion& motion, const ScaleTarget& target);
 
@@ -40,6 +42,16 @@ GroundMotion resampled(const GroundMotion& motion, double dt);
 /// @param begin, end  [s], times of the motion, begin < end
 /// @throws std::invalid_argument  times outside the motion, or not in order
 GroundMotion cut(const GroundMotion& motion, double begin, double end);
+
+/// The motion with its horizontal axes turned: the new axis is `degrees` from the old one toward the transverse one,
+///
+///     n'(t) = n cos a + t sin a,   t'(t) = t cos a - n sin a,
+///
+/// with n along the axis, t across it and a the angle. The vertical component stays as it is. Turns by multiples of 90
+/// degrees are exact. An orientation with an azimuth becomes the new one; another is dropped.
+/// @param degrees  finite
+/// @throws std::invalid_argument  a motion without a transverse component; an angle that is not finite
+GroundMotion rotated(const GroundMotion& motion, double degrees);
 
 /// The motion without its polynomial trend of least squares over time: order 0 takes away the mean, after which the
 /// ground velocity ends at zero; 1 a straight line. The fit is exact for lines and steps. A trend of order 2 and more

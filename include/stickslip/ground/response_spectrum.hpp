@@ -38,7 +38,7 @@ struct ResponseSpectrum {
 /// vibration that follows belongs to the maximum. (Under a record whose ground velocity does not end at zero the ground
 /// keeps this velocity, and oscillators of long period go on to x' / wn: correct the baseline first.)
 ///
-/// @param motion   lines or steps, at even or uneven times
+/// @param motion   lines or steps, at even or uneven times; the component along its axis acts
 /// @param periods  T [s], in any order; each from 1e-6 to 1e6 s, or 0, a rigid oscillator: max |n| for accelerations,
 ///                 0 for the others
 /// @param damping  zeta, each at least 0 and below 2; 1 is critical

@@ -28,6 +28,7 @@ struct Histories {
 /// @param slider     any law, with or without a spring and a damper
 /// @param motion     the ground acceleration
 /// @param heartbeat  called at least every second or so; may throw to end the work; optional
+/// @throws std::invalid_argument  a motion with a vertical component
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
 /// @throws ConvergenceError     a law without power series; more events than `integrate` allows
 /// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 9 to 14 ns a

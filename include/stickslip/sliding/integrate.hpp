@@ -92,6 +92,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   const HistorySpans histories{response.displacement, response.velocity};
   run(state, recorder, histories);
   response.truncated = false;
+  response.components = name_of(Component::axis);  // a transverse component never acts
   if (options.settle) {
     const State at_end = state;
     double time = end;
@@ -132,13 +133,14 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 /// with all breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
 ///
 /// @param slider   a law, an optional spring and an optional damper; a law alone is a slider without them
-/// @param motion   the ground acceleration: a GroundMotion or a HarmonicMotion
+/// @param motion   the ground acceleration: a GroundMotion or a HarmonicMotion. A transverse component does not act
 /// @param options  state at the start, and whether to go on until the slider rests
 /// @param storage  a response that is no longer needed, for its memory, which can cost as much time as the motion
 /// @return the motion at the samples, its events, peak and energy. Where it settles, samples continue up to
 ///         the first at or after the final rest (see Response::displacement), and the last event (`end`) and the
 ///         residual are those of the final rest
-/// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level
+/// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level; a motion with a
+///                                vertical component
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
 /// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
 ///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic

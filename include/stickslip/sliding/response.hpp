@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "stickslip/state.hpp"
@@ -53,7 +54,8 @@ struct Response {
   /// Whether displacement and velocity end before the slider rests, at ten times the number of samples of the motion.
   /// All else is that of the final rest.
   bool truncated = false;
-  State state;  ///< at the end: a motion can be continued from it
+  std::string components = "axis";  ///< of the ground motion that acted, joined by " + "
+  State state;                      ///< at the end: a motion can be continued from it
 };
 
 }  // namespace stickslip

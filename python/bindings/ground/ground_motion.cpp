@@ -7,15 +7,48 @@ namespace stickslip::python {
 namespace {
 
 GroundMotion make(const py::object& acceleration, std::optional<double> dt, const std::optional<py::object>& times,
-                  const std::string& interpolation, std::string name, const std::string& units) {
+                  const std::string& interpolation, std::string name, const std::string& units,
+                  const std::optional<py::object>& transverse, const std::optional<py::object>& vertical,
+                  std::string orientation) {
   if (dt.has_value() == times.has_value())
     throw std::invalid_argument(std::string("GroundMotion: give either dt or times, got ") + (dt ? "both" : "neither"));
-  std::vector<double> samples = to_vector(acceleration, "GroundMotion: acceleration");
-  if (const double unit = acceleration_unit(units); unit != 1)
-    for (double& n : samples) n *= unit;
-  if (dt) return {std::move(samples), *dt, interpolation_of(interpolation, "GroundMotion"), std::move(name)};
-  return {std::move(samples), to_vector(*times, "GroundMotion: times"), interpolation_of(interpolation, "GroundMotion"),
-          std::move(name)};
+  const double unit = acceleration_unit(units);
+  const auto samples = [unit](const py::object& values, const char* array) {
+    std::vector<double> result = to_vector(values, std::string("GroundMotion: ") + array);
+    if (unit != 1)
+      for (double& n : result) n *= unit;
+    return result;
+  };
+  const Interpolation between = interpolation_of(interpolation, "GroundMotion");
+  std::vector<double> axis = samples(acceleration, "acceleration");
+  const GroundMotion motion =
+      (dt ? GroundMotion(std::move(axis), *dt, between, std::move(name))
+          : GroundMotion(std::move(axis), to_vector(*times, "GroundMotion: times"), between, std::move(name)))
+          .with_orientation(std::move(orientation));
+  if (!transverse && !vertical) return motion;
+  const auto other = [&](const std::optional<py::object>& values, const char* array) {
+    std::vector<double> result;
+    if (values) result = samples(*values, array);
+    if (values && result.empty())
+      throw std::invalid_argument(std::string("GroundMotion: ") + array +
+                                  " must have as many samples as acceleration, " + std::to_string(motion.samples()) +
+                                  ", got 0");
+    return result;
+  };
+  return motion.with_components(other(transverse, "transverse"), other(vertical, "vertical"));
+}
+
+Component component_of(const std::string& name) {
+  for (const Component component : {Component::axis, Component::transverse, Component::vertical})
+    if (name == name_of(component)) return component;
+  throw std::invalid_argument("GroundMotion: component must be 'axis', 'transverse' or 'vertical', got '" + name + "'");
+}
+
+// A component as a read-only array, or None.
+template <std::span<const double> (GroundMotion::*member)() const noexcept>
+py::object samples_of(const py::object& self) {
+  const std::span<const double> samples = (self.cast<const GroundMotion&>().*member)();
+  return samples.empty() ? py::object(py::none()) : py::object(view(samples, self));
 }
 
 py::array_t<double> times_of(const GroundMotion& motion) {
@@ -31,8 +64,9 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
     throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " + type +
                          (type == "Stream" ? "; select one of its traces, as stream[0]" : ""));
   }
-  GroundMotion motion = make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt,
-                             "linear", name ? *name : py::str(trace.attr("id")).cast<std::string>(), units);
+  GroundMotion motion =
+      make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt, "linear",
+           name ? *name : py::str(trace.attr("id")).cast<std::string>(), units, std::nullopt, std::nullopt, "");
   warn_if_implausible(motion, "GroundMotion.from_obspy");
   return motion;
 }
@@ -50,7 +84,10 @@ std::optional<double> dt_of(const GroundMotion& motion) {
 void bind_ground_motion(py::module_& m) {
   py::class_<GroundMotion> type(m, "GroundMotion", R"(The acceleration history n(t) of the ground.
 
-Motions with the same samples, dt or times, interpolation and name are equal; they can be hashed, copied and pickled.
+`acceleration` is along the axis of the slider. The other horizontal component and the vertical one may be given beside
+it; peaks, integrals and intensity measures are those of the axis, and `component` gives the others.
+
+Motions with the same samples, dt or times, interpolation, name and orientation are equal; they can be hashed, copied and pickled.
 
 N samples make N - 1 pieces; the motion lasts from the first time to the last.
 
@@ -67,9 +104,15 @@ interpolation : {'linear', 'constant'}, optional
     the motion without acting.
 name : str, optional
     Where the motion comes from; shown in plots.
-
 units : str, optional
-    Unit of the acceleration: 'm/s^2', 'g', 'cm/s^2', 'gal', 'mm/s^2', 'ft/s^2', 'in/s^2'. The motion holds m/s^2.
+    Unit of all accelerations: 'm/s^2', 'g', 'cm/s^2', 'gal', 'mm/s^2', 'ft/s^2', 'in/s^2'. The motion holds m/s^2.
+transverse : array_like, shape (N,), optional
+    The horizontal component across the axis, on the same times. No slider on one axis feels it.
+vertical : array_like, shape (N,), optional
+    The vertical component, positive upward. `integrate` refuses a motion that has one: take `component('axis')`.
+orientation : str, optional
+    Where the axis points: an azimuth in degrees clockwise from north, as 'N28W' or '332', or 'up'. The transverse
+    component then points 90 degrees clockwise from it. Not checked.
 
 Raises
 ------
@@ -78,11 +121,13 @@ ValueError
 
 Notes
 -----
-`2 * motion`, `motion / 2` and `-motion` are motions, too: `scaled` by the factor.)");
+`2 * motion`, `motion / 2` and `-motion` are motions, too: `scaled` by the factor. What makes a motion of this one does
+the same to all components.)");
   type.attr("__array_ufunc__") = py::none();  // a factor of NumPy then asks the motion
   type.def(py::init(&make), py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(),
            py::arg("times") = py::none(), py::arg("interpolation") = "linear", py::arg("name") = "",
-           py::arg("units") = "m/s^2")
+           py::arg("units") = "m/s^2", py::arg("transverse") = py::none(), py::arg("vertical") = py::none(),
+           py::arg("orientation") = "")
       .def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
                   py::arg("name") = py::none(),
                   R"(The ground motion in a trace of ObsPy.
@@ -116,17 +161,36 @@ PlausibilityWarning
       .def_property_readonly(
           "acceleration",
           [](const py::object& self) { return view(self.cast<const GroundMotion&>().acceleration(), self); },
-          "Ground acceleration at the samples [m/s^2], shape (N,); read-only, not copied.")
+          "Ground acceleration along the axis at the samples [m/s^2], shape (N,); read-only, not copied.")
+      .def_property_readonly("transverse", &samples_of<&GroundMotion::transverse>,
+                             "The horizontal component across the axis [m/s^2], shape (N,), read-only; None without.")
+      .def_property_readonly("vertical", &samples_of<&GroundMotion::vertical>,
+                             "The vertical component, positive upward [m/s^2], shape (N,), read-only; None without.")
+      .def(
+          "component", [](const GroundMotion& g, const std::string& which) { return g.component(component_of(which)); },
+          py::arg("which"),
+          R"(One component alone, as a motion along the axis.
+
+Parameters
+----------
+which : {'axis', 'transverse', 'vertical'}
+    A component that the motion has.)")
       .def_property_readonly("time", &times_of, "Times of the samples [s], shape (N,).")
       .def_property_readonly("dt", &dt_of, "Time between samples [s]; None where the times are uneven.")
       .def_property_readonly("duration", &GroundMotion::duration, "From the first sample to the last [s].")
       .def_property_readonly("peak_acceleration", &GroundMotion::peak_acceleration,
-                             "Largest magnitude of the ground acceleration [m/s^2], the PGA.")
+                             "Largest magnitude of the ground acceleration along the axis [m/s^2], the PGA.")
       .def_property_readonly(
           "interpolation", [](const GroundMotion& g) { return name_of(g.interpolation()); }, "'linear' or 'constant'.")
       .def_property_readonly("name", &GroundMotion::name, "Where the motion comes from.")
+      .def_property_readonly(
+          "orientation", &GroundMotion::orientation,
+          "Where the axis points, as 'N28W', '332' (an azimuth) or 'up'; '' where that is not known.")
       .def("scaled", &GroundMotion::scaled, py::arg("factor"),
-           R"(The same motion with every acceleration multiplied by `factor` (finite; -1 mirrors it).)")
+           R"(The same motion with every acceleration multiplied by `factor` (finite).
+
+A negative factor turns the horizontal components around and never the vertical one, which is multiplied by the
+magnitude.)")
       .def(
           "scaled_to",
           [](const GroundMotion& motion, std::optional<double> pga_g, std::optional<double> arias,
@@ -135,7 +199,7 @@ PlausibilityWarning
             return scaled_to(motion, {pga_g, arias, pgv});
           },
           py::kw_only(), py::arg("pga_g") = py::none(), py::arg("arias") = py::none(), py::arg("pgv") = py::none(),
-          R"(The motion times the positive factor that gives it a PGA, an Arias intensity or a PGV.
+          R"(The motion times the positive factor that gives its axis a PGA, an Arias intensity or a PGV.
 
 Parameters
 ----------
@@ -170,6 +234,22 @@ Parameters
 ----------
 begin, end : float
     Times of the motion [s], begin < end.)")
+      .def("rotated", &rotated, py::arg("degrees"),
+           R"(The motion with its horizontal axes turned.
+
+The new axis is `degrees` from the old one toward the transverse one: n' = n cos a + t sin a, t' = t cos a - n sin a, with
+n along the axis, t across it and a the angle. The vertical component stays as it is. Turns by multiples of 90 degrees
+are exact. An orientation with an azimuth becomes the new one; another is dropped.
+
+Parameters
+----------
+degrees : float
+    Finite.
+
+Raises
+------
+ValueError
+    A motion without a transverse component; an angle that is not finite.)")
       .def("detrended", &detrended, py::arg("order") = 0,
            R"(The motion without its polynomial trend of least squares over time.
 
@@ -183,10 +263,10 @@ order : int, optional
     From 0 to 10.)")
       .def_property_readonly(
           "velocity", [](const GroundMotion& g) { return array_of(ground_history(g).velocity); },
-          "Ground velocity at the samples [m/s], shape (N,): the exact integral, from rest; computed anew each time.")
+          "Ground velocity along the axis [m/s], shape (N,): the exact integral, from rest; computed anew each time.")
       .def_property_readonly(
           "displacement", [](const GroundMotion& g) { return array_of(ground_history(g).displacement); },
-          "Ground displacement at the samples [m], shape (N,): the exact integral, from rest; computed anew each time.")
+          "Ground displacement along the axis [m], shape (N,): the exact integral, from rest; computed anew each time.")
       .def("plot", &plot,
            R"(Draws the acceleration [g] over time.
 
@@ -214,24 +294,33 @@ stands for the name. Returns the matplotlib Figure.)")
                     (dt ? ", dt = " + detail::shortest(*dt) + " s" : ", uneven times") + ", " +
                     detail::shortest(std::round(g.duration() * 1e3) / 1e3) + " s, peak " +
                     detail::shortest(std::round(g.peak_acceleration() * 1e4) / 1e4) + " m/s^2, " +
-                    name_of(g.interpolation()) + ">";
+                    name_of(g.interpolation()) + (g.has_transverse() || g.has_vertical() ? ", with " : "") +
+                    (g.has_transverse() ? "transverse" : "") + (g.has_transverse() && g.has_vertical() ? " and " : "") +
+                    (g.has_vertical() ? "vertical" : "") + ">";
            })
       .def(
           "__eq__", [](const GroundMotion& a, const GroundMotion& b) { return a == b; }, py::is_operator())
       .def("__hash__",
            [](const GroundMotion& g) {
-             return py::hash(py::make_tuple(hash_of(g.acceleration()), name_of(g.interpolation()), g.name()));
+             return py::hash(py::make_tuple(hash_of(g.acceleration()), hash_of(g.transverse()), hash_of(g.vertical()),
+                                            name_of(g.interpolation()), g.name()));
            })
       .def(py::pickle(
           [](const GroundMotion& g) {
-            py::array_t<double> samples(static_cast<py::ssize_t>(g.samples()), g.acceleration().data());
+            const auto array = [](std::span<const double> samples) -> py::object {
+              if (samples.empty()) return py::none();
+              return py::array_t<double>(static_cast<py::ssize_t>(samples.size()), samples.data());
+            };
             const auto dt = dt_of(g);
-            return py::make_tuple(samples, dt, dt ? py::object(py::none()) : py::object(times_of(g)),
-                                  name_of(g.interpolation()), g.name());
+            return py::make_tuple(array(g.acceleration()), dt, dt ? py::object(py::none()) : py::object(times_of(g)),
+                                  name_of(g.interpolation()), g.name(), array(g.transverse()), array(g.vertical()),
+                                  g.orientation());
           },
           [](const py::tuple& t) {
             return make(t[0], t[1].cast<std::optional<double>>(), t[2].cast<std::optional<py::object>>(),
-                        t[3].cast<std::string>(), t[4].cast<std::string>(), "m/s^2");
+                        t[3].cast<std::string>(), t[4].cast<std::string>(), "m/s^2",
+                        t[5].cast<std::optional<py::object>>(), t[6].cast<std::optional<py::object>>(),
+                        t[7].cast<std::string>());
           }));
 }
 

@@ -42,6 +42,8 @@ velocity : ndarray, shape (samples,)
 
 Raises
 ------
+ValueError
+    A motion with a vertical component.
 OverflowError
     A displacement or velocity beyond the range of doubles.
 

@@ -45,7 +45,7 @@ Parameters
 slider : Slider or friction law
     What slides; a law alone is a slider without spring and damper.
 motion : GroundMotion or HarmonicMotion
-    The ground acceleration.
+    The ground acceleration. A transverse component does not act (see `Response.components`).
 displacement : float, optional
     x at the start [m], finite.
 velocity : float, optional
@@ -61,7 +61,7 @@ Response
 Raises
 ------
 ValueError
-    A start that is not finite, or that moves against an infinite slip level.
+    A start that is not finite, or that moves against an infinite slip level. A motion with a vertical component.
 OverflowError
     A displacement, velocity or energy beyond the range of doubles.
 ConvergenceError

@@ -204,6 +204,10 @@ The force per unit mass between the mass and the ground, as of an isolator, posi
 
 They end at ten times the number of samples of the ground motion. Peak, residual, events and energy are still those of
 the final rest.)")
+      .def_property_readonly("components", number<&Response::components>(),
+                             R"(The components of the ground motion that acted, joined by " + " (str).
+
+'axis': along the axis of the slider. A transverse component never acts.)")
       .def_property_readonly("events", &events_of,
                              R"(Changes of mode in order of time, and the end: a structured array.
 

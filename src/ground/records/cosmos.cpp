@@ -34,14 +34,14 @@ std::size_t leading_count(const Reader& reader, std::string_view line, const std
 
 bool is_cosmos(const Lines& lines) { return has(lines[0], "(Format v"); }
 
-std::vector<Component> read_cosmos(const Lines& lines) {
-  std::vector<Component> components;
+std::vector<Channel> read_cosmos(const Lines& lines) {
+  std::vector<Channel> components;
   Reader reader(lines);
   while (!reader.done()) {
     const std::string_view first = reader.line("header");
     if (!is_cosmos({first})) refuse_line(reader.last(), "expected the header of another channel, got " + quote(first));
 
-    Component channel;
+    Channel channel;
     std::string event, station;
     std::string_view line = reader.line("integer header");
     for (; !has(line, "Integer-header"); line = reader.line("integer header")) {

@@ -10,7 +10,7 @@
 namespace stickslip::records {
 
 /// One component as its file gives it.
-struct Component {
+struct Channel {
   std::string name{};  // empty where the format has none
   std::string title{};
   std::string units{};  // empty where the file states none
@@ -20,24 +20,24 @@ struct Component {
 };
 
 bool is_cosmos(const Lines& lines);
-std::vector<Component> read_cosmos(const Lines& lines);
+std::vector<Channel> read_cosmos(const Lines& lines);
 
 bool is_geonet(const Lines& lines);
-std::vector<Component> read_geonet(const Lines& lines);
+std::vector<Channel> read_geonet(const Lines& lines);
 
 bool is_peer(const Lines& lines);
-std::vector<Component> read_peer(const Lines& lines);
+std::vector<Channel> read_peer(const Lines& lines);
 
 bool is_smc(const Lines& lines);
-std::vector<Component> read_smc(const Lines& lines);
+std::vector<Channel> read_smc(const Lines& lines);
 
 bool is_table(const Lines& lines);
-std::vector<Component> read_table(const Lines& lines);
+std::vector<Channel> read_table(const Lines& lines);
 
 struct Format {
   std::string_view name;
   bool (*recognizes)(const Lines&);
-  std::vector<Component> (*read)(const Lines&);
+  std::vector<Channel> (*read)(const Lines&);
 };
 
 /// The names of all, for a message.

@@ -13,9 +13,9 @@ bool is_geonet(const Lines& lines) {
   return has(lines[0], "corrected accelerogram") && lines.size() > 12 && lines[12].starts_with("Component");
 }
 
-std::vector<Component> read_geonet(const Lines& lines) {
+std::vector<Channel> read_geonet(const Lines& lines) {
   constexpr std::size_t columns = 10, width = 8;
-  std::vector<Component> components;
+  std::vector<Channel> components;
   Reader reader(lines);
   while (!reader.done()) {
     const Lines text = reader.block(16, "heading of 16 lines");
@@ -29,7 +29,7 @@ std::vector<Component> read_geonet(const Lines& lines) {
     const std::vector<double> real = reader.numbers(60, "reals", width);
     const auto samples = [&](std::size_t number) { return as_count(integer[number - 1], heading + 19, "samples"); };
 
-    Component component{.units = "mm/s^2", .dt = real[25]};
+    Channel component{.units = "mm/s^2", .dt = real[25]};
     component.name = squeeze(before(trim(after(text[12], "Component")), " "));
     component.title =
         joined({squeeze(text[6]), squeeze(before(text[7], "  ")),

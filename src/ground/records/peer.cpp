@@ -11,7 +11,7 @@ namespace stickslip::records {
 
 bool is_peer(const Lines& lines) { return lines.size() > 3 && has(lines[3], "NPTS") && has(lines[3], "DT"); }
 
-std::vector<Component> read_peer(const Lines& lines) {
+std::vector<Channel> read_peer(const Lines& lines) {
   if (!has(lines[2], "ACCELERATION"))
     refuse_line(2, "expected a PEER file of acceleration (AT2), got " + quote(lines[2]));
   std::string_view line = lines[3], rest;
@@ -31,7 +31,7 @@ std::vector<Component> read_peer(const Lines& lines) {
     refuse_line(3, "expected 'NPTS= 4096, DT= .0100 SEC' or '4096 .0100 NPTS, DT', got " + quote(line));
   const std::size_t samples = as_count(*count, 3, "samples");
 
-  Component component{.title = squeeze(lines[1]), .units = stated_units(lines[2]), .dt = *dt};
+  Channel component{.title = squeeze(lines[1]), .units = stated_units(lines[2]), .dt = *dt};
   Reader reader(lines);
   reader.block(4, "header");
   component.acceleration = reader.numbers(samples, "samples");

@@ -87,7 +87,7 @@ Lines split(std::string_view text) {
 
 // ---- what the caller asked for
 
-Component choose(std::vector<Component> components, const std::string& wanted) {
+Channel choose(std::vector<Channel> components, const std::string& wanted) {
   std::size_t matches = 0, index = 0;
   for (std::size_t i = 0; i < components.size(); ++i)
     if (wanted.empty() || same(components[i].name, wanted)) {
@@ -154,7 +154,7 @@ GroundMotion read_record(const fs::path& file, const RecordOptions& options) {
   try {
     const std::string text = decoded(std::move(content));
     const Lines lines = split(text);
-    Component component = choose(recognize(lines).read(lines), options.component);
+    Channel component = choose(recognize(lines).read(lines), options.component);
     const double factor = scale(component.units, options.units);
     for (double& n : component.acceleration) n *= factor;
     std::string name = component.title.empty() ? printable(file.stem().string(), 256) : std::move(component.title);

@@ -19,7 +19,7 @@ bool is_smc(const Lines& lines) {
   return std::ranges::any_of(types, [type](std::string_view name) { return has(type, name); });
 }
 
-std::vector<Component> read_smc(const Lines& lines) {
+std::vector<Channel> read_smc(const Lines& lines) {
   if (!has(lines[0], "ACCELEROGRAM")) refuse_line(0, "an accelerogram is needed, this file holds " + quote(lines[0]));
   Reader reader(lines);
   const Lines text = reader.block(11, "heading of 11 lines");
@@ -30,7 +30,7 @@ std::vector<Component> read_smc(const Lines& lines) {
   if (const double unknown = real[0], rate = real[1]; !(rate > 0) || rate == unknown)
     refuse_line(17, "the sampling rate must be known and positive, got " + detail::shortest(rate) + " 1/s");
 
-  Component component{.units = "cm/s^2", .dt = 1 / real[1]};
+  Channel component{.units = "cm/s^2", .dt = 1 / real[1]};
   component.name = squeeze(after(text[5], "component="));
   const auto known = [](std::string_view line) { return trim(line) == "*" ? std::string() : squeeze(line); };
   component.title =

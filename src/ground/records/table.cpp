@@ -42,7 +42,7 @@ std::vector<std::string_view> bracketed(std::string_view line) {
 
 /// Reads units and title from the lines before the rows: units from the lowest line that has them, the title from the
 /// topmost comment.
-void read_table_header(const Lines& lines, std::size_t rows, Component& component) {
+void read_table_header(const Lines& lines, std::size_t rows, Channel& component) {
   for (std::size_t i = rows; i-- > 0;) {
     const std::string_view line = trim(lines[i]);
     if (component.units.empty()) {
@@ -189,8 +189,8 @@ bool is_row_without_time(std::string_view line) {
 
 bool is_table(const Lines& lines) { return first_row(lines) < lines.size(); }
 
-std::vector<Component> read_table(const Lines& lines) {
-  Component component;
+std::vector<Channel> read_table(const Lines& lines) {
+  Channel component;
   const std::size_t rows = first_row(lines);
   for (std::size_t i = 0; i < rows; ++i)
     if (is_row_without_time(lines[i])) refuse_line(i, "expected two finite numbers, got " + quote(lines[i]));

@@ -155,7 +155,7 @@ void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, 
 template <FrictionLaw Law>
 void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, const MemberPlace& place) {
   Block& block = place.block;
-  with_flows(slider, motion.dt(), [&](const auto& flows) {
+  with_flows(slider, motion, [&](const auto& flows) {
     State state;
     PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
     go_through(
