@@ -2,9 +2,10 @@
 
     python examples/04_slope.py [RECORD] [--degrees 5] [--yield-g 0.1] [--out DIR]
 
-Newmark's block slides downhill only. A block on a gentle slope can be pushed uphill as well: its
-level uphill is larger by 2 g sin(slope). A record does not say which way the slope faces, so both
-are tried. Without a record of yours it takes Kobe 1995, from the package pyslammer.
+Newmark's block slides downhill only. A block on a gentle slope can be pushed uphill as well: under
+horizontal shaking it yields at g tan(phi - slope) downhill and at g tan(phi + slope) uphill, mu =
+tan(phi). A record does not say which way the slope faces, so both are tried. Without a record of
+yours it takes Kobe 1995, from the package pyslammer.
 """
 
 import argparse
@@ -25,21 +26,30 @@ args = ask.parse_args()
 
 g = ss.STANDARD_GRAVITY
 quake = ss.read_record(args.record) if args.record else ss.sample_record("Kobe")
-uphill = 2 * g * math.sin(math.radians(args.degrees))  # what the level is larger by [m/s^2]
+theta = math.radians(args.degrees)
+
+
+def uphill(ky):
+    """The yield acceleration uphill of a block that yields at ky downhill [m/s^2]."""
+    return g * math.tan(math.atan(ky / g) + 2 * theta)
+
+
+def block(ky, one_way):
+    """Yields at ky [m/s^2] downhill, which is forward."""
+    mu = math.tan(math.atan(ky / g) + theta)
+    return ss.Slider(ss.Coulomb(mu=mu), slope_degrees=args.degrees, one_way=one_way)
 
 
 def one_way(ky):
-    """Yields at ky [m/s^2] downhill, which is forward, and never uphill."""
-    return ss.Coulomb(slip_level=ky, backward=math.inf)
+    return block(ky, True)
 
 
 def two_way(ky):
-    """The same, on a slope of so many degrees: `Coulomb.on_slope` has it from mu."""
-    return ss.Coulomb(slip_level=ky, backward=ky + uphill)
+    return block(ky, False)
 
 
 ky = args.yield_g * g
-print(f"{quake.name}: yields at {ky / g:g} g downhill, {(ky + uphill) / g:.3f} g uphill")
+print(f"{quake.name}: yields at {ky / g:g} g downhill, {uphill(ky) / g:.3f} g uphill")
 shown = {}
 for facing, motion in (("as recorded", quake), ("reversed", quake.scaled(-1))):
     for name, law in (("one-way", one_way(ky)), ("two-way", two_way(ky))):

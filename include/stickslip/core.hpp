@@ -5,6 +5,8 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/friction/static_kinetic.hpp"
+#include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"

@@ -1,19 +1,38 @@
-// A mass on friction, with an optional spring and an optional damper.
+// A mass on friction, with what holds it back and what it stands on.
 #pragma once
 
 #include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/stops.hpp"
 #include "stickslip/units.hpp"
 
 namespace stickslip {
 
-/// A mass on friction, with an optional centering spring and an optional viscous damper:
-///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),                                   thesis (2.27), (2.50), (4.2)
-/// x the displacement relative to the ground [m], n the ground acceleration [m/s^2]. At rest it stays while
-///     -hold_backward <= -(n + wn^2 x) <= hold_forward.
+/// What a mass is mounted on, beside friction. All of it may be left out.
+struct Mounting {
+  double natural_frequency = 0;  ///< wn, of the spring and the mass without friction [rad/s], finite and at least 0
+  double damping = 0;            ///< c, of the damper per unit mass [1/s], finite and at least 0; 2 wn damping ratio
+  double slope_degrees = 0;      ///< of the ground, forward is downhill [degrees], from 0 to less than 90
+  bool one_way = false;          ///< never slides backward
+  Stops stops{};                 ///< that end its way
+  bool pendulum = false;         ///< the spring is a pendulum's: its pull is wn^2 x N+ / g
+
+  friend bool operator==(const Mounting&, const Mounting&) = default;
+};
+
+/// A mass on friction, with an optional spring, damper and stops, on level or sloping ground:
+///     x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t),                              thesis (2.27), (2.50), (4.2)
+///     p = (g + a_z) sin(slope) - n cos(slope),   N = (g + a_z) cos(slope) + n sin(slope),   N+ = max(N, 0)
+/// x the displacement relative to the ground [m], along the slope and positive downhill; n and a_z the horizontal and
+/// the upward ground acceleration [m/s^2]. On level ground without vertical motion p = -n and N = g. At rest it stays
+/// while
+///     -hold_backward N+/g <= p - wn^2 x <= hold_forward N+/g.
 template <FrictionLaw Law>
 class Slider {
  public:
@@ -24,14 +43,31 @@ class Slider {
   ///                           damping ratio
   /// @throws std::invalid_argument naming the value
   explicit Slider(Law law, double natural_frequency = 0, double damping = 0)
-      : law_(std::move(law)),
-        natural_frequency_(natural_frequency + 0.0),  // minus zero is zero
-        stiffness_(natural_frequency * natural_frequency),
-        damping_(damping + 0.0) {
-    detail::require(std::isfinite(stiffness_) && natural_frequency >= 0,
-                    "Slider: natural_frequency must be finite and at least 0", natural_frequency, "rad/s");
-    detail::require(std::isfinite(damping) && damping >= 0, "Slider: damping must be finite and at least 0", damping,
-                    "1/s");
+      : Slider(std::move(law), Mounting{natural_frequency, damping}) {}
+
+  /// @param law       what holds and what resists
+  /// @param mounting  spring, damper, slope and stops
+  /// @throws std::invalid_argument naming the value; also where the slider would slide under its own weight with
+  ///                  neither spring nor stop in its way
+  Slider(Law law, const Mounting& mounting) : law_(std::move(law)), mounting_(mounting) {
+    mounting_.natural_frequency += 0.0;  // minus zero is zero
+    mounting_.damping += 0.0;
+    detail::require(std::isfinite(stiffness()) && natural_frequency() >= 0,
+                    "Slider: natural_frequency must be finite and at least 0", natural_frequency(), "rad/s");
+    detail::require(std::isfinite(damping()) && damping() >= 0, "Slider: damping must be finite and at least 0",
+                    damping(), "1/s");
+    const double degrees = mounting_.slope_degrees;
+    detail::require(degrees >= 0 && degrees < 90, "Slider: slope_degrees must be from 0 to less than 90", degrees,
+                    "degrees");
+    if (degrees > 0 && stiffness() == 0 && !std::isfinite(mounting_.stops.forward())) {
+      const double steepest = std::tan(slope()), holds = hold(law_, 0, Direction::forward) / standard_gravity;
+      detail::require(holds >= steepest,
+                      "Slider: on a slope of " + detail::shortest(degrees) +
+                          " degrees it slides under its own weight unless mu is at least " + detail::shortest(steepest),
+                      holds);
+    }
+    if (mounting_.pendulum && !(stiffness() > 0))
+      throw std::invalid_argument("Slider: a pendulum needs a natural_frequency, sqrt(g / radius)");
   }
 
   /// A slider in cups, thesis (2.49) as corrected: each wheel stands in a bowl and climbs its side, a pendulum of the
@@ -53,20 +89,53 @@ class Slider {
     return Slider(std::move(law), std::sqrt(standard_gravity / (cup_radius - wheel_radius)), damping);
   }
 
+  /// A friction pendulum: a slider on a spherical dish, whose spring is the normal force's part along it, N+ x /
+  /// radius.
+  ///     wn = sqrt(g / radius)
+  /// Linear in x: for |x| up to 0.2 radius, where the next term is 2 % of it.
+  /// @param radius    effective radius of curvature of the dish [m], positive and finite
+  /// @param mounting  damper, stops; its spring is replaced
+  /// @throws std::invalid_argument naming the value
+  static Slider friction_pendulum(Law law, double radius, Mounting mounting = {}) {
+    detail::require(std::isfinite(radius) && radius > 0, "Slider: radius must be positive and finite", radius, "m");
+    mounting.natural_frequency = std::sqrt(standard_gravity / radius);
+    mounting.pendulum = true;
+    return Slider(std::move(law), mounting);
+  }
+
   const Law& law() const noexcept { return law_; }
-  double natural_frequency() const noexcept { return natural_frequency_; }
+  const Mounting& mounting() const noexcept { return mounting_; }
+  double natural_frequency() const noexcept { return mounting_.natural_frequency; }
 
   /// wn^2, spring stiffness per unit mass [1/s^2].
-  double stiffness() const noexcept { return stiffness_; }
+  double stiffness() const noexcept { return mounting_.natural_frequency * mounting_.natural_frequency; }
 
   /// c [1/s].
-  double damping() const noexcept { return damping_; }
+  double damping() const noexcept { return mounting_.damping; }
+
+  /// Of the ground [rad].
+  double slope() const noexcept { return mounting_.slope_degrees * (std::numbers::pi / 180); }
+
+  /// Whether horizontal ground motion is all that loads it: on level ground, both ways, without stops, and with a
+  /// spring that does not depend on the normal force.
+  bool plain() const noexcept {
+    return mounting_.slope_degrees == 0 && !mounting_.one_way && !mounting_.stops && !mounting_.pendulum;
+  }
 
  private:
   Law law_;
-  double natural_frequency_;
-  double stiffness_;
-  double damping_;
+  Mounting mounting_;
 };
 
+namespace detail {
+
+/// Refuses what a function does not cover.
+template <FrictionLaw Law>
+void require_plain_mounting(const Slider<Law>& slider, const std::string& function) {
+  if (!slider.plain())
+    throw std::invalid_argument(function +
+                                ": covers sliders on level ground that slide both ways, without stops and pendulum");
+}
+
+}  // namespace detail
 }  // namespace stickslip

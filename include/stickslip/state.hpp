@@ -13,6 +13,10 @@ enum class Direction : std::int8_t { backward = -1, forward = +1 };
 /// +1 forward, -1 backward.
 constexpr double sign(Direction direction) noexcept { return direction == Direction::forward ? 1.0 : -1.0; }
 
+constexpr Direction opposite(Direction direction) noexcept {
+  return direction == Direction::forward ? Direction::backward : Direction::forward;
+}
+
 /// Stuck, or sliding in a direction.
 enum class Mode : std::int8_t { backward = -1, stuck = 0, forward = +1 };
 
@@ -27,6 +31,9 @@ struct State {
   double displacement = 0;  ///< x, relative to the ground [m]
   double velocity = 0;      ///< x', relative to the ground [m/s]; 0 where stuck, else never against the mode
   Mode mode = Mode::stuck;
+  bool in_flight = false;   ///< whether the slider has left the ground
+  double gap = 0;           ///< between slider and ground, in flight [m]
+  double gap_velocity = 0;  ///< rate of the gap, in flight [m/s]
 
   /// At rest where `velocity` is 0, else sliding the way it points.
   static constexpr State at(double displacement, double velocity) noexcept {

@@ -19,12 +19,18 @@ namespace py = pybind11;
 namespace stickslip::python {
 
 /// A slider of any law that Python knows. A new law is added here and gets all that takes a slider.
-using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>>;
+using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
+                               Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
+                               Slider<StaticKinetic<VelocityDependent>>>;
+
+/// The class of these in Python.
+using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>>;
 
 }  // namespace stickslip::python
 
 // Not what pybind11/stl.h makes of a variant: Slider is a class.
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnySlider)
+PYBIND11_MAKE_OPAQUE(stickslip::python::AnyStaticKinetic)
 
 namespace stickslip::python {
 
@@ -32,6 +38,9 @@ void bind_errors(py::module_& m);
 void bind_coulomb(py::module_& m);
 void bind_caster(py::module_& m);
 void bind_velocity_dependent(py::module_& m);
+void bind_stribeck(py::module_& m);
+void bind_static_kinetic(py::module_& m);
+void bind_stops(py::module_& m);
 void bind_slider(py::module_& m);
 void bind_ground_motion(py::module_& m);
 void bind_harmonic_motion(py::module_& m);
@@ -39,6 +48,7 @@ void bind_harmonic(py::module_& m);
 void bind_histories(py::module_& m);
 void bind_records(py::module_& m);
 void bind_response(py::module_& m);
+void bind_advance(py::module_& m);
 void bind_integrate(py::module_& m);
 void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
@@ -69,15 +79,60 @@ void bind_pulse_chain(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
 
-/// What `work` gives with the slider in its own type; one whose law knows the speed is refused, as theories do.
+/// What `work` gives with the slider in its own type; one whose law knows the speed, or holds more than what resists,
+/// is refused, as theories do.
 template <class Work>
 auto with_position_law(const AnySlider& slider, const char* who, Work&& work) {
   return std::visit(
       [&]<class Law>(const Slider<Law>& one) -> decltype(work(std::get<0>(slider))) {
-        if constexpr (!PositionLaw<Law>) detail::refuse_speed_law(who);
-        if constexpr (PositionLaw<Law>) return work(one);
+        if constexpr (!PositionLaw<Law>)
+          detail::refuse_speed_law(who);
+        else if constexpr (LawWithHold<Law>)
+          throw std::invalid_argument(std::string(who) + ": static friction beside kinetic is not covered");
+        else
+          return work(one);
       },
       slider);
+}
+
+/// A law as an object.
+template <FrictionLaw Law>
+py::object law_object(const Law& law) {
+  return py::cast(law);
+}
+template <FrictionLaw Law>
+py::object law_object(const StaticKinetic<Law>& law) {
+  return py::cast(AnyStaticKinetic(law));
+}
+
+/// The slider without spring that a law makes; nothing if the object is no law. (Implicit conversions would need the
+/// frame of a bound function, which threads do not have.)
+template <class... Laws>
+std::optional<AnySlider> slider_of_law(const py::handle& object, const std::variant<Slider<Laws>...>*) {
+  std::optional<AnySlider> slider;
+  const auto take = [&]<class Law>(const Law*) {
+    if (py::isinstance<Law>(object)) slider = Slider<Law>(object.cast<const Law&>());
+  };
+  (take(static_cast<const Laws*>(nullptr)), ...);
+  if (py::isinstance<AnyStaticKinetic>(object))
+    std::visit([&](const auto& law) { slider = Slider(law); }, object.cast<const AnyStaticKinetic&>());
+  return slider;
+}
+inline std::optional<AnySlider> slider_of_law(const py::handle& object) {
+  return slider_of_law(object, static_cast<const AnySlider*>(nullptr));
+}
+
+/// The slider that an object is, or that it makes as a law; nothing if it is none.
+inline std::optional<AnySlider> slider_of(const py::handle& object) {
+  if (py::isinstance<AnySlider>(object)) return object.cast<const AnySlider&>();
+  return slider_of_law(object);
+}
+
+inline const char* name_of(Contact contact) { return contact == Contact::flight ? "flight" : "clipped"; }
+inline Contact contact_of(const std::string& name, const std::string& owner) {
+  if (name == "flight") return Contact::flight;
+  if (name == "clipped") return Contact::clipped;
+  throw std::invalid_argument(owner + ": contact must be 'flight' or 'clipped', got '" + name + "'");
 }
 
 /// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.

@@ -31,6 +31,9 @@ PYBIND11_MODULE(_core, m) {
   bind_coulomb(m);
   bind_caster(m);
   bind_velocity_dependent(m);
+  bind_stribeck(m);
+  bind_static_kinetic(m);
+  bind_stops(m);
   bind_slider(m);
   bind_viscous(m);
   bind_ground_motion(m);
@@ -38,6 +41,7 @@ PYBIND11_MODULE(_core, m) {
   bind_records(m);
   bind_response(m);
   bind_integrate(m);
+  bind_advance(m);
   bind_histories(m);
   bind_harmonic(m);
   bind_envelope(m);

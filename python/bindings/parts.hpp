@@ -37,21 +37,28 @@ template <>
 inline constexpr auto parts<VelocityDependent> = std::tuple(&VelocityDependent::slow, &VelocityDependent::fast,
                                                             &VelocityDependent::rate);
 template <>
+inline constexpr auto parts<Stribeck> = std::tuple(&Stribeck::static_level, &Stribeck::kinetic_level,
+                                                   &Stribeck::velocity, &Stribeck::exponent);
+template <>
+inline constexpr auto parts<Stops> = std::tuple(&Stops::forward, &Stops::backward, &Stops::restitution);
+template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
                                                          &HarmonicMotion::duration, &HarmonicMotion::dt);
 
 template <>
-inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::velocity, &State::mode);
+inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::velocity, &State::mode, &State::in_flight,
+                                                &State::gap, &State::gap_velocity);
 template <>
 inline constexpr auto parts<Event> = std::tuple(&Event::time, &Event::displacement, &Event::velocity, &Event::kind);
 template <>
 inline constexpr auto parts<Energy> = std::tuple(&Energy::initial, &Energy::input, &Energy::dissipated, &Energy::damped,
-                                                 &Energy::kinetic, &Energy::elastic);
+                                                 &Energy::kinetic, &Energy::elastic, &Energy::impact);
 template <>
 inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Response::velocity, &Response::events,
                                                    &Response::peak, &Response::residual, &Response::sliding_distance,
-                                                   &Response::time_sliding, &Response::energy, &Response::truncated,
-                                                   &Response::components, &Response::state);
+                                                   &Response::time_sliding, &Response::energy, &Response::gap,
+                                                   &Response::truncated, &Response::contact, &Response::components,
+                                                   &Response::state);
 template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,

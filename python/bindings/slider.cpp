@@ -5,6 +5,8 @@
 #include <string>
 #include <variant>
 
+#include <pybind11/stl.h>
+
 #include "parts.hpp"
 
 namespace stickslip::python {
@@ -36,25 +38,45 @@ double damping_from(std::optional<double> damping, std::optional<double> ratio, 
   return 2 * natural_frequency * *ratio;
 }
 
-template <class Law>
-void add_law(py::class_<AnySlider>& slider) {
-  slider.def(py::init([](const Law& law, std::optional<double> natural_frequency, std::optional<double> damping,
-                         std::optional<double> period, std::optional<double> damping_ratio) {
-               const double wn = natural_frequency_from(natural_frequency, period);
-               return AnySlider(Slider<Law>(law, wn, damping_from(damping, damping_ratio, wn)));
-             }),
-             py::arg("law"), py::arg("natural_frequency") = py::none(), py::arg("damping") = py::none(), py::kw_only(),
-             py::arg("period") = py::none(), py::arg("damping_ratio") = py::none());
-  py::implicitly_convertible<Law, AnySlider>();
+// The law of a slider that is nothing else; refuses what is none.
+AnySlider alone(const py::object& law) {
+  if (auto slider = slider_of_law(law)) return *std::move(slider);
+  throw py::type_error("Slider: law must be a friction law, as Coulomb(mu=0.3), got " +
+                       py::type::of(law).attr("__name__").cast<std::string>());
+}
+
+AnySlider mounted(const py::object& law, const Mounting& mounting) {
+  return std::visit(
+      [&]<class Law>(const Slider<Law>& slider) -> AnySlider { return Slider<Law>(slider.law(), mounting); },
+      alone(law));
 }
 
 template <class... Laws>
-void add_laws(py::class_<AnySlider>& slider, const std::variant<Slider<Laws>...>*) {
-  (add_law<Laws>(slider), ...);
+void convert_laws(const std::variant<Slider<Laws>...>*) {
+  const auto convert = []<class Law>(const Law*) {
+    if constexpr (!requires(const Law& law) { law.sliding(); }) py::implicitly_convertible<Law, AnySlider>();
+  };
+  (convert(static_cast<const Laws*>(nullptr)), ...);
+  py::implicitly_convertible<AnyStaticKinetic, AnySlider>();
+}
+
+const Mounting& mounting_of(const AnySlider& slider) {
+  return std::visit([](const auto& s) -> const Mounting& { return s.mounting(); }, slider);
+}
+
+// What is not as it usually is, as arguments.
+std::string described(const Mounting& mounting) {
+  const auto number = [](const char* name, double value) {
+    return value != 0 ? std::string(", ") + name + "=" + detail::shortest(value) : std::string();
+  };
+  return number("natural_frequency", mounting.natural_frequency) + number("damping", mounting.damping) +
+         number("slope_degrees", mounting.slope_degrees) + (mounting.one_way ? ", one_way=True" : "") +
+         (mounting.stops ? ", stops=" + py::repr(py::cast(mounting.stops)).cast<std::string>() : "") +
+         (mounting.pendulum ? ", pendulum=True" : "");
 }
 
 py::object law_of(const AnySlider& slider) {
-  return std::visit([](const auto& s) { return py::cast(s.law()); }, slider);
+  return std::visit([](const auto& s) { return law_object(s.law()); }, slider);
 }
 
 double natural_frequency_of(const AnySlider& slider) {
@@ -71,14 +93,17 @@ Direction direction_of(bool backward) { return backward ? Direction::backward : 
 
 void bind_slider(py::module_& m) {
   py::class_<AnySlider> slider(
-      m, "Slider", R"(The system that moves: a friction law, an optional centering spring, an optional damper.
+      m, "Slider",
+      R"(The system that moves: a friction law, with a spring, a damper, a slope and stops where there are any.
 
-x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (2.27), (2.50), (4.2): x the displacement relative to the ground
-[m], n the ground acceleration [m/s^2]. At rest it stays while -hold_backward <= -(n + wn^2 x) <= hold_forward.
+x'' + resist N+/g sgn(x') + c x' + wn^2 x = p, thesis (2.27), (2.50), (4.2): x the displacement relative to the ground
+[m], along the slope and positive downhill. p = (g + a_z) sin(slope) - n cos(slope) and N = (g + a_z) cos(slope) +
+n sin(slope), N+ = max(N, 0), n and a_z being the horizontal and the upward ground acceleration [m/s^2]; on level ground
+without vertical motion p = -n and N = g. At rest it stays while -hold_backward N+/g <= p - wn^2 x <= hold_forward N+/g.
 
 Parameters
 ----------
-law : Coulomb, Caster or VelocityDependent
+law : Coulomb, Caster, VelocityDependent, Stribeck or StaticKinetic
     What holds at rest and what resists sliding.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0, 0 is no spring.
@@ -88,24 +113,43 @@ period : float, optional
     2 pi / wn [s], instead of natural_frequency; positive and finite.
 damping_ratio : float, optional
     c / (2 wn), the part of critical damping, instead of damping; finite and at least 0. Needs a spring.
+slope_degrees : float, optional
+    Slope of the ground [degrees], from 0 to less than 90; forward is downhill. n is horizontal, positive toward the
+    downhill side.
+one_way : bool, optional
+    Never slides backward, as Newmark's block.
+stops : Stops, optional
+    That end its way.
+pendulum : bool, optional
+    The spring is a friction pendulum's, which pulls with wn^2 x N+/g; see `FrictionPendulum`.
 
 Raises
 ------
 ValueError
-    A value out of its range; natural_frequency and period, or damping and damping_ratio, both given; a damping_ratio
-    without a spring.
+    A value out of its range; natural_frequency and period, or damping and damping_ratio, both given; a damping_ratio or a
+    pendulum without a spring; a slope on which it slides under its own weight with neither spring nor stop in its way.
 
 Notes
 -----
-Wherever a slider is asked for, a law alone will do: a slider without spring and damper.)");
-  add_laws(slider, static_cast<const AnySlider*>(nullptr));
+Wherever a slider is asked for, a law alone will do: a slider on level ground without spring and damper.)");
+  slider.def(py::init([](const py::object& law, std::optional<double> natural_frequency, std::optional<double> damping,
+                         std::optional<double> period, std::optional<double> damping_ratio, double slope_degrees,
+                         bool one_way, const Stops* stops, bool pendulum) {
+               const double wn = natural_frequency_from(natural_frequency, period);
+               return mounted(law, {wn, damping_from(damping, damping_ratio, wn), slope_degrees, one_way,
+                                    stops ? *stops : Stops(), pendulum});
+             }),
+             py::arg("law"), py::arg("natural_frequency") = py::none(), py::arg("damping") = py::none(), py::kw_only(),
+             py::arg("period") = py::none(), py::arg("damping_ratio") = py::none(), py::arg("slope_degrees") = 0.0,
+             py::arg("one_way") = false, py::arg("stops") = py::none(), py::arg("pendulum") = false);
+  convert_laws(static_cast<const AnySlider*>(nullptr));
   slider
       .def_static(
           "in_cup",
           [](const AnySlider& law, double cup_radius, double wheel_radius, double damping) {
             return std::visit(
                 [&](const auto& s) -> AnySlider {
-                  if (s.natural_frequency() != 0 || s.damping() != 0)
+                  if (s.mounting() != Mounting{})
                     throw std::invalid_argument("Slider: in_cup takes a law without spring and damper");
                   return std::remove_cvref_t<decltype(s)>::in_cup(s.law(), cup_radius, wheel_radius, damping);
                 },
@@ -118,7 +162,7 @@ A pendulum of the length of the bowl's radius less the wheel's: wn = sqrt(g / (c
 
 Parameters
 ----------
-law : Coulomb, Caster or VelocityDependent
+law : Coulomb, Caster, VelocityDependent, Stribeck or StaticKinetic
 cup_radius : float
     Radius of curvature of the bowl [m], positive and finite.
 wheel_radius : float, optional
@@ -142,6 +186,22 @@ To first order in x / (cup_radius - wheel_radius); the next term is the third.)"
       .def_property_readonly("law", &law_of, "The friction law.")
       .def_property_readonly("natural_frequency", &natural_frequency_of, "wn [rad/s]; 0 without a spring.")
       .def_property_readonly("damping", &damping_of, "c [1/s]; 0 without a damper.")
+      .def_property_readonly(
+          "slope_degrees", [](const AnySlider& self) { return mounting_of(self).slope_degrees; },
+          "Slope of the ground [degrees].")
+      .def_property_readonly(
+          "one_way", [](const AnySlider& self) { return mounting_of(self).one_way; },
+          "Whether it never slides backward.")
+      .def_property_readonly(
+          "stops",
+          [](const AnySlider& self) {
+            const Stops& stops = mounting_of(self).stops;
+            return stops ? std::optional(stops) : std::nullopt;
+          },
+          "The stops; None where there are none.")
+      .def_property_readonly(
+          "pendulum", [](const AnySlider& self) { return mounting_of(self).pendulum; },
+          "Whether the spring is a friction pendulum's.")
       .def_property_readonly(
           "period", [](const AnySlider& self) { return 2 * std::numbers::pi / natural_frequency_of(self); },
           "2 pi / wn [s]; inf without a spring.")
@@ -192,28 +252,90 @@ float
     Friction force per unit mass [m/s^2].)")
       .def("__repr__",
            [](const AnySlider& self) {
-             const double wn = natural_frequency_of(self), c = damping_of(self);
-             return "Slider(" + py::repr(law_of(self)).cast<std::string>() +
-                    (wn > 0 ? ", natural_frequency=" + detail::shortest(wn) : "") +
-                    (c > 0 ? ", damping=" + detail::shortest(c) : "") + ")";
+             return "Slider(" + py::repr(law_of(self)).cast<std::string>() + described(mounting_of(self)) + ")";
            })
       .def(
           "__eq__",
           [](const AnySlider& a, const py::object& other) {
             if (!py::isinstance<AnySlider>(other)) return false;  // a law is no slider here
             const auto& b = other.cast<const AnySlider&>();
-            return law_of(a).equal(law_of(b)) && natural_frequency_of(a) == natural_frequency_of(b) &&
-                   damping_of(a) == damping_of(b);
+            return law_of(a).equal(law_of(b)) && mounting_of(a) == mounting_of(b);
           },
           py::is_operator())
       .def("__hash__",
-           [](const AnySlider& s) {
-             return py::hash(py::make_tuple(law_of(s), natural_frequency_of(s), damping_of(s)));
-           })
+           [](const AnySlider& s) { return py::hash(py::make_tuple(law_of(s), described(mounting_of(s)))); })
       .def("__reduce__", [](const py::object& self) {
-        return py::make_tuple(py::type::of(self),
-                              py::make_tuple(self.attr("law"), self.attr("natural_frequency"), self.attr("damping")));
+        const Mounting& on = mounting_of(self.cast<const AnySlider&>());
+        return py::make_tuple(py::type::of(self).attr("_mounted"),
+                              py::make_tuple(self.attr("law"), on.natural_frequency, on.damping, on.slope_degrees,
+                                             on.one_way, on.stops, on.pendulum));
       });
+  slider.def_static(
+      "_mounted",
+      [](const py::object& law, double natural_frequency, double damping, double slope_degrees, bool one_way,
+         const Stops& stops, bool pendulum) {
+        return mounted(law, {natural_frequency, damping, slope_degrees, one_way, stops, pendulum});
+      },
+      "For copies and pickles.");
+  m.def(
+      "FrictionPendulum",
+      [](double radius, std::optional<double> mu, std::optional<double> mu_slow, std::optional<double> mu_fast,
+         std::optional<double> rate, const py::object& law, const Stops* stops, double damping) {
+        const bool varies = mu_slow || mu_fast || rate;
+        if (static_cast<int>(mu.has_value()) + varies + !law.is_none() != 1 ||
+            (varies && !(mu_slow && mu_fast && rate)))
+          throw std::invalid_argument("FrictionPendulum: give mu, or mu_slow, mu_fast and rate, or law");
+        const AnySlider friction = !law.is_none() ? alone(law)
+                                   : mu ? AnySlider(Slider(Coulomb(slip_level_of(mu, {}, "FrictionPendulum"))))
+                                        : AnySlider(Slider(VelocityDependent(
+                                              slip_level_of(mu_slow, {}, "FrictionPendulum", "mu_slow"),
+                                              slip_level_of(mu_fast, {}, "FrictionPendulum", "mu_fast"), *rate)));
+        Mounting mounting;
+        mounting.damping = damping;
+        if (stops) mounting.stops = *stops;
+        return std::visit(
+            [&]<class Law>(const Slider<Law>& one) -> AnySlider {
+              return Slider<Law>::friction_pendulum(one.law(), radius, mounting);
+            },
+            friction);
+      },
+      py::kw_only(), py::arg("radius"), py::arg("mu") = py::none(), py::arg("mu_slow") = py::none(),
+      py::arg("mu_fast") = py::none(), py::arg("rate") = py::none(), py::arg("law") = py::none(),
+      py::arg("stops") = py::none(), py::arg("damping") = 0.0,
+      R"(A slider on a spherical dish: a friction pendulum bearing.
+
+Its restoring force is N+ x / radius, N the normal force per unit mass: a spring of natural frequency sqrt(g / radius) whose
+pull follows the vertical motion. Linear in x: for |x| up to 0.2 radius, where the next term is 2 % of it; `Response.remark`
+says where a motion goes beyond.
+
+Parameters
+----------
+radius : float
+    Effective radius of curvature of the dish [m], positive and finite.
+mu : float, optional
+    Coefficient of friction, the same at all speeds.
+mu_slow, mu_fast, rate : float, optional
+    Those of `VelocityDependent`; rate in s/m.
+law : friction law, optional
+    Any other.
+stops : Stops, optional
+    The rim of the dish.
+damping : float, optional
+    c of a damper per unit mass [1/s]; finite and at least 0.
+
+Returns
+-------
+Slider
+
+Raises
+------
+ValueError
+    A value out of its range; other than one of mu, of mu_slow with mu_fast and rate, and of law.
+
+Notes
+-----
+Under a ground motion without vertical component it is a slider on a constant spring. The motion is a Taylor series in
+time, near round-off.)");
 }
 
 }  // namespace stickslip::python

@@ -1,5 +1,6 @@
 #include "stickslip/detail/ensemble/describe.hpp"
 
+#include <array>
 #include <bit>
 
 #include "detail/json.hpp"
@@ -19,13 +20,28 @@ std::string parameters(const VelocityDependent& law) {
          ", \"rate\": " + json(law.rate());
 }
 
+std::string parameters(const Stribeck& law) {
+  return "\"law\": \"Stribeck\", \"static\": " + json(law.static_level()) +
+         ", \"kinetic\": " + json(law.kinetic_level()) + ", \"velocity\": " + json(law.velocity()) +
+         ", \"exponent\": " + std::to_string(law.exponent());
+}
+
+std::string parameters_of_static(const std::string& sliding, double forward, double backward) {
+  return "\"static\": " + json(std::array{forward, backward}) + ", " + sliding;
+}
+
 std::string parameters(const char* type, std::span<const double> levels) {
   return std::string("\"law\": \"") + type + "\", \"levels\": " + json(levels);
 }
 
-std::string describe(const std::string& law, double natural_frequency, double damping) {
-  return "{" + law + ", \"natural_frequency\": " + json(natural_frequency) +
-         (damping > 0 ? ", \"damping\": " + json(damping) : "") + "}";
+std::string describe(const std::string& law, const Mounting& mounting) {
+  const Stops& stops = mounting.stops;
+  return "{" + law + ", \"natural_frequency\": " + json(mounting.natural_frequency) +
+         (mounting.damping > 0 ? ", \"damping\": " + json(mounting.damping) : "") +
+         (mounting.pendulum ? ", \"pendulum\": true" : "") +
+         (mounting.slope_degrees > 0 ? ", \"slope_degrees\": " + json(mounting.slope_degrees) : "") +
+         (mounting.one_way ? ", \"one_way\": true" : "") +
+         (stops ? ", \"stops\": " + json(std::array{stops.forward(), stops.backward(), stops.restitution()}) : "") + "}";
 }
 
 namespace {

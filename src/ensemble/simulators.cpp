@@ -3,7 +3,7 @@
 
 namespace stickslip::detail {
 
-template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, const MemberPlace&);
-template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, const MemberPlace&);
+template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, Contact, const MemberPlace&);
+template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, Contact, const MemberPlace&);
 
 }  // namespace stickslip::detail

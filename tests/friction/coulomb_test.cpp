@@ -222,24 +222,8 @@ TEST_CASE("without friction a block on a spring swings for ever", "[coulomb]") {
   CHECK(std::abs(r.sliding_distance - 4) <= 1e-14);
 }
 
-TEST_CASE("levels on a slope are g (mu cos -+ sin)", "[coulomb]") {
-  const double slope = 20 * (std::numbers::pi / 180), mu = 0.5, g = 9.80665;
-  const Coulomb law = Coulomb::on_slope(mu, 20);
-  CHECK(std::abs(law.forward() - g * (mu * std::cos(slope) - std::sin(slope))) <= 1e-15 * g);
-  CHECK(std::abs(law.backward() - g * (mu * std::cos(slope) + std::sin(slope))) <= 1e-15 * g);
-  CHECK(Coulomb::on_slope(mu, 0).forward() == Coulomb::from_friction(mu).forward());
-  CHECK(Coulomb::on_slope(mu, 0).backward() == Coulomb::from_friction(mu).forward());
+TEST_CASE("a coefficient of friction is a level over g", "[coulomb]") {
   CHECK(Coulomb::from_friction(0.5).forward() == 0.5 * 9.80665);
-}
-
-TEST_CASE("a block on a slope slides downhill first, when the ground's acceleration passes the lower level",
-          "[coulomb]") {
-  const Coulomb law = Coulomb::on_slope(0.5, 20);
-  const double down = law.forward(), up = law.backward(), hair = 1e-12;
-  CHECK(integrate(law, held(-down, 1)).peak == 0);
-  CHECK(integrate(law, held(up, 1)).peak == 0);
-  CHECK(integrate(law, held(-down * (1 + hair), 1)).residual > 0);
-  CHECK(integrate(law, held(up * (1 + hair), 1)).residual < 0);
 }
 
 TEST_CASE("Coulomb names what it refuses", "[coulomb][errors]") {
@@ -249,19 +233,5 @@ TEST_CASE("Coulomb names what it refuses", "[coulomb][errors]") {
   CHECK_THROWS_WITH(Coulomb(1, -0.5), "Coulomb: backward must be at least 0, got -0.5 m/s^2");
   CHECK_THROWS_WITH(Coulomb(1, not_a_number), "Coulomb: backward must be at least 0, got nan m/s^2");
   CHECK_THROWS_WITH(Coulomb::from_friction(-0.1), "Coulomb: mu must be finite and at least 0, got -0.1");
-  CHECK_THROWS_WITH(Coulomb::on_slope(1, 90),
-                    "Coulomb: a slope must be from 0 to less than 90 degrees, got 90 degrees");
-  CHECK_THROWS_WITH(Coulomb::on_slope(1, -5),
-                    "Coulomb: a slope must be from 0 to less than 90 degrees, got -5 degrees");
-  CHECK_THROWS_WITH(Coulomb::on_slope(not_a_number, 5), "Coulomb: mu must be finite and at least 0, got nan");
   CHECK_THROWS_AS(Coulomb(-1), std::invalid_argument);
-}
-
-TEST_CASE("a slope too steep for its friction is refused", "[coulomb][errors]") {
-  CHECK_THROWS_WITH(Coulomb::on_slope(0.3, 20),
-                    Catch::Matchers::StartsWith(
-                        "Coulomb: on a slope of 20 degrees the block slides under its own weight unless mu is at least "
-                        "0.36397023426620") &&
-                        Catch::Matchers::EndsWith(", got 0.3"));
-  CHECK_NOTHROW(Coulomb::on_slope(0.37, 20));
 }

@@ -105,16 +105,19 @@ def test_04_slope(run):
         assert (two <= one + 1e-12).all()
         assert (np.diff(one) <= 0).all()  # a higher yield, a shorter way
         # Where it never yields uphill the two are one.
-        never = names["levels"] * G + names["uphill"] > names["quake"].peak_acceleration
+        uphill = np.array([names["uphill"](level * G) for level in names["levels"]])
+        never = uphill > names["quake"].peak_acceleration
         assert never.any()
         assert one[never] == pytest.approx(two[never], abs=1e-12)
 
 
 def test_04_is_a_slope_of_so_many_degrees(run):
     names = run("04_slope", "--degrees", 7)
-    # The level uphill, of mu and an angle: g (mu cos + sin), g (mu cos - sin) downhill.
-    law = ss.Coulomb.on_slope(mu=0.3, degrees=7)
-    assert names["two_way"](law.slip_level).backward == pytest.approx(law.backward, rel=1e-14)
+    # It yields where it says, both ways.
+    for level, way in ((names["ky"], -1), (names["uphill"](names["ky"]), 1)):
+        for factor, slides in ((1 - 1e-9, False), (1 + 1e-9, True)):
+            ground = ss.GroundMotion([way * factor * level] * 2, dt=1, interpolation="constant")
+            assert (ss.integrate(names["two_way"](names["ky"]), ground).slips > 0) == slides
 
 
 def test_05_ensemble(run):

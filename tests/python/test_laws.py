@@ -15,7 +15,9 @@ LAWS = [
     ss.Coulomb(slip_level=0.1, backward=1 / 3),
     ss.Coulomb(slip_level=1.0, backward=INF),
     ss.Coulomb(slip_level=0.0),
-    ss.Coulomb.on_slope(mu=0.6, degrees=20),
+    ss.Stribeck(mu_static=0.13, mu_kinetic=0.08, velocity=0.1, exponent=2),
+    ss.StaticKinetic(mu_static=0.3, mu_kinetic=0.2),
+    ss.StaticKinetic(ss.Caster(slip_level=1.0, reach=0.5), static=(1.5, 2.0)),
     ss.Caster(slip_level=1.0, reach=0.5),
     ss.Caster(mu=1 / 7, reach=INF),
     ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02),
@@ -104,22 +106,28 @@ def test_members_on_speed_dependent_friction_slide_as_alone():
 
 
 def test_on_a_slope_gravity_helps_downhill_and_hinders_uphill():
-    law = ss.Coulomb.on_slope(mu=0.6, degrees=20)
-    slope = math.radians(20)
-    assert law.slip_level == pytest.approx(G * (0.6 * math.cos(slope) - math.sin(slope)), rel=1e-14)
-    assert law.backward == pytest.approx(G * (0.6 * math.cos(slope) + math.sin(slope)), rel=1e-14)
-    assert ss.Coulomb.on_slope(mu=0.3, degrees=0) == ss.Coulomb(mu=0.3)
+    # Yields at g tan(phi - theta) downhill, at g tan(phi + theta) uphill.
+    block = ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20)
+    phi, theta = math.atan(0.6), math.radians(20)
+    for angle, way in ((phi - theta, -1), (phi + theta, 1)):
+        level = way * G * math.tan(angle)
+        for factor, slides in ((1 - 1e-12, False), (1 + 1e-12, True)):
+            ground = ss.GroundMotion([factor * level] * 2, dt=1, interpolation="constant")
+            assert (ss.integrate(block, ground).slips > 0) == slides
 
 
 def test_a_block_that_slides_under_its_own_weight_is_refused():
     with pytest.raises(ValueError, match=r"20 degrees .* weight .* at least 0\.36397.*got 0\.2"):
-        ss.Coulomb.on_slope(mu=0.2, degrees=20)
+        ss.Slider(ss.Coulomb(mu=0.2), slope_degrees=20)
+    with pytest.raises(TypeError, match=r"write Slider\(Coulomb\(mu=...\), slope_degrees=...\)"):
+        ss.Coulomb.on_slope(mu=0.6, degrees=20)
 
 
 def test_the_least_friction_that_a_message_names_is_enough():
     for tenths in range(1, 890):
         degrees = tenths / 10
-        ss.Coulomb.on_slope(mu=math.tan(degrees * (math.pi / 180)), degrees=degrees)
+        least = math.tan(degrees * (math.pi / 180))
+        ss.Slider(ss.Coulomb(mu=least), slope_degrees=degrees)
 
 
 def test_a_caster_has_a_slip_level_and_a_reach():
@@ -172,11 +180,6 @@ REFUSED = [
     (lambda: ss.Coulomb(slip_level=INF), "Coulomb: slip_level must be finite .* got inf"),
     (lambda: ss.Coulomb(slip_level=1, backward=-2.5), r"Coulomb: backward .* got -2\.5 m/s\^2"),
     (lambda: ss.Coulomb(slip_level=1, backward=NAN), "Coulomb: backward .* got nan"),
-    (lambda: ss.Coulomb.on_slope(mu=-0.6, degrees=20), r"mu .* got -0\.6"),
-    (lambda: ss.Coulomb.on_slope(mu=NAN, degrees=20), "mu .* got nan"),
-    (lambda: ss.Coulomb.on_slope(mu=0.6, degrees=-1.5), r"slope .* got -1\.5 degrees"),
-    (lambda: ss.Coulomb.on_slope(mu=0.6, degrees=90), "slope must be .* less than 90 .* got 90"),
-    (lambda: ss.Coulomb.on_slope(mu=0.6, degrees=NAN), "slope .* got nan"),
     (lambda: ss.Caster(reach=0.5), "Caster: give either mu or slip_level, got neither"),
     (lambda: ss.Caster(mu=0.2, slip_level=1.5, reach=0.5), "Caster: .* got both"),
     (lambda: ss.Caster(mu=-0.2, reach=0.5), r"Caster: mu .* got -0\.2"),
@@ -205,7 +208,6 @@ def test_what_is_refused_is_named_with_its_value(make, message):
         lambda: ss.Coulomb(mu="0.2"),
         lambda: ss.Coulomb(mu=0.2 + 0j),
         lambda: ss.Coulomb(slip_level=[1.0]),
-        lambda: ss.Coulomb.on_slope(0.6, 20),
         lambda: ss.Caster(slip_level=1.0),
         lambda: ss.Caster(1.0, 0.5),
     ],

@@ -28,7 +28,7 @@ SLIDERS = {
     "block": ss.Slider(ss.Coulomb(mu=0.1)),
     "spring": ss.Slider(ss.Coulomb(mu=0.05), natural_frequency=2.0),
     "one-way": ss.Slider(ss.Coulomb(mu=0.1, backward=math.inf)),
-    "slope": ss.Slider(ss.Coulomb.on_slope(mu=0.3, degrees=10)),
+    "slope": ss.Slider(ss.Coulomb(mu=0.3), slope_degrees=10),
     "caster": ss.Slider(ss.Caster(mu=0.1, reach=0.5)),
     "heavy": ss.Slider(ss.Coulomb(mu=9.0)),
 }

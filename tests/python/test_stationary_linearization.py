@@ -137,7 +137,7 @@ def test_what_is_not_covered_is_refused():
     with pytest.raises(ValueError, match="same both ways"):
         METHOD.predict(ss.Coulomb(slip_level=1.0, backward=2.0), band())
     with pytest.raises(ValueError, match="same both ways"):
-        METHOD.threshold(ss.Coulomb.on_slope(mu=0.5, degrees=5), band())
+        METHOD.threshold(ss.Coulomb(slip_level=4.0, backward=5.7), band())
     envelope = ss.Envelope(build_up=1, strong=2, decay_rate=3)
     with pytest.raises(ValueError, match="envelope must be None"):
         METHOD.predict(block(), ss.GaussianExcitation(band(), 0.1, 1024, envelope=envelope))

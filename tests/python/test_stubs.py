@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 block = ss.Coulomb(mu=0.2)
 block = ss.Coulomb(slip_level=1, backward=float("inf"))
 block = ss.Coulomb(mu=np.float32(0.2), backward=Fraction(1, 5))
-block = ss.Coulomb.on_slope(mu=0.6, degrees=20)
+block = ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20, one_way=True)
 wheel = ss.Caster(slip_level=1.0, reach=0.5)
 wheel = ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02, thesis=True)
 liner = ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=50)
@@ -51,7 +51,9 @@ r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
 r = ss.integrate(block, quake, settle=True)
 x: NDArray[np.float64] = r.displacement
 kinds = r.events["kind"]
-law: ss.Coulomb | ss.Caster | ss.VelocityDependent = r.slider.law
+law: (
+    ss.Coulomb | ss.Caster | ss.VelocityDependent | ss.Stribeck | ss.StaticKinetic
+) = r.slider.law
 work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy.elastic
 forces: NDArray[np.float64] = r.force + r.acceleration
 sticking: NDArray[np.bool_] = ~r.stuck

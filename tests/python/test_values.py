@@ -50,7 +50,34 @@ EXAMPLES = {
         ss.VelocityDependent(slow=0.6, fast=0.3, rate=50),
         ss.VelocityDependent(slow=0.3, fast=0.6, rate=20),
     ],
-    ss.Slider: [CART, ss.Slider(WHEEL), ss.Slider(BLOCK, 1.3)],
+    ss.Stribeck: [
+        ss.Stribeck(static=2, kinetic=1, velocity=0.1, exponent=1),
+        ss.Stribeck(static=2, kinetic=1, velocity=0.1, exponent=2),
+        ss.Stribeck(static=2, kinetic=1, velocity=0.2, exponent=1),
+    ],
+    ss.StaticKinetic: [
+        ss.StaticKinetic(static=2, kinetic=1),
+        ss.StaticKinetic(static=(2, 3), kinetic=1),
+        ss.StaticKinetic(WHEEL, static=2),
+    ],
+    ss.Stops: [
+        ss.Stops(gap=0.2, restitution=0.5),
+        ss.Stops(gap=0.2, restitution=0.5, backward=float("inf")),
+        ss.Stops(gap=0.2, restitution=0.4),
+    ],
+    ss.State: [
+        ss.State(),
+        ss.State(1.0, 0.5),
+        ss.advance(BLOCK, ss.State(), 0.1, 9, vertical_start=-20),
+    ],
+    ss.Slider: [
+        CART,
+        ss.Slider(WHEEL),
+        ss.Slider(BLOCK, 1.3),
+        ss.Slider(BLOCK, 1.3, pendulum=True),
+        ss.Slider(BLOCK, one_way=True),
+        ss.Slider(BLOCK, stops=ss.Stops(gap=0.2, restitution=0.5)),
+    ],
     ss.GroundMotion: [
         EVEN,
         UNEVEN,
@@ -133,7 +160,7 @@ EXAMPLES = {
     ss.EnsembleError: [ss.EnsembleError("no motion here", range(64, 70), SMALLER)],
     harmonic.Orbit: [
         *harmonic.orbits(WHEEL, 0.9, 0.5),
-        *harmonic.orbits(BLOCK.on_slope(mu=0.2, degrees=0), 4, 1),
+        *harmonic.orbits(ss.Coulomb(mu=0.2), 4, 1),
     ],
     harmonic.OrbitBranch: [
         BRANCH,

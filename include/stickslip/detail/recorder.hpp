@@ -13,7 +13,7 @@
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 
@@ -37,7 +37,8 @@ concept FlowWithDamper = requires(const Flow& flow, double time) {
 
 /// Sums up slips and keeps events.
 /// @tparam in_steps  slips come in many steps, of which a segment may have so many that they must beat
-template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>>
+/// @tparam loaded    the normal force may vary, and there may be stops: the event loop tells the work against friction
+template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>, bool loaded = false>
 class Recorder {
  public:
   static constexpr std::uint32_t work_a_beat = 16384;  // segments, events or steps, each far below a millisecond
@@ -72,8 +73,12 @@ class Recorder {
   template <class Flow>
   requires(SpeedLaw<Law> || FlowWithDamper<Flow>) void follow(const Flow& flow, double taken) {
     if constexpr (FlowWithDamper<Flow>) damped_ += flow.damped_work(taken);
-    if constexpr (SpeedLaw<Law>) dissipated_ += flow.friction_work(taken);
+    if constexpr (SpeedLaw<Law> && !loaded) dissipated_ += flow.friction_work(taken);
+    if constexpr (requires { flow.pendulum_work(taken); }) input_ += flow.pendulum_work(taken);
   }
+
+  void dissipate(double work) requires loaded { dissipated_ += work; }
+  void lose(double energy) requires loaded { impact_ += energy; }
 
   void slide(const Slip& slip) {
     if constexpr (in_steps) beat();
@@ -81,7 +86,7 @@ class Recorder {
     slip_distance_ += slip.distance;
     time_sliding_ += slip.duration;
     input_ += slip.work;
-    if constexpr (PositionLaw<Law> && !LawWithWork<Law>)
+    if constexpr (PositionLaw<Law> && !LawWithWork<Law> && !loaded)
       dissipated_ += friction_work(law_, slip.from, slip.distance, slip.direction);
   }
 
@@ -93,7 +98,7 @@ class Recorder {
     events_.push_back({when, state.displacement, state.velocity, kind});
     peak_ = std::max(peak_, std::abs(state.displacement));  // between events x runs one way
     sliding_distance_ += slip_distance_;
-    if constexpr (LawWithWork<Law>) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
+    if constexpr (LawWithWork<Law> && !loaded) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
     slip_from_ = state.displacement;
     slip_distance_ = 0;
   }
@@ -140,6 +145,7 @@ class Recorder {
     response.energy.input = input_;
     response.energy.dissipated = dissipated_;
     response.energy.damped = damped_;
+    response.energy.impact = impact_;
   }
 
  private:
@@ -153,7 +159,7 @@ class Recorder {
   double slip_distance_ = 0;
   Direction slip_direction_ = Direction::forward;
   double peak_;
-  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0, damped_ = 0;
+  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0, damped_ = 0, impact_ = 0;
   std::vector<Event> events_;
   std::size_t most_events_;
   std::uint32_t beats_ = 0;

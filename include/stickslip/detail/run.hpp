@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include "stickslip/detail/min_max.hpp"
@@ -22,6 +21,7 @@ namespace stickslip::detail {
 /// The motion at the samples.
 struct HistorySpans {
   std::span<double> displacement, velocity;
+  std::span<double> gap{};  // empty where the slider cannot leave the ground
 
   void keep(std::size_t sample, const State& state) const noexcept {
     displacement[sample] = state.displacement;
@@ -33,12 +33,11 @@ struct HistorySpans {
 template <Motion M, FrictionLaw Law>
 using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
 
-/// Walks over a motion: `go(i, begin, end, segment)` for each of its segments, which last from `begin` to `end` [s],
-/// and `beat()` after each `segments_a_beat` of them but the last.
-template <class Go, class Beat>
-[[gnu::always_inline]] inline void walk(const GroundMotion& motion, std::size_t segments_a_beat, Go&& go, Beat&& beat) {
-  const GroundMotion::Pieces pieces(motion);
-  const std::size_t count = motion.segments();
+/// Walks over the pieces of a motion: `go(i, begin, end, segment)` for each of its segments, which last from `begin` to
+/// `end` [s], and `beat()` after each `segments_a_beat` of them but the last.
+template <class Pieces, class Go, class Beat>
+[[gnu::always_inline]] inline void walk(const Pieces& pieces, std::size_t count, std::size_t segments_a_beat, Go&& go,
+                                        Beat&& beat) {
   double begin = pieces.time(0);
   for (std::size_t i = 0; i < count;) {
     for (const std::size_t next = std::min(i + segments_a_beat, count); i < next; ++i) {
@@ -47,6 +46,11 @@ template <class Go, class Beat>
     }
     if (i < count) beat();
   }
+}
+
+template <class Go, class Beat>
+[[gnu::always_inline]] inline void walk(const GroundMotion& motion, std::size_t segments_a_beat, Go&& go, Beat&& beat) {
+  walk(GroundMotion::Pieces(motion), motion.segments(), segments_a_beat, go, beat);
 }
 
 /// Slides through all segments, one by one.
@@ -66,14 +70,9 @@ template <FrictionLaw Law, class Flows, class Recording>
   state = moving;
 }
 
-/// Calls `work` with the flows that fit the slider under a motion. All that slides under a GroundMotion comes by here.
-/// @throws std::invalid_argument  a motion with a vertical component, which no slider takes yet
+/// Calls `work` with the flows that fit the slider under a motion.
 template <FrictionLaw Law, class Work>
 void with_flows(const Slider<Law>& slider, const GroundMotion& motion, Work&& work) {
-  if (motion.has_vertical())
-    throw std::invalid_argument(
-        "integrate: the vertical component of a ground motion cannot act on a slider yet; take one component, as "
-        "motion.component(\"axis\")");
   with_flows(slider, motion.dt(), std::forward<Work>(work));
 }
 template <FrictionLaw Law, class Work>
@@ -110,6 +109,73 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
     }
     histories.keep(i + 1, state);
   }
+}
+
+/// A ground motion as a slider on a slope feels it.
+class LoadPieces {
+ public:
+  LoadPieces(const GroundMotion& motion, double slope) noexcept
+      : pieces_(motion),
+        up_(motion.vertical()),
+        next_(motion.interpolation() == Interpolation::linear ? 1 : 0),
+        slope_(slope) {}
+
+  double time(std::size_t i) const noexcept { return pieces_.time(i); }
+  LoadSegment segment(std::size_t i) const noexcept {
+    if (up_.empty()) return load_segment(pieces_.segment(i), slope_);
+    return load_segment(pieces_.segment(i), slope_, up_[i], up_[i + next_]);
+  }
+
+ private:
+  GroundMotion::Pieces pieces_;
+  std::span<const double> up_;
+  std::size_t next_;
+  double slope_;
+};
+
+/// Whether the event loop must be asked for loads and normal forces.
+template <FrictionLaw Law>
+bool loaded(const Slider<Law>& slider, const GroundMotion& motion) noexcept {
+  return !slider.plain() || motion.has_vertical();
+}
+template <FrictionLaw Law>
+bool loaded(const Slider<Law>& slider, const HarmonicMotion&) noexcept {
+  return !slider.plain();
+}
+
+/// Whether the normal force is negative anywhere.
+inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
+  const LoadPieces pieces(motion, slope);
+  for (std::size_t i = 0; i < motion.segments(); ++i) {
+    const LoadSegment segment = pieces.segment(i);
+    if (std::min(segment.normal_start, segment.normal_end) < 0) return true;
+  }
+  return false;
+}
+
+/// Refuses a motion in which the ground falls freely, or faster, to its end: the slider would never land.
+inline void check_landing(const GroundMotion& motion, double slope) {
+  const std::size_t last = motion.segments() - 1;
+  const LoadSegment segment = LoadPieces(motion, slope).segment(last);
+  require(segment.normal_end > 0,
+          "the ground must press on the slider at the end of the motion, or it never lands: N = (g + a_z) "
+          "cos(slope) + n sin(slope) must be positive in the last segment; is the vertical acceleration in m/s^2?",
+          segment.normal_end, "m/s^2");
+}
+
+/// Slides through all segments of load and normal force, one by one.
+template <FrictionLaw Law, class Flows, class Recording>
+[[gnu::flatten]] void run_loaded(const Slider<Law>& slider, const Flows& flows, const GroundMotion& motion,
+                                 Contact contact, State& state, Recording& recorder, const HistorySpans& histories) {
+  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
+  const LoadPieces pieces(motion, slider.slope());
+  const auto go = [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
+    recorder.begin_segment(begin, end);
+    advance(slider.law(), flows, segment, bounds, contact, state, recorder);
+    histories.keep(i + 1, state);
+    if (!histories.gap.empty()) histories.gap[i + 1] = state.gap;
+  };
+  walk(pieces, motion.segments(), Recording::work_a_beat, go, [&] { recorder.heartbeat(); });
 }
 
 /// The same with the flows that fit the slider.

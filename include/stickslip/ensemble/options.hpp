@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/sliding/response.hpp"
 
 namespace stickslip {
 
@@ -21,10 +21,11 @@ struct EnsembleOptions {
   std::uint64_t members = 1000;    ///< at least 1
   std::uint64_t first_member = 0;  ///< a multiple of Ensemble::block()
   std::uint64_t seed = 0;
-  unsigned threads = 0;           ///< at most; 0: as many as the machine has
-  double dt = 0;                  ///< between the times of the statistics [s]; 0: the motions', or 1/512 of it all
-  bool settle = false;            ///< residual and peak after the slider has come to rest without ground acceleration
-  bool velocity_spectrum = true;  ///< also the velocity's spectral density; some 2 ns a sample
+  unsigned threads = 0;  ///< at most; 0: as many as the machine has
+  double dt = 0;         ///< between the times of the statistics [s]; 0: the motions', or 1/512 of it all
+  bool settle = false;   ///< residual and peak after the slider has come to rest without ground acceleration
+  Contact contact = Contact::flight;  ///< what sliders do where the ground falls away from under them
+  bool velocity_spectrum = true;      ///< also the velocity's spectral density; some 2 ns a sample
   /// Also the moments of the ground acceleration by time; each motion is made once more for it, some 5 to 30 ns a
   /// sample.
   bool ground_acceleration = false;

@@ -25,14 +25,15 @@ namespace detail {
 
 /// The fastest there is; all solve the same equations.
 template <MemberSource Source>
-std::unique_ptr<Simulator> simulator(const Source& source, std::uint64_t seed, bool settle) {
-  return std::make_unique<MemberSimulator<Source>>(source, seed, settle);
+std::unique_ptr<Simulator> simulator(const Source& source, const EnsembleOptions& options) {
+  return std::make_unique<MemberSimulator<Source>>(source, options.seed, options.settle, options.contact);
 }
 template <class S, MotionSource M>
-std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, std::uint64_t seed, bool settle) {
-  if constexpr (requires { lanes_simulator(source.sliders(), source.motions(), seed, settle); })
-    if (auto lanes = lanes_simulator(source.sliders(), source.motions(), seed, settle)) return lanes;
-  return std::make_unique<MemberSimulator<PairedMembers<S, M>>>(source, seed, settle);
+std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, const EnsembleOptions& options) {
+  if constexpr (requires { lanes_simulator(source.sliders(), source.motions(), options.seed, options.settle); })
+    if (source.sliders().plain())
+      if (auto lanes = lanes_simulator(source.sliders(), source.motions(), options.seed, options.settle)) return lanes;
+  return std::make_unique<MemberSimulator<PairedMembers<S, M>>>(source, options.seed, options.settle, options.contact);
 }
 
 /// Also gives the block what the ground does: it makes each motion once more, so that all simulators can, and those
@@ -95,9 +96,10 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
                                              {"times", std::to_string(times.count)},
                                              {"settle", options.settle ? "true" : "false"},
                                              {"velocity_spectrum", asked.velocity_spectrum ? "true" : "false"}});
+  if (options.contact == Contact::clipped) configuration.emplace_back("contact", "clipped");
   if (asked.ground_acceleration) configuration.emplace_back("ground_acceleration", "true");
   return detail::run_ensemble(std::move(configuration), times, asked, start, [&] {
-    std::unique_ptr<detail::Simulator> sliders = detail::simulator(source, options.seed, options.settle);
+    std::unique_ptr<detail::Simulator> sliders = detail::simulator(source, options);
     if (asked.ground_acceleration)
       sliders = std::make_unique<detail::GroundSimulator<Source>>(source, options.seed, std::move(sliders));
     return sliders;

@@ -34,6 +34,25 @@ struct Start {
   }
 };
 
+/// The same where the normal force varies. For flows of constant levels it is a Start like others: what friction loses
+/// or gains with the normal force is in its gain. Others take the load's gain and the weight apart.
+struct LoadStart : Start {
+  double load_gain;      ///< of the load until the end of the flow's duration, in the direction of sliding [m/s^2]
+  double weight;         ///< N+ / g now
+  double weight_gained;  ///< until the end of the flow's duration
+  double level;          ///< what resists under the weight g now [m/s^2]
+
+  double gain_within(double t, double duration) const noexcept {
+    return t < duration ? load_gain * (t / duration) : load_gain;
+  }
+
+  /// Work against a constant level within t [m^2/s^2].
+  double friction_work(double t, double duration, const Progress& end) const noexcept {
+    const double gained = t < duration ? weight_gained * (t / duration) : weight_gained;
+    return level * ((weight + gained) * end.distance - gained * end.mean_distance);
+  }
+};
+
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
 namespace detail {

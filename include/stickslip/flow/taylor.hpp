@@ -13,6 +13,7 @@
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/numerics/root.hpp"
 #include "stickslip/series/dual.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
@@ -159,6 +160,9 @@ class SinusoidalGainSeries {
 };
 
 inline GainSeries gain_series(const Start& start, double duration) noexcept { return {start, duration}; }
+inline GainSeries gain_series(const LoadStart& start, double duration) noexcept {
+  return {Start{start.speed, start.acceleration, start.load_gain}, duration};
+}
 inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double duration) noexcept {
   return {start, duration};
 }
@@ -167,12 +171,15 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 
 /// Friction that varies with position or speed: the distance slid is a Taylor series in time, with the coefficients of
 ///     d'' = a + g(t) - wn^2 d - c (d' - u) - [resist(x0 +- d, d') - resist(x0, u)],      thesis (2.27), (2.50)
-/// where g is what the load gains, linear in time or a cosine's; found order by order (series.hpp).
+/// where g is what the load gains, linear in time or a cosine's; found order by order (series.hpp). Where the normal
+/// force varies, a weight w = N/g that is linear in time multiplies the resistance, and a pendulum's spring.
 ///
 /// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
 /// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
 template <FrictionLaw Law, class SlipStart = Start>
 class TaylorFlow {
+  static constexpr bool loaded = std::same_as<SlipStart, LoadStart>;
+
  public:
   /// @param longest  step to try first [s]
   TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const SlipStart& start,
@@ -182,6 +189,7 @@ class TaylorFlow {
         displacement_(displacement),
         start_(start),
         gain_(detail::gain_series(start, duration)),
+        weight_rate_(weight_rate(start, duration)),
         level_here_(resist(slider.law(), displacement, direction, start.speed)),
         horizon_(std::min(std::min(duration, longest), gain_.reach(slider.natural_frequency()))) {
     // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
@@ -191,8 +199,14 @@ class TaylorFlow {
       horizon_ = std::min(horizon_, time_to_half_way());
 
     for (;;) {
-      const double within_reach = expand();
-      if (within_reach == 1) return;
+      double within_reach = expand();
+      if (within_reach == 1) {
+        if constexpr (SpeedLaw<Law>) {
+          stop_ = find_first_stop();
+          if (!balanced_where_slowest()) within_reach = 0.5;
+        }
+        if (within_reach == 1) return;
+      }
       const double longer = std::exchange(horizon_, horizon_ * within_reach);
       if (!(horizon_ < longer && horizon_ > 0x1p-200 * duration))
         throw ConvergenceError("the slip level has no finite power series at x = " + detail::shortest(displacement) +
@@ -204,16 +218,10 @@ class TaylorFlow {
 
   /// As `ClosedForm::first_stop`, within the horizon.
   double first_stop() const noexcept {
-    // Roots at the start are taken out by leaving out leading zeros.
-    int leading = 0;
-    while (leading < order_ && speed_[leading] == 0) ++leading;
-    // All of them underflow where a slip that does begin is too slow for doubles.
-    const bool begins = start_.speed > 0 || start_.acceleration > 0 ||
-                        (start_.acceleration == 0 && start_.gain_within(horizon_, horizon_) > 0);
-    if (leading == order_) return begins ? never : 0;
-    if (speed_[leading] < 0) return 0;
-    const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
-    return root < never ? root * horizon_ : never;
+    if constexpr (SpeedLaw<Law>)
+      return stop_;
+    else
+      return find_first_stop();
   }
 
   Progress at(double t) const noexcept { return at_part(t / horizon_); }
@@ -252,13 +260,22 @@ class TaylorFlow {
   /// Work on the damper within t [m^2/s^2].
   double damped_work(double t) const noexcept {
     if (slider_.damping() == 0) return 0;
-    return slider_.damping() * integral(t, [](const Progress& at) { return at.speed * at.speed; });
+    return slider_.damping() * integral(t, [](const Progress& at, double) { return at.speed * at.speed; });
   }
   /// Work against friction within t [m^2/s^2].
   double friction_work(double t) const {
-    return integral(t, [&](const Progress& at) {
-      return resist(slider_.law(), displacement_ + sign(direction_) * at.distance, direction_, at.speed) * at.speed;
+    return integral(t, [&](const Progress& at, double part) {
+      return weight(part) * at.speed *
+             resist(slider_.law(), displacement_ + sign(direction_) * at.distance, direction_, at.speed);
     });
+  }
+
+  /// Work of a normal force that is not g on a pendulum, within t [m^2/s^2]: the integral of wn^2 (1 - w) x x'.
+  double pendulum_work(double t) const noexcept requires loaded {
+    if (!slider_.mounting().pendulum) return 0;
+    return slider_.stiffness() * integral(t, [&](const Progress& at, double part) {
+             return (1 - weight(part)) * (sign(direction_) * displacement_ + at.distance) * at.speed;
+           });
   }
 
   /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
@@ -280,7 +297,52 @@ class TaylorFlow {
   // that have come down to round-off at their ends.
   template <class Function>
   double integral(double t, Function&& of) const {
-    return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s)); });
+    return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s), s); });
+  }
+
+  double find_first_stop() const noexcept {
+    // Roots at the start are taken out by leaving out leading zeros.
+    int leading = 0;
+    while (leading < order_ && speed_[leading] == 0) ++leading;
+    // All of them underflow where a slip that does begin is too slow for doubles.
+    const double gain = [&] {
+      if constexpr (loaded)
+        return start_.gain;  // that of the load less friction's
+      else
+        return start_.gain_within(horizon_, horizon_);
+    }();
+    const bool begins = start_.speed > 0 || start_.acceleration > 0 || (start_.acceleration == 0 && gain > 0);
+    if (leading == order_) return begins ? never : 0;
+    if (speed_[leading] < 0) return 0;
+    const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
+    return root < never ? root * horizon_ : never;
+  }
+
+  // A level that changes fast at low speeds only says nothing of that where the speed is high: the equation of motion
+  // must hold where the speed is least, too.
+  bool balanced_where_slowest() {
+    double slowest = stop_ < never ? stop_ / horizon_ : 1;
+    if (slowest == 1 && start_.acceleration < 0 && end_.acceleration > 0)
+      slowest = numerics::root([&](double s) { return at_part(s).acceleration; }, 0, start_.acceleration, 1,
+                               end_.acceleration);
+    if (slowest == 1 || slowest == 0) return true;
+    const bool holds = balanced(slowest);
+    end_ = at_part(1);
+    return holds;
+  }
+
+  // N/g at a part of the horizon, and its rate [1/s].
+  double weight(double part) const noexcept {
+    if constexpr (loaded)
+      return start_.weight + weight_rate_ * horizon_ * part;
+    else
+      return 1;
+  }
+  static double weight_rate(const SlipStart& start, double duration) noexcept {
+    if constexpr (loaded)
+      return start.weight_gained / duration;
+    else
+      return 0;
   }
 
   // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and
@@ -324,11 +386,20 @@ class TaylorFlow {
     fastest_ = speed_[0];
     double term = speed_[0];
     auto gain = gain_.coefficients(h);
+    // Of a product with the weight, a series of two terms.
+    const double weight_now = weight(0), weight_gains = weight_rate_ * h;
+    const bool pendulum = loaded && slider_.mounting().pendulum;
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
       double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
-        net = gain(k) - stiffness * distance_[k - 1] - level[k];
+        if constexpr (loaded) {
+          double pull = distance_[k - 1];
+          if (pendulum) pull = weight_now * pull + weight_gains * (k == 1 ? s * displacement_ : distance_[k - 2]);
+          net = gain(k) - stiffness * pull - (weight_now * level[k] + weight_gains * level[k - 1]);
+        } else {
+          net = gain(k) - stiffness * distance_[k - 1] - level[k];
+        }
         if (damping > 0) net -= damping * speed_[k];
       }
       acceleration_[k] = net;
@@ -365,11 +436,15 @@ class TaylorFlow {
     end_ = at_part(part);
     const double level_there =
         resist(slider_.law(), displacement_ + sign(direction_) * end_.distance, direction_, end_.speed);
-    const double gain = gain_.at(horizon_, part), pull = slider_.stiffness() * end_.distance,
-                 drag = slider_.damping() * (end_.speed - start_.speed);
-    const double net = start_.acceleration + gain - pull - drag - (level_there - level_here_);
+    const double gain = gain_.at(horizon_, part), drag = slider_.damping() * (end_.speed - start_.speed);
+    const double now = weight(0), then = weight(part);
+    double pull = slider_.stiffness() * end_.distance;
+    if constexpr (loaded)
+      if (slider_.mounting().pendulum)
+        pull = then * pull + slider_.stiffness() * (then - now) * sign(direction_) * displacement_;
+    const double net = start_.acceleration + gain - pull - drag - (then * level_there - now * level_here_);
     const double terms = std::abs(start_.acceleration) + gain_.largest(horizon_, part) + std::abs(pull) +
-                         slider_.damping() * fastest_ + std::abs(level_here_) + std::abs(level_there) +
+                         slider_.damping() * fastest_ + now * std::abs(level_here_) + then * std::abs(level_there) +
                          slider_.stiffness() * std::abs(displacement_) + fastest_ / horizon_;
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
@@ -402,6 +477,7 @@ class TaylorFlow {
   double displacement_;
   SlipStart start_;
   decltype(detail::gain_series(SlipStart{}, 0)) gain_;
+  double weight_rate_;
   double level_here_;  // [m/s^2]
   double horizon_;
   double fastest_ = 0;  // the largest term of the speed [m/s]
@@ -410,7 +486,8 @@ class TaylorFlow {
   // acceleration [m/s^2].
   double distance_[series::highest_order + 1], speed_[series::highest_order + 1],
       acceleration_[series::highest_order + 1];
-  Progress end_{};  // at the horizon
+  Progress end_{};       // at the horizon
+  double stop_ = never;  // kept where the law depends on the speed [s]
 };
 
 /// Makes the Taylor flows of one slider.
@@ -422,7 +499,14 @@ struct Taylor {
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
   double drag(double speed) const noexcept { return slider.damping() * speed; }
 
+  bool pendulum() const noexcept { return slider.mounting().pendulum; }
+
   TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
+    return {slider, direction, displacement, start, duration};
+  }
+
+  TaylorFlow<Law, LoadStart> flow(Direction direction, double displacement, const LoadStart& start,
+                                  double duration) const {
     return {slider, direction, displacement, start, duration};
   }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
@@ -15,8 +14,8 @@ namespace stickslip {
 /// Coulomb friction, thesis (2.20): the slip level is a = mu g, whatever the position.
 ///
 /// The two directions may differ: `forward` is the level against forward sliding (x' > 0), `backward` against backward
-/// sliding. On an inclined plane they do; with an infinite level one way the block is Newmark's, which only slides the
-/// other way.
+/// sliding. With an infinite level one way the block is Newmark's, which only slides the other way. (A slope is the
+/// slider's, see Mounting.)
 class Coulomb {
  public:
   static constexpr bool constant_while_sliding = true;
@@ -39,27 +38,6 @@ class Coulomb {
   static Coulomb from_friction(double mu) {
     detail::require(std::isfinite(mu) && mu >= 0, "Coulomb: mu must be finite and at least 0", mu);
     return Coulomb(mu * standard_gravity);
-  }
-
-  /// A block on an inclined plane; downhill is forward. x and the ground acceleration n are measured along the slope,
-  /// and the normal load is taken as constant, m g cos(slope): no acceleration across the slope.
-  /// Levels: g (mu cos(slope) -+ sin(slope)), forward and backward.
-  /// @param mu       coefficient of friction, finite, at least tan(slope)
-  /// @param degrees  the slope [degrees], from 0 to less than 90
-  /// @throws std::invalid_argument also where the block would slide under its own weight
-  static Coulomb on_slope(double mu, double degrees) {
-    detail::require(std::isfinite(mu) && mu >= 0, "Coulomb: mu must be finite and at least 0", mu);
-    detail::require(degrees >= 0 && degrees < 90, "Coulomb: a slope must be from 0 to less than 90 degrees", degrees,
-                    "degrees");
-    const double slope = degrees * (std::numbers::pi / 180);
-    detail::require(mu >= std::tan(slope),
-                    "Coulomb: on a slope of " + detail::shortest(degrees) +
-                        " degrees the block slides under its own weight unless mu is at least " +
-                        detail::shortest(std::tan(slope)),
-                    mu);
-    const double resisting = mu * standard_gravity * std::cos(slope);
-    const double driving = standard_gravity * std::sin(slope);
-    return {std::max(resisting - driving, 0.0), resisting + driving};
   }
 
   double forward() const noexcept { return forward_; }

@@ -1,7 +1,8 @@
 // One piece of a motion of the ground, and the load it puts on a slider.
 //
 // The event loop (advance.hpp) asks a piece three things: its first load, when the load outgrows what holds a slider at
-// rest, and the start of a flow, which knows how the load goes on from there.
+// rest, and the start of a flow, which knows how the load goes on from there. One with a normal force that varies also
+// says its weight, by which all friction is multiplied.
 #pragma once
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip {
 
@@ -44,6 +46,66 @@ struct Segment {
     return {speed, acceleration, s * (-end - load)};
   }
 };
+
+/// The load p on a slider and the normal force N under it, both per unit mass and running straight within `duration`:
+///     p = (g + a_z) sin(slope) - n cos(slope),    N = (g + a_z) cos(slope) + n sin(slope)
+/// where n is the horizontal ground acceleration, positive toward the downhill side, and a_z the upward one [m/s^2].
+/// Friction is what the law says times N+ / g, N+ = max(N, 0).
+struct LoadSegment {
+  double duration;      ///< [s], finite, at least 0
+  double load_start;    ///< p at its beginning [m/s^2], finite
+  double load_end;      ///< p at its end [m/s^2], finite
+  double normal_start;  ///< N at its beginning [m/s^2], finite
+  double normal_end;    ///< N at its end [m/s^2], finite
+
+  double first_load() const noexcept { return load_start; }
+
+  /// p and N at a time within it [m/s^2].
+  double load(double time) const noexcept { return load_start + (load_end - load_start) * (time / duration); }
+  double normal(double time) const noexcept { return normal_start + (normal_end - normal_start) * (time / duration); }
+
+  /// N+ / g, `left` before its end.
+  double weight(double left) const noexcept {
+    const double normal_now = normal_end + (normal_start - normal_end) * (left / duration);
+    return std::max(normal_now, 0.0) / standard_gravity;
+  }
+
+  /// A level [m/s^2] under this weight; what holds for good holds under none.
+  static double weigh(double weight, double level) noexcept { return level < never ? weight * level : never; }
+
+  /// As above; `pull` is the spring's at the end, `forward` and `backward` are levels under the weight g.
+  Departure departure(double net, double pull, double forward, double backward, double left) const noexcept {
+    const double now = weight(left), then = weight(0);
+    const double above = load_end - (weigh(then, forward) + pull), below = -load_end - (weigh(then, backward) - pull);
+    const auto delay = [&](double room, double beyond) { return left * (room / (room + beyond)); };
+    const double first = above > 0 ? delay(weigh(now, forward) - net, above) : never;
+    const double second = below > 0 ? delay(weigh(now, backward) + net, below) : never;
+    if (first < second) return {Mode::forward, first};
+    if (second < never) return {Mode::backward, second};
+    return {};
+  }
+
+  /// As above; `level` is what resists under the weight g when it begins [m/s^2].
+  LoadStart slip(double s, double speed, double acceleration, double now, double left, double level) const noexcept {
+    const double weight_now = weight(left), gained = s * (load_end - now), weight_gained = weight(0) - weight_now;
+    return {{speed, acceleration, gained - level * weight_gained}, gained, weight_now, weight_gained, level};
+  }
+};
+
+namespace detail {
+
+/// The load and the normal force that a piece of ground motion makes on a slope.
+/// @param n, up   horizontal and upward ground acceleration at both ends [m/s^2]
+/// @param slope   [rad]
+inline LoadSegment load_segment(const Segment& n, double slope, double up_start = 0, double up_end = 0) noexcept {
+  const double heavy_start = standard_gravity + up_start, heavy_end = standard_gravity + up_end;
+  if (slope == 0) return {n.duration, -n.start, -n.end, heavy_start, heavy_end};
+  const double s = std::sin(slope), c = std::cos(slope);
+  return {n.duration, heavy_start * s - n.start * c, heavy_end * s - n.end * c, heavy_start * c + n.start * s,
+          heavy_end * c + n.end * s};
+}
+
+}  // namespace detail
 
 /// Ground acceleration n(t) = -amplitude cos(phase + omega t), thesis (2.28), within `duration`.
 struct HarmonicSegment {

@@ -7,7 +7,8 @@
 //
 // Coefficients are of any scalar with arithmetic and those functions: doubles, or several side by side (lanes).
 //
-// At hand: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent), sin, cos, sinh, cosh, tanh, sech.
+// At hand: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent; a whole one also of 0), sin, cos,
+// sinh, cosh, tanh, sech.
 #pragma once
 
 #include <array>
@@ -246,6 +247,31 @@ struct Power {
   Scalar operator[](int k) const noexcept { return p[k]; }
 };
 
+/// a^exponent for a whole exponent from 1 to 31, by products: a may be 0.
+template <Series A>
+struct WholePower {
+  using Scalar = typename A::Scalar;
+  A a;
+  int exponent;
+  std::array<CoefficientsOf<Scalar>, 5> squares{};   // a, a^2, a^4, ...
+  std::array<CoefficientsOf<Scalar>, 5> products{};  // of those that the exponent is made of, up to each
+  void update(int k) noexcept {
+    a.update(k);
+    squares[0][k] = a[k];
+    for (int bit = 0, last = -1; exponent >> bit; ++bit) {
+      if (bit > 0) squares[bit][k] = convolve(squares[bit - 1], squares[bit - 1], 0, k);
+      if (!(exponent >> bit & 1)) continue;
+      products[bit][k] = last < 0 ? squares[bit][k] : convolve(products[last], squares[bit], 0, k);
+      last = bit;
+    }
+  }
+  Scalar operator[](int k) const noexcept {
+    int last = 0;
+    while (exponent >> (last + 1)) ++last;
+    return products[last][k];
+  }
+};
+
 /// Two functions that are each other's derivative, f' = g a' and g' = sign f a': sin and cos (-1), sinh and cosh (+1).
 template <Series A, int sign>
 struct Pair {
@@ -323,6 +349,7 @@ template <Series A, Series B> Quotient<A, B> operator/(A a, B b) { return {a, b}
 template <Series A> Exp<A>        exp(A a)  { return {a}; }
 template <Series A> Log<A>        log(A a)  { return {a}; }
 template <Series A> Power<A>      pow(A a, double exponent) { return {a, exponent}; }
+template <Series A> WholePower<A> pow(A a, int exponent) { return {a, exponent}; }
 template <Series A> Power<A>      sqrt(A a) { return {a, 0.5}; }
 template <Series A> First<A, -1>  sin(A a)  { return {{a}}; }
 template <Series A> Second<A, -1> cos(A a)  { return {{a}}; }

@@ -1,4 +1,4 @@
-// The event loop: one slider over one segment of ground motion.
+// One slider over one segment of ground motion: for codes with a time loop of their own.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/detail/event_loop.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/oscillator.hpp"
@@ -18,165 +18,20 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/response.hpp"
+#include "stickslip/sliding/contact.hpp"
+#include "stickslip/sliding/observer.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
-
-/// A slip or a part of one, in one direction and within one segment, as a watcher of the motion sees it.
-struct Slip {
-  Direction direction;
-  double from;      ///< x where it began [m]
-  double distance;  ///< way slid, at least 0 but for round-off [m]
-  double duration;  ///< [s]
-  double work;      ///< of the ground on it [m^2/s^2]
-
-  double to() const noexcept { return from + sign(direction) * distance; }  ///< x where it ended [m]
-};
-
-/// Watches a motion while it is computed: each slip or part of one, and each event. Times count from the beginning of
-/// the segment [s]. One that has `follow(flow, taken)` is also shown each flow and how long it lasts [s].
-template <class Observer>
-concept MotionObserver = requires(Observer& observer, const Slip& slip, double time, EventKind kind, State state) {
-  observer.slide(slip);
-  observer.event(kind, time, state);
-};
-
-/// Watches nothing.
-struct NoObserver {
-  void slide(const Slip&) const noexcept {}
-  void event(EventKind, double, const State&) const noexcept {}
-};
-
 namespace detail {
-
-/// Counts steps that take no time off what is left of a segment, and ends an event loop that makes no others.
-class Standstill {
- public:
-  template <class Flows>
-  void count(const Flows&, double taken, double left, double duration) {
-    if constexpr (!requires { Flows::stops_twice_at_most; })
-      if (!(left - taken < left) && ++steps_ > most) refuse(duration);
-  }
-
- private:
-  static constexpr int most = 1'000'000;
-
-  [[noreturn, gnu::noinline]] static void refuse(double duration) {
-    throw ConvergenceError("advance: in a segment of " + shortest(duration) +
-                           " s the motion changes faster than its time can be resolved: the spring is too stiff, or "
-                           "the acceleration too large, for a segment this long");
-  }
-
-  int steps_ = 0;
-};
-
-/// The event loop, over a piece of any kind (segment.hpp); `flows` makes the flows of the law under its load.
-template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer>
-void advance(const Law& law, const Flows& flows, const Piece& segment, State& state, Observer& observer) {
-  if (!(segment.duration > 0)) return;
-  double left = segment.duration;
-  Standstill standstill;
-  double load = segment.first_load() - flows.pull(state.displacement);  // all but friction
-  Mode stopped = Mode::stuck;                                           // the mode of a slip that stopped just now,
-  bool instant = false;                                                 // and whether it took no time
-  // Net, in the direction of sliding. From rest it is what the load is above what resists: nothing, to the last bit,
-  // where that held it until the load grew to it.
-  const auto acceleration = [&](Direction direction) {
-    const double speed = std::abs(state.velocity);
-    return sign(direction) * load - resist(law, state.displacement, direction, speed) - flows.drag(speed);
-  };
-
-  for (;;) {
-    if (state.mode == Mode::stuck) {
-      // It slips when the load outgrows what holds it: at once, or later in this segment. At the level itself it holds.
-      const double forward = hold(law, state.displacement, Direction::forward);
-      const double backward = hold(law, state.displacement, Direction::backward);
-      double delay = 0;
-      // A slip slows down as it stops: what its load is above the level then is round-off, unless the stop is a graze.
-      if (stopped != Mode::stuck) {
-        const double most = instant ? never : 0x1p-44 * (std::abs(load) + 2 * std::abs(flows.pull(state.displacement)));
-        if (stopped == Mode::forward && load - forward <= most)
-          load = std::min(load, forward);
-        else if (stopped == Mode::backward && -load - backward <= most)
-          load = std::max(load, -backward);
-      }
-      if (load > forward) {
-        state.mode = Mode::forward;
-      } else if (load < -backward) {
-        state.mode = Mode::backward;
-      } else if (left > 0) {
-        const Departure next = segment.departure(load, flows.pull(state.displacement), forward, backward, left);
-        if (next.mode != Mode::stuck) {
-          state.mode = next.mode;
-          delay = next.delay;
-          load = next.mode == Mode::forward ? forward : -backward;
-        }
-      }
-
-      // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
-      const bool sticks = state.mode == Mode::stuck || delay > 0;
-      if (sticks && stopped != Mode::stuck)
-        observer.event(EventKind::arrest, segment.duration - left, State{state.displacement, 0, Mode::stuck});
-      if (state.mode == Mode::stuck) return;
-      left -= delay;
-      if (sticks || stopped == Mode::stuck)
-        observer.event(EventKind::breakaway, segment.duration - left, state);
-      else if (stopped != state.mode)
-        observer.event(EventKind::reversal, segment.duration - left, state);
-      stopped = Mode::stuck;
-      if (left <= 0) return;
-    }
-
-    const Direction direction = direction_of(state.mode);
-    const double s = sign(direction);
-    const double ground_load = load + flows.pull(state.displacement);
-    const auto start = segment.slip(s, std::abs(state.velocity), acceleration(direction), ground_load, left);
-    const auto flow = flows.flow(direction, state.displacement, start, left);
-    const double stop = flow.first_stop();
-    if constexpr (requires { observer.follow(flow, stop); })
-      observer.follow(flow, stop < never ? stop : flow.horizon());
-    // Two accounts that differ in little: as one, the way that nearly every piece goes would be 5 to 10 % slower.
-    if (stop == never) {
-      const double taken = flow.horizon();
-      const Progress end = flow.at_horizon();
-      const bool whole = taken == left;
-      const double gain = start.gain_within(taken, left);
-      observer.slide(Slip{direction, state.displacement, end.distance, taken,
-                          start.work(flow, s * ground_load, gain, taken, end)});
-      state.displacement += s * end.distance;
-      state.velocity = s * std::max(end.speed, 0.0);
-      if (whole) return;
-      standstill.count(flows, taken, left, segment.duration);
-      left -= taken;
-      load = ground_load + s * gain - flows.pull(state.displacement);
-      // Where the loads balance to the last digit a slip too slow to move x would never end.
-      if (std::abs(state.velocity) < std::numeric_limits<double>::min() && acceleration(direction) <= 0) {
-        state.velocity = 0;
-        stopped = std::exchange(state.mode, Mode::stuck);
-        instant = false;
-      }
-    } else {
-      const Progress end = flow.at(stop);
-      const double gain = start.gain_within(stop, left);
-      observer.slide(
-          Slip{direction, state.displacement, end.distance, stop, start.work(flow, s * ground_load, gain, stop, end)});
-      state.displacement += s * end.distance;
-      state.velocity = 0;
-      stopped = std::exchange(state.mode, Mode::stuck);
-      instant = !(left - stop < left);
-      standstill.count(flows, stop, left, segment.duration);
-      left -= stop;
-      load = ground_load + s * gain - flows.pull(state.displacement);
-    }
-  }
-}
 
 /// What `work` gives with the flows that fit the slider: closed forms where what resists is constant, else Taylor
 /// series.
 template <FrictionLaw Law, class Work>
 auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
+    if (slider.mounting().pendulum) [[unlikely]]
+      return work(Taylor<Law>{slider});
     if (slider.damping() > 0) [[unlikely]]
       return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
     if (slider.stiffness() > 0) return work(Harmonic{slider.natural_frequency(), usual_duration});
@@ -218,12 +73,21 @@ bool finite(Numbers... numbers) noexcept {
 inline bool finite(const Segment& s, const State& state) noexcept {
   return finite(s.duration, s.start, s.end, state.displacement, state.velocity);
 }
+inline bool finite(const LoadSegment& s, const State& state) noexcept {
+  return finite(s.duration, s.load_start, s.load_end, s.normal_start, s.normal_end, state.displacement, state.velocity,
+                state.gap, state.gap_velocity);
+}
 inline bool finite(const HarmonicSegment& s, const State& state) noexcept {
   return finite(s.duration, s.amplitude, s.omega, s.phase, state.displacement, state.velocity);
 }
 
 inline std::string description(const Segment& s) {
   return "a duration of " + shortest(s.duration) + " s, start " + shortest(s.start) + " m/s^2, end " + shortest(s.end) +
+         " m/s^2";
+}
+inline std::string description(const LoadSegment& s) {
+  return "a duration of " + shortest(s.duration) + " s, load " + shortest(s.load_start) + " to " +
+         shortest(s.load_end) + " m/s^2, normal force " + shortest(s.normal_start) + " to " + shortest(s.normal_end) +
          " m/s^2";
 }
 inline std::string description(const HarmonicSegment& s) {
@@ -244,7 +108,67 @@ template <class Piece>
   throw std::overflow_error("advance: the motion leaves the range of doubles, at " + description(state));
 }
 
+/// The state after a segment of a slider that is not plain, or under a normal force that varies; out of line, as above.
+template <FrictionLaw Law, MotionObserver Observer>
+[[gnu::noinline]] State advanced(const Slider<Law>& slider, const LoadSegment& segment, Contact contact,
+                                 double usual_duration, State state, Observer& observer) {
+  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
+  with_flows(slider, usual_duration,
+             [&](const auto& flows) { advance(slider.law(), flows, segment, bounds, contact, state, observer); });
+  return state;
+}
+
+/// `advance` of a plain slider on the ground.
+template <FrictionLaw Law, MotionObserver Observer>
+void advance_plain(const Slider<Law>& slider, const Segment& segment, State& state, Observer& observer) {
+  if (!finite(segment, state)) [[unlikely]]
+    refuse(segment, state);
+  const State moved = with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
+    return advanced(slider.law(), flows, segment, state, observer);
+  });
+  if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
+    refuse_overflow(moved);
+  state = moved;
+}
+
+/// Refuses a start beyond a stop or against one way.
+template <FrictionLaw Law>
+void check_start(const Slider<Law>& slider, const State& state, const char* function) {
+  const Mounting& mounting = slider.mounting();
+  const std::string who(function);
+  require(state.displacement <= mounting.stops.forward() && state.displacement >= -mounting.stops.backward(),
+          who + ": displacement must be between the stops, from " + shortest(-mounting.stops.backward()) + " to " +
+              shortest(mounting.stops.forward()) + " m",
+          state.displacement, "m");
+  require(!(mounting.one_way && state.velocity < 0), who + ": velocity must not point backward on a one-way slider",
+          state.velocity, "m/s");
+}
+
 }  // namespace detail
+
+/// Moves a slider over one segment of load and normal force,
+///     x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t),
+/// with all events, also those of stops and of lost contact.
+///
+/// @param slider    any; its slope has vanished into the load and the normal force
+/// @param segment   finite; where its duration is not positive nothing happens
+/// @param state     as below; also holds the gap while the slider flies
+/// @param observer  sees slips and events; optional
+/// @param contact   what happens where N < 0
+/// @throws as below; also std::invalid_argument for a state beyond a stop
+/// Exact to round-off with constant friction and without a pendulum, else to near round-off.
+template <FrictionLaw Law, std::same_as<LoadSegment> Piece, MotionObserver Observer = const NoObserver>
+void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {},
+             Contact contact = Contact::flight) {
+  if (!detail::finite(segment, state)) [[unlikely]]
+    detail::refuse(segment, state);
+  detail::check_start(slider, state, "advance");
+  const double unusual = std::numeric_limits<double>::quiet_NaN();
+  const State moved = detail::advanced(slider, segment, contact, unusual, state, observer);
+  if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
+    detail::refuse_overflow(moved);
+  state = moved;
+}
 
 /// Moves a slider over one segment of ground motion:
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),  n from segment.start to segment.end,
@@ -264,21 +188,18 @@ template <class Piece>
 /// Constant friction is exact to round-off (with a damper to 1e-12 of the scale), other laws to near round-off. Takes
 /// 12 to 30 ns without spring and damper, some 0.2 us with a damper.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
-void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {}) {
-  if (!detail::finite(segment, state)) [[unlikely]]
-    detail::refuse(segment, state);
-  const State moved = detail::with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
-    return detail::advanced(slider.law(), flows, segment, state, observer);
-  });
-  if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
-    detail::refuse_overflow(moved);
-  state = moved;
+void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {},
+             Contact contact = Contact::flight) {
+  if (!slider.plain() || state.in_flight) [[unlikely]]
+    return advance(slider, detail::load_segment(segment, slider.slope()), state, observer, contact);
+  detail::advance_plain(slider, segment, state, observer);
 }
 
 /// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
 /// piece in bare braces is a Segment.)
 template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
+  detail::require_plain_mounting(slider, "advance over a HarmonicSegment");
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();

@@ -87,6 +87,10 @@ void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, do
 /// As accurate as `integrate`. One pass over the events, and the motion of that swing again.
 template <FrictionLaw Law, Motion M>
 Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& response) {
+  detail::require_plain_mounting(slider, "largest_loop");
+  if constexpr (std::same_as<M, GroundMotion>)
+    if (motion.has_vertical())
+      throw std::invalid_argument("largest_loop: covers horizontal motion alone: under vertical motion no loop closes");
   if (!(slider.stiffness() > 0))
     throw std::invalid_argument(
         "largest_loop: needs a slider on a spring (natural_frequency or period): without one no force draws the mass "

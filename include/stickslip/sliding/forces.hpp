@@ -4,38 +4,47 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
+#include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip {
 
 /// Forces per unit mass at the samples of a response [m/s^2], positive where they pull toward negative x:
-///     x'' + friction + damper + spring = -n,
-/// so that the absolute acceleration of the mass is x'' + n = -(friction + damper + spring).
+///     x'' + friction + damper + spring = p,    on level ground p = -n,
+/// so that the absolute acceleration of the mass along x is g sin(slope) - (friction + damper + spring). The force of a
+/// stop is an impulse, or what holds the slider there, which counts as friction.
 struct Forces {
-  std::vector<double> friction;     ///< resist sgn(x') during a slip; -n - wn^2 x while the slider sticks
+  std::vector<double> friction;     ///< resist N+/g sgn(x') during a slip; p - spring while the slider sticks
   std::vector<double> damper;       ///< c x'
-  std::vector<double> spring;       ///< wn^2 x
+  std::vector<double> spring;       ///< wn^2 x; of a pendulum times N+/g
+  std::vector<double> normal;       ///< N+, 0 while the slider flies
   std::vector<std::uint8_t> stuck;  ///< 1 while the slider sticks, else 0
+  double downhill = 0;              ///< g sin(slope)
 
-  /// The sum of the three [m/s^2].
+  /// The sum of friction, damper and spring [m/s^2].
   double total(std::size_t i) const noexcept { return friction[i] + damper[i] + spring[i]; }
+
+  /// Absolute acceleration of the mass along x [m/s^2].
+  double acceleration(std::size_t i) const noexcept { return downhill - total(i) + 0.0; }  // no minus zero
 };
 
 namespace detail {
 
-/// Ground acceleration just after each of the first `samples` samples [m/s^2]: at the end of the motion the value just
-/// before it, then 0.
-inline std::vector<double> acting(const GroundMotion& motion, std::size_t samples) {
-  std::vector<double> n(motion.acceleration().begin(), motion.acceleration().end());
-  if (motion.interpolation() == Interpolation::constant) {  // the last value never acts, nor do pieces of no length
-    const std::size_t end = motion.segments();
+/// Ground acceleration just after each of the first `samples` samples [m/s^2], of a component of a motion: at the end of
+/// the motion the value just before it, then 0.
+inline std::vector<double> acting(const GroundMotion& motion, std::span<const double> component, std::size_t samples) {
+  std::vector<double> n(component.begin(), component.end());
+  if (motion.interpolation() == Interpolation::constant && !n.empty()) {  // the last value never acts, nor do pieces of
+    const std::size_t end = motion.segments();                            // no length
     std::size_t last = end - 1;
     while (motion.time(last) == motion.time(end)) --last;  // the duration is positive
     n[end] = n[last];
@@ -44,6 +53,16 @@ inline std::vector<double> acting(const GroundMotion& motion, std::size_t sample
   }
   n.resize(samples);
   return n;
+}
+
+inline std::vector<double> acting(const GroundMotion& motion, std::size_t samples) {
+  return acting(motion, motion.acceleration(), samples);
+}
+inline std::vector<double> acting_upward(const GroundMotion& motion, std::size_t samples) {
+  return acting(motion, motion.vertical(), samples);
+}
+inline std::vector<double> acting_upward(const HarmonicMotion&, std::size_t samples) {
+  return std::vector<double>(samples);
 }
 
 inline std::vector<double> acting(const HarmonicMotion& motion, std::size_t samples) {
@@ -68,25 +87,37 @@ inline std::vector<double> acting(const HarmonicMotion& motion, std::size_t samp
 template <FrictionLaw Law, Motion M>
 Forces forces(const Slider<Law>& slider, const M& motion, const Response& response) {
   const std::size_t samples = response.displacement.size();
-  const std::vector<double> ground = detail::acting(motion, samples);
-  Forces result{std::vector<double>(samples), std::vector<double>(samples), std::vector<double>(samples),
-                std::vector<std::uint8_t>(samples)};
+  const std::vector<double> ground = detail::acting(motion, samples), up = detail::acting_upward(motion, samples);
+  Forces result{std::vector<double>(samples), std::vector<double>(samples),       std::vector<double>(samples),
+                std::vector<double>(samples), std::vector<std::uint8_t>(samples), 0};
+  if (slider.slope() > 0) result.downhill = standard_gravity * std::sin(slider.slope());
+  bool sticks = true, flies = false;
   const std::vector<Event>& events = response.events;
   std::size_t next = 0;  // the first event after the sample, or the end
   for (std::size_t i = 0; i < samples; ++i) {
     const double time = motion.time(i), x = response.displacement[i], v = response.velocity[i];
-    while (events[next].kind != EventKind::end && events[next].time <= time) ++next;
+    for (; events[next].kind != EventKind::end && events[next].time <= time; ++next) {
+      const EventKind kind = events[next].kind;
+      if (kind == EventKind::breakaway || kind == EventKind::reversal) sticks = false;
+      if (kind == EventKind::arrest) sticks = true;
+      if (kind == EventKind::liftoff || kind == EventKind::landing) flies = kind == EventKind::liftoff;
+    }
+    const LoadSegment here = detail::load_segment(Segment{0, ground[i], ground[i]}, slider.slope(), up[i], up[i]);
+    const double load = here.load_start, normal = flies ? 0 : std::max(here.normal_start, 0.0);
+    const double weight = normal / standard_gravity;
+    result.normal[i] = normal;
     result.damper[i] = slider.damping() * v + 0.0;  // no minus zero
-    result.spring[i] = slider.stiffness() * x + 0.0;
-    result.stuck[i] = next == 0 || events[next - 1].kind == EventKind::arrest;
-    if (result.stuck[i]) {
-      result.friction[i] = -ground[i] - result.spring[i];
+    result.spring[i] = slider.stiffness() * (slider.mounting().pendulum ? weight : 1) * x + 0.0;
+    result.stuck[i] = sticks;
+    if (sticks) {
+      result.friction[i] = load - result.spring[i];
     } else {
       // Where a slip begins at the sample, its direction shows in where it goes, or in the load if that is round-off.
       const double gone = events[next].displacement - events[next - 1].displacement;
-      const double way = v != 0 ? v : gone != 0 ? gone : -ground[i] - result.spring[i];
+      const double way = v != 0 ? v : gone != 0 ? gone : load - result.spring[i];
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;
-      result.friction[i] = sign(direction) * resist(slider.law(), x, direction, std::abs(v)) + 0.0;  // no minus zero
+      const double level = resist(slider.law(), x, direction, std::abs(v));
+      result.friction[i] = sign(direction) * LoadSegment::weigh(weight, level) + 0.0;  // no minus zero
     }
   }
   return result;

@@ -28,7 +28,7 @@ struct Histories {
 /// @param slider     any law, with or without a spring and a damper
 /// @param motion     the ground acceleration
 /// @param heartbeat  called at least every second or so; may throw to end the work; optional
-/// @throws std::invalid_argument  a motion with a vertical component
+/// @throws std::invalid_argument  a vertical motion under which the slider never lands
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
 /// @throws ConvergenceError     a law without power series; more events than `integrate` allows
 /// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 9 to 14 ns a
@@ -40,7 +40,14 @@ Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
   const detail::HistorySpans spans{result.displacement, result.velocity};
   State state;
   detail::NoRecorder none(detail::max_events(motion.segments()), heartbeat);
-  detail::run(slider, motion, state, none, spans);
+  if (detail::loaded(slider, motion)) {
+    detail::check_landing(motion, slider.slope());
+    detail::with_flows(slider, motion, [&](const auto& flows) {
+      detail::run_loaded(slider, flows, motion, Contact::flight, state, none, spans);
+    });
+  } else {
+    detail::run(slider, motion, state, none, spans);
+  }
   bool finite = true;
   for (const auto* values : {&result.displacement, &result.velocity})
     for (const double value : *values) finite &= std::abs(value) <= std::numeric_limits<double>::max();

@@ -22,6 +22,7 @@ struct IntegrateOptions {
   double displacement = 0;  ///< x at the start [m], finite
   double velocity = 0;      ///< x' at the start [m/s], finite
   bool settle = false;      ///< continue under zero ground acceleration after the last sample until the slider rests
+  Contact contact = Contact::flight;  ///< what it does where the ground falls away from under it
   std::function<void()> heartbeat{};  ///< called at least every second or so; may throw to end the work
 };
 
@@ -47,27 +48,29 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
 }
 
 /// Adds the samples from the end of a motion to those at or after a rest: at most nine times as many as the motion has.
+/// @param move  `move(segment, state)` moves it
 /// @param from  the state at the end of the motion
 /// @param rest  when the slider comes to rest for good [s], at `residual` [m]
 /// @return whether the rest was reached
-template <FrictionLaw Law, Motion M>
-bool add_samples(const Slider<Law>& slider, const M& motion, State from, double rest, double residual,
-                 Response& response) {
+template <Motion M, class Move>
+bool add_samples(const M& motion, Move&& move, State from, double rest, double residual, Response& response) {
   const Segment step{motion.last_step(), 0, 0};
   for (std::size_t i = motion.segments(); motion.time(i) < rest; ++i) {
     if (i + 1 >= 10 * motion.samples()) return false;
-    advance(slider, step, from);
+    move(step, from);
     if (!(motion.time(i + 1) < rest)) from = {residual, 0, Mode::stuck};
     response.displacement.push_back(from.displacement);
     response.velocity.push_back(from.velocity);
+    if (!response.gap.empty()) response.gap.push_back(from.gap);
   }
   return true;
 }
 
-/// `integrate`, where `run(state, recorder, histories)` moves the slider through the motion.
-template <FrictionLaw Law, Motion M, class Run>
+/// `integrate`, where `run(state, recorder, histories)` moves the slider through the motion and
+/// `move(segment, state, observer)` over a segment.
+template <class RecorderType, FrictionLaw Law, Motion M, class Run, class Move>
 Response integrate_by(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
-                      Run&& run) {
+                      Run&& run, Move&& move) {
   require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement, "m");
   require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
   State state = State::at(options.displacement, options.velocity);
@@ -84,25 +87,32 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   response.displacement[0] = state.displacement;
   response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
-  RecorderFor<M, Law> recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.heartbeat,
-                               std::move(response.events));
+  RecorderType recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.heartbeat,
+                        std::move(response.events));
   recorder.begin_segment(motion.time(0), motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
-  const HistorySpans histories{response.displacement, response.velocity};
+  const HistorySpans histories{response.displacement, response.velocity, response.gap};
   run(state, recorder, histories);
   response.truncated = false;
+  response.contact = options.contact;
   response.components = name_of(Component::axis);  // a transverse component never acts
+  if constexpr (std::same_as<M, GroundMotion>)
+    if (motion.has_vertical()) response.components += std::string(" + ") + name_of(Component::vertical);
   if (options.settle) {
     const State at_end = state;
     double time = end;
     settle(slider, state, [&](double duration) {
       recorder.begin_segment(time, time + duration);
-      advance(slider, Segment{duration, 0, 0}, state, recorder);
+      move(Segment{duration, 0, 0}, state, recorder);
       time += duration;
     });
     end = std::max(end, recorder.last_event());
-    response.truncated = !add_samples(slider, motion, at_end, end, state.displacement, response);
+    const auto step = [&](const Segment& segment, State& from) {
+      NoObserver none;
+      move(segment, from, none);
+    };
+    response.truncated = !add_samples(motion, step, at_end, end, state.displacement, response);
   }
   recorder.finish(end, state, response);
 
@@ -116,14 +126,56 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   return response;
 }
 
+/// `integrate` of a plain slider under horizontal motion; `run` as above.
+template <FrictionLaw Law, Motion M, class Run>
+Response integrate_plain(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
+                         Run&& run) {
+  storage.gap.clear();
+  const auto move = [&](const Segment& segment, State& state, auto& observer) {
+    advance_plain(slider, segment, state, observer);
+  };
+  return integrate_by<RecorderFor<M, Law>>(slider, motion, options, std::move(storage), run, move);
+}
+
+/// `integrate` of any slider under horizontal and vertical motion.
+template <FrictionLaw Law>
+Response integrate_loaded(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options,
+                          Response storage) {
+  check_start(slider, State::at(options.displacement, options.velocity), "integrate");
+  check_landing(motion, slider.slope());
+  storage.gap.assign(may_fly(motion, slider.slope()) && options.contact == Contact::flight ? motion.samples() : 0, 0);
+  const auto run = [&](State& state, auto& recorder, const HistorySpans& histories) {
+    with_flows(slider, motion, [&](const auto& flows) {
+      run_loaded(slider, flows, motion, options.contact, state, recorder, histories);
+    });
+  };
+  const auto move = [&](const Segment& segment, State& state, auto& observer) {
+    advance(slider, load_segment(segment, slider.slope()), state, observer, options.contact);
+  };
+  using LoadedRecorder = Recorder<Law, true, true>;
+  return integrate_by<LoadedRecorder>(slider, motion, options, std::move(storage), run, move);
+}
+
+/// `integrate`, where `run` moves a plain slider.
+template <FrictionLaw Law, Motion M, class Run>
+Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
+                   Run&& run) {
+  if constexpr (std::same_as<M, GroundMotion>) {
+    if (loaded(slider, motion)) return integrate_loaded(slider, motion, options, std::move(storage));
+  } else {
+    require_plain_mounting(slider, "integrate under a HarmonicMotion");
+  }
+  return integrate_plain(slider, motion, options, std::move(storage), run);
+}
+
 /// `integrate` by the event loop, segment after segment: what the header-only core does.
 template <FrictionLaw Law, Motion M>
 Response integrate_in_order(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                             Response storage = {}) {
-  return integrate_by(slider, motion, options, std::move(storage),
-                      [&](State& state, auto& recorder, const HistorySpans& histories) {
-                        run_in_order(slider, motion, state, recorder, histories);
-                      });
+  return integrate(slider, motion, options, std::move(storage),
+                   [&](State& state, auto& recorder, const HistorySpans& histories) {
+                     run_in_order(slider, motion, state, recorder, histories);
+                   });
 }
 
 }  // namespace detail
@@ -139,8 +191,9 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 /// @return the motion at the samples, its events, peak and energy. Where it settles, samples continue up to
 ///         the first at or after the final rest (see Response::displacement), and the last event (`end`) and the
 ///         residual are those of the final rest
-/// @throws std::invalid_argument  a start that is not finite, or moves against an infinite slip level; a motion with a
-///                                vertical component
+/// @throws std::invalid_argument  a start that is not finite, beyond a stop, or against an infinite slip level or one
+///                                way; a vertical motion under which the slider never lands; under a HarmonicMotion a
+///                                slope, stops or a pendulum
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
 /// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
 ///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic
@@ -156,10 +209,10 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 template <FrictionLaw Law, Motion M>
 Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                    Response storage = {}) {
-  return detail::integrate_by(slider, motion, options, std::move(storage),
-                              [&](State& state, auto& recorder, const detail::HistorySpans& histories) {
-                                detail::run(slider, motion, state, recorder, histories);
-                              });
+  return detail::integrate(slider, motion, options, std::move(storage),
+                           [&](State& state, auto& recorder, const detail::HistorySpans& histories) {
+                             detail::run(slider, motion, state, recorder, histories);
+                           });
 }
 
 template <FrictionLaw Law, Motion M>

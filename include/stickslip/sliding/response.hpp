@@ -9,12 +9,25 @@
 
 namespace stickslip {
 
+/// What a slider does where the ground falls away from under it faster than it falls itself, N = g + a_z < 0.
+enum class Contact {
+  /// It flies, the gap y'' = -N, without friction; spring, damper and stops go on to act. It lands where y = 0:
+  /// plastic,
+  /// with the impulse of friction -mu |y'| against x', which stops it at most.
+  flight,
+  /// It stays on the ground; friction is zero while N < 0.
+  clipped
+};
+
 /// What happens at an event.
 enum class EventKind : std::uint8_t {
   breakaway,  ///< a slip begins (also one that is already under way at the start)
   reversal,   ///< a slip turns into one the other way without a stop
   arrest,     ///< a slip ends and the slider sticks
-  end         ///< the motion is over
+  end,        ///< the motion is over
+  impact,     ///< it comes to a stop; the velocity is that of its arrival
+  liftoff,    ///< it leaves the ground
+  landing     ///< it is back on the ground; the velocity is that before friction's impulse
 };
 
 /// An instant at which the slider changes its mode, and the last one.
@@ -25,17 +38,19 @@ struct Event {
   EventKind kind;
 };
 
-/// Where the energy went, per unit mass [J/kg = m^2/s^2]: initial + input = dissipated + damped + kinetic + elastic.
+/// Where the energy of the motion along x went, per unit mass [J/kg = m^2/s^2]:
+///     initial + input = dissipated + damped + impact + kinetic + elastic.
 struct Energy {
   double initial = 0;     ///< kinetic and elastic at the start
-  double input = 0;       ///< work of the ground on the slider, the integral of -n x' dt
-  double dissipated = 0;  ///< work against friction, the integral of resist |x'| dt
+  double input = 0;       ///< work of the load on the slider, the integral of p x' dt; on level ground p = -n
+  double dissipated = 0;  ///< work against friction, the integral of resist N+/g |x'| dt, and its impulses on landing
   double damped = 0;      ///< work on the damper, the integral of c x'^2 dt
   double kinetic = 0;     ///< x'^2 / 2 at the end
   double elastic = 0;     ///< wn^2 x^2 / 2 at the end
+  double impact = 0;      ///< lost on stops, the sum of (1 - restitution^2) x'^2 / 2
 
   /// What does not add up [m^2/s^2]: round-off.
-  double imbalance() const noexcept { return initial + input - dissipated - damped - kinetic - elastic; }
+  double imbalance() const noexcept { return initial + input - dissipated - damped - impact - kinetic - elastic; }
 };
 
 /// The motion of a slider under one ground motion.
@@ -51,11 +66,13 @@ struct Response {
   double sliding_distance = 0;   ///< length of the way slid [m]
   double time_sliding = 0;       ///< [s]
   Energy energy;
+  std::vector<double> gap;  ///< between slider and ground at the same times, while it flies [m]; empty if it never did
   /// Whether displacement and velocity end before the slider rests, at ten times the number of samples of the motion.
   /// All else is that of the final rest.
   bool truncated = false;
-  std::string components = "axis";  ///< of the ground motion that acted, joined by " + "
-  State state;                      ///< at the end: a motion can be continued from it
+  Contact contact = Contact::flight;  ///< what was asked of it where the ground falls away from under it
+  std::string components = "axis";    ///< of the ground motion that acted, joined by " + "
+  State state;                        ///< at the end: a motion can be continued from it
 };
 
 }  // namespace stickslip

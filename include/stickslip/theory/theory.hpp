@@ -69,10 +69,11 @@ theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
 }
 
-/// Refuses what no theory covers: a resistance that depends on the speed, and static friction that differs from
-/// kinetic.
+/// Refuses what no theory covers: slopes, stops and pendulums, a resistance that depends on the speed, and static
+/// friction that differs from kinetic.
 template <FrictionLaw Law>
 void require_one_level(const Slider<Law>& slider, const std::string& theory) {
+  require_plain_mounting(slider, theory);
   if constexpr (!PositionLaw<Law>) {
     refuse_speed_law(theory);
   } else if constexpr (LawWithHold<Law>) {

@@ -9,10 +9,12 @@ namespace stickslip::python {
 namespace {
 
 Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t members, std::uint64_t first_member,
-             std::uint64_t seed, unsigned threads, double dt, bool settle, bool velocity_spectrum,
-             bool ground_acceleration, const Ensemble* start, const py::object& heartbeat,
+             std::uint64_t seed, unsigned threads, double dt, bool settle, const std::string& contact,
+             bool velocity_spectrum, bool ground_acceleration, const Ensemble* start, const py::object& heartbeat,
              const py::object& interrupted) {
-  EnsembleOptions options{members, first_member, seed, threads, dt, settle, velocity_spectrum, ground_acceleration};
+  EnsembleOptions options{
+      members,           first_member,       seed, threads, dt, settle, contact_of(contact, "run_ensemble"),
+      velocity_spectrum, ground_acceleration};
   std::atomic<bool> ended = false;
   options.heartbeat = [&](const EnsembleProgress& progress) {
     const py::gil_scoped_acquire held;
@@ -43,11 +45,12 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
 
 /// An ensemble of no members yet, for the parts of a run to be merged into.
 Ensemble run_nothing(const py::object& sliders, const py::object& motions, std::uint64_t first_member,
-                     std::uint64_t seed, double dt, bool settle, bool velocity_spectrum, bool ground_acceleration) {
+                     std::uint64_t seed, double dt, bool settle, const std::string& contact, bool velocity_spectrum,
+                     bool ground_acceleration) {
   const py::none nobody;
   const Ensemble one =  // which tells whether all is as it must be
-      run(sliders, motions, 1, first_member, seed, 1, dt, settle, velocity_spectrum, ground_acceleration, nullptr,
-          nobody, nobody);
+      run(sliders, motions, 1, first_member, seed, 1, dt, settle, contact, velocity_spectrum, ground_acceleration,
+          nullptr, nobody, nobody);
   const auto& parts = one.parts();
   return Ensemble(Ensemble::Parts{
       parts.configuration, parts.times, parts.velocity_spectrum, parts.ground_acceleration, {}, {}, {}, {}});
@@ -58,14 +61,15 @@ Ensemble run_nothing(const py::object& sliders, const py::object& motions, std::
 void bind_run_ensemble(py::module_& m) {
   m.def("run_ensemble", &run, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("members"),
         py::arg("first_member"), py::arg("seed"), py::arg("threads"), py::arg("dt"), py::arg("settle"),
-        py::arg("velocity_spectrum"), py::arg("ground_acceleration"), py::arg("start"), py::arg("heartbeat"),
-        py::arg("interrupted"),
+        py::arg("contact"), py::arg("velocity_spectrum"), py::arg("ground_acceleration"), py::arg("start"),
+        py::arg("heartbeat"), py::arg("interrupted"),
         R"(What `stickslip.run_ensemble` calls, which see.
 
 `heartbeat(done, members, so_far)` is called ten times a second with the interpreter held; `interrupted(so_far)` where
 that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
   m.def("run_nothing", &run_nothing, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("first_member"),
-        py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("velocity_spectrum"), py::arg("ground_acceleration"),
+        py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("contact"), py::arg("velocity_spectrum"),
+        py::arg("ground_acceleration"),
         "The ensemble of a run that has no members yet; simulates one to see that all is as it must be.");
 }
 

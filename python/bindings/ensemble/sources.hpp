@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <concepts>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -20,24 +21,6 @@ namespace stickslip::python {
 
 inline std::string type_of(const py::handle& object) {
   return py::type::of(object).attr("__name__").cast<std::string>();
-}
-
-/// The slider without a spring that a law makes; nothing if the object is no law.
-template <class... Laws>
-std::optional<AnySlider> slider_of_law(const py::handle& object, const std::variant<Slider<Laws>...>*) {
-  std::optional<AnySlider> slider;
-  const auto take = [&]<class Law>(const Law*) {
-    if (py::isinstance<Law>(object)) slider = Slider<Law>(object.cast<const Law&>());
-  };
-  (take(static_cast<const Laws*>(nullptr)), ...);
-  return slider;
-}
-
-/// The slider that an object is, or that it makes as a law; nothing if it is none. Implicit conversions would need the
-/// frame of a bound function, which threads do not have.
-inline std::optional<AnySlider> slider_of(const py::handle& object) {
-  if (py::isinstance<AnySlider>(object)) return object.cast<const AnySlider&>();
-  return slider_of_law(object, static_cast<const AnySlider*>(nullptr));
 }
 
 /// A source that is written in Python; called by threads that do not hold the interpreter, one at a time. Once the run
@@ -148,7 +131,15 @@ inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& o
 /// Calls with the sliders as what they are.
 template <class F>
 auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f) {
-  if (const auto one = slider_of(sliders)) return std::visit(f, *one);
+  if (const auto one = slider_of(sliders))  // the usual laws in their own types, for which there are vector lanes
+    return std::visit(
+        [&]<class Law>(const Slider<Law>& slider) {
+          if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck>)
+            return f(*one);
+          else
+            return f(slider);
+        },
+        *one);
   if (const auto list = list_of(sliders, "sliders")) {
     std::vector<AnySlider> items;
     for (const py::handle item : list->first) {

@@ -8,8 +8,9 @@ namespace stickslip::python {
 void bind_coulomb(py::module_& m) {
   auto type = value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
 
-f = a sgn(x'), a = mu g the slip level: friction force per unit mass. The two directions may differ: on an inclined
-plane they do, and with an infinite level one way the block is Newmark's, which slides the other way only.
+f = a sgn(x'), a = mu g the slip level: friction force per unit mass where the normal force is g. The two directions may
+differ; with an infinite level one way the block is Newmark's, which slides the other way only. (A slope is the slider's:
+`Slider(Coulomb(mu=0.5), slope_degrees=20)`.)
 
 Parameters
 ----------
@@ -39,24 +40,15 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
            }),
            py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(),
            py::arg("backward") = py::none(), py::arg("mu_backward") = py::none())
-      .def_static("on_slope", &Coulomb::on_slope, py::kw_only(), py::arg("mu"), py::arg("degrees"),
-                  R"(A block on an inclined plane; downhill is forward.
-
-The displacement and the ground acceleration are measured along the slope, and the normal load is taken as constant,
-m g cos(slope): no acceleration across the slope. Levels g (mu cos(slope) - sin(slope)) forward and
-g (mu cos(slope) + sin(slope)) backward.
-
-Parameters
-----------
-mu : float
-    Coefficient of friction, at least tan(slope).
-degrees : float
-    The slope [degrees], from 0 to less than 90.
-
-Raises
-------
-ValueError
-    A value out of its range, or a block that would slide under its own weight.)")
+      .def_static(
+          "on_slope",
+          [](const py::args&, const py::kwargs&) {
+            throw py::type_error(
+                "Coulomb.on_slope is gone: write Slider(Coulomb(mu=...), slope_degrees=...), whose ground acceleration "
+                "is "
+                "horizontal and whose normal force follows it");
+          },
+          "Gone: write Slider(Coulomb(mu=...), slope_degrees=...).")
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
       .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
       .def("__repr__", [](const Coulomb& law) {

@@ -43,7 +43,7 @@ velocity : ndarray, shape (samples,)
 Raises
 ------
 ValueError
-    A motion with a vertical component.
+    A vertical motion under which the slider never lands.
 OverflowError
     A displacement or velocity beyond the range of doubles.
 

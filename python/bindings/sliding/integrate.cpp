@@ -21,8 +21,8 @@ Recording integrate_under(const S& slider, const py::object& motion, const Integ
 }
 
 Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
-                        bool settle) {
-  const IntegrateOptions options{displacement, velocity, settle, check_for_interrupt};
+                        bool settle, const std::string& contact) {
+  const IntegrateOptions options{displacement, velocity, settle, contact_of(contact, "integrate"), check_for_interrupt};
   if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
   if (py::isinstance<HarmonicMotion>(motion))
     return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
@@ -34,18 +34,20 @@ Recording integrate_any(const AnySlider& slider, const py::object& motion, doubl
 
 void bind_integrate(py::module_& m) {
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
-        py::arg("velocity") = 0.0, py::arg("settle") = false,
+        py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
         R"(Slides through a whole motion of the ground.
 
-x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); with all
-breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
+x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); on level
+ground without vertical motion p = -n and N = g, otherwise see `Slider`. With all breakaways, reversals, arrests, impacts on
+stops, and where the slider leaves the ground and lands.
 
 Parameters
 ----------
 slider : Slider or friction law
     What slides; a law alone is a slider without spring and damper.
 motion : GroundMotion or HarmonicMotion
-    The ground acceleration. A transverse component does not act (see `Response.components`).
+    The ground acceleration. A vertical component acts; a transverse one does not (see `Response.components`). Under a
+    HarmonicMotion no slope, stops or pendulum.
 displacement : float, optional
     x at the start [m], finite.
 velocity : float, optional
@@ -53,6 +55,11 @@ velocity : float, optional
 settle : bool, optional
     Continue under zero ground acceleration after the last sample until the slider rests, so that the residual is
     final. The samples of the response continue too, up to the first at or after rest (see `Response.truncated`).
+contact : 'flight' or 'clipped', optional
+    What happens where the ground falls away from under the slider faster than it falls itself, N < 0. 'flight': it
+    flies, the gap y'' = -N, without friction; spring, damper and stops go on to act. It lands where y = 0: plastic, with
+    the impulse of friction -mu |y'| against x', which stops it at most. 'clipped': it stays on the ground, and friction
+    is zero while N < 0.
 
 Returns
 -------
@@ -61,7 +68,8 @@ Response
 Raises
 ------
 ValueError
-    A start that is not finite, or that moves against an infinite slip level. A motion with a vertical component.
+    A start that is not finite, beyond a stop, or against an infinite slip level or one way. A vertical motion under
+    which the slider never lands. Under a HarmonicMotion a slope, stops or a pendulum.
 OverflowError
     A displacement, velocity or energy beyond the range of doubles.
 ConvergenceError

@@ -1,6 +1,7 @@
 #include "sliding/response.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "parts.hpp"
 
@@ -23,6 +24,12 @@ constexpr const char32_t* name_of(EventKind kind) {
       return U"arrest";
     case EventKind::end:
       return U"end";
+    case EventKind::impact:
+      return U"impact";
+    case EventKind::liftoff:
+      return U"liftoff";
+    case EventKind::landing:
+      return U"landing";
   }
   return U"";
 }
@@ -112,6 +119,32 @@ auto force() {
   return [](const py::object& self) { return view(forces_of(self.cast<Recording&>()).*member, self); };
 }
 
+py::object gap_of(const py::object& self) {
+  const Response& response = self.cast<const Recording&>().response;
+  if (!response.gap.empty()) return view(response.gap, self);
+  return array_of(std::vector<double>(response.displacement.size()));
+}
+
+py::array impacts_of(const Recording& recording) {
+  std::vector<Event> impacts;
+  std::ranges::copy_if(recording.response.events, std::back_inserter(impacts),
+                       [](const Event& e) { return e.kind == EventKind::impact; });
+  return events_array(impacts);
+}
+
+std::string remark_of(const Recording& recording) {
+  constexpr double most = 0.2;
+  return std::visit(
+      [&](const auto& slider) -> std::string {
+        const double radius = standard_gravity / slider.stiffness();
+        if (!slider.mounting().pendulum || recording.response.peak <= most * radius) return "";
+        return "the displacement reaches " + detail::shortest(recording.response.peak) +
+               " m, beyond 0.2 of the radius of " + detail::shortest(radius) +
+               " m up to which a pendulum is linear to 2 %";
+      },
+      recording.slider.cast<const AnySlider&>());
+}
+
 Loop loop_of(const Recording& recording) {
   return with_inputs(recording, [&](const auto& slider, const auto& motion) {
     return largest_loop(slider, motion, recording.response);
@@ -148,18 +181,23 @@ inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recor
 void bind_response(py::module_& m) {
   value_class<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
 
-initial + input = dissipated + damped + kinetic + elastic, to round-off.)")
+initial + input = dissipated + damped + impact + kinetic + elastic, to round-off: the energy of the motion along x.)")
       .def_readonly("initial", &Energy::initial, "Kinetic and elastic energy at the start.")
-      .def_readonly("input", &Energy::input, "Work of the ground on the slider, the integral of -n x' dt.")
-      .def_readonly("dissipated", &Energy::dissipated, "Work against friction, the integral of resist |x'| dt.")
+      .def_readonly("input", &Energy::input, R"(Work of the load, the integral of p x' dt; on level ground p = -n.
+
+Of a pendulum, also that of a normal force which is not g on its spring, the integral of wn^2 (1 - N+/g) x x' dt.)")
+      .def_readonly("dissipated", &Energy::dissipated,
+                    "Work against friction, the integral of resist N+/g |x'| dt, and of its impulses on landing.")
       .def_readonly("damped", &Energy::damped, "Work on the damper, the integral of c x'^2 dt.")
       .def_readonly("kinetic", &Energy::kinetic, "x'^2 / 2 at the end.")
       .def_readonly("elastic", &Energy::elastic, "wn^2 x^2 / 2 at the end.")
+      .def_readonly("impact", &Energy::impact, "Lost on stops, the sum of (1 - restitution^2) x'^2 / 2.")
       .def_property_readonly("imbalance", &Energy::imbalance, "What does not add up: round-off.")
       .def("__repr__", [](const Energy& e) {
         return "Energy(initial=" + detail::shortest(e.initial) + ", input=" + detail::shortest(e.input) +
                ", dissipated=" + detail::shortest(e.dissipated) + ", damped=" + detail::shortest(e.damped) +
-               ", kinetic=" + detail::shortest(e.kinetic) + ", elastic=" + detail::shortest(e.elastic) + ")";
+               ", kinetic=" + detail::shortest(e.kinetic) + ", elastic=" + detail::shortest(e.elastic) +
+               ", impact=" + detail::shortest(e.impact) + ")";
       });
 
   value_class<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
@@ -177,19 +215,28 @@ the motion's last step up to the first at or after rest, so that `displacement[-
       .def_property_readonly("displacement", history<&Response::displacement>(), "x at `time` [m], shape (N,).")
       .def_property_readonly("velocity", history<&Response::velocity>(), "x' at `time` [m/s], shape (N,).")
       .def_property_readonly("acceleration",
-                             at_samples([](const Forces& f, std::size_t i) { return -f.total(i) + 0.0; }),
+                             at_samples([](const Forces& f, std::size_t i) { return f.acceleration(i); }),
                              R"(Absolute acceleration of the mass at `time` [m/s^2], shape (N,).
 
-x'' + n = -force; that of the ground where the slider sticks. At a sample where a slip begins, turns or stops, or where a
+On level ground x'' + n = -force, on a slope g sin(slope) - force; that of the ground where the slider sticks. At a sample where a slip begins, turns or stops, or where a
 held ground acceleration jumps, this and the forces are the values just after it. At the end of the ground motion they
 belong to its last value (of held values, the last that acts), and later to a ground at rest.)")
       .def_property_readonly("friction", force<&Forces::friction>(),
                              R"(Friction force per unit mass at `time` [m/s^2], shape (N,).
 
-resist sgn(x') during a slip; while the slider sticks what balances the other forces, -n - wn^2 x. Like the other forces
-it is positive where it pulls toward negative x: x'' + friction + damper + spring = -n.)")
+resist N+/g sgn(x') during a slip; while the slider sticks what balances the other forces, p - spring, also where a stop
+holds it. Like the other forces it is positive where it pulls toward negative x: x'' + friction + damper + spring = p, on
+level ground p = -n.)")
+      .def_property_readonly("normal_force", force<&Forces::normal>(),
+                             R"(Normal force per unit mass at `time`, N+ [m/s^2], shape (N,).
+
+max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 while the slider flies.)")
+      .def_property_readonly("gap", &gap_of, R"(Gap between slider and ground at `time` [m], shape (N,).
+
+0 but while the slider flies, with contact='flight'.)")
       .def_property_readonly("spring", force<&Forces::spring>(),
-                             "Force of the spring per unit mass at `time`, wn^2 x [m/s^2], shape (N,).")
+                             "Force of the spring per unit mass at `time`, wn^2 x, of a pendulum times N+/g [m/s^2], "
+                             "shape (N,).")
       .def_property_readonly("damper", force<&Forces::damper>(),
                              "Force of the damper per unit mass at `time`, c x' [m/s^2], shape (N,).")
       .def_property_readonly("force", at_samples([](const Forces& f, std::size_t i) { return f.total(i); }),
@@ -207,12 +254,22 @@ the final rest.)")
       .def_property_readonly("components", number<&Response::components>(),
                              R"(The components of the ground motion that acted, joined by " + " (str).
 
-'axis': along the axis of the slider. A transverse component never acts.)")
+'axis': along the axis of the slider; 'axis + vertical'. A transverse component never acts.)")
+      .def_property_readonly(
+          "contact", [](const Recording& r) { return name_of(r.response.contact); },
+          "What was asked of a slider that the ground falls away from, 'flight' or 'clipped'; see `integrate`.")
+      .def_property_readonly("remark", &remark_of,
+                             "What limits the answer, in a sentence; empty where nothing does. (str)")
+      .def_property_readonly("impacts", &impacts_of,
+                             R"(Impacts on stops in order of time: a structured array, as `events`.
+
+The velocity is that of arrival [m/s].)")
       .def_property_readonly("events", &events_of,
                              R"(Changes of mode in order of time, and the end: a structured array.
 
-Fields: time [s], displacement [m], velocity [m/s], kind ('breakaway', 'reversal', 'arrest' or 'end'). A slip that is
-under way at the start is entered as a breakaway there.)")
+Fields: time [s], displacement [m], velocity [m/s], kind ('breakaway', 'reversal', 'arrest', 'impact', 'liftoff',
+'landing' or 'end'). A slip that is under way at the start is entered as a breakaway there. An impact has the velocity of
+arrival; a slider that a stop throws back goes on without a reversal.)")
       .def_property_readonly("peak", number<&Response::peak>(), "Largest |x| over all time, not only at samples [m].")
       .def_property_readonly("residual", number<&Response::residual>(), "x at the end [m]; final if the slider rests.")
       .def_property_readonly(

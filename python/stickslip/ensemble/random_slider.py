@@ -24,7 +24,7 @@ class Random:
     ----------
     kind : callable
         What makes the slider or the law: a law as `Coulomb`, `Slider`, `ViscousSlider`, one of
-        their constructors, as `Coulomb.on_slope`, or a function. To go to other processes it
+        their constructors, as `Caster.from_geometry`, or a function. To go to other processes it
         must pickle, which classes and the functions of a module do.
     **parameters
         Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is drawn for each member; a

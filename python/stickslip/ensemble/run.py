@@ -27,6 +27,7 @@ def run_ensemble(
     threads: SupportsIndex | None = None,
     dt: float | None = None,
     settle: bool = False,
+    contact: str = "flight",
     velocity_spectrum: bool = True,
     ground_acceleration: bool = False,
     progress: bool | Progress = False,
@@ -65,6 +66,8 @@ def run_ensemble(
     settle : bool, optional
         Residuals and peaks after the slider has come to rest without ground acceleration, which
         it never does without friction: ConvergenceError.
+    contact : 'flight' or 'clipped', optional
+        What sliders do where the ground falls away from under them; see `integrate`.
     velocity_spectrum : bool, optional
         The velocity's spectral density too, at an FFT a member, where durations are the same.
     ground_acceleration : bool, optional
@@ -143,6 +146,7 @@ def run_ensemble(
         "seed": _whole("seed", seed, 0),
         "dt": 0.0 if dt is None else _positive("dt", dt),
         "settle": settle,
+        "contact": contact,
         "velocity_spectrum": velocity_spectrum,
         "ground_acceleration": ground_acceleration,
     }

@@ -13,6 +13,8 @@ from .._core import (
     GroundMotion,
     PoissonPulses,
     Slider,
+    StaticKinetic,
+    Stribeck,
     VelocityDependent,
 )
 
@@ -50,7 +52,7 @@ class SliderSource(Protocol):
         """The slider of that name, the same for ever."""
 
 
-AnySlider: TypeAlias = "Slider | Coulomb | Caster | VelocityDependent"
+AnySlider: TypeAlias = "Slider | Coulomb | Caster | VelocityDependent | Stribeck | StaticKinetic"
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 AnyMotions: TypeAlias = (
     "GaussianExcitation | PoissonPulses | GroundMotion"

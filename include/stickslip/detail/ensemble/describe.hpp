@@ -11,6 +11,8 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/friction/static_kinetic.hpp"
+#include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
@@ -21,6 +23,10 @@ namespace stickslip::detail {
 std::string parameters(const Coulomb& law);
 std::string parameters(const Caster& law);
 std::string parameters(const VelocityDependent& law);
+std::string parameters(const Stribeck& law);
+template <FrictionLaw Law>
+std::string parameters(const StaticKinetic<Law>& law);
+std::string parameters_of_static(const std::string& sliding, double forward, double backward);
 /// A law of somebody's own: its type and a few of its levels.
 std::string parameters(const char* type, std::span<const double> levels);
 template <FrictionLaw Law>
@@ -36,11 +42,16 @@ std::string parameters(const Law& law) {
   return parameters(typeid(Law).name(), levels);
 }
 
+template <FrictionLaw Law>
+std::string parameters(const StaticKinetic<Law>& law) {
+  return parameters_of_static(parameters(law.sliding()), law.static_forward(), law.static_backward());
+}
+
 /// What the motion of a slider depends on, as JSON.
-std::string describe(const std::string& law, double natural_frequency, double damping);
+std::string describe(const std::string& law, const Mounting& mounting);
 template <FrictionLaw Law>
 std::string describe(const Slider<Law>& slider) {
-  return describe(parameters(slider.law()), slider.natural_frequency(), slider.damping());
+  return describe(parameters(slider.law()), slider.mounting());
 }
 template <class... Sliders>
 std::string describe(const std::variant<Sliders...>& slider) {

@@ -57,24 +57,35 @@ struct MemberPlace {
   }
 };
 
-/// Through a motion piece by piece: `go` moves over a segment, `keep` is called at each time of the statistics, which
+/// The first `time` of a segment; the last `rest` [s] is left.
+inline Segment cut(Segment& segment, double time, double rest) noexcept {
+  const double middle = segment.start + (segment.end - segment.start) * (time / segment.duration);
+  const Segment taken{time, segment.start, middle};
+  segment = {rest, middle, segment.end};
+  return taken;
+}
+inline LoadSegment cut(LoadSegment& segment, double time, double rest) noexcept {
+  const LoadSegment taken = take(segment, time, segment.normal(time));
+  segment.duration = rest;
+  return taken;
+}
+
+/// Through the pieces of a motion: `go` moves over a segment, `keep` is called at each time of the statistics, which
 /// cuts the segment that it lies in.
-template <class Go, class Keep>
-void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& keep_at) {
+template <class Pieces, class Go, class Keep>
+void go_through(const Pieces& pieces, std::size_t segments, const Block& block, Go&& go, Keep&& keep_at) {
   const std::size_t times = block.times().count;
-  const double dt = block.times().dt, begin = motion.time(0);
+  const double dt = block.times().dt, begin = pieces.time(0);
   std::size_t next = 0;  // time of the statistics
   const auto keep = [&] { keep_at(next++); };
   if (times > 0) keep();
   double wanted = dt;
-  const auto through = [&](std::size_t, double segment_begins, double segment_ends, Segment segment) {
+  const auto through = [&](std::size_t, double segment_begins, double segment_ends, auto segment) {
     double from = segment_begins - begin;
     const double to = segment_ends - begin;
     while (next < times && wanted < to) {
       if (wanted > from) {
-        const double middle = segment.start + (segment.end - segment.start) * ((wanted - from) / segment.duration);
-        go(Segment{wanted - from, segment.start, middle});
-        segment = {to - wanted, middle, segment.end};
+        go(cut(segment, wanted - from, to - wanted));
         from = wanted;
       }
       keep();
@@ -87,7 +98,7 @@ void go_through(const GroundMotion& motion, const Block& block, Go&& go, Keep&& 
     }
   };
   block.beat();
-  walk(motion, 1024, through, [&] { block.beat(); });
+  walk(pieces, segments, 1024, through, [&] { block.beat(); });
   while (next < times) keep();  // a last time that rounding put past the end
 }
 
@@ -150,27 +161,51 @@ void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, 
   });
 }
 
+/// The same of any slider, under load and normal force.
+template <FrictionLaw Law, class Flows>
+[[gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows, const LoadSegment& segment,
+                                      Contact contact, State& state, PeakObserver<Law>& observer) {
+  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
+  advance(slider.law(), flows, segment, bounds, contact, state, observer);
+}
+
 /// One member from rest at x = 0, through the event loop of `advance`.
 /// @param settle  goes on without ground acceleration until it rests
 template <FrictionLaw Law>
-void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, const MemberPlace& place) {
+void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place) {
   Block& block = place.block;
-  with_flows(slider, motion, [&](const auto& flows) {
+  const bool under_load = loaded(slider, motion);
+  if (under_load) check_landing(motion, slider.slope());
+  with_flows(slider, motion.dt(), [&](const auto& flows) {
     State state;
     PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
-    go_through(
-        motion, block, [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); },
-        [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); });
-    if (settle) settle_member(slider, flows, state, observer, block);
+    const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
+    const auto go_loaded = [&](const LoadSegment& segment) {
+      advance_member(slider, flows, segment, contact, state, observer);
+    };
+    if (under_load)
+      go_through(LoadPieces(motion, slider.slope()), motion.segments(), block, go_loaded, keep);
+    else
+      go_through(
+          GroundMotion::Pieces(motion), motion.segments(), block,
+          [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); }, keep);
+    if (settle && under_load)
+      detail::settle(slider, state, [&](double duration) {
+        block.beat();
+        go_loaded(load_segment(Segment{duration, 0, 0}, slider.slope()));
+      });
+    else if (settle)
+      settle_member(slider, flows, state, observer, block);
     place.end(observer.peak(), state.displacement);
   });
 }
 
 /// Whichever slider it is.
 template <class... Sliders>
-void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle,
+void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {
-  std::visit([&](const auto& one) { simulate_member(one, motion, settle, place); }, slider);
+  std::visit([&](const auto& one) { simulate_member(one, motion, settle, contact, place); }, slider);
 }
 
 /// Any members, one after the other.
@@ -178,8 +213,8 @@ template <MemberSource Source>
 class MemberSimulator final : public Simulator {
  public:
   /// @param source  is referred to
-  MemberSimulator(const Source& source, std::uint64_t seed, bool settle)
-      : source_(source), seed_(seed), settle_(settle) {}
+  MemberSimulator(const Source& source, std::uint64_t seed, bool settle, Contact contact = Contact::flight)
+      : source_(source), seed_(seed), settle_(settle), contact_(contact) {}
 
   void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
     const std::size_t times = block.times().count, width = block.width();
@@ -189,7 +224,7 @@ class MemberSimulator final : public Simulator {
       const auto& member = source_.member(seed_, first_member + i);
       naming_member(first_member + i, [&] {
         const MemberPlace place{block, i, displacement_.data(), velocity_.data()};
-        simulate_member(member.slider, member.motion, settle_, place);
+        simulate_member(member.slider, member.motion, settle_, contact_, place);
       });
     }
     for (std::size_t k = 0; k < times; ++k) block.row(k, &displacement_[k * width], &velocity_[k * width]);
@@ -199,6 +234,7 @@ class MemberSimulator final : public Simulator {
   const Source& source_;
   std::uint64_t seed_;
   bool settle_;
+  Contact contact_;
   std::vector<double> displacement_, velocity_;  // by time and member
 };
 
@@ -206,7 +242,7 @@ class MemberSimulator final : public Simulator {
 
 #ifdef STICKSLIP_LIBRARY  // linked to: it holds these
 namespace stickslip::detail {
-extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, const MemberPlace&);
-extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, const MemberPlace&);
+extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, Contact, const MemberPlace&);
+extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, Contact, const MemberPlace&);
 }  // namespace stickslip::detail
 #endif

@@ -1,0 +1,73 @@
+// Static friction above kinetic.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// A slider that holds more at rest than what resists sliding: at rest while |load| <= hold, then the sliding law. A
+/// slip that stops sticks where |load| <= hold.
+///
+/// The response is not a continuous function of the input: where a slip all but stops, or a load all but reaches the
+/// static level, the least change decides whether it sticks.
+///
+/// @tparam Law  of sliding; a sliding law that holds more itself goes on to
+template <FrictionLaw Law = Coulomb>
+class StaticKinetic {
+ public:
+  static constexpr bool constant_while_sliding = ConstantLevelLaw<Law>;
+
+  /// @param sliding       what resists sliding
+  /// @param static_level  what holds at rest, both ways, force per unit mass [m/s^2]; at least what resists there
+  /// @throws std::invalid_argument naming the value
+  StaticKinetic(Law sliding, double static_level) : StaticKinetic(std::move(sliding), static_level, static_level) {}
+
+  /// @param static_level  against forward sliding [m/s^2]
+  /// @param backward      against backward sliding [m/s^2]
+  StaticKinetic(Law sliding, double static_level, double backward)
+      : sliding_(std::move(sliding)), forward_(static_level), backward_(backward) {
+    for (const Direction direction : {Direction::forward, Direction::backward}) {
+      const double level = static_level_of(direction), kinetic = stickslip::hold(sliding_, 0, direction);
+      detail::require((std::isfinite(level) || level == kinetic) && level >= kinetic,
+                      "StaticKinetic: the static level " +
+                          std::string(direction == Direction::forward ? "forward" : "backward") +
+                          " must be finite and at least the kinetic one of " + detail::shortest(kinetic) + " m/s^2",
+                      level, "m/s^2");
+    }
+  }
+
+  const Law& sliding() const noexcept { return sliding_; }
+  double static_forward() const noexcept { return forward_; }
+  double static_backward() const noexcept { return backward_; }
+
+  template <class X>
+  auto resist(const X& x, Direction direction) const requires PositionLaw<Law> {
+    return sliding_.resist(x, direction);
+  }
+  template <class X, class Speed>
+  auto resist(const X& x, Direction direction, const Speed& speed) const requires SpeedLaw<Law> {
+    return sliding_.resist(x, direction, speed);
+  }
+  double hold(double, Direction direction) const noexcept { return static_level_of(direction); }
+
+  double work(double from, double distance, Direction direction) const noexcept requires LawWithWork<Law> {
+    return sliding_.work(from, distance, direction);
+  }
+
+ private:
+  double static_level_of(Direction direction) const noexcept {
+    return direction == Direction::forward ? forward_ : backward_;
+  }
+
+  Law sliding_;
+  double forward_, backward_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,139 @@
+// One segment of a slider that may lose contact with the ground.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "stickslip/detail/event_loop.hpp"
+#include "stickslip/detail/min_max.hpp"
+#include "stickslip/flow/polynomial.hpp"
+#include "stickslip/flow/taylor.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/ground/segment.hpp"
+#include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+namespace detail {
+
+/// Shows events at times of a whole segment, from within a part of it that begins at `begin` [s].
+template <class Observer>
+struct WithinSegment {
+  Observer& observer;
+  double begin;
+
+  void slide(const Slip& slip) { observer.slide(slip); }
+  void event(EventKind kind, double time, const State& state) { observer.event(kind, begin + time, state); }
+  template <class Flow>
+  void follow(const Flow& flow, double taken) requires requires(Observer& o) {
+    o.follow(flow, taken);
+  }
+  { observer.follow(flow, taken); }
+  void dissipate(double work) requires requires(Observer& o) { o.dissipate(work); }
+  { observer.dissipate(work); }
+  void lose(double energy) requires requires(Observer& o) { o.lose(energy); }
+  { observer.lose(energy); }
+};
+
+/// A law as it is at one place.
+template <FrictionLaw Law>
+struct AtPlace {
+  const Law* law;
+  double displacement;
+
+  template <class X, class Speed>
+  auto resist(const X&, Direction direction, const Speed& speed) const {
+    return stickslip::resist(*law, displacement, direction, speed);
+  }
+};
+
+/// The speed that friction's impulse of `impulse` [m/s] of normal force leaves of `speed`: d|v|/dJ = -mu(|v|), which is
+/// a slide of J / g under the weight g and no load.
+template <FrictionLaw Law>
+double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
+  if constexpr (SpeedLaw<Law>) {
+    const Slider<AtPlace<Law>> slider({&law, displacement});
+    State state = State::at(0, sign(direction) * speed);
+    NoObserver none;
+    advance(slider.law(), Taylor<AtPlace<Law>>{slider}, Segment{impulse / standard_gravity, 0, 0}, state, none);
+    return std::abs(state.velocity);
+  } else {
+    return std::max(speed - law.resist(displacement, direction) / standard_gravity * impulse, 0.0);
+  }
+}
+
+/// The first `time` of a segment, which ends under a given normal force; the rest is left.
+inline LoadSegment take(LoadSegment& segment, double time, double normal) noexcept {
+  const double load = segment.load(time);
+  const LoadSegment taken{time, segment.load_start, load, segment.normal_start, normal};
+  segment = {segment.duration - time, load, segment.load_end, normal, segment.normal_end};
+  return taken;
+}
+
+/// When a slider in flight lands within a segment [s]; `never` where it does not.
+inline double landing(const LoadSegment& s, double gap, double gap_velocity) noexcept {
+  const double square = s.duration * s.duration;
+  const double w[] = {gap, gap_velocity * s.duration, -s.normal_start * square / 2,
+                      -(s.normal_end - s.normal_start) * square / 6};
+  int leading = 0;  // zeros: it has just left the ground
+  while (leading < 3 && w[leading] == 0) ++leading;
+  if (w[leading] < 0) return 0;
+  const double root = leading < 3 ? FirstRoot(w + leading, 3 - leading).find() : never;
+  return root < never ? root * s.duration : never;
+}
+
+/// The event loop over a segment in which the slider may leave the ground and land.
+template <FrictionLaw Law, class Flows, MotionObserver Observer>
+void advance(const Law& law, const Flows& flows, LoadSegment segment, const Bounds& bounds, Contact contact,
+             State& state, Observer& observer) {
+  const double duration = segment.duration;
+  // Moves over the first `time` of what is left.
+  const auto go = [&](double time, double normal, bool touching) {
+    const double begin = duration - segment.duration;
+    LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});
+    if (!touching) piece.normal_start = piece.normal_end = 0;
+    WithinSegment<Observer> within{observer, begin};
+    advance(law, flows, piece, state, within, bounds);
+  };
+  const auto tell = [&](EventKind kind) { observer.event(kind, duration - segment.duration, state); };
+  while (segment.duration > 0) {
+    const double first = segment.normal_start, last = segment.normal_end;
+    const double crossing = segment.duration * (first / (first - last));  // of N and zero, if any
+    if (state.in_flight) {
+      const double lands = landing(segment, state.gap, state.gap_velocity);
+      const double t = std::min(lands, segment.duration), change = (last - first) * (t / segment.duration);
+      const double gap = state.gap + t * (state.gap_velocity - t * (first / 2 + change / 6));
+      const double gap_velocity = state.gap_velocity - t * (first + change / 2);
+      go(t, first + change, false);
+      state.gap = std::max(gap, 0.0);
+      state.gap_velocity = gap_velocity;
+      if (lands == never) continue;
+      tell(EventKind::landing);
+      state.in_flight = false;
+      const double impulse = std::max(-std::exchange(state.gap_velocity, 0.0), 0.0);
+      state.gap = 0;
+      if (state.mode == Mode::stuck) continue;
+      const Direction direction = direction_of(state.mode);
+      const double before = std::abs(state.velocity);
+      const double after = after_impulse(law, state.displacement, direction, before, impulse);
+      if constexpr (requires { observer.dissipate(0.0); }) observer.dissipate((before * before - after * after) / 2);
+      state.velocity = sign(direction) * after;
+      if (after > 0) continue;
+      state.mode = Mode::stuck;
+      tell(EventKind::arrest);
+    } else if (first < 0 || (first == 0 && last < 0)) {
+      if (contact == Contact::flight) {
+        state.in_flight = true;
+        tell(EventKind::liftoff);
+      } else {
+        go(last > 0 ? crossing : segment.duration, 0, false);
+      }
+    } else {
+      go(last < 0 ? crossing : segment.duration, 0, true);
+    }
+  }
+}
+
+}  // namespace detail
+}  // namespace stickslip

@@ -1,0 +1,63 @@
+#include <pybind11/stl.h>
+
+#include "friction/arguments.hpp"
+#include "parts.hpp"
+
+namespace stickslip::python {
+
+void bind_stribeck(py::module_& m) {
+  auto type = value_class<Stribeck>(
+      m, "Stribeck",
+      R"(Friction that falls from a static to a kinetic level as sliding gets faster: the Stribeck law.
+
+a(|x'|) = a_kinetic + (a_static - a_kinetic) exp(-(|x'| / velocity)^exponent), a = mu g: friction force per unit mass. At
+rest it holds a_static; it breaks away without a jump.
+
+Parameters
+----------
+mu_static, mu_kinetic : float, optional
+    Coefficients of friction at rest and at high speed, finite, mu_static >= mu_kinetic >= 0. Give both, or static and
+    kinetic.
+static, kinetic : float, optional
+    The levels [m/s^2].
+velocity : float
+    At which 63 % of the fall is done [m/s], positive.
+exponent : int
+    A whole number from 1 to 31.
+
+Raises
+------
+ValueError
+    A value out of its range; both or neither of a coefficient and its level.
+
+Notes
+-----
+The motion is a Taylor series in time, near round-off.
+
+References
+----------
+B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and compensation methods for the
+control of machines with friction, Automatica 30 (1994), 1083-1138.)");
+  type.def(py::init([](std::optional<double> mu_static, std::optional<double> mu_kinetic, std::optional<double> hold,
+                       std::optional<double> kinetic, double velocity, int exponent) {
+             return Stribeck(slip_level_of(mu_static, hold, "Stribeck", "mu_static", "static"),
+                             slip_level_of(mu_kinetic, kinetic, "Stribeck", "mu_kinetic", "kinetic"), velocity,
+                             exponent);
+           }),
+           py::kw_only(), py::arg("mu_static") = py::none(), py::arg("mu_kinetic") = py::none(),
+           py::arg("static") = py::none(), py::arg("kinetic") = py::none(), py::arg("velocity"), py::arg("exponent"))
+      .def_property_readonly("static", &Stribeck::static_level, "Level at rest [m/s^2].")
+      .def_property_readonly("kinetic", &Stribeck::kinetic_level, "Level at high speed [m/s^2].")
+      .def_property_readonly("velocity", &Stribeck::velocity, "At which 63 % of the fall is done [m/s].")
+      .def_property_readonly("exponent", &Stribeck::exponent, "Of the speed.")
+      .def("__repr__", [](const Stribeck& law) {
+        return "Stribeck(" + level_argument(law.static_level(), "mu_static", "static") + ", " +
+               level_argument(law.kinetic_level(), "mu_kinetic", "kinetic") +
+               ", velocity=" + detail::shortest(law.velocity()) + ", exponent=" + std::to_string(law.exponent()) + ")";
+      });
+  explain_constructor(type,
+                      "Stribeck: give mu_static= and mu_kinetic=, or static= and kinetic= [m/s^2], velocity= [m/s] and "
+                      "exponent=");
+}
+
+}  // namespace stickslip::python

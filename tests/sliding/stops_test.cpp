@@ -1,0 +1,143 @@
+// Stops: reference values, infinite bounces, limits, energy.
+#include "stickslip/stops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "stickslip/core.hpp"
+#include "support/catch.hpp"
+#include "support/motions.hpp"
+#include "support/outcome.hpp"
+#include "support/reference_values.hpp"
+
+using namespace stickslip;
+using namespace test;
+
+namespace {
+
+Mounting within(const Stops& stops, double natural_frequency = 0, double damping = 0) {
+  return {.natural_frequency = natural_frequency, .damping = damping, .stops = stops};
+}
+
+int impacts(const Response& r) {
+  int result = 0;
+  for (const Event& e : r.events) result += e.kind == EventKind::impact;
+  return result;
+}
+
+/// @param digits  grazing impacts are square-root singular: only so many of the sixteen are sure
+void check(const char* id, const Response& r, double tolerance, bool at_once) {
+  INFO(id);
+  const auto& expected = reference::outcome(id);
+  if (tolerance == 1e-12) {
+    check_outcome(r, expected, at_once);
+    CHECK(impacts(r) == expected.impacts);
+  } else {
+    CHECK(std::abs(r.residual - expected.displacement) <= tolerance * expected.peak);
+    CHECK(std::abs(r.state.velocity - expected.velocity) <= tolerance * largest(r.velocity));
+    CHECK(std::abs(r.sliding_distance - expected.sliding_distance) <= tolerance * expected.sliding_distance);
+    for (const auto& sample : expected.samples)
+      CHECK(std::abs(r.displacement[static_cast<std::size_t>(sample.node)] - sample.displacement) <=
+            tolerance * expected.peak);
+  }
+  CHECK(r.peak == expected.peak);
+  CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
+  CHECK(std::abs(r.energy.dissipated - expected.dissipated) <= tolerance * expected.dissipated);
+}
+
+}  // namespace
+
+TEST_CASE("sliders between stops move as the reference does", "[stops]") {
+  check("E.e0", integrate(Slider(Coulomb(0.5), within({0.1, 0})), record_a()), 1e-12, true);
+  check("E.e0.9", integrate(Slider(Coulomb(0.5), within({0.1, 0.9})), record_a()), 1e-6, true);
+  check("E.e0.8.strong", integrate(Slider(Coulomb(0.5), within({0.05, 0.8})), record_a().scaled(3)), 1e-6, true);
+  check("E.e0.6.static", integrate(Slider(StaticKinetic(Coulomb(0.5), 0.8), within({0.1, 0.6})), record_a()), 1e-12,
+        true);
+}
+
+TEST_CASE("infinitely many bounces end when their sum says", "[stops]") {
+  // next_values.json E.zeno: a load of 2 m/s^2 presses a block of level 0.5 m/s^2 on a stop at 0.1 m with e = 0.7.
+  const Response r = integrate(Slider(Coulomb(0.5), within({0.1, 0.7})), held(-2, 3));
+  CHECK(r.events[1].kind == EventKind::impact);
+  CHECK(std::abs(r.events[1].time - 0.3651483716701107423046465) <= 1e-15);
+  CHECK(std::abs(r.events[1].velocity - 0.5477225575051661134569698) <= 1e-15);
+  const Event& last = r.events[r.events.size() - 2];
+  CHECK(last.kind == EventKind::arrest);
+  CHECK(std::abs(last.time - 1.132657711007547520926875) <= 1e-14);
+  CHECK(r.residual == 0.1);
+  CHECK(r.state.mode == Mode::stuck);
+  CHECK(std::abs(r.energy.imbalance()) <= 1e-14);
+  // Each of them leaves rho times as fast as the one before; also with e = 1, because of friction.
+  for (const double e : {0.7, 1.0}) {
+    const Response bounces = integrate(Slider(Coulomb(0.5), within({0.1, e})), held(-2, 60));
+    const double rho = e * std::sqrt(1.5 / 2.5);
+    double before = 0;
+    int counted = 0;
+    for (const Event& event : bounces.events) {
+      if (event.kind != EventKind::impact) continue;
+      if (counted++ > 0 && counted < 20) CHECK(std::abs(event.velocity / before - rho) <= 1e-11);
+      before = event.velocity;
+    }
+    CHECK(counted > 20);
+    CHECK(bounces.state.mode == Mode::stuck);
+  }
+}
+
+TEST_CASE("a stop holds any load toward it and none away from it", "[stops]") {
+  const Slider slider(Coulomb(0.5), within({0.1, 0}));
+  // Pressed on it with ten times the level; then drawn off as soon as the load is beyond the level the other way.
+  const Response r = integrate(slider, GroundMotion({-5, -5, 1, 1}, std::vector<double>{0, 2, 3, 4}));
+  CHECK(r.displacement[1] == 0.1);
+  CHECK(r.velocity[1] == 0);
+  const auto leaves = std::ranges::find_if(r.events.begin() + 1, r.events.end(),
+                                           [](const Event& e) { return e.kind == EventKind::breakaway; });
+  REQUIRE(leaves != r.events.end());
+  CHECK(leaves->time == Approx(2 + 5.5 / 6).margin(1e-14));  // n = -5 + 6 (t - 2) passes 0.5
+  CHECK(leaves->displacement == 0.1);
+}
+
+TEST_CASE("stops on one side, and unequal ones", "[stops]") {
+  const GroundMotion motion = record_a();
+  const Response one = integrate(Slider(Coulomb(0.5), within({infinity, 0.03, 0.5})), motion);
+  CHECK(impacts(one) > 0);
+  for (const Event& e : one.events)
+    if (e.kind == EventKind::impact) CHECK((e.displacement == -0.03 && e.velocity < 0));
+  CHECK(*std::ranges::min_element(one.displacement) >= -0.03);
+  // Mirrored: the stops, the law and the motion.
+  const Response other = integrate(Slider(Coulomb(0.5), within({0.03, infinity, 0.5})), motion.scaled(-1));
+  CHECK(other.residual == -one.residual);
+  CHECK(impacts(other) == impacts(one));
+}
+
+TEST_CASE("energy closes between stops, whatever else acts", "[stops]") {
+  for (const double e : {0.0, 0.3, 1.0})
+    for (const double gap : {0.01, 0.05}) {
+      CAPTURE(e, gap);
+      const auto closes = [&](const auto& slider, const GroundMotion& motion) {
+        const Response r = integrate(slider, motion);
+        CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
+        CHECK(r.peak <= gap);
+        CHECK(impacts(r) > 0);
+        if (e == 1) CHECK(std::abs(r.energy.impact) <= 1e-12 * turnover(r.energy));
+      };
+      const GroundMotion motion = broadband(9, 800);
+      closes(Slider(Coulomb(0.3), within({gap, e})), motion);
+      closes(Slider(Coulomb(0.3), within({gap, e}, 4)), motion);
+      closes(Slider(Coulomb(0.3), within({gap, e}, 4, 0.8)), motion);
+      closes(Slider(Caster(0.3, 0.05), within({gap, e})), motion);
+      closes(Slider(VelocityDependent(0.2, 0.5, 8), within({gap, e}, 3)), motion);
+      std::vector<double> up = gaussian(17, 800, 8);
+      up.back() = 0;
+      closes(Slider(Coulomb(0.3), within({gap, e})), motion.with_components({}, up));
+    }
+}
+
+TEST_CASE("stops that cannot be are refused", "[stops]") {
+  CHECK_THROWS_WITH(Stops(0, 0.5), "Stops: gap must be positive, got 0 m");
+  CHECK_THROWS_WITH(Stops(0.1, -1, 0.5), "Stops: backward must be positive, got -1 m");
+  CHECK_THROWS_WITH(Stops(0.1, 1.5), "Stops: restitution must be from 0 to 1, got 1.5");
+  CHECK_THROWS_WITH(Stops(0.1, not_a_number), "Stops: restitution must be from 0 to 1, got nan");
+  CHECK_THROWS_WITH(integrate(Slider(Coulomb(1), within({0.1, 0})), record_a(), from(0.2)),
+                    "integrate: displacement must be between the stops, from -0.1 to 0.1 m, got 0.2 m");
+}
