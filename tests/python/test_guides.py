@@ -6,6 +6,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +45,17 @@ def kobe(tmp_path, monkeypatch, pyslammer_files):
         f"NPTS= {len(samples)}, DT= {record.dt:.4f} SEC",
     ]
     rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
-    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
+    text = "\n".join(header + rows) + "\n"
+    (tmp_path / "kobe.AT2").write_text(text)
+    # The files of the page on ground motions: Kobe, in other dress.
+    for name, component in (("north", "0"), ("east", "90"), ("up", "UP")):
+        (tmp_path / f"{name}.AT2").write_text(text.replace("TAK, 90", f"TAK, {component}"))
+    (tmp_path / "column.txt").write_text("\n".join(samples))
+    table = [f"{i * record.dt:.2f},{n},{n},{n}" for i, n in enumerate(samples)]
+    (tmp_path / "station.csv").write_text("\n".join(["Time (s),N (g),E (g),Up (g)", *table]))
+    with zipfile.ZipFile(tmp_path / "archive.zip", "w") as archive:
+        archive.writestr("kobe.AT2", text)
+        archive.writestr("notes.txt", "of Kobe")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
