@@ -39,6 +39,12 @@ void refuses(const std::string& content, std::initializer_list<const char*> part
   for (const char* part : parts) CHECK_THAT(message, ContainsSubstring(part));
 }
 
+/// A COSMOS file with one of its integers, which are 8 columns each and 10 a line.
+std::string with_integer(std::string cosmos, std::size_t number, double value) {
+  const std::size_t place = number - 1;
+  return cosmos.replace(cosmos.find("    -999") + 8 * place + place / 10, 8, print("%8.0f", value));
+}
+
 const RecordOptions in_g{.units = "g"};
 
 }  // namespace
@@ -75,7 +81,13 @@ TEST_CASE("all components of a file come with name, orientation and start", "[re
   CHECK(read(replaced(peer("5 .01 NPTS, DT"), ", 230", ", FN")).orientation().empty());
   CHECK(read(cosmos_channel("HNE", cosmos_data)).orientation() == "E");
   CHECK(read(cosmos_channel("HN1", cosmos_data)).orientation().empty());
-  CHECK(read(cosmos_channel("", cosmos_data)).orientation() == "90 deg");
+  const std::string named = cosmos_channel("", cosmos_data), other = replaced(named, "90 deg", "Other");
+  CHECK(read(named).orientation() == "90 deg");
+  CHECK(read(other).orientation().empty());
+  // Integer 54: an azimuth from 1, 400 up, 401 down; 0 and the others say nothing.
+  for (const auto& [code, orientation] :
+       {std::pair{45, "45"}, {360, "0"}, {400, "up"}, {401, "down"}, {0, ""}, {402, ""}, {500, ""}, {-999, ""}})
+    CHECK(read(with_integer(other, 54, code)).orientation() == orientation);
 }
 
 TEST_CASE("a K-NET file is counts times its scale factor", "[records]") {
@@ -161,13 +173,9 @@ TEST_CASE("spectra and counts are not taken for acceleration", "[records][errors
   refuses("Response and Fourier Amplitude Spectra\nCorrected Accelerogram\nUncorrected Accelerogram Data\n",
           {"CSMIP V3", "spectra", "V1 or V2"});
   const std::string cosmos = cosmos_channel("HNE", cosmos_data);
-  const auto stage = [&](const char* number) {  // integer 1
-    const std::size_t first = cosmos.find("    -999");
-    return cosmos.substr(0, first) + "       " + number + cosmos.substr(first + 8);
-  };
-  CHECK(read(stage("2")).samples() == 10);
-  refuses(stage("0"), {"line 15", "COSMOS V0", "raw counts"});
-  refuses(stage("3"), {"line 15", "COSMOS V3", "spectra"});
+  CHECK(read(with_integer(cosmos, 1, 2)).samples() == 10);
+  refuses(with_integer(cosmos, 1, 0), {"line 15", "COSMOS V0", "raw counts"});
+  refuses(with_integer(cosmos, 1, 3), {"line 15", "COSMOS V3", "spectra"});
   refuses(replaced(cosmos, "Corrected acceleration ", "Response spectra "), {"line 1", "COSMOS V3"});
   refuses(replaced(csmip_channel(), "points of accel", "points of power"), {"holds no acceleration"});
   refuses(csmip_channel().substr(0, csmip_channel().find("  9.000000")), {"ends after 8 of the 10 samples"});
@@ -234,7 +242,7 @@ TEST_CASE("a comma is a decimal point where something else parts the columns", "
 TEST_CASE("a gap is refused unless it is asked for", "[records]") {
   std::string text = "# units: g\n";
   for (int i = 0; i < 200; ++i) text += print("%.2f", 0.01 * i + (i < 120 ? 0 : 0.11)) + " 0.1\n";
-  refuses(text, {"a gap of 0.12", "after 1.19 s", "median time step, 0.01", "pass gaps"});
+  refuses(text, {"a gap of 0.12 s after 1.19 s", "median time step, 0.01 s", "pass gaps"});
   const GroundMotion kept = read(text, {.gaps = true});
   CHECK(kept.samples() == 200);
   CHECK(kept.time(120) == 1.31);

@@ -253,7 +253,8 @@ def test_all_components_are_a_list(write):
         assert ss.read_record(file, component=number) == motion
         assert ss.read_record(file, component=motion.orientation) == motion
         assert pickle.loads(pickle.dumps(motion)) == motion
-    assert ss.read_record(write(CSV), component="all") == [ss.read_record(write(CSV))]
+    other = write(CSV, "other.csv")
+    assert ss.read_record(other, component="all") == [ss.read_record(other)]
     with pytest.raises(ValueError, match="1 NS, 2 EW, 3 UD; got ''"):
         ss.read_record(file)
 
@@ -261,7 +262,7 @@ def test_all_components_are_a_list(write):
 def test_a_gap_is_refused_unless_it_is_kept(write):
     times = np.round(np.where(np.arange(50) < 30, 0, 0.5) + 0.01 * np.arange(50), 2)
     file = write("".join(f"{t} 0.1\n" for t in times))
-    with pytest.raises(ValueError, match=r"a gap of 0.51\S* s after 0.29 s.* pass gaps"):
+    with pytest.raises(ValueError, match=r"a gap of 0.51 s after 0.29 s.* pass gaps"):
         ss.read_record(file, units="g")
     assert np.array_equal(ss.read_record(file, units="g", gaps=True).time, times)
 
@@ -292,8 +293,8 @@ def test_what_a_file_is_packed_in_does_not_matter(write, archive):
     for file in (
         write(packed, "kobe.csv.gz"),
         archive({"a/": "", "a/kobe.csv": CSV, "__MACOSX/a/._kobe.csv": b"\0"}),
-        archive({"kobe.csv.gz": packed}),
-        f"{archive({'a/kobe.csv': CSV, 'b/other.csv': COLUMN})}::a/kobe.csv",
+        archive({"kobe.csv.gz": packed}, "b.zip"),
+        f"{archive({'a/kobe.csv': CSV, 'b/other.csv': COLUMN}, 'c.zip')}::a/kobe.csv",
     ):
         assert ss.read_record(file) == plain
     nameless = "0 1\n1 2\n"

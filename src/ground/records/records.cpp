@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -146,11 +147,16 @@ void refuse_gaps(const GroundMotion& motion) {
   for (std::size_t i = 0; i < motion.segments(); ++i) steps.push_back(motion.segment(i).duration);
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
+  const auto seconds = [](double value) {  // differences of times, without their round-off
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g s", value);
+    return std::string(text);
+  };
   for (std::size_t i = 0; i < motion.segments(); ++i)
     if (const double one = motion.segment(i).duration; one > 10 * *middle)
-      throw std::invalid_argument("a gap of " + detail::shortest(one) + " s after " + detail::shortest(motion.time(i)) +
-                                  " s, over ten times the median time step, " + detail::shortest(*middle) +
-                                  " s; pass gaps to keep it as a straight line");
+      throw std::invalid_argument("a gap of " + seconds(one) + " after " + seconds(motion.time(i)) +
+                                  ", over ten times the median time step, " + seconds(*middle) +
+                                  "; pass gaps to keep it as a straight line");
 }
 
 RecordComponent component_of(Channel channel, const std::string& name, const RecordOptions& options) {
