@@ -16,6 +16,7 @@
 #include "stickslip/ground/processing.hpp"
 #include "stickslip/ground/records.hpp"
 #include "stickslip/ground/response_spectrum.hpp"
+#include "stickslip/ground/station.hpp"
 #include "stickslip/ground/strong_motion.hpp"
 #include "stickslip/harmonic/continuation.hpp"
 #include "stickslip/harmonic/orbit.hpp"

@@ -61,7 +61,6 @@ from ._core import (
     fit_pulses,
     histories,
     integrate,
-    read_record,
     response_spectrum,
     strong_motion,
 )
@@ -70,6 +69,7 @@ TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of 
 if TYPE_CHECKING:
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, run_ensemble
+    from .records import read_record, read_station, record_formats
     from .samples import sample_record, sample_records
 
 __all__ = [
@@ -120,6 +120,8 @@ __all__ = [
     "histories",
     "integrate",
     "read_record",
+    "read_station",
+    "record_formats",
     "response_spectrum",
     "run_ensemble",
     "sample_record",
@@ -140,6 +142,10 @@ if not TYPE_CHECKING:
             from . import comparison
 
             return globals().setdefault(name, getattr(comparison, name))
+        if name in ("read_record", "read_station", "record_formats"):
+            from . import records
+
+            return globals().setdefault(name, getattr(records, name))
         if name in ("sample_record", "sample_records"):
             from . import samples
 

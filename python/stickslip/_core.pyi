@@ -1631,12 +1631,24 @@ def histories(
     slider: _AnySlider, motion: GroundMotion
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def acceleration_unit(name: str) -> float: ...
-def read_record(
-    file: str | bytes | PathLike[str] | PathLike[bytes],
-    *,
-    units: str | None = None,
-    component: str | SupportsIndex | None = None,
+def _parse_components(
+    content: bytes,
+    file: str | bytes,
+    units: str,
+    component: str,
+    dt: _Number | None,
+    gaps: bool,
+    only_one: bool,
+) -> list[tuple[GroundMotion, str, str]]: ...
+def _record_format(content: bytes) -> dict[str, str] | None: ...
+def _record_formats() -> list[dict[str, str]]: ...
+def _station_motion(
+    components: Sequence[tuple[GroundMotion, str, str]],
+    orientations: Sequence[str | None],
+    along: str,
+    common_length: bool,
 ) -> GroundMotion: ...
+def _warn_if_implausible(motion: GroundMotion, who: str, depth: SupportsIndex = 1) -> None: ...
 def run_ensemble(
     sliders: Any,
     motions: Any,

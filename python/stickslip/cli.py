@@ -304,6 +304,8 @@ def _add_slide(commands: argparse._SubParsersAction) -> None:
     _add_slider(parser)
     add("--units", type=_text, help="acceleration unit of files that state none: g, cm/s^2, ...")
     add("--component", type=_text, help="name or number (from 1), where a file has several")
+    add("--dt", type=float, help="time between samples [s], of files of one column")
+    add("--gaps", action="store_true", help="keep time steps over ten times the median one")
     add("--scale", type=float, default=1.0, help="factor on the ground acceleration (default 1)")
     add(
         "--strict",
@@ -381,7 +383,9 @@ def _slide(args: argparse.Namespace) -> str:
 def _read(record: Path, args: argparse.Namespace) -> GroundMotion:
     if str(record).startswith(_SAMPLE):
         return sample_record(str(record).removeprefix(_SAMPLE))
-    return read_record(record, units=args.units, component=args.component)
+    return read_record(
+        record, units=args.units, component=args.component, dt=args.dt, gaps=args.gaps
+    )
 
 
 def _pictures(args: argparse.Namespace) -> Iterator[Path]:

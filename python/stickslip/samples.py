@@ -8,7 +8,8 @@ from __future__ import annotations
 import importlib.util
 from pathlib import Path
 
-from ._core import GroundMotion, read_record
+from ._core import GroundMotion
+from .records import read_record
 
 __all__ = ["sample_files", "sample_record", "sample_records"]
 

@@ -18,9 +18,11 @@
 #include "fuzz.hpp"
 #include "ground/record_files.hpp"
 #include "stickslip/ground/records.hpp"
+#include "stickslip/ground/station.hpp"
 
 using namespace record_files;
 using stickslip::GroundMotion;
+using stickslip::RecordOptions;
 namespace fs = std::filesystem;
 
 namespace {
@@ -53,15 +55,15 @@ struct Result {
   std::string error{};
 };
 
-Result read(const fs::path& file, std::size_t size, const std::string& units) {
+Result read(const fs::path& file, std::size_t size, const RecordOptions& options) {
   Result result;
   const std::size_t before = allocated;
   try {
-    result.motion = stickslip::read_record(file, {.units = units, .component = "1"});
+    result.motion = stickslip::read_record(file, options);
   } catch (const std::invalid_argument& error) {
     result.error = error.what();
   }
-  if (const std::size_t bytes = allocated - before; bytes > (std::size_t{1} << 17) + 256 * size)
+  if (const std::size_t bytes = allocated - before; bytes > (std::size_t{1} << 17) + 512 * size)
     finding("reading " + std::to_string(size) + " bytes allocates " + std::to_string(bytes));
   return result;
 }
@@ -109,6 +111,35 @@ void check(const Result& result) {
     if (!(motion.time(i) > motion.time(i - 1) && std::isfinite(motion.time(i)))) finding("times that do not increase");
 }
 
+/// All components are read as one by one, and together they make a station or an error.
+void check_station(const std::string& bytes, RecordOptions options) {
+  options.component.clear();
+  std::vector<stickslip::RecordComponent> components;
+  try {
+    components = stickslip::parse_components(bytes, "fuzz", options);
+  } catch (const std::invalid_argument& error) {
+    if (!is_clean(error.what())) finding("a message that is not clean UTF-8: " + std::string(error.what()));
+    return;
+  }
+  if (components.empty()) finding("no components and no error");
+  for (std::size_t i = 0; i < components.size() && i < 4; ++i) {
+    if (!is_clean(components[i].name + components[i].start + components[i].motion.orientation()))
+      finding("a name, start or orientation that is not clean UTF-8");
+    const std::string number = std::to_string(i + 1);
+    const auto named = [&](const stickslip::RecordComponent& one) { return one.name == number; };
+    options.component = number;
+    if (std::ranges::none_of(components, named) &&
+        !(stickslip::parse_record(bytes, "fuzz", options) == components[i].motion))
+      finding("component " + number + " alone is another");
+  }
+  try {
+    const GroundMotion station = stickslip::station_motion(components, "30", true);
+    if (station.samples() < 2) finding("a station of fewer than two samples");
+  } catch (const std::invalid_argument& error) {
+    if (!is_clean(error.what())) finding("a message that is not clean UTF-8: " + std::string(error.what()));
+  }
+}
+
 bool same(const Result& a, const Result& b) {
   if (!a.motion || !b.motion) return !a.motion && !b.motion;
   if (!std::ranges::equal(a.motion->acceleration(), b.motion->acceleration()) || a.motion->name() != b.motion->name())
@@ -131,6 +162,12 @@ std::vector<std::string> fuzz_seeds() {
       smc(),
       geonet(),
       cosmos_channel("HNE", cosmos_data + cosmos_velocity()) + cosmos_channel("", cosmos_data),
+      knet(),
+      dyna(),
+      csmip_channel() + csmip_channel("Up"),
+      csmip_uncorrected(true) + csmip_uncorrected(false),
+      "Time (s);NS (g);UD (gal)\n0,00;0,1;1\n0,01;-2,5;2\n0,02;3;1e-3\n",
+      "# one column\n# units: g\n0.1\n-0.25\n1.5E-4\n0.5\n",
       table(even_times(9, 0.1), "%.1f"),
       table(even_times(150, 0.02), "%.3e"),
       table(even_times(150, 0.0123), "%.3f"),
@@ -149,16 +186,26 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Scratch scratch;
   const std::string bytes(data, data + size);
   const fs::path& file = scratch.write(bytes);
-  std::string units;
-  Result first = read(file, size, units);
+  // What a file leaves open is given, as its error asks for it.
+  RecordOptions options{.component = "1"};
+  Result first = read(file, size, options);
   if (first.error.ends_with("pass units, such as \"g\" or \"m/s^2\"")) {
-    units.push_back('g');  // an assignment of "g" makes GCC 12 warn of memory that overlaps
-    first = read(file, size, units);
+    options.units.push_back('g');  // an assignment of "g" makes GCC 12 warn of memory that overlaps
+    first = read(file, size, options);
+  }
+  if (first.error.ends_with("pass dt, the seconds between samples")) {
+    options.dt = 0.01;
+    first = read(file, size, options);
+  }
+  if (first.error.ends_with("pass gaps to keep it as a straight line")) {
+    options.gaps = true;
+    first = read(file, size, options);
   }
   check(first);
-  if (!same(read(file, size, units), first)) finding("two answers to the same bytes");
+  if (!same(read(file, size, options), first)) finding("two answers to the same bytes");
   std::string dos;
   for (const char byte : bytes) dos.append(byte == '\n' ? "\r" : "").push_back(byte);
-  if (!same(read(scratch.write(dos), dos.size(), units), first)) finding("another answer with CRLF line ends");
+  if (!same(read(scratch.write(dos), dos.size(), options), first)) finding("another answer with CRLF line ends");
+  check_station(bytes, options);
   return 0;
 }

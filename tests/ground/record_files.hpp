@@ -96,6 +96,72 @@ inline std::string cosmos_velocity() {
   return replaced(replaced(cosmos_data, "acceleration", "velocity"), "cm/sec2(04)", "cm/sec (05)");
 }
 
+/// As NIED describes it: 17 lines of header, counts in eight columns.
+inline std::string knet(const std::string& direction = "N-S", int count = 10,
+                        const std::string& scale = "2000(gal)/8000000") {
+  std::string text =
+      "Origin Time       2001/02/03 04:05:00\nLat.              38.103\nLong.             142.860\n"
+      "Depth. (km)       24\nMag.              7.0\nStation Code      MAD001\nStation Lat.      38.7292\n"
+      "Station Long.     141.0217\nStation Height(m) 40\nRecord Time       2001/02/03 04:05:36\n"
+      "Sampling Freq(Hz) 100Hz\nDuration Time(s)  0.1\nDir.              " +
+      direction + "\nScale Factor      " + scale +
+      "\nMax. Acc. (gal)   25.000\nLast Correction   2001/02/03 04:05:21\nMemo.\n";
+  for (int i = 0; i < count; ++i)
+    text += print("%8.0f", i == 3 ? -100000 : 4000 * i) + (i % 8 == 7 || i + 1 == count ? "\n" : " ");
+  return text;
+}
+
+/// As the Engineering Strong Motion database writes it: a DYNA 1.2 header, one column.
+inline std::string dyna(const std::string& stream = "HNE", int count = 6) {
+  return "EVENT_NAME: Made-up\nEVENT_ID: MU-2001-0001\nEVENT_DATE_YYYYMMDD: 20010203\nEVENT_TIME_HHMMSS: 040500\n"
+         "EVENT_DEPTH_KM: 10.5\nMAGNITUDE_W: 6.1\nNETWORK: MU\nSTATION_CODE: MAD\nSTATION_NAME: Made-up: north\n"
+         "VS30_M/S:\nDATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: 20010203_040512.000\nSAMPLING_INTERVAL_S: 0.005000\n"
+         "NDATA: " +
+         std::to_string(count) + "\nDURATION_S: 0.025\nSTREAM: " + stream +
+         "\nUNITS: cm/s^2\nPGA_CM/S^2: -98.0665\nHEADER_FORMAT: DYNA 1.2\nDATA_TYPE: ACCELERATION\n"
+         "PROCESSING: manual (nobody et al., 2011)\nUSER5:\n"
+         "-0.000123\n1.5\n-98.066500\n0.25e1\n0\n0.1\n";
+}
+
+inline std::string csmip_numbers(int count, int columns, int width, int places) {
+  std::string text;
+  for (int i = 1; i <= count; ++i)
+    text += print(("%" + std::to_string(width) + "." + std::to_string(places) + "f").c_str(), 0) +
+            (i % columns == 0 || i == count ? "\n" : "");
+  return text;
+}
+
+/// A channel of a V2 file as CSMIP describes it: 25 lines of text, 100 integers, 100 reals, three series.
+inline std::string csmip_channel(const std::string& orientation = "90 Deg", const std::string& units = "in cm/sec2.") {
+  std::string text =
+      "Corrected Accelerogram 12345-S0001-01001.01\nUncorrected Accelerogram Data processed: 02/03/01, CGS\n\n\n"
+      "Made-up Earthquake              February 3, 2001 04:05 UTC\nStation No. 12345  34.000N, 118.000W\n"
+      "Made-up City - School           CGS\nChan  1: " +
+      orientation + "   Sta Chn:  1  Location: Ground floor\n";
+  for (int i = 9; i <= 25; ++i) text += "Text " + std::to_string(i) + "\n";
+  text += csmip_numbers(100, 16, 5, 0) + csmip_numbers(100, 8, 10, 3);
+  text += "   10 points of accel data equally spaced at  .020 sec, " + units + " (8f10.6)\n" +
+          "  1.500000 -2.250000-10.123456100.123456  5.000000  6.000000  7.000000  8.000000\n  9.000000-98.066500\n";
+  for (const char* kind : {"veloc", "displ"})
+    text += std::string("   10 points of ") + kind + " data equally spaced at  .020 sec, in cm/sec. (8f10.6)\n" +
+            csmip_numbers(10, 8, 10, 6);
+  return text + "/&  ---------- End of data for channel  1 ----------\n";
+}
+
+/// A channel of a V1 file: 13 lines of text, 100 integers, 50 reals, and equal steps or pairs of seconds and g/10.
+inline std::string csmip_uncorrected(bool pairs) {
+  std::string text =
+      "UNCORRECTED ACCELEROGRAM DATA   PROCESSED: 02/03/01, CDMG\nLine 2\nLine 3\nMADE-UP EARTHQUAKE\n"
+      "STATION NO. 12345\nMADE-UP CITY  - SCHOOL\nCHAN  1: UP\nLine 8\nLine 9\nLine 10\n"
+      "NO. OF POINTS =   4\nUNITS OF UNCOR ACCEL ARE SEC-G/10.     MAX = .1 G\nLine 13\n";
+  for (int i = 1; i <= 100; ++i) text += print("%5.0f", i == 28 ? 4 : 0) + (i % 16 == 0 || i == 100 ? "\n" : "");
+  text += csmip_numbers(50, 8, 10, 3);
+  text += pairs ? "   .000  -.100   .021   .250   .043  -.500   .060   .125\n"
+                : "   4 points of accel data equally spaced at  .020 sec, in g. (8f9.6)\n -.010000  .025000 -.050000  "
+                  ".012500\n";
+  return text + "/&  ----------  END OF DATA FOR CHANNEL  1 ----------\n";
+}
+
 /// A table of times printed with a format, accelerations made up.
 inline std::string table(const std::vector<double>& times, const char* format) {
   std::string text = "Time (s),Acceleration (m/s^2)\n";

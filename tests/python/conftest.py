@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pages import write_records
 
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     # So has a shell that runs the tests in the background set it, also for the programs that they
@@ -53,16 +54,8 @@ def record_a():
 
 @pytest.fixture
 def kobe(tmp_path, monkeypatch, record_a):
-    """A file of the documentation's name, in PEER's format, in the current directory."""
-    samples = [f"{n / 9.80665:.7E}" for n in record_a]
-    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
-    header = [
-        "PEER NGA STRONG MOTION DATABASE RECORD",
-        "Record A, made for tests",
-        "ACCELERATION TIME SERIES IN UNITS OF G",
-        f"NPTS= {len(samples)}, DT= .1000 SEC",
-    ]
-    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
+    """Files of the documentation's names, in the current directory."""
+    write_records(tmp_path, "Record A, made for tests", record_a, 0.1)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -1,6 +1,7 @@
 """Pages of documentation, as the tests read them."""
 
 import re
+import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -16,3 +17,26 @@ def blocks(page, language):
 
 def run(page, code, names):
     exec(compile(code, str(page), "exec"), names)
+
+
+def write_records(folder, name, acceleration, dt):
+    """The record files of the pages' names: one record, as PEER writes it, as columns, packed.
+
+    `name` is the second line of PEER's header but for the component, `acceleration` is in m/s^2.
+    """
+    samples = [f"{n / 9.80665:.7E}" for n in acceleration]
+    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
+    for file, component in (("kobe", "90"), ("north", "0"), ("east", "90"), ("up", "UP")):
+        header = [
+            "PEER NGA STRONG MOTION DATABASE RECORD",
+            f"{name}, {component}",
+            "ACCELERATION TIME SERIES IN UNITS OF G",
+            f"NPTS= {len(samples)}, DT= {dt:.4f} SEC",
+        ]
+        (folder / f"{file}.AT2").write_text("\n".join(header + rows) + "\n")
+    (folder / "column.txt").write_text("\n".join(samples))
+    table = [f"{i * dt:.4f},{n},{n},{n}" for i, n in enumerate(samples)]
+    (folder / "station.csv").write_text("\n".join(["Time (s),N (g),E (g),Up (g)", *table]))
+    with zipfile.ZipFile(folder / "archive.zip", "w") as archive:
+        archive.write(folder / "kobe.AT2", "kobe.AT2")
+        archive.writestr("notes.txt", "of Kobe")

@@ -131,6 +131,35 @@ def test_columns_keep_their_width_under_huge_numbers(capsys, record, factor):
         assert float(text) == pytest.approx(value, rel=0.05, abs=0.005)  # two digits at least
 
 
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")  # without a part of it
+def test_one_column_takes_a_time_step_and_a_gap_a_flag(capsys, tmp_path, record):
+    quake = ss.read_record(record)
+    column = tmp_path / "column.txt"
+    column.write_text("\n".join(f"{a / G!r}" for a in quake.acceleration.tolist()))
+    (row,) = results(capsys, column, "--mu", 0.1, "--units", "g", "--dt", 0.02)
+    (same,) = results(capsys, record, "--mu", 0.1)
+    assert row["peak_m"] == pytest.approx(same["peak_m"], rel=1e-12)
+    code, _, err = run(capsys, column, "--mu", 0.1, "--units", "g")
+    assert code == 1
+    assert "no time step: pass dt" in err
+    rows = record.read_text().splitlines()
+    gap = tmp_path / "gap.csv"
+    gap.write_text("\n".join(rows[:100] + rows[120:]))
+    code, _, err = run(capsys, gap, "--mu", 0.1)
+    assert code == 1
+    assert "a gap of 0.42 s after 1.94 s" in err
+    assert "pass gaps" in err
+    assert len(results(capsys, gap, "--mu", 0.1, "--gaps")) == 1
+
+
+def test_a_record_may_come_from_standard_input(record):
+    command = [sys.executable, "-m", "stickslip", "slide", "-", "--mu", "0.1", "--json"]
+    piped = subprocess.run(command, input=record.read_bytes(), capture_output=True, check=True)
+    (row,) = json.loads(piped.stdout)["results"]
+    expected = ss.integrate(ss.Coulomb(mu=0.1), ss.read_record(record), settle=True)
+    assert (row["file"], row["peak_m"]) == ("-", expected.peak)
+
+
 def test_a_slider_that_never_rests_is_an_answer_and_says_so(capsys, record):
     code, out, _ = run(capsys, record, "--mu", 0)
     assert code == 0

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stickslip as ss
+from pages import write_records
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
@@ -34,17 +35,9 @@ def blocks(language):
 
 @pytest.fixture
 def kobe(tmp_path, monkeypatch, pyslammer_files):
-    """The file of the guides' name, in PEER's format, in the current directory; Kobe itself."""
+    """Files of the guides' names, in the current directory; Kobe itself."""
     record = ss.read_record(next(f for f in pyslammer_files if f.name.startswith("Kobe")))
-    samples = [f"{n / ss.STANDARD_GRAVITY:.7E}" for n in record.acceleration]
-    header = [
-        "PEER NGA STRONG MOTION DATABASE RECORD",
-        "Kobe, Japan 1995, TAK, 90",
-        "ACCELERATION TIME SERIES IN UNITS OF G",
-        f"NPTS= {len(samples)}, DT= {record.dt:.4f} SEC",
-    ]
-    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
-    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
+    write_records(tmp_path, "Kobe, Japan 1995, TAK", record.acceleration, record.dt)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -1,14 +1,20 @@
 """Records from files: formats, units, and what is wrong with a file."""
 
 import codecs
+import csv
+import gzip
 import os
 import pickle
+import subprocess
 import sys
+import warnings
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stickslip as ss
+from pages import ROOT
 
 G = ss.STANDARD_GRAVITY
 
@@ -165,7 +171,10 @@ WRONG = {
     "NaN in a row": (change(CSV, "0.125", "nan"), "line 5: .* finite numbers, got 'nan'"),
     "row without a number": (change(CSV, "0.02,0.125", "0.02,"), "line 5: "),
     "row of text": (change(CSV, "0.02,0.125", "end of data"), "line 5: "),
-    "three columns": (change(CSV, "0.02,0.125", "0.02,0.125,7"), "line 5: two columns .* got 3"),
+    "three columns": (
+        change(CSV, "0.02,0.125", "0.02,0.125,7"),
+        "line 5: expected 2 columns .* got 3",
+    ),
     "one row": ("0.0,0.1\n", "at least two rows"),
     "times that stand still": (change(CSV, "0.02", "0.01"), r"times\[2\] must come after 0.01 s"),
     "times that turn back": (change(CSV, "0.03", "0.005"), r"times\[3\] must come after 0.02 s"),
@@ -216,6 +225,257 @@ def test_what_is_no_file_name_is_a_type_error(file):
         ss.read_record(file)
 
 
+# ---- one column, several columns, gaps
+
+COLUMN = "0.001\n-0.025\n0.125\n-0.5\n"
+COLUMNS = "Time (s), NS (g), EW (g), UD (g)\n0,1,2,3\n0.01,4,5,6\n0.02,7,8,9\n"
+
+
+def test_one_column_is_read_with_the_time_step_that_is_given(write):
+    motion = ss.read_record(write(COLUMN), units="g", dt=np.float32(0.25))
+    assert motion.dt == 0.25
+    assert np.array_equal(motion.acceleration, np.multiply([0.001, -0.025, 0.125, -0.5], G))
+    with pytest.raises(ValueError, match="states no time step: pass dt"):
+        ss.read_record(write(COLUMN), units="g")
+    for bad in (0, -0.01, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="dt must be positive and finite, got"):
+            ss.read_record(write(COLUMN), units="g", dt=bad)
+    with pytest.raises(ValueError, match=r"a time step of 0.01 s, dt given is, got 0.02 s"):
+        ss.read_record(write(CSV), dt=0.02)
+
+
+def test_all_components_are_a_list(write):
+    file = write(COLUMNS)
+    motions = ss.read_record(file, component="all")
+    assert [m.orientation for m in motions] == ["NS", "EW", "UD"]
+    assert [m.acceleration[1] / G for m in motions] == [4, 5, 6]
+    for number, motion in enumerate(motions, start=1):
+        assert ss.read_record(file, component=number) == motion
+        assert ss.read_record(file, component=motion.orientation) == motion
+        assert pickle.loads(pickle.dumps(motion)) == motion
+    other = write(CSV, "other.csv")
+    assert ss.read_record(other, component="all") == [ss.read_record(other)]
+    with pytest.raises(ValueError, match="1 NS, 2 EW, 3 UD; got ''"):
+        ss.read_record(file)
+
+
+def test_a_gap_is_refused_unless_it_is_kept(write):
+    times = np.round(np.where(np.arange(50) < 30, 0, 0.5) + 0.01 * np.arange(50), 2)
+    file = write("".join(f"{t} 0.1\n" for t in times))
+    with pytest.raises(ValueError, match=r"a gap of 0.51 s after 0.29 s.* pass gaps"):
+        ss.read_record(file, units="g")
+    assert np.array_equal(ss.read_record(file, units="g", gaps=True).time, times)
+
+
+def test_decimal_commas(write):
+    motion = ss.read_record(write("Zeit (s);a (g)\n0,00;0,5\n0,01;-0,25\n"))
+    assert np.array_equal(motion.acceleration, [0.5 * G, -0.25 * G])
+    assert motion.dt == 0.01
+
+
+# ---- compressed files, archives, standard input
+
+
+@pytest.fixture
+def archive(tmp_path):
+    def of(members, name="records.zip"):
+        with zipfile.ZipFile(tmp_path / name, "w", zipfile.ZIP_DEFLATED) as file:
+            for member, content in members.items():
+                file.writestr(member, content)
+        return tmp_path / name
+
+    return of
+
+
+def test_what_a_file_is_packed_in_does_not_matter(write, archive):
+    plain = ss.read_record(write(CSV, "kobe.csv"))
+    packed = gzip.compress(CSV.encode())
+    for file in (
+        write(packed, "kobe.csv.gz"),
+        archive({"a/": "", "a/kobe.csv": CSV, "__MACOSX/a/._kobe.csv": b"\0"}),
+        archive({"kobe.csv.gz": packed}, "b.zip"),
+        f"{archive({'a/kobe.csv': CSV, 'b/other.csv': COLUMN}, 'c.zip')}::a/kobe.csv",
+    ):
+        assert ss.read_record(file) == plain
+    nameless = "0 1\n1 2\n"
+    file = archive({"a/kobe.csv": nameless, "b": ""})
+    assert ss.read_record(f"{file}::a/kobe.csv", units="g").name == "kobe"
+    assert ss.read_record(write(nameless, "odd::name.txt"), units="g").name == "name"
+
+
+def test_what_is_wrong_with_an_archive_is_said(write, archive):
+    two = archive({"a.csv": CSV, "b.csv": CSV})
+    with pytest.raises(ValueError, match=r"name one as archive.zip::member; .* 2 files: a.csv, b"):
+        ss.read_record(two)
+    with pytest.raises(ValueError, match=r"no such member; the archive holds 2 files: a.csv, b"):
+        ss.read_record(f"{two}::c.csv")
+    with pytest.raises(ValueError, match="holds 0 files"):
+        ss.read_record(archive({}, "empty.zip"))
+    with pytest.raises(ValueError, match=r"plain.csv is not a zip archive"):
+        ss.read_record(f"{write(CSV, 'plain.csv')}::a.csv")
+    with pytest.raises(ValueError, match=r"read_record: .*damaged.zip: "):
+        ss.read_record(write(two.read_bytes()[:-30], "damaged.zip"))
+    packed = gzip.compress(CSV.encode() * 20)
+    for damaged in (packed[:-9], packed[:20] + b"\0\0\0\0" + packed[24:], packed[:2]):
+        with pytest.raises(ValueError, match=r"read_record: .*damaged gzip file"):
+            ss.read_record(write(damaged, "a.gz"))
+    with pytest.raises(FileNotFoundError):
+        ss.read_record("missing.zip::a.csv")
+
+
+def test_a_hyphen_is_standard_input(write):
+    script = "import stickslip as ss; print(repr(ss.read_record('-')))"
+    result = subprocess.run(
+        [sys.executable, "-c", script], input=CSV.encode(), capture_output=True, check=True
+    )
+    assert result.stdout.decode().strip() == repr(ss.read_record(write(CSV)))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_pipe_that_may_never_end_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(OSError, match="not supported"):
+        ss.read_record(tmp_path / "pipe")
+
+
+# ---- what ObsPy reads
+
+
+def test_what_obspy_reads_is_read_by_it(tmp_path):
+    obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
+    samples = np.array([1.0, -2.5, 3.0, 0.5])
+    header = {"delta": 0.02, "network": "NZ", "station": "WTMC"}
+    north, up = (
+        obspy.Trace(factor * samples, {**header, "channel": name})
+        for name, factor in (("HNN", 1), ("HNZ", 2))
+    )
+    file = tmp_path / "two.mseed"
+    obspy.Stream([north, up]).write(str(file), format="MSEED")
+    motions = ss.read_record(file, units="cm/s^2", component="all")
+    assert [m.orientation for m in motions] == ["N", "up"]
+    assert np.array_equal(motions[1].acceleration, 2 * samples * 0.01)
+    assert motions[0].name == "NZ.WTMC..HNN"
+    assert motions[0].dt == 0.02
+    assert ss.read_record(file, units="cm/s^2", component="hnz") == motions[1]
+    assert ss.read_record(file, units="cm/s^2", component=1) == motions[0]
+    both = ss.read_station(file, units="cm/s^2")
+    assert np.array_equal(both.vertical, motions[1].acceleration)
+    with pytest.raises(ValueError, match=r"ObsPy .* does not state its units: pass units"):
+        ss.read_record(file, component=1)
+    with pytest.raises(ValueError, match="available: 1 HNN, 2 HNZ; got ''"):
+        ss.read_record(file, units="g")
+    north.write(str(file), format="SAC")  # binary, too
+    assert len(ss.read_record(file, units="g")) == 4
+
+
+def test_without_obspy_its_formats_are_unknown(write, monkeypatch):
+    monkeypatch.setitem(sys.modules, "obspy", None)
+    with pytest.raises(ValueError, match="plain text is needed, got a NUL byte"):
+        ss.read_record(write(b"000001D \0\0\0"), units="g")
+
+
+# ---- stations
+
+
+def test_the_files_of_a_station_are_one_motion(write):
+    def component(name, factor):
+        text = AT2.format(header=NEW_HEADER).replace("262", name)
+        return write(text.replace(" .1250000E+00", f" {0.125 * factor:.7E}"), f"{name}.AT2")
+
+    files = [component(name, k) for k, name in enumerate(["262", "352", "UP"], start=1)]
+    motion = ss.read_station(files)
+    one, two, up = (ss.read_record(file) for file in files)
+    assert np.array_equal(motion.acceleration, one.acceleration)
+    assert np.array_equal(motion.transverse, two.acceleration)
+    assert np.array_equal(motion.vertical, up.acceleration)
+    assert motion.orientation == "262"
+    assert motion.name == "Imperial Valley-06, 10/15/1979, Delta, 262"
+    assert ss.read_station(files, along=262) == ss.read_station(files, along="262") == motion
+    other = ss.read_station(reversed(files), along="352")
+    assert np.array_equal(other.acceleration, two.acceleration)
+    assert np.array_equal(other.transverse, -np.asarray(one.acceleration))
+    between = ss.read_station(files, along=292.0)
+    np.testing.assert_allclose(between.acceleration, motion.rotated(30).acceleration, atol=1e-14)
+    assert between.orientation == "292"
+    with pytest.raises(ValueError, match=r"one of the horizontal components \(262, 352\)"):
+        ss.read_station(files, along="fault normal")
+    for bad in (float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="along must be a finite azimuth"):
+            ss.read_station(files, along=bad)
+    with pytest.raises(TypeError):
+        ss.read_station(files, along=[262])
+
+
+def test_orientations_and_a_common_length_may_be_given(write):
+    one, two = write(COLUMN, "a.txt"), write(COLUMN + "0.25\n", "b.txt")
+    options = {"units": "g", "dt": 0.01}
+    with pytest.raises(ValueError, match="a does not say; give its orientation"):
+        ss.read_station([one, two], **options)
+    with pytest.raises(ValueError, match=r"number of samples .* got 4 \(45\) and 5"):
+        ss.read_station([one, two], orientations=[45, 315], **options)
+    motion = ss.read_station([one, two], orientations=[45, "315"], common_length=True, **options)
+    assert len(motion) == 4
+    assert np.array_equal(motion.transverse, -np.asarray(motion.acceleration))
+    with pytest.raises(ValueError, match="as many as components, 2, got 1"):
+        ss.read_station([one, two], orientations=[45], **options)
+    with pytest.raises(ValueError, match="orientations must not be empty"):
+        ss.read_station([one, two], orientations=[45, ""], **options)
+
+
+def test_a_station_of_one_file(write):
+    motion = ss.read_station(write(COLUMNS))
+    assert np.array_equal(motion.vertical, np.multiply([3, 6, 9], G))
+    assert motion.orientation == "NS"
+
+
+def test_real_pairs_are_stations(agency_files):
+    pairs = agency_files / "usgs_pairs"
+    if not pairs.exists():
+        pytest.skip("no usgs_pairs among the agency files")
+    with (pairs / "pairs.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    for first, second in zip(rows[::2], rows[1::2]):
+        azimuths = [float(row["component_deg"]) for row in (first, second)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ss.PlausibilityWarning)  # some have an offset
+            motion = ss.read_station(
+                [pairs / row["file"] for row in (first, second)],
+                orientations=azimuths,
+                units="g",
+                dt=float(first["dt_s"]),
+            )
+        assert len(motion) == int(first["samples"])
+        peaks = [motion.component(c).peak_acceleration / G for c in ("axis", "transverse")]
+        for peak, row in zip(peaks, (first, second)):
+            assert peak == pytest.approx(float(row["pga_g"]), abs=5.1e-4), row["file"]
+
+
+def test_a_real_station_of_geonet(agency_files):
+    for file in agency_files.glob("geonet/20161113_110259_WTMC_20.V2A"):
+        motion = ss.read_station(file, along="S62W")
+        assert motion.peak_acceleration == pytest.approx(7.9664, abs=0.06e-3)
+        assert motion.component("vertical").peak_acceleration == pytest.approx(18.0219, abs=6e-5)
+        assert motion.name.endswith("Te Mara Farm Waiau, S62W")
+        return
+    pytest.skip("no geonet/20161113_110259_WTMC_20.V2A among the agency files")
+
+
+# ---- the table of formats
+
+
+def test_the_table_of_formats_is_that_of_the_page():
+    page = (ROOT / "docs" / "ground_motions.md").read_text(encoding="utf-8")
+    formats = ss.record_formats()
+    rows = [f"| {' | '.join(row.values())} |".replace("|  |", "| |") for row in formats]
+    assert "\n".join(rows) in page
+
+
+def test_the_error_names_all_formats(write):
+    with pytest.raises(ValueError, match="no known format") as caught:
+        ss.read_record(write("nothing"))
+    assert all(row["name"] in str(caught.value) for row in ss.record_formats())
+
+
 # ---- bytes that are no UTF-8
 
 NO_UTF8 = {
@@ -238,7 +498,7 @@ def test_names_and_messages_are_text_whatever_the_bytes(write, odd):
     assert motion.name.endswith(" x")
     assert motion.name in repr(motion)
     assert pickle.loads(pickle.dumps(motion)) == motion
-    with pytest.raises(ValueError, match="expected two finite numbers, got") as caught:
+    with pytest.raises(ValueError, match="expected finite numbers, got") as caught:
         ss.read_record(write(b"# units: g\n0,1\n1," + odd + b"\n"))
     assert type(caught.value) is ValueError
     assert str(caught.value).encode("utf-8")

@@ -87,7 +87,8 @@ void bind_ground_motion(py::module_& m) {
 `acceleration` is along the axis of the slider. The other horizontal component and the vertical one may be given beside
 it; peaks, integrals and intensity measures are those of the axis, and `component` gives the others.
 
-Motions with the same samples, dt or times, interpolation, name and orientation are equal; they can be hashed, copied and pickled.
+Motions with the same samples, dt or times, interpolation, name and orientation are equal; they can be hashed, copied and
+pickled.
 
 N samples make N - 1 pieces; the motion lasts from the first time to the last.
 
@@ -237,8 +238,8 @@ begin, end : float
       .def("rotated", &rotated, py::arg("degrees"),
            R"(The motion with its horizontal axes turned.
 
-The new axis is `degrees` from the old one toward the transverse one: n' = n cos a + t sin a, t' = t cos a - n sin a, with
-n along the axis, t across it and a the angle. The vertical component stays as it is. Turns by multiples of 90 degrees
+The new axis is `degrees` from the old one toward the transverse one: n' = n cos a + t sin a, t' = t cos a - n sin a,
+with n along the axis, t across it and a the angle. The vertical component stays as it is. Turns by multiples of 90 degrees
 are exact. An orientation with an azimuth becomes the new one; another is dropped.
 
 Parameters

@@ -20,12 +20,13 @@ inline constexpr double most_plausible_mean = 0.005;
 inline constexpr std::size_t fewest_samples = 100;
 
 /// Warns by Python's `warnings`; throws where they are made errors.
-inline void warn_if_implausible(const GroundMotion& motion, const std::string& who) {
+/// @param depth  of the caller to be named: 1 is the Python function that called
+inline void warn_if_implausible(const GroundMotion& motion, const std::string& who, int depth = 1) {
   if (motion.samples() < fewest_samples) return;
   const auto warn = [&](const std::string& what) {
     const py::object type = py::module_::import("stickslip._core").attr("PlausibilityWarning");
     const std::string text = who + (motion.name().empty() ? std::string() : " (" + motion.name() + ")") + ": " + what;
-    if (PyErr_WarnEx(type.ptr(), text.c_str(), 1) != 0) throw py::error_already_set();
+    if (PyErr_WarnEx(type.ptr(), text.c_str(), depth) != 0) throw py::error_already_set();
   };
   const auto rounded = [](double value) {
     char text[32];

@@ -10,8 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "stickslip/ground/orientation.hpp"
+
 namespace stickslip::records {
 namespace {
+
+constexpr double unknown = -999;
 
 /// Columns of a Fortran format as `Format=(8F10.5)`, or 0.
 std::size_t stated_width(std::string_view line) {
@@ -39,6 +43,10 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
   Reader reader(lines);
   while (!reader.done()) {
     const std::string_view first = reader.line("header");
+    if (has(first, "spectr"))
+      refuse_line(
+          reader.last(),
+          "a COSMOS V3 file holds spectra, not an acceleration history; read the V1 or V2 file, got " + quote(first));
     if (!is_cosmos({first})) refuse_line(reader.last(), "expected the header of another channel, got " + quote(first));
 
     Channel channel;
@@ -46,10 +54,21 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
     std::string_view line = reader.line("integer header");
     for (; !has(line, "Integer-header"); line = reader.line("integer header")) {
       if (has(line, "Record of ")) event = squeeze(after(line, "Record of "));
+      if (has(line, "Rcrd start time:")) channel.start = squeeze(before(after(line, "Rcrd start time:"), "("));
       if (has(line, "Code:")) station = squeeze(after(line, "Code:"));
       if (has(line, "Sta Chan")) channel.name = squeeze(before(after(line, ":"), "("));
     }
-    reader.numbers(leading_count(reader, line, "Integer-header"), "integers", stated_width(line));
+    const std::size_t stage_line = reader.last() + 1;
+    const std::vector<double> integer =
+        reader.numbers(leading_count(reader, line, "Integer-header"), "integers", stated_width(line));
+    const double stage = integer.empty() ? unknown : integer[0];
+    if (stage == 0)
+      refuse_line(stage_line,
+                  "a COSMOS V0 file (integer 1 is 0) holds raw counts, not acceleration; read the V1 or V2 file");
+    if (stage == 3)
+      refuse_line(
+          stage_line,
+          "a COSMOS V3 file (integer 1 is 3) holds spectra, not an acceleration history; read the V1 or V2 file");
 
     line = reader.line("real header");
     const std::size_t header_line = reader.last();
@@ -63,7 +82,14 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
       if (has(comment, "SCNL")) {  // station, channel, network, location
         const std::string_view code = after(comment, ".");
         channel.name = squeeze(code.substr(0, code.find('.')));
+        channel.orientation = seed_orientation(channel.name);
       }
+    // Integer 54: an azimuth from 1, or up and down. 0 is found where it is not known.
+    if (channel.orientation.empty() && !azimuth_of(channel.name) && integer.size() > 53) {
+      const double sensor = integer[53];
+      if (sensor >= 1 && sensor <= 360) channel.orientation = orientation_at(sensor);
+      if (sensor == 400 || sensor == 401) channel.orientation = sensor == 400 ? "up" : "down";
+    }
     channel.title = joined({event, station, channel.name});
 
     // Velocity and displacement may follow, with a header of their own or without.

@@ -4,22 +4,40 @@
 #include <iterator>
 #include <stdexcept>
 
-namespace stickslip::records {
+namespace stickslip {
+namespace records {
 namespace {
 
 constexpr Format formats[] = {
-    {"COSMOS V1 and V2", is_cosmos, read_cosmos},
-    {"GeoNet V1A and V2A", is_geonet, read_geonet},
-    {"USGS SMC", is_smc, read_smc},
-    {"PEER AT2", is_peer, read_peer},
-    {"two columns of seconds and acceleration", is_table, read_table},  // last: it takes whatever has a number
+    {{"COSMOS V1 and V2", "stated with the data", "real header 62", "COSMOS (2001), Strong Motion Data Format 1.20",
+      ".v1c, .v2c"},
+     is_cosmos,
+     read_cosmos},
+    {{"GeoNet V1A and V2A", "mm/s^2", "real header 26", "Cousins (2008), GNS Science", ".V1A, .V2A"},
+     is_geonet,
+     read_geonet},
+    {{"CSMIP V1 and V2", "stated with the data", "stated with the data, or times",
+      "Shakal and Huang (1985), CSMIP report OSMS 85-03", ".v1, .v2, .raw"},
+     is_csmip,
+     read_csmip},
+    {{"USGS SMC", "cm/s^2", "1 / real header 2", "USGS NSMP, SMC-format data files", ".smc"}, is_smc, read_smc},
+    {{"K-NET and KiK-net", "gal times the scale factor", "1 / sampling frequency", "NIED, K-NET ASCII format",
+      ".NS, .EW, .UD, .NS1, .NS2, ..."},
+     is_knet,
+     read_knet},
+    {{"ESM and ITACA", "UNITS", "SAMPLING_INTERVAL_S", "ORFEUS and INGV, DYNA 1.2 header", ".ASC"}, is_dyna, read_dyna},
+    {{"PEER AT2", "line 3", "line 4, either form", "PEER NGA-West2 database", ".AT2"}, is_peer, read_peer},
+    {{"one column of acceleration", "header, or given", "given", "", ".txt"}, is_column, read_table},
+    {{"two columns or more, seconds and acceleration", "header, or given", "from the times", "", ".csv, .txt"},
+     is_table,
+     read_table},  // last: it takes whatever has a number
 };
 
 }  // namespace
 
 std::string known_formats() {
   std::string known;
-  for (const Format& format : formats) known.append(known.empty() ? "" : "; ").append(format.name);
+  for (const Format& format : formats) known.append(known.empty() ? "" : "; ").append(format.about.name);
   return known;
 }
 
@@ -30,4 +48,18 @@ const Format& recognize(const Lines& lines) {
   return *format;
 }
 
-}  // namespace stickslip::records
+std::string seed_orientation(std::string_view code) {
+  code = trim(code);
+  return code.size() == 3 && (code[2] == 'N' || code[2] == 'E' || code[2] == 'Z') ? std::string(1, code[2])
+                                                                                  : std::string();
+}
+
+}  // namespace records
+
+std::vector<RecordFormat> record_formats() {
+  std::vector<RecordFormat> all;
+  for (const records::Format& format : records::formats) all.push_back(format.about);
+  return all;
+}
+
+}  // namespace stickslip

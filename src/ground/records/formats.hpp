@@ -1,11 +1,12 @@
 // The formats of record files. A format is a function that recognizes it, one that reads it, and a row in formats.cpp.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "ground/records/text.hpp"
+#include "stickslip/ground/records.hpp"
 
 namespace stickslip::records {
 
@@ -13,8 +14,10 @@ namespace stickslip::records {
 struct Channel {
   std::string name{};  // empty where the format has none
   std::string title{};
-  std::string units{};  // empty where the file states none
-  double dt = 0;        // unless there are times
+  std::string orientation{};   // where it is not the name
+  std::string start{};         // date and time of the first sample, in the format's own words
+  std::string units{};         // empty where the file states none
+  std::optional<double> dt{};  // none where there are times, and where the file states none
   std::vector<double> times{};
   std::vector<double> acceleration{};
 };
@@ -22,8 +25,17 @@ struct Channel {
 bool is_cosmos(const Lines& lines);
 std::vector<Channel> read_cosmos(const Lines& lines);
 
+bool is_csmip(const Lines& lines);
+std::vector<Channel> read_csmip(const Lines& lines);
+
+bool is_dyna(const Lines& lines);
+std::vector<Channel> read_dyna(const Lines& lines);
+
 bool is_geonet(const Lines& lines);
 std::vector<Channel> read_geonet(const Lines& lines);
+
+bool is_knet(const Lines& lines);
+std::vector<Channel> read_knet(const Lines& lines);
 
 bool is_peer(const Lines& lines);
 std::vector<Channel> read_peer(const Lines& lines);
@@ -31,11 +43,12 @@ std::vector<Channel> read_peer(const Lines& lines);
 bool is_smc(const Lines& lines);
 std::vector<Channel> read_smc(const Lines& lines);
 
+bool is_column(const Lines& lines);
 bool is_table(const Lines& lines);
 std::vector<Channel> read_table(const Lines& lines);
 
 struct Format {
-  std::string_view name;
+  RecordFormat about;
   bool (*recognizes)(const Lines&);
   std::vector<Channel> (*read)(const Lines&);
 };
@@ -46,5 +59,8 @@ std::string known_formats();
 /// The format of a file.
 /// @throws std::invalid_argument  none is known
 const Format& recognize(const Lines& lines);
+
+/// Where a SEED channel points, as HNE: its last letter where that is a direction, or nothing.
+std::string seed_orientation(std::string_view code);
 
 }  // namespace stickslip::records

@@ -29,7 +29,7 @@ std::vector<Channel> read_geonet(const Lines& lines) {
     const std::vector<double> real = reader.numbers(60, "reals", width);
     const auto samples = [&](std::size_t number) { return as_count(integer[number - 1], heading + 19, "samples"); };
 
-    Channel component{.units = "mm/s^2", .dt = real[25]};
+    Channel component{.start = squeeze(text[7]), .units = "mm/s^2", .dt = real[25]};
     component.name = squeeze(before(trim(after(text[12], "Component")), " "));
     component.title =
         joined({squeeze(text[6]), squeeze(before(text[7], "  ")),

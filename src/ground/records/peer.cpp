@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,7 +32,12 @@ std::vector<Channel> read_peer(const Lines& lines) {
     refuse_line(3, "expected 'NPTS= 4096, DT= .0100 SEC' or '4096 .0100 NPTS, DT', got " + quote(line));
   const std::size_t samples = as_count(*count, 3, "samples");
 
-  Channel component{.title = squeeze(lines[1]), .units = stated_units(lines[2]), .dt = *dt};
+  const std::string title = squeeze(lines[1]);
+  const std::size_t comma = title.rfind(',');  // event, date, station, component
+  Channel component{.name = comma == std::string::npos ? std::string() : squeeze(title.substr(comma + 1)),
+                    .title = title,
+                    .units = stated_units(lines[2]),
+                    .dt = *dt};
   Reader reader(lines);
   reader.block(4, "header");
   component.acceleration = reader.numbers(samples, "samples");

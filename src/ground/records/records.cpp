@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +17,8 @@
 
 #include "ground/records/formats.hpp"
 #include "ground/records/text.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/orientation.hpp"
 #include "stickslip/units.hpp"
 
 namespace stickslip {
@@ -87,28 +92,34 @@ Lines split(std::string_view text) {
 
 // ---- what the caller asked for
 
-Channel choose(std::vector<Channel> components, const std::string& wanted) {
+[[noreturn]] void refuse_choice(const std::vector<Channel>& channels, const std::string& wanted) {
+  constexpr std::size_t longest = 12;
+  std::string known;
+  for (std::size_t i = 0; i < std::min(longest, channels.size()); ++i)
+    known += (i == 0 ? "" : ", ") + std::to_string(i + 1) + (channels[i].name.empty() ? "" : " ") +
+             printable(channels[i].name, 24);
+  if (channels.size() > longest) known += " and so on to " + std::to_string(channels.size());
+  throw std::invalid_argument("select one component by name or number, available: " + known + "; got " + quote(wanted));
+}
+
+/// Those that are wanted: all where `wanted` is empty, otherwise the one of that name or number.
+std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wanted) {
+  if (wanted.empty()) return channels;
   std::size_t matches = 0, index = 0;
-  for (std::size_t i = 0; i < components.size(); ++i)
-    if (wanted.empty() || same(components[i].name, wanted)) {
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (same(channels[i].name, wanted)) {
       ++matches;
       index = i;
     }
   if (matches == 0) {
     const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (error == std::errc() && end == wanted.data() + wanted.size() && index >= 1 && index <= components.size()) {
+    if (error == std::errc() && end == wanted.data() + wanted.size() && index >= 1 && index <= channels.size()) {
       matches = 1;
       --index;
     }
   }
-  if (matches == 1) return std::move(components[index]);
-  constexpr std::size_t longest = 12;
-  std::string known;
-  for (std::size_t i = 0; i < std::min(longest, components.size()); ++i)
-    known += (i == 0 ? "" : ", ") + std::to_string(i + 1) + (components[i].name.empty() ? "" : " ") +
-             printable(components[i].name, 24);
-  if (components.size() > longest) known += " and so on to " + std::to_string(components.size());
-  throw std::invalid_argument("select one component by name or number, available: " + known + "; got " + quote(wanted));
+  if (matches != 1) refuse_choice(channels, wanted);
+  return {std::move(channels[index])};
 }
 
 /// m/s^2 per unit of the file.
@@ -119,6 +130,68 @@ double scale(const std::string& stated, const std::string& given) {
   if (!given.empty() && acceleration_unit(given) != factor)
     throw std::invalid_argument("the file states " + quote(stated) + ", units given are " + quote(given));
   return factor;
+}
+
+/// The time step of the file [s].
+double step(std::optional<double> stated, std::optional<double> given) {
+  if (!stated && !given)
+    throw std::invalid_argument("the file states no time step: pass dt, the seconds between samples");
+  if (stated && given && *stated != *given)
+    detail::refuse("the file states a time step of " + detail::shortest(*stated) + " s, dt given is", *given, "s");
+  return stated ? *stated : *given;
+}
+
+/// Refuses a time step over ten times the median one.
+void refuse_gaps(const GroundMotion& motion) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < motion.segments(); ++i) steps.push_back(motion.segment(i).duration);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const auto seconds = [](double value) {  // differences of times, without their round-off
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g s", value);
+    return std::string(text);
+  };
+  for (std::size_t i = 0; i < motion.segments(); ++i)
+    if (const double one = motion.segment(i).duration; one > 10 * *middle)
+      throw std::invalid_argument("a gap of " + seconds(one) + " after " + seconds(motion.time(i)) +
+                                  ", over ten times the median time step, " + seconds(*middle) +
+                                  "; pass gaps to keep it as a straight line");
+}
+
+RecordComponent component_of(Channel channel, const std::string& name, const RecordOptions& options) {
+  const double factor = scale(channel.units, options.units);
+  for (double& n : channel.acceleration) n *= factor;
+  std::string title = channel.title.empty() ? name : std::move(channel.title);
+  std::string orientation = channel.orientation.empty() ? channel.name : std::move(channel.orientation);
+  if (!azimuth_of(orientation) && upward(orientation) == 0) orientation.clear();
+  const bool even = channel.times.empty();
+  if (!even && options.dt) detail::refuse("the file states the times of its samples, dt given is", *options.dt, "s");
+  const GroundMotion motion = even ? GroundMotion(std::move(channel.acceleration), step(channel.dt, options.dt),
+                                                  Interpolation::linear, std::move(title))
+                                   : GroundMotion(std::move(channel.acceleration), std::move(channel.times),
+                                                  Interpolation::linear, std::move(title));
+  if (!even && !options.gaps) refuse_gaps(motion);
+  return {motion.with_orientation(std::move(orientation)), std::move(channel.name), std::move(channel.start)};
+}
+
+/// All that are wanted, of what a file holds.
+std::vector<RecordComponent> parse(std::string content, const std::string& file, const RecordOptions& options,
+                                   bool only_one) {
+  try {
+    const std::string text = decoded(std::move(content));
+    const Lines lines = split(text);
+    std::vector<Channel> channels = choose(recognize(lines).read(lines), options.component);
+    if (only_one && channels.size() != 1) refuse_choice(channels, options.component);
+    const std::size_t mark = file.rfind("::");  // before a file in an archive
+    const std::string name = fs::path(mark == std::string::npos ? file : file.substr(mark + 2)).stem().string();
+    std::vector<RecordComponent> components;
+    for (Channel& channel : channels)
+      components.push_back(component_of(std::move(channel), printable(name, 256), options));
+    return components;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("read_record: " + printable(file, 4096) + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -149,21 +222,30 @@ double acceleration_unit(std::string_view name) {
   throw std::invalid_argument("unknown unit of acceleration " + quote(name) + "; known are " + known);
 }
 
-GroundMotion read_record(const fs::path& file, const RecordOptions& options) {
-  std::string content = load(file);
+std::optional<RecordFormat> record_format(std::string_view content) {
   try {
-    const std::string text = decoded(std::move(content));
-    const Lines lines = split(text);
-    Channel component = choose(recognize(lines).read(lines), options.component);
-    const double factor = scale(component.units, options.units);
-    for (double& n : component.acceleration) n *= factor;
-    std::string name = component.title.empty() ? printable(file.stem().string(), 256) : std::move(component.title);
-    if (component.times.empty())
-      return {std::move(component.acceleration), component.dt, Interpolation::linear, std::move(name)};
-    return {std::move(component.acceleration), std::move(component.times), Interpolation::linear, std::move(name)};
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("read_record: " + printable(file.string(), 4096) + ": " + error.what());
+    const std::string text = decoded(std::string(content));
+    return recognize(split(text)).about;
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
   }
+}
+
+GroundMotion read_record(const fs::path& file, const RecordOptions& options) {
+  return std::move(parse(load(file), file.string(), options, true)[0].motion);
+}
+
+GroundMotion parse_record(std::string_view content, const std::string& file, const RecordOptions& options) {
+  return std::move(parse(std::string(content), file, options, true)[0].motion);
+}
+
+std::vector<RecordComponent> read_components(const fs::path& file, const RecordOptions& options) {
+  return parse(load(file), file.string(), options, false);
+}
+
+std::vector<RecordComponent> parse_components(std::string_view content, const std::string& file,
+                                              const RecordOptions& options) {
+  return parse(std::string(content), file, options, false);
 }
 
 }  // namespace stickslip

@@ -1,4 +1,4 @@
-// Two columns of seconds and acceleration.
+// Columns of numbers: acceleration alone, or seconds and accelerations.
 #include "ground/records/formats.hpp"
 
 #include <algorithm>
@@ -40,29 +40,62 @@ std::vector<std::string_view> bracketed(std::string_view line) {
   return texts;
 }
 
-/// Reads units and title from the lines before the rows: units from the lowest line that has them, the title from the
-/// topmost comment.
-void read_table_header(const Lines& lines, std::size_t rows, Channel& component) {
+/// The labels in a line, one a column, or none.
+std::vector<std::string_view> split_labels(std::string_view line, std::size_t columns) {
+  line = trim(line);
+  while (line.starts_with('#')) line = trim(line.substr(1));
+  for (const char* separators : {",;\t", " \t"}) {
+    std::vector<std::string_view> labels;
+    for (std::string_view rest = line; labels.size() <= columns;) {
+      const std::size_t end = std::min(rest.find_first_of(separators), rest.size());
+      labels.push_back(trim(rest.substr(0, end)));
+      if (end == rest.size()) break;
+      rest = *separators == ' ' ? trim(rest.substr(end)) : rest.substr(end + 1);
+    }
+    if (labels.size() == columns) return labels;
+  }
+  return {};
+}
+
+/// Reads units, names and title from the lines before the rows: units and names from the lowest line that has them, the
+/// title from the topmost comment.
+/// @param channels  one a column of acceleration
+void read_table_header(const Lines& lines, std::size_t rows, std::size_t columns, std::vector<Channel>& channels) {
+  bool units_found = false, names_found = columns < 3;
+  std::string title;
   for (std::size_t i = rows; i-- > 0;) {
     const std::string_view line = trim(lines[i]);
-    if (component.units.empty()) {
-      const std::vector<std::string_view> labels = bracketed(line);
-      if (labels.size() > 1 && !is_second(labels[0]))
+    if (!names_found && !line.empty()) {
+      const std::vector<std::string_view> labels = split_labels(line, columns);
+      names_found = !labels.empty();
+      for (std::size_t k = 1; k < labels.size(); ++k)
+        channels[k - 1].name = squeeze(labels[k].substr(0, labels[k].find_first_of("([")));
+    }
+    if (!units_found) {
+      std::vector<std::string_view> labels = bracketed(line);
+      if (columns > 1 && labels.size() > 1 && !is_second(labels[0]))
         refuse_line(i, "the first column must be time in seconds, its label says " + quote(labels[0]));
+      if (columns == 1 && labels.size() > 1) labels = {labels.back()};
+      std::string units;
       if (labels.size() > 1)
-        component.units = labels[1];
+        units = labels[1];
       else if (labels.size() == 1 && has(line, "acc") && !is_second(labels[0]))
-        component.units = labels[0];
+        units = labels[0];
       else
-        component.units = stated_units(line);
-      if (!component.units.empty()) continue;
+        units = stated_units(line);
+      for (std::size_t k = 0; k < channels.size(); ++k)
+        channels[k].units = labels.size() == columns && columns > 2 ? std::string(labels[k + 1]) : units;
+      units_found = !units.empty();
+      if (units_found) continue;
     }
     if (!line.starts_with('#')) continue;
-    std::string title = squeeze(line.substr(1));
-    if (has(title, ": ")) title = squeeze(after(title, ": "));
-    while (!title.empty() && is_separator(title.back())) title.pop_back();
-    if (!title.empty()) component.title = title;
+    std::string text = squeeze(line.substr(1));
+    if (has(text, ": ")) text = squeeze(after(text, ": "));
+    while (!text.empty() && is_separator(text.back())) text.pop_back();
+    if (!text.empty()) title = text;
   }
+  for (Channel& channel : channels)
+    channel.title = title.empty() || channel.name.empty() ? title : joined({title, channel.name});
 }
 
 /// How finely times are printed: to so many places, as by %.2f, or to so many digits, as by %.3e and %g.
@@ -161,22 +194,41 @@ std::optional<double> even_step(const std::vector<double>& times, const std::vec
   return std::nullopt;
 }
 
-std::size_t count_columns(std::string_view row) {
-  std::size_t columns = 1;
-  for (row = trim(row); !row.empty(); row.remove_prefix(1)) {
-    if (!is_separator(row[0])) continue;
-    ++columns;
-    bool mark = !is_blank(row[0]);  // blanks around one comma belong to it
-    while (row.size() > 1 && (is_blank(row[1]) || (!mark && is_separator(row[1])))) {
-      row.remove_prefix(1);
-      mark = mark || !is_blank(row[0]);
+/// The fields of a row. Blanks around one comma or semicolon belong to it.
+void split_row(std::string_view row, std::vector<std::string_view>& fields) {
+  fields.clear();
+  row = trim(row);
+  for (std::size_t begin = 0, at = 0;; ++at) {
+    if (at < row.size() && !is_separator(row[at])) continue;
+    fields.push_back(row.substr(begin, at - begin));
+    if (at == row.size()) return;
+    bool mark = !is_blank(row[at]);
+    while (at + 1 < row.size() && (is_blank(row[at + 1]) || (!mark && is_separator(row[at + 1])))) {
+      ++at;
+      mark = mark || !is_blank(row[at]);
     }
+    begin = at + 1;
   }
-  return columns;
 }
 
-/// Whether a line before the first row looks like a row whose time cannot be read, as `****, 0.1`.
-bool is_row_without_time(std::string_view line) {
+/// Whether commas are decimal points: columns are parted by something else, each comma is between digits, and no point
+/// is in any row.
+bool has_decimal_commas(const Lines& lines, std::size_t rows) {
+  bool found = false;
+  for (std::size_t i = rows; i < lines.size(); ++i) {
+    const std::string_view row = trim(lines[i]);
+    if (row.find('.') != std::string_view::npos) return false;
+    for (std::size_t at = row.find(','); at != std::string_view::npos; at = row.find(',', at + 1)) {
+      if (at == 0 || at + 1 == row.size() || !is_digit(row[at - 1]) || !is_digit(row[at + 1])) return false;
+      if (row.find_first_of("; \t") == std::string_view::npos) return false;
+      found = true;
+    }
+  }
+  return found;
+}
+
+/// Whether a line before the first row looks like a row whose first number cannot be read, as `****, 0.1`.
+bool is_damaged_row(std::string_view line) {
   line = trim(line);
   const std::size_t end = std::min(line.find_first_of(" \t,;"), line.size());
   const auto is_mark = [](char c) { return c == '*' || c == '.' || is_sign(c) || is_digit(c); };
@@ -189,41 +241,63 @@ bool is_row_without_time(std::string_view line) {
 
 bool is_table(const Lines& lines) { return first_row(lines) < lines.size(); }
 
+bool is_column(const Lines& lines) {
+  const std::size_t row = first_row(lines);
+  return row < lines.size() && trim(lines[row]).find_first_of(" \t,;") == std::string_view::npos;
+}
+
 std::vector<Channel> read_table(const Lines& lines) {
-  Channel component;
   const std::size_t rows = first_row(lines);
   for (std::size_t i = 0; i < rows; ++i)
-    if (is_row_without_time(lines[i])) refuse_line(i, "expected two finite numbers, got " + quote(lines[i]));
-  read_table_header(lines, rows, component);
+    if (is_damaged_row(lines[i])) refuse_line(i, "expected finite numbers, got " + quote(lines[i]));
+  const bool commas = has_decimal_commas(lines, rows);
 
-  Resolution resolution;
-  for (std::size_t i = rows; i < lines.size(); ++i) {
-    const std::string_view row = trim(lines[i]);
-    if (row.empty()) continue;
-    std::string_view rest = row;
-    const std::optional<double> time = take_number(rest);
-    const std::string_view token = row.substr(0, row.size() - rest.size());
-    const std::string_view separated = rest;
-    rest = after_separator(rest);
-    const bool parted = rest.size() < separated.size();
-    const std::string_view second = rest;
-    const std::optional<double> acceleration = take_number(rest);
-    if (!time || !parted || !acceleration || !rest.empty()) {
-      if (const std::size_t columns = count_columns(row); columns != 2)
-        refuse_line(i, "two columns are needed, time [s] and acceleration, got " + std::to_string(columns) + " in " +
-                           quote(row) + (i == rows ? "; known formats are: " + known_formats() : ""));
-      refuse_line(i, "expected two finite numbers, got " + quote(time && parted && !second.empty() ? second : row));
+  std::vector<std::string_view> fields;
+  std::string with_points;
+  const auto split = [&](std::string_view row) {
+    if (commas) {
+      with_points = row;
+      std::ranges::replace(with_points, ',', '.');
+      row = with_points;
     }
-    resolution.add(token);
-    component.times.push_back(*time);
-    component.acceleration.push_back(*acceleration);
+    split_row(row, fields);
+  };
+  split(lines[rows]);
+  const std::size_t columns = fields.size(), timed = columns > 1 ? 1 : 0;
+  std::vector<Channel> channels(columns - timed);
+  read_table_header(lines, rows, columns, channels);
+
+  const auto hint = [&] { return columns > 2 ? "; known formats are: " + known_formats() : std::string(); };
+  Resolution resolution;
+  std::vector<double> times;
+  for (std::size_t i = rows; i < lines.size(); ++i) {
+    if (trim(lines[i]).empty()) continue;
+    split(lines[i]);
+    if (fields.size() != columns)
+      refuse_line(i, "expected " + std::to_string(columns) + (columns == 1 ? " column" : " columns") + " as in line " +
+                         std::to_string(rows + 1) + ", got " + std::to_string(fields.size()) + " in " +
+                         quote(lines[i]) + hint());
+    for (std::size_t k = 0; k < columns; ++k) {
+      std::string_view rest = fields[k];
+      const std::optional<double> value = take_number(rest);
+      if (!value || !rest.empty())
+        refuse_line(i, "expected finite numbers, got " + quote(fields[k].empty() ? lines[i] : fields[k]));
+      (k < timed ? times : channels[k - timed].acceleration).push_back(*value);
+    }
+    if (timed == 1) resolution.add(fields[0]);
+    if (columns > 2 && times.size() > 1 && !(times.back() > times[times.size() - 2]))
+      refuse_line(i, "the first column must be time, which increases, got " + quote(fields[0]) + hint());
   }
-  if (component.times.size() < 2) refuse_line(rows, "at least two rows of numbers are needed, got 1");
-  if (const std::optional<double> dt = even_step(component.times, resolution.units())) {
-    component.dt = *dt;
-    component.times.clear();
+  if (channels[0].acceleration.size() < 2) refuse_line(rows, "at least two rows of numbers are needed, got 1" + hint());
+  if (timed == 0) return channels;
+  const std::optional<double> dt = even_step(times, resolution.units());
+  for (Channel& channel : channels) {
+    if (dt)
+      channel.dt = *dt;
+    else
+      channel.times = times;
   }
-  return {component};
+  return channels;
 }
 
 }  // namespace stickslip::records
