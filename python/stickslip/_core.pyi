@@ -106,13 +106,45 @@ class Caster(metaclass=_Pybind11Type):
 
 class VelocityDependent(metaclass=_Pybind11Type):
     @overload
-    def __init__(self, *, mu_slow: _Number, mu_fast: _Number, rate: _Number) -> None: ...
+    def __init__(
+        self,
+        *,
+        mu_slow: _Number,
+        mu_fast: _Number,
+        slow: None = None,
+        fast: None = None,
+        rate: _Number,
+    ) -> None: ...
     @overload
-    def __init__(self, *, slow: _Number, fast: _Number, rate: _Number) -> None: ...
+    def __init__(
+        self,
+        *,
+        mu_slow: None = None,
+        mu_fast: None = None,
+        slow: _Number,
+        fast: _Number,
+        rate: _Number,
+    ) -> None: ...
     @overload
-    def __init__(self, *, mu_slow: _Number, fast: _Number, rate: _Number) -> None: ...
+    def __init__(
+        self,
+        *,
+        mu_slow: _Number,
+        mu_fast: None = None,
+        slow: None = None,
+        fast: _Number,
+        rate: _Number,
+    ) -> None: ...
     @overload
-    def __init__(self, *, slow: _Number, mu_fast: _Number, rate: _Number) -> None: ...
+    def __init__(
+        self,
+        *,
+        mu_slow: None = None,
+        mu_fast: _Number,
+        slow: _Number,
+        fast: None = None,
+        rate: _Number,
+    ) -> None: ...
     @property
     def slow(self) -> float: ...
     @property
@@ -570,10 +602,12 @@ class Response(metaclass=_Pybind11Type):
     def effective_damping(self) -> float: ...
     def plot(self, *, figure: FigureBase | None = None, title: str | None = None) -> FigureBase: ...
     @overload
-    def plot_hysteresis(self, *, ax: Axes, title: str | None = None) -> Axes: ...
+    def plot_hysteresis(
+        self, *, figure: None = None, title: str | None = None, ax: Axes
+    ) -> Axes: ...
     @overload
     def plot_hysteresis(
-        self, *, figure: FigureBase | None = None, title: str | None = None
+        self, *, figure: FigureBase | None = None, title: str | None = None, ax: None = None
     ) -> FigureBase: ...
     def to_dataframe(self) -> pandas.DataFrame: ...
     def to_xarray(self) -> xarray.Dataset: ...
@@ -1290,7 +1324,7 @@ class WhiteNoise(metaclass=_Pybind11Type):
     def __hash__(self) -> int: ...
 
 class ShapingFilter(metaclass=_Pybind11Type):
-    def __init__(self, s0: _Number, sections: Sequence[Sequence[_Number]] = ()) -> None: ...
+    def __init__(self, s0: _Number, sections: Sequence[Sequence[_Number]] = []) -> None: ...
     @staticmethod
     def of(
         spectrum: _Number | Spectrum | PoissonPulses,
@@ -1501,7 +1535,7 @@ def draw(
 ) -> list[float]: ...
 def describe(distribution: Lognormal | Normal | Uniform | _Number) -> str: ...
 def response_spectrum(
-    motion: GroundMotion,
+    motion: GroundMotion | Response,
     periods: _Number | _Samples,
     damping: _Number | _Samples = 0.05,
     *,

@@ -171,6 +171,7 @@ def test_both_polarities_and_their_mean(capsys, folder, tmp_path):
     options = ["--mu", 0.05, "--law", "one-way", "--both"]
     code, out, _ = run(capsys, "slide", record, *options, "--json")
     rows = json.loads(out)["results"]
+    assert code == 0
     assert [row["polarity"] for row in rows] == ["recorded", "reversed", "mean"]
     assert [row["residual_m"] for row in rows[:2]] == [forward.residual, reverse.residual]
     assert forward.residual != reverse.residual

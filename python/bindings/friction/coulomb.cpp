@@ -39,8 +39,13 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
            }),
            py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(),
            py::arg("backward") = py::none(), py::arg("mu_backward") = py::none())
-      .def_static("on_slope", &Coulomb::on_slope, py::kw_only(), py::arg("mu"), py::arg("degrees"),
-                  R"(A block on an inclined plane; downhill is forward.
+      .def_static(
+          "on_slope",
+          [](double mu, const py::object& degrees) {  // a quantity in degrees counts as a number of radians
+            return Coulomb::on_slope(mu, to_number(degrees, "Coulomb: degrees", "degree"));
+          },
+          py::kw_only(), py::arg("mu"), py::arg("degrees"),
+          R"(A block on an inclined plane; downhill is forward.
 
 The displacement and the ground acceleration are measured along the slope, and the normal load is taken as constant,
 m g cos(slope): no acceleration across the slope. Levels g (mu cos(slope) - sin(slope)) forward and

@@ -10,12 +10,15 @@ GroundMotion make(const py::object& acceleration, std::optional<double> dt, cons
                   const std::string& interpolation, std::string name, const std::string& units) {
   if (dt.has_value() == times.has_value())
     throw std::invalid_argument(std::string("GroundMotion: give either dt or times, got ") + (dt ? "both" : "neither"));
-  std::vector<double> samples = to_vector(acceleration, "GroundMotion: acceleration");
+  const py::object numbers = without_unit(acceleration, "GroundMotion: acceleration", "m/s^2");
+  if (!numbers.is(acceleration) && units != "m/s^2")
+    throw std::invalid_argument("GroundMotion: units is for plain numbers, got a quantity and units='" + units + "'");
+  std::vector<double> samples = to_vector(numbers, "GroundMotion: acceleration");
   if (const double unit = acceleration_unit(units); unit != 1)
     for (double& n : samples) n *= unit;
   if (dt) return {std::move(samples), *dt, interpolation_of(interpolation, "GroundMotion"), std::move(name)};
-  return {std::move(samples), to_vector(*times, "GroundMotion: times"), interpolation_of(interpolation, "GroundMotion"),
-          std::move(name)};
+  return {std::move(samples), to_vector(*times, "GroundMotion: times", "s"),
+          interpolation_of(interpolation, "GroundMotion"), std::move(name)};
 }
 
 py::array_t<double> times_of(const GroundMotion& motion) {
@@ -35,10 +38,6 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
                              "linear", name ? *name : py::str(trace.attr("id")).cast<std::string>(), units);
   warn_if_implausible(motion, "GroundMotion.from_obspy");
   return motion;
-}
-
-py::object plot(const py::object& self, const py::kwargs& options) {
-  return py::module_::import("stickslip.plotting").attr("plot_ground_motion")(self, **options);
 }
 
 std::optional<double> dt_of(const GroundMotion& motion) {
@@ -187,7 +186,8 @@ order : int, optional
       .def_property_readonly(
           "displacement", [](const GroundMotion& g) { return array_of(ground_history(g).displacement); },
           "Ground displacement at the samples [m], shape (N,): the exact integral, from rest; computed anew each time.")
-      .def("plot", &plot,
+      .def("plot", plot_in("plot_ground_motion", "ax"), py::kw_only(), py::arg("ax") = py::none(),
+           py::arg("title") = py::none(),
            R"(Draws the acceleration [g] over time.
 
 Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
