@@ -874,17 +874,17 @@ def test_the_bar_is_in_place_on_a_terminal_and_lines_elsewhere(capsys, monkeypat
 
 def test_the_bar_of_tqdm_is_in_a_terminal_and_in_a_notebook(capsys, monkeypatch):
     tqdm = pytest.importorskip("tqdm.auto")
-    bars = []
+    bars = {}
 
     class Bar(tqdm.tqdm):
         def close(self):
-            bars.append((self.n, self.total, self.initial))
+            bars[id(self)] = self.n, self.total, self  # once more when it is dropped
             super().close()
 
     monkeypatch.setattr(tqdm, "tqdm", Bar)
     run = dict(members=300, seed=1, progress=True)
     ss.run_ensemble(BLOCK, Delayed(1e-3), **run)
-    assert bars == []  # neither: lines
+    assert bars == {}  # neither: lines
     capsys.readouterr()
     with monkeypatch.context() as terminal:
         terminal.setattr(sys.stderr, "isatty", lambda: True, raising=False)
@@ -894,7 +894,7 @@ def test_the_bar_of_tqdm_is_in_a_terminal_and_in_a_notebook(capsys, monkeypatch)
     ipython.get_ipython = type("ZMQInteractiveShell", (), {})
     monkeypatch.setitem(sys.modules, "IPython", ipython)
     ss.run_ensemble(BLOCK, Delayed(1e-3), **run)
-    assert [(n, total) for n, total, _ in bars] == [(300, 300)] * 2
+    assert [(n, total) for n, total, _ in bars.values()] == [(300, 300)] * 2
 
 
 SCRIPT = """
