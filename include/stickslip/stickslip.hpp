@@ -22,6 +22,7 @@
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/harmonic/orbits.hpp"
 #include "stickslip/sliding/effective.hpp"
+#include "stickslip/sliding/floor_motion.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/statistics/distribution.hpp"

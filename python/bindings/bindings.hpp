@@ -79,6 +79,9 @@ void bind_pulse_chain(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
 
+/// Gives all functions and classes of the module signatures that Python can read, and errors in plain words.
+void make_plain(py::module_& m);
+
 /// What `work` gives with the slider in its own type; one whose law knows the speed, or holds more than what resists,
 /// is refused, as theories do.
 template <class Work>
@@ -202,9 +205,35 @@ inline Numbers values_of(const py::array& objects, const std::string& name) {
   return numbers;
 }
 
-/// Real numbers in an array of any shape: those of a list, of NumPy, of pandas. `name` is for the message where they
-/// are none.
-inline Numbers to_numbers(const py::object& values, const std::string& name) {
+/// The numbers of a quantity that carries its unit, as Pint's and Astropy's do, converted to `unit`; else `values`.
+/// @param unit  the SI unit that is wanted, "" of a pure number; where it is null, units are refused
+inline py::object without_unit(const py::object& values, const std::string& name, const char* unit) {
+  const bool pint = py::hasattr(values, "magnitude") && py::hasattr(values, "dimensionality");
+  if (!pint && !(py::hasattr(values, "unit") && py::hasattr(values, "to_value"))) {
+    // xarray around Pint: NumPy would drop the unit
+    if (!py::hasattr(values, "dims") || !py::hasattr(values, "data")) return values;
+    const py::object inside = values.attr("data"), numbers = without_unit(inside, name, unit);
+    return numbers.is(inside) ? values : numbers;
+  }
+  const auto its_unit = py::str(values.attr(pint ? "units" : "unit")).cast<std::string>();
+  if (unit == nullptr) {
+    const std::string number = pint ? "quantity.to_base_units().magnitude" : "quantity.si.value";
+    throw std::invalid_argument(name + " must be plain numbers in SI units, got a quantity in " + its_unit + "; give " +
+                                number);
+  }
+  try {
+    return pint ? values.attr("to")(unit).attr("magnitude") : values.attr("to_value")(unit);
+  } catch (const py::error_already_set&) {
+    const std::string wanted = *unit == 0 ? "without a dimension" : std::string("in ") + unit;
+    throw std::invalid_argument(name + " must be a quantity " + wanted + " or of a unit that can be converted, got " +
+                                its_unit);
+  }
+}
+
+/// Real numbers in an array of any shape: those of a list, of NumPy, of pandas, of xarray, of Pint. `name` is for the
+/// message where they are none; `unit` is that of a quantity, as `without_unit` takes it.
+inline Numbers to_numbers(const py::object& given, const std::string& name, const char* unit = nullptr) {
+  const py::object values = without_unit(given, name, unit);
   if (py::hasattr(values, "mask")) {  // as pandas has, too
     const py::module_ ma = py::module_::import("numpy.ma");
     if (py::isinstance(values, ma.attr("MaskedArray"))) {
@@ -223,8 +252,8 @@ inline Numbers to_numbers(const py::object& values, const std::string& name) {
 }
 
 /// A one-dimensional array of real numbers as a vector.
-inline std::vector<double> to_vector(const py::object& values, const std::string& name) {
-  const Numbers numbers = to_numbers(values, name);
+inline std::vector<double> to_vector(const py::object& values, const std::string& name, const char* unit = nullptr) {
+  const Numbers numbers = to_numbers(values, name, unit);
   if (numbers.ndim() != 1)
     throw std::invalid_argument(name + " must be one-dimensional, got " + std::to_string(numbers.ndim()) +
                                 " dimensions");
@@ -232,18 +261,35 @@ inline std::vector<double> to_vector(const py::object& values, const std::string
 }
 
 /// A number, or a one-dimensional array of them, as a vector.
-inline std::vector<double> to_vector_or_number(const py::object& values, const std::string& name) {
-  const Numbers numbers = to_numbers(values, name);
+inline std::vector<double> to_vector_or_number(const py::object& values, const std::string& name,
+                                               const char* unit = nullptr) {
+  const Numbers numbers = to_numbers(values, name, unit);
   if (numbers.ndim() > 1)
     throw std::invalid_argument(name + " must be a number or one-dimensional, got " + std::to_string(numbers.ndim()) +
                                 " dimensions");
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
+/// One real number.
+inline double to_number(const py::object& value, const std::string& name, const char* unit = nullptr) {
+  const Numbers numbers = to_numbers(value, name, unit);
+  if (numbers.ndim() != 0)
+    throw std::invalid_argument(name + " must be one number, got " + std::to_string(numbers.size()));
+  return *numbers.data();
+}
+
+/// A plot of `stickslip.plotting` as a method with the options `where`= ("ax" or "figure") and title=.
+inline auto plot_in(const char* function, const char* where) {
+  return [=](const py::object& self, const py::object& place, const py::object& title) {
+    return py::module_::import("stickslip.plotting")
+        .attr(function)(self, py::arg(where) = place, py::arg("title") = title);
+  };
+}
+
 /// A function of each of the numbers: a float of one, an array of their shape of an array.
 template <class F>
-py::object of_each(const py::object& values, const std::string& name, F&& f) {
-  return py::vectorize(std::forward<F>(f))(to_numbers(values, name));
+py::object of_each(const py::object& values, const std::string& name, F&& f, const char* unit = nullptr) {
+  return py::vectorize(std::forward<F>(f))(to_numbers(values, name, unit));
 }
 
 inline Interpolation interpolation_of(const std::string& name, const std::string& owner) {

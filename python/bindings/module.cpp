@@ -1,5 +1,6 @@
 // The table of contents of `stickslip._core`.
 #include <algorithm>
+#include <string>
 
 #include "bindings.hpp"
 
@@ -27,6 +28,10 @@ void make_safe(py::type type) {
 PYBIND11_MODULE(_core, m) {
   using namespace stickslip::python;
   m.attr("STANDARD_GRAVITY") = stickslip::standard_gravity;
+  // Classes know the module in which users find them.
+  const auto in = [&m](const char* module) { m.attr("__name__") = module; };
+  const std::string compiled = py::str(m.attr("__name__"));
+  in("stickslip");
   bind_errors(m);
   bind_coulomb(m);
   bind_caster(m);
@@ -43,7 +48,6 @@ PYBIND11_MODULE(_core, m) {
   bind_integrate(m);
   bind_advance(m);
   bind_histories(m);
-  bind_harmonic(m);
   bind_envelope(m);
   bind_spectrum(m);
   bind_gaussian(m);
@@ -52,15 +56,18 @@ PYBIND11_MODULE(_core, m) {
   bind_response_spectrum(m);
   bind_strong_motion(m);
   bind_pulse_fit(m);
-  bind_theory(m);
-  bind_stationary_linearization(m);
   bind_estimates(m);
   bind_distributions(m);
   bind_stationary(m);
   bind_velocity_spectrum(m);
   bind_drawn(m);
   bind_ensemble(m);
-  bind_run_ensemble(m);
+  bind_build_info(m);
+  in("stickslip.harmonic");
+  bind_harmonic(m);
+  in("stickslip.theory");
+  bind_theory(m);
+  bind_stationary_linearization(m);
   bind_slowly_varying_parameters(m);
   bind_white_noise(m);
   bind_shaping_filter(m);
@@ -69,12 +76,14 @@ PYBIND11_MODULE(_core, m) {
   bind_displacement_distribution(m);
   bind_pulse_superposition(m);
   bind_pulse_chain(m);
+  in(compiled.c_str());
+  bind_run_ensemble(m);
   bind_thesis(m);
-  bind_build_info(m);
   m.def(
       "to_vector", [](const py::object& values, const std::string& name) { return to_array(to_vector(values, name)); },
       py::arg("values"), py::arg("name"),
       "Real numbers in a row, as all functions take them; `name` is for the message where they are none.");
   for (const auto& [name, thing] : m.attr("__dict__").cast<py::dict>())
     if (py::isinstance<py::type>(thing)) make_safe(py::reinterpret_borrow<py::type>(thing));
+  make_plain(m);
 }

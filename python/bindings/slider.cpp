@@ -211,6 +211,7 @@ To first order in x / (cup_radius - wheel_radius); the next term is the third.)"
       .def(
           "hold",
           [](const AnySlider& self, double displacement, bool backward) {
+            if (backward && mounting_of(self).one_way) return never;
             return std::visit([&](const auto& s) { return hold(s.law(), displacement, direction_of(backward)); }, self);
           },
           py::arg("displacement") = 0.0, py::kw_only(), py::arg("backward") = false,
@@ -230,6 +231,7 @@ float
       .def(
           "resist",
           [](const AnySlider& self, double displacement, double speed, bool backward) {
+            if (backward && mounting_of(self).one_way) return never;
             return std::visit(
                 [&](const auto& s) -> double { return resist(s.law(), displacement, direction_of(backward), speed); },
                 self);

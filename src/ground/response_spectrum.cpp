@@ -125,9 +125,9 @@ void set_duration(detail::OscillatorLanes& lanes, const std::vector<Oscillator>&
   }
 }
 
-/// Calls f(row) for each run of segments of one duration.
-template <class F>
-void for_each_row(const GroundMotion& motion, F&& f) {
+/// Runs of segments of one duration.
+std::vector<detail::SegmentRow> rows_of(const GroundMotion& motion) {
+  std::vector<detail::SegmentRow> rows;
   const double *start = motion.acceleration().data(),
                *end = start + (motion.interpolation() == Interpolation::linear ? 1 : 0);
   const GroundMotion::Pieces pieces(motion);
@@ -137,8 +137,9 @@ void for_each_row(const GroundMotion& motion, F&& f) {
       for (next = i + 1; next < motion.segments() && pieces.segment(next).duration == duration;) ++next;
     else
       next = motion.segments();
-    if (duration > 0) f(detail::SegmentRow{duration, start + i, end + i, next - i});
+    if (duration > 0) rows.push_back({duration, start + i, end + i, next - i});
   }
+  return rows;
 }
 
 void check(const std::vector<double>& periods, const std::vector<double>& damping) {
@@ -157,13 +158,11 @@ void check(const std::vector<double>& periods, const std::vector<double>& dampin
           damping[i]);
 }
 
-}  // namespace
-
-ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<double> periods, std::vector<double> damping,
-                                   SpectrumKind kind) {
-  check(periods, damping);
+/// @param peak  the largest magnitude of the ground acceleration [m/s^2]
+ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double peak, std::vector<double> periods,
+                             std::vector<double> damping, SpectrumKind kind) {
   const bool of_acceleration = kind == SpectrumKind::pseudo_acceleration || kind == SpectrumKind::acceleration;
-  const double rigid = of_acceleration ? motion.peak_acceleration() : 0;
+  const double rigid = of_acceleration ? peak : 0;
   ResponseSpectrum result{kind, std::move(periods), std::move(damping), {}};
   result.values.assign(result.periods.size() * result.damping.size(), rigid);
 
@@ -190,10 +189,15 @@ ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<doubl
   const auto start = lanes.state;
 
   // First the largest values at the samples and after them: few segments are left within which f may go beyond.
-  for_each_row(motion, [&](const detail::SegmentRow& row) {
-    set_duration(lanes, oscillators, row.duration);
+  double duration = 0;  // that the lanes are set to
+  const auto set = [&](const detail::SegmentRow& row) {
+    if (row.duration != duration) set_duration(lanes, oscillators, row.duration);
+    duration = row.duration;
+  };
+  for (const detail::SegmentRow& row : rows) {
+    set(row);
     sweep_ends(lanes, row);
-  });
+  }
   for (std::size_t i = 0; i < oscillators.size(); ++i)
     lanes.peak[i] = std::max(lanes.peak[i], largest_free(oscillators[i], lanes.state.x[i], lanes.state.v[i]));
   for (std::size_t i = oscillators.size(); i < lanes.peak.size(); ++i)
@@ -206,14 +210,52 @@ ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<doubl
         return Course(o, {row.duration, row.start[i], row.end[i]}, x, v).largest(row.duration);
       },
       &oscillators};
-  const bool even = !std::isnan(motion.dt());
-  for_each_row(motion, [&](const detail::SegmentRow& row) {
-    if (!even) set_duration(lanes, oscillators, row.duration);
+  for (const detail::SegmentRow& row : rows) {
+    set(row);
     sweep_within(lanes, row, inspector);
-  });
+  }
   for (std::size_t i = 0; i < oscillators.size(); ++i)
     result.values[places[i]] = lanes.peak[i] * oscillators[i].factor(kind);
   return result;
+}
+
+}  // namespace
+
+ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<double> periods, std::vector<double> damping,
+                                   SpectrumKind kind) {
+  check(periods, damping);
+  return spectrum_of(rows_of(motion), motion.peak_acceleration(), std::move(periods), std::move(damping), kind);
+}
+
+ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vector<double> periods,
+                                   std::vector<double> damping, SpectrumKind kind) {
+  check(periods, damping);
+  std::vector<double> start(motion.size()), end(motion.size());
+  std::vector<detail::SegmentRow> rows;
+  double peak = 0, duration = 0;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Segment& s = motion[i];
+    const auto piece = [i] { return "response_spectrum: motion[" + std::to_string(i) + "]"; };
+    if (!(s.duration >= 0 && std::isfinite(s.duration)))
+      detail::refuse(piece() + ".duration must be finite and at least 0", s.duration, "s");
+    for (const double n : {s.start, s.end})
+      if (!(std::abs(n) <= GroundMotion::largest_acceleration))
+        detail::refuse(piece() + " must be finite and at most 1e100 m/s^2 in magnitude", n, "m/s^2");
+    start[i] = s.start;
+    end[i] = s.end;
+    if (!(s.duration > 0)) continue;
+    duration += s.duration;
+    peak = std::max({peak, std::abs(s.start), std::abs(s.end)});
+    const bool same = i > 0 && !rows.empty() && rows.back().duration == s.duration &&
+                      rows.back().start + rows.back().count == &start[i];
+    if (same)
+      ++rows.back().count;
+    else
+      rows.push_back({s.duration, &start[i], &end[i], 1});
+  }
+  detail::require(duration > 0 && std::isfinite(duration),
+                  "response_spectrum: the durations of motion must have a positive, finite sum", duration, "s");
+  return spectrum_of(rows, peak, std::move(periods), std::move(damping), kind);
 }
 
 }  // namespace stickslip

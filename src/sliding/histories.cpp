@@ -1,6 +1,7 @@
 // The usual laws, compiled once.
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
 
 namespace stickslip {
 

@@ -9,6 +9,8 @@ import stickslip as ss
 from stickslip import harmonic, theory
 
 pd = pytest.importorskip("pandas")
+xr = pytest.importorskip("xarray")
+pint = pytest.importorskip("pint")
 
 BLOCK, WHEEL = ss.Coulomb(slip_level=0.5), ss.Caster(slip_level=0.5, reach=1.0)
 BAND = ss.Spectrum.band_pass(s0=1.0, low=1.0, high=2.5)
@@ -75,6 +77,9 @@ GIVEN = {
     "Float64": pd.Series(NUMBERS, dtype="Float64"),
     "Int64": pd.array([1, 2, 3], dtype="Int64"),
     "objects": pd.Series(NUMBERS, dtype=object),
+    "DataArray": xr.DataArray(NUMBERS, dims="time"),
+    "variable": xr.Dataset({"a": ("time", NUMBERS)})["a"],
+    "tuple": (1, 2, 3),
     "fractions": [Fraction(1), Decimal(2), 3],
     "nothing masked": np.ma.masked_invalid(NUMBERS),
     "mask of False": np.ma.array(NUMBERS, mask=[False, False, False]),
@@ -92,6 +97,13 @@ def test_numbers_are_taken_from_whatever_holds_them(take, given):
 def test_masked_samples_are_refused_by_index(take):
     with pytest.raises(ValueError, match=r": .* must not be masked, got a masked value at index 1"):
         take(np.ma.array(NUMBERS, mask=[False, True, True]))
+
+
+@pytest.mark.parametrize("take", TAKES.values(), ids=TAKES)
+def test_a_quantity_of_another_unit_is_refused_with_the_reason(take):
+    """Pint's would lose its unit on the way through NumPy."""
+    with pytest.raises(ValueError, match=r": .*quantity (in|without) .*kelvin"):
+        take(pint.UnitRegistry().Quantity(NUMBERS, "kelvin"))
 
 
 REFUSED = {

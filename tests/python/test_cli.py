@@ -64,12 +64,10 @@ CASES = {
         ss.Caster.from_geometry(mu=0.5, trail=0.9, wheel_width=2.0),
     ),
     "one-way": (["--mu", 0.1, "--law", "one-way"], ss.Coulomb(mu=0.1, backward=math.inf)),
-    "slope": (["--mu", 0.3, "--slope", 10], ss.Coulomb.on_slope(mu=0.3, degrees=10)),
+    "slope": (["--mu", 0.3, "--slope", 10], ss.Slider(ss.Coulomb(mu=0.3), slope_degrees=10)),
     "slope one-way": (
         ["--mu", 0.3, "--slope", 10, "--law", "one-way"],
-        ss.Coulomb(
-            slip_level=ss.Coulomb.on_slope(mu=0.3, degrees=10).slip_level, backward=math.inf
-        ),
+        ss.Slider(ss.Coulomb(mu=0.3), slope_degrees=10, one_way=True),
     ),
     "spring": (
         ["--mu", 0.06, "--period", 2.5],
@@ -182,10 +180,6 @@ REFUSED = {
         ["RECORD", "--mu", 0.1, "--law", "caster", "--trail", 0.04],
         "--trail and --wheel-width, in meters, got --trail",
     ),
-    "caster on a slope": (
-        ["RECORD", "--mu", 0.1, "--law", "caster", "--reach", 1, "--slope", 5],
-        "--slope goes with",
-    ),
     "too steep": (["RECORD", "--mu", 0.1, "--slope", 45], "45 degrees"),
     "no period": (["RECORD", "--mu", 0.1, "--period", 0], "got 0 s"),
     "NaN period": (["RECORD", "--mu", 0.1, "--period", "nan"], "got nan s"),
@@ -252,7 +246,7 @@ def bad_files(tmp_path):
     (tmp_path / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
     (tmp_path / "words.txt").write_text("nothing\n")
     return {
-        tmp_path / "folder": "Is a directory",
+        tmp_path / "folder": "the folder holds no files",
         tmp_path / "empty.csv": "the file is empty",
         tmp_path / "nowhere.csv": "No such file or directory",
         tmp_path / "picture.png": "NUL byte",
@@ -299,7 +293,7 @@ def test_strict_ends_a_batch_at_the_first_bad_file(capsys, record, bad_files, mo
     first, *_ = bad_files
     code, out, err = run(capsys, record, *bad_files, "--mu", 0.1, "--strict", *more)
     assert (code, out) == (2, "")
-    assert err == f"stickslip: {first}: Is a directory\n"
+    assert err == f"stickslip: {first}: the folder holds no files\n"
 
 
 @pytest.fixture
@@ -337,7 +331,7 @@ def test_without_enough_memory_there_is_one_line(capsys, record, monkeypatch, te
     said = "not enough memory" + (f": {text}" if text.startswith("U") else "")
     monkeypatch.setattr("stickslip.ensemble.run_ensemble", full)
     assert run_ensemble(capsys, *QUAKE) == (2, "", f"stickslip: {said}\n")
-    monkeypatch.setattr("stickslip.cli.read_record", full)
+    monkeypatch.setattr("stickslip.cli.batch.read_record", full)
     assert run(capsys, record, "--mu", 0.1) == (1, "", f"stickslip: {record}: {said}\n")
 
 
@@ -644,7 +638,7 @@ def test_a_warning_is_one_line(capsys, record, monkeypatch):
         warnings.warn("two\nlines", stacklevel=1)
         return ss.read_record(record)
 
-    monkeypatch.setattr("stickslip.cli.read_record", warned)
+    monkeypatch.setattr("stickslip.cli.batch.read_record", warned)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         code, _, err = run(capsys, record, "--mu", 0.1)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 import zipfile
 from itertools import pairwise
 
@@ -861,6 +862,7 @@ def test_the_bar_is_in_place_on_a_terminal_and_lines_elsewhere(capsys, monkeypat
     assert 1 <= len(lines) <= 10
     assert lines[-1].startswith("100 %  300 of 300 members, ")
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)  # without tqdm
     ss.run_ensemble(BLOCK, Delayed(1e-3), members=300, seed=1, progress=True)
     err = capsys.readouterr().err
     assert err.startswith("\r[")
@@ -868,6 +870,31 @@ def test_the_bar_is_in_place_on_a_terminal_and_lines_elsewhere(capsys, monkeypat
     assert err.count("\n") == 1
     monkeypatch.setattr(sys, "stderr", None)
     ss.run_ensemble(BLOCK, SHAKING, members=300, seed=1, progress=True)
+
+
+def test_the_bar_of_tqdm_is_in_a_terminal_and_in_a_notebook(capsys, monkeypatch):
+    tqdm = pytest.importorskip("tqdm.auto")
+    bars = {}
+
+    class Bar(tqdm.tqdm):
+        def close(self):
+            bars[id(self)] = self.n, self.total, self  # once more when it is dropped
+            super().close()
+
+    monkeypatch.setattr(tqdm, "tqdm", Bar)
+    run = dict(members=300, seed=1, progress=True)
+    ss.run_ensemble(BLOCK, Delayed(1e-3), **run)
+    assert bars == {}  # neither: lines
+    capsys.readouterr()
+    with monkeypatch.context() as terminal:
+        terminal.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+        ss.run_ensemble(BLOCK, Delayed(1e-3), **run)
+    assert "300/300" in capsys.readouterr().err
+    ipython = types.ModuleType("IPython")
+    ipython.get_ipython = type("ZMQInteractiveShell", (), {})
+    monkeypatch.setitem(sys.modules, "IPython", ipython)
+    ss.run_ensemble(BLOCK, Delayed(1e-3), **run)
+    assert [(n, total) for n, total, _ in bars.values()] == [(300, 300)] * 2
 
 
 SCRIPT = """

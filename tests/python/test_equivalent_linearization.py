@@ -137,7 +137,7 @@ def test_transition_times_have_names():
             ValueError,
             "must be finite",
         ),
-        (lambda: EquivalentLinearization().predict("block", 1, [1]), TypeError, "incompatible"),
+        (lambda: EquivalentLinearization().predict("block", 1, [1]), TypeError, "slider must be"),
         (
             lambda: EquivalentLinearization(filter_order=2).predict(
                 ss.Coulomb(slip_level=1), ss.Spectrum.band_pass(s0=1, low=1, high=2), [1]

@@ -16,6 +16,37 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 G = ss.STANDARD_GRAVITY
 
 
+PAGE = EXAMPLES.parent / "docs" / "examples.md"
+PICTURES = PAGE.parent / "images" / "examples"
+
+
+def assert_shown(picture):
+    """The picture of the page shows what was drawn; if not, docs/draw_examples.py draws it anew.
+
+    It has 64 colors: each pixel is off by some 1 %. Letters of other fonts are off in few pixels; a
+    line elsewhere is too, but in more of them.
+    """
+    from matplotlib.image import imread
+
+    drawn, shown = (imread(file)[:, :, :3] for file in (picture, PICTURES / picture.name))
+    assert drawn.shape == shown.shape
+    assert np.mean(np.abs(drawn - shown).max(axis=2) > 0.25) < 0.004
+
+
+def test_the_page_shows_the_code_and_the_pictures_of_the_examples():
+    text = PAGE.read_text(encoding="utf-8")
+    assert "literalinclude" not in text  # which a forge does not read
+    files = [*EXAMPLES.glob("0*.py"), *EXAMPLES.glob("0*.cpp")]
+    assert len(files) > 10
+    for file in files:
+        language = {".py": "python", ".cpp": "cpp"}[file.suffix]
+        code = file.read_text(encoding="utf-8").rstrip("\n")
+        assert f"```{language}\n{code}\n```" in text, file.name
+    for file in EXAMPLES.glob("0*.py"):
+        assert f"](images/examples/{file.stem}.png)" in text
+        assert 10_000 < (PICTURES / f"{file.stem}.png").stat().st_size < 100_000
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch, pyslammer_files):
     """Runs an example as a program in an empty folder, and returns its names at the end."""
@@ -27,6 +58,8 @@ def run(tmp_path, monkeypatch, pyslammer_files):
         (picture,) = (tmp_path / "pictures").iterdir()
         assert picture.name == f"{name}.png"
         assert picture.stat().st_size > 10_000
+        if not arguments:
+            assert_shown(picture)
         return names
 
     return run

@@ -17,6 +17,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
     DOCS / "start.md",
     DOCS / "ground_motions.md",
+    DOCS / "command.md",
     DOCS / "conventions.md",
     *sorted((DOCS / "guides").glob("*.md")),
 ]
@@ -43,8 +44,9 @@ def kobe(tmp_path, monkeypatch, pyslammer_files):
 
 
 def test_every_guide_has_code():
-    assert len(PAGES) == 8
-    pages = {param.id.rsplit("-", 1)[0] for kind in ("python", "cpp") for param in blocks(kind)}
+    assert len(PAGES) == 9
+    kinds = ("python", "cpp", "sh")
+    pages = {param.id.rsplit("-", 1)[0] for kind in kinds for param in blocks(kind)}
     assert pages == {page.stem for page in PAGES}
 
 

@@ -43,14 +43,15 @@ def test_the_theories_run(capsys):
     assert "theory / simulation" in table[0]
 
 
-def test_the_command_lines_run(kobe):
+def test_the_command_lines_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     commands = [
         line
         for block in blocks(README, "sh")
         for line in block.splitlines()
         if line.startswith("stickslip ")
     ]
-    assert len(commands) == 8
+    assert len(commands) == 9
     for command in commands:
         words = shlex.split(command, comments=True)
         assert words[0] == "stickslip"

@@ -209,7 +209,7 @@ def test_a_filter_is_a_density():
         (lambda: ShapingFilter(1.0, [(0, 1, 1, -1, 1)]), ValueError, "section 0 is unstable: d1"),
         (lambda: ShapingFilter(1.0, [(0, 1, math.nan, 1, 1)]), ValueError, "b0 must be finite"),
         (lambda: ShapingFilter(math.nan), ValueError, "s0 must be positive and finite, got nan"),
-        (lambda: ShapingFilter(1.0, [(0, 1, 1, 1)]), TypeError, "incompatible"),
+        (lambda: ShapingFilter(1.0, [(0, 1, 1, 1)]), TypeError, r"got .*\(0, 1, 1, 1\)"),
         (
             lambda: ShapingFilter.of(ss.Spectrum.band_pass(s0=1, low=2, high=4), order=4),
             ValueError,

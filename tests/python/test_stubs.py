@@ -1,6 +1,7 @@
 """Type stubs: they say what the compiled module is, and a checker understands a user's script."""
 
 import os
+import shutil
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import pytest
 import stickslip as ss
+from pages import ROOT, blocks
 
 needs_mypy = pytest.mark.skipif(find_spec("mypy") is None, reason="needs mypy")
 
@@ -208,3 +210,30 @@ def test_the_stubs_say_what_the_compiled_module_is(tmp_path):
 def test_a_strict_checker_takes_what_runs_and_refuses_what_does_not(tmp_path):
     (tmp_path / "script.py").write_text(SCRIPT)
     run("mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "script.py", cwd=tmp_path)
+
+
+@pytest.fixture
+def documented(tmp_path):
+    """The Python of the README and of the guides, a file for each block."""
+    docs = ROOT / "docs"
+    guides = [docs / "start.md", docs / "ground_motions.md", *(docs / "guides").glob("*.md")]
+    for page in [ROOT / "README.md", *guides]:
+        for number, code in enumerate(blocks(page, "python"), 1):
+            (tmp_path / f"{page.stem}_{number}.py").write_text(code)
+    assert len(list(tmp_path.glob("*.py"))) > 25
+    return tmp_path
+
+
+@needs_mypy
+def test_the_code_of_readme_and_guides_passes_a_strict_checker(documented):
+    cache = str(documented / "cache")
+    run("mypy", "--strict", "--cache-dir", cache, *os.listdir(documented), cwd=documented)
+
+
+@pytest.mark.skipif(shutil.which("pyright") is None, reason="no pyright here")
+def test_pyright_passes_the_code_of_readme_and_guides_and_the_stubs(documented):
+    shutil.copy(Path(ss.__file__).parent / "_core.pyi", documented / "core.pyi")
+    (documented / "pyrightconfig.json").write_text('{"typeCheckingMode": "strict"}')
+    command = ["pyright", "--pythonpath", sys.executable, "."]
+    done = subprocess.run(command, cwd=documented, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout

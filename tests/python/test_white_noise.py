@@ -79,7 +79,7 @@ def test_predictions_come_as_moments():
             ValueError,
             "white noise only",
         ),
-        (lambda: WhiteNoise.coulomb("1", 1), TypeError, "incompatible"),
+        (lambda: WhiteNoise.coulomb("1", 1), TypeError, "slip_level must be a number, got '1'"),
         (
             lambda: WhiteNoise(ss.Caster(slip_level=1, reach=1), 1),
             TypeError,

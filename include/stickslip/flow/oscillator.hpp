@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -80,15 +81,18 @@ class Harmonic {
     static constexpr auto terms = [] {
       std::array<double, 12> c{};
       double factorial = 1;
-      for (int k = 2; k <= n; ++k) factorial *= k;
-      for (int i = 0, k = n; i < 12; ++i, k += 2, factorial *= (k - 1.0) * k) c[i] = (i % 2 == 0 ? 1 : -1) / factorial;
+      for (int i = 2; i <= n; ++i) factorial *= i;
+      int k = n;
+      for (std::size_t i = 0; i < c.size(); ++i, k += 2, factorial *= (k - 1.0) * k)
+        c[i] = (i % 2 == 0 ? 1 : -1) / factorial;
       return c;
     }();
     const double zz = z * z;
-    double even = terms[10], odd = terms[11];
+    const double* const c = terms.data();
+    double even = c[10], odd = c[11];
     for (int i = 8; i >= 0; i -= 2) {
-      even = even * zz + terms[i];
-      odd = odd * zz + terms[i + 1];
+      even = even * zz + c[i];
+      odd = odd * zz + c[i + 1];
     }
     return even + z * odd;
   }

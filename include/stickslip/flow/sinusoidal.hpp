@@ -74,10 +74,8 @@ class SinusoidalFlow {
     double least = rises || now >= -turn ? std::max(cycle - turn - now, 0.0) : -turn - now;  // at the end of the fall
     if (falls_from >= omega * duration_) return never;
 
-    const auto speed_after = [&](double phase_gone) {
-      return speed(oscillator_.basis(phase_gone / omega), phase_gone / omega);
-    };
-    const double first_least = least / omega < duration_ ? speed_after(least) : 0;
+    const auto speed_after = [&](double time) { return speed(oscillator_.basis(time), time); };
+    const double first_least = least / omega < duration_ ? speed_after(least / omega) : 0;
     if (first_least > 0) {  // some cycles later
       const double lost = cycle * level / omega;
       if (!(lost > 0)) return never;

@@ -48,7 +48,8 @@ class FirstRoot {
     if (w_[0] + std::min(lowest, 0.0) > 0) return never;
     if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it falls all the way
 
-    Bernstein b;
+    Bernstein coefficients;
+    double* const b = coefficients.data();
     double binomial = 1;
     for (int k = 0; k <= degree_; ++k) {
       b[k] = w_[k] / binomial;
@@ -63,13 +64,14 @@ class FirstRoot {
  private:
   using Bernstein = std::array<double, series::highest_order + 1>;
 
-  double search(Bernstein& b, double left, double width) const noexcept {
+  double search(double* b, double left, double width) const noexcept {
     int changes = 0;
     for (int k = 1; k <= degree_; ++k) changes += (b[k - 1] >= 0) != (b[k] >= 0);
     if (changes == 0) return never;
     if (changes == 1) return polish(left, left + width);
     if (width < 0x1p-40) return never;
-    Bernstein first;  // de Casteljau: `b` becomes the second half
+    Bernstein half;
+    double* const first = half.data();  // de Casteljau: `b` becomes the second half
     for (int i = 0; i <= degree_; ++i) {
       first[i] = b[0];
       for (int k = 0; k < degree_ - i; ++k) b[k] = (b[k] + b[k + 1]) / 2;

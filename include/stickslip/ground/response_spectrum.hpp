@@ -52,4 +52,14 @@ ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<doubl
                                    std::vector<double> damping = {0.05},
                                    SpectrumKind kind = SpectrumKind::pseudo_acceleration);
 
+/// The same under straight pieces that may jump where they meet, such as the absolute acceleration of a sliding mass
+/// (sliding/floor_motion.hpp): a floor spectrum.
+///
+/// @param motion  one piece after the other [s], [m/s^2]: durations at least 0 and finite, accelerations finite and at
+///                most 1e100; the sum of the durations positive
+/// @throws std::invalid_argument  also for a piece that is not so, with its index
+ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vector<double> periods,
+                                   std::vector<double> damping = {0.05},
+                                   SpectrumKind kind = SpectrumKind::pseudo_acceleration);
+
 }  // namespace stickslip

@@ -50,8 +50,11 @@ inline constexpr int highest_order = 30;
 
 /// 1/k, for k = 1 to highest_order + 1: the recurrences divide by orders all the time.
 inline constexpr auto reciprocal = [] {
-  std::array<double, highest_order + 2> table{};
-  for (int k = 1; k <= highest_order + 1; ++k) table[k] = 1.0 / k;
+  struct {
+    double of[highest_order + 2];
+    constexpr double operator[](int k) const noexcept { return of[k]; }
+  } table{};
+  for (int k = 1; k <= highest_order + 1; ++k) table.of[k] = 1.0 / k;
   return table;
 }();
 

@@ -261,12 +261,9 @@ ValueError
     members can have left, as a negative peak. Takes no more memory than a few times the file's size.
 OSError
     There is no such file, it cannot be read, or is no regular file.)")
-      .def(
-          "plot",
-          [](const py::object& self, const py::kwargs& options) {
-            return py::module_::import("stickslip.plotting").attr("plot_ensemble")(self, **options);
-          },
-          R"(Draws the variances of displacement and velocity, the distribution of the peaks, the velocity's spectrum.
+      .def("plot", plot_in("plot_ensemble", "figure"), py::kw_only(), py::arg("figure") = py::none(),
+           py::arg("title") = py::none(),
+           R"(Draws the variances of displacement and velocity, the distribution of the peaks, the velocity's spectrum.
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def("_repr_html_",

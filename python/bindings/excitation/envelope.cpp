@@ -52,7 +52,8 @@ P. C. Jennings, G. W. Housner, N. C. Tsai, Simulated earthquake motions, Caltech
       .def_static(
           "from_table",
           [](const py::object& time, const py::object& factor) {
-            return Envelope::from_table(to_vector(time, "Envelope: time"), to_vector(factor, "Envelope: factor"));
+            return Envelope::from_table(to_vector(time, "Envelope: time", "s"),
+                                        to_vector(factor, "Envelope: factor", ""));
           },
           py::arg("time"), py::arg("factor"), R"(Straight lines between the points given, zero outside.
 

@@ -32,7 +32,7 @@ PoissonOptions options_of(bool stationary_start, const std::optional<Shape>& sha
   options.stationary_start = stationary_start;
   if (shape)
     options.shape =
-        PulseShape(to_vector(shape->first, "PulseShape: times"), to_vector(shape->second, "PulseShape: values"));
+        PulseShape(to_vector(shape->first, "PulseShape: times", "s"), to_vector(shape->second, "PulseShape: values"));
   if (quantile) options.quantile = PythonQuantile(std::move(*quantile));
   options.envelope = std::move(envelope);
   return options;

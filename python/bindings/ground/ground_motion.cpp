@@ -13,8 +13,12 @@ GroundMotion make(const py::object& acceleration, std::optional<double> dt, cons
   if (dt.has_value() == times.has_value())
     throw std::invalid_argument(std::string("GroundMotion: give either dt or times, got ") + (dt ? "both" : "neither"));
   const double unit = acceleration_unit(units);
-  const auto samples = [unit](const py::object& values, const char* array) {
-    std::vector<double> result = to_vector(values, std::string("GroundMotion: ") + array);
+  const auto samples = [&](const py::object& values, const char* array) {
+    const std::string what = std::string("GroundMotion: ") + array;
+    const py::object numbers = without_unit(values, what, "m/s^2");
+    if (!numbers.is(values) && units != "m/s^2")
+      throw std::invalid_argument("GroundMotion: units is for plain numbers, got a quantity and units='" + units + "'");
+    std::vector<double> result = to_vector(numbers, what);
     if (unit != 1)
       for (double& n : result) n *= unit;
     return result;
@@ -23,7 +27,7 @@ GroundMotion make(const py::object& acceleration, std::optional<double> dt, cons
   std::vector<double> axis = samples(acceleration, "acceleration");
   const GroundMotion motion =
       (dt ? GroundMotion(std::move(axis), *dt, between, std::move(name))
-          : GroundMotion(std::move(axis), to_vector(*times, "GroundMotion: times"), between, std::move(name)))
+          : GroundMotion(std::move(axis), to_vector(*times, "GroundMotion: times", "s"), between, std::move(name)))
           .with_orientation(std::move(orientation));
   if (!transverse && !vertical) return motion;
   const auto other = [&](const std::optional<py::object>& values, const char* array) {
@@ -69,10 +73,6 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
            name ? *name : py::str(trace.attr("id")).cast<std::string>(), units, std::nullopt, std::nullopt, "");
   warn_if_implausible(motion, "GroundMotion.from_obspy");
   return motion;
-}
-
-py::object plot(const py::object& self, const py::kwargs& options) {
-  return py::module_::import("stickslip.plotting").attr("plot_ground_motion")(self, **options);
 }
 
 std::optional<double> dt_of(const GroundMotion& motion) {
@@ -268,7 +268,8 @@ order : int, optional
       .def_property_readonly(
           "displacement", [](const GroundMotion& g) { return array_of(ground_history(g).displacement); },
           "Ground displacement along the axis [m], shape (N,): the exact integral, from rest; computed anew each time.")
-      .def("plot", &plot,
+      .def("plot", plot_in("plot_ground_motion", "ax"), py::kw_only(), py::arg("ax") = py::none(),
+           py::arg("title") = py::none(),
            R"(Draws the acceleration [g] over time.
 
 Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "parts.hpp"
+#include "sliding/response.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -52,12 +53,9 @@ void bind_response_spectrum(py::module_& m) {
       .def_property_readonly("values", &rows_of,
                              "The largest response [m/s^2, m/s or m], shape (P,) for one damping ratio, (D, P) for "
                              "several; read-only.")
-      .def(
-          "plot",
-          [](const py::object& self, const py::kwargs& options) {
-            return py::module_::import("stickslip.plotting").attr("plot_response_spectrum")(self, **options);
-          },
-          R"(Draws the values over the period, a line for each damping ratio.
+      .def("plot", plot_in("plot_response_spectrum", "ax"), py::kw_only(), py::arg("ax") = py::none(),
+           py::arg("title") = py::none(),
+           R"(Draws the values over the period, a line for each damping ratio.
 
 Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
 is drawn above. Returns the matplotlib Figure.)")
@@ -75,16 +73,26 @@ is drawn above. Returns the matplotlib Figure.)")
 
   m.def(
       "response_spectrum",
-      [](const GroundMotion& motion, const py::object& periods, const py::object& damping, const std::string& kind) {
-        auto all_periods = to_vector_or_number(periods, "response_spectrum: periods");
-        auto all_damping = to_vector_or_number(damping, "response_spectrum: damping");
+      [](const py::object& motion, const py::object& periods, const py::object& damping, const std::string& kind) {
+        auto all_periods = to_vector_or_number(periods, "response_spectrum: periods", "s");
+        auto all_damping = to_vector_or_number(damping, "response_spectrum: damping", "");
         const SpectrumKind which = kind_of(kind);
-        const py::gil_scoped_release released;
-        return response_spectrum(motion, std::move(all_periods), std::move(all_damping), which);
+        const auto answer = [&](const auto& accelerations) {
+          const py::gil_scoped_release released;
+          return response_spectrum(accelerations, std::move(all_periods), std::move(all_damping), which);
+        };
+        if (py::isinstance<GroundMotion>(motion)) return answer(motion.cast<const GroundMotion&>());
+        if (!py::isinstance<Recording>(motion))
+          throw py::type_error("response_spectrum: motion must be a GroundMotion or a Response, got " +
+                               py::repr(motion).cast<std::string>());
+        const auto& response = motion.cast<const Recording&>();
+        return answer(with_inputs(response, [&](const auto& slider, const auto& ground) {
+          return floor_motion(slider, ground, response.response);
+        }));
       },
       py::arg("motion"), py::arg("periods"), py::arg("damping") = 0.05, py::kw_only(),
       py::arg("kind") = "pseudo_acceleration",
-      R"(Computes the elastic response spectrum of a ground motion.
+      R"(Computes the elastic response spectrum of a ground motion, or of what stands on a slider: a floor spectrum.
 
 Each linear oscillator x'' + 2 zeta wn x' + wn^2 x = -n(t), wn = 2 pi / T, is at rest when the motion begins. The value
 is the largest magnitude over all time, in continuous time and not at the samples. Between samples the response is
@@ -93,7 +101,9 @@ n is zero: the free vibration that follows belongs to the maximum.
 
 Parameters
 ----------
-motion : GroundMotion
+motion : GroundMotion or Response
+    A response shakes the oscillators with its absolute acceleration, that of the sliding mass. It jumps where a slip
+    begins, turns or stops, and is taken so. Settle the response, or the floor stops with the record.
 periods : float or array_like, shape (P,)
     Undamped natural periods T [s], in any order: each from 1e-6 to 1e6, or 0, a rigid oscillator, which gives the PGA
     as acceleration and 0 otherwise.
@@ -111,13 +121,19 @@ ResponseSpectrum
 Raises
 ------
 ValueError
-    A period, a damping ratio or a kind that is not allowed, with its index.
+    A period, a damping ratio or a kind that is not allowed, with its index; a truncated response.
 
 Notes
 -----
 Accurate to round-off: some 1e-15 times the square root of the number of samples, and times the radians in a time step
 where that is above 1. Under a record whose ground velocity does not end at zero the ground keeps this velocity, and
 oscillators of long period go on to the displacement x' / wn: correct the baseline first.
+
+Under a response of a constant slip level without spring and damper that is so, too. Elsewhere its acceleration is cut
+into straight pieces, off by at most 1e-6 of its largest value e where the level is constant and the ground motion is
+sampled, which changes a pseudo-acceleration by at most 1e-6 e coth(pi zeta / (2 sqrt(1 - zeta^2))): 13e-6 e at 5 %. Under
+a Caster, VelocityDependent or a HarmonicMotion, the curve between two samples is a polynomial of the fifth degree first,
+whose own error falls with the sixth power of the time step.
 
 100 periods of 10,000 samples take some 2 ms with even times (AVX-512), and up to 15 ms of white noise at a critical
 damping. Uneven times cost some 0.3 us for each period, damping ratio and change of the time step.

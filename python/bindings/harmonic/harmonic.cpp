@@ -43,7 +43,7 @@ SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from,
 
 // x and x' at any times.
 py::tuple motion_of(const SlidersOrbit& self, const py::object& times) {
-  const std::vector<double> t = to_vector(times, "Orbit.motion: times");
+  const std::vector<double> t = to_vector(times, "Orbit.motion: times", "s");
   for (const double time : t) detail::require(std::isfinite(time), "Orbit.motion: times must be finite", time, "s");
   const auto states =
       with_position_law(self.slider, "Orbit.motion", [&](const auto& s) { return states_at(s, self.orbit, t); });

@@ -84,18 +84,6 @@ py::object time_of(Recording& recording) {
   });
 }
 
-// What `work` gives with the slider and the motion in their own types.
-template <class Work>
-auto with_inputs(const Recording& recording, Work&& work) {
-  return std::visit(
-      [&](const auto& slider) {
-        if (py::isinstance<GroundMotion>(recording.motion))
-          return work(slider, recording.motion.cast<const GroundMotion&>());
-        return work(slider, recording.motion.cast<const HarmonicMotion&>());
-      },
-      recording.slider.cast<const AnySlider&>());
-}
-
 const Forces& forces_of(Recording& recording) {
   if (!recording.forces)
     recording.forces = with_inputs(
@@ -154,13 +142,6 @@ Loop loop_of(const Recording& recording) {
 // A function of Python that takes the response.
 auto in_python(const char* module, const char* function) {
   return [=](const py::object& self) { return py::module_::import(module).attr(function)(self); };
-}
-
-// One that takes options by name, too.
-auto with_options(const char* module, const char* function) {
-  return [=](const py::object& self, const py::kwargs& options) {
-    return py::module_::import(module).attr(function)(self, **options);
-  };
 }
 
 template <auto member>
@@ -300,13 +281,20 @@ slips; where |x| is largest at the start, or at the end of a slip that is not ov
 An earthquake response closes no loop. E_d is therefore that of a cycle from D to -D and back: 4 D times the energy per
 meter that friction and damper took in the swing up to the peak. In a steady cycle about x = 0 that is the area of the
 loop; with Coulomb friction E_d = 4 slip_level D. ValueError as for `effective_period`.)")
-      .def("plot", with_options("stickslip.plotting", "plot_response"),
+      .def("plot", plot_in("plot_response", "figure"), py::kw_only(), py::arg("figure") = py::none(),
+           py::arg("title") = py::none(),
            R"(Draws ground acceleration with the slip level, velocity with sticks shaded, and displacement.
 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
 `title`. Returns the figure, see `stickslip.plotting.plot_response`.)")
-      .def("plot_hysteresis", with_options("stickslip.plotting", "plot_hysteresis"),
-           R"(Draws force against displacement.
+      .def(
+          "plot_hysteresis",
+          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax) {
+            return py::module_::import("stickslip.plotting")
+                .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax);
+          },
+          py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("ax") = py::none(),
+          R"(Draws force against displacement.
 
 Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, and `title`. Returns the
 axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bindings.hpp"
@@ -50,5 +51,17 @@ struct Recording {
   Recording(Recording&&) = default;
   ~Recording() { Storage::give_back(std::move(response)); }
 };
+
+/// What `work` gives with the slider and the motion in their own types.
+template <class Work>
+auto with_inputs(const Recording& recording, Work&& work) {
+  return std::visit(
+      [&](const auto& slider) {
+        if (py::isinstance<GroundMotion>(recording.motion))
+          return work(slider, recording.motion.cast<const GroundMotion&>());
+        return work(slider, recording.motion.cast<const HarmonicMotion&>());
+      },
+      recording.slider.cast<const AnySlider&>());
+}
 
 }  // namespace stickslip::python

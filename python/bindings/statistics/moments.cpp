@@ -16,7 +16,7 @@ Moments of_theory(const py::object& time, const py::object& displacement_mean, c
                   const py::object& covariance, const py::object& velocity_mean, const py::object& velocity_variance,
                   double growth_rate, std::string remark) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> at = to_vector(time, "Moments: time");
+  std::vector<double> at = to_vector(time, "Moments: time", "s");
   const std::size_t count = at.size();
   const auto figure = [count](const py::object& given, const std::string& name, double otherwise) -> Estimates {
     std::vector<double> value =

@@ -33,7 +33,7 @@ const char* which_of(const std::pair<const char*, T> (&all)[n], T value) {
 
 Moments predict(const EquivalentLinearization& self, const AnySlider& slider, const AnyShapedNoise& excitation,
                 const py::object& times) {
-  const std::vector<double> t = to_vector(times, "EquivalentLinearization: times");
+  const std::vector<double> t = to_vector(times, "EquivalentLinearization: times", "s");
   const theory::ShapedNoise noise = shaped_noise(excitation);
   const py::gil_scoped_release released;
   return with_position_law(slider, "EquivalentLinearization",

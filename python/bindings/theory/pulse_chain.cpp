@@ -11,7 +11,7 @@ using theory::PulseChain;
 
 Moments chain_moments(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses,
                       const py::object& times) {
-  const std::vector<double> at = to_vector(times, "PulseChain: times");
+  const std::vector<double> at = to_vector(times, "PulseChain: times", "s");
   const py::gil_scoped_release released;
   return self.predict(coulomb_of(slider), pulses, at, &check_for_interrupt);
 }

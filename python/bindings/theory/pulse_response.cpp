@@ -15,7 +15,7 @@ py::array_t<double> array(const py::object& self) {
 }
 
 std::vector<double> times_of(const py::object& times, const char* who) {
-  return times.is_none() ? std::vector<double>() : to_vector(times, std::string(who) + ": times");
+  return times.is_none() ? std::vector<double>() : to_vector(times, std::string(who) + ": times", "s");
 }
 
 PulseResponse respond(const AnySlider& slider, double b, double dt,
@@ -23,7 +23,8 @@ PulseResponse respond(const AnySlider& slider, double b, double dt,
                       const py::object& times) {
   PulseShape steps;
   if (shape)
-    steps = PulseShape(to_vector(shape->first, "PulseShape: times"), to_vector(shape->second, "PulseShape: values"));
+    steps =
+        PulseShape(to_vector(shape->first, "PulseShape: times", "s"), to_vector(shape->second, "PulseShape: values"));
   const std::vector<double> at = times_of(times, "pulse_response");
   const py::gil_scoped_release released;
   return with_position_law(slider, "pulse_response",

@@ -28,7 +28,7 @@ std::string overlap_of(const PulseSuperposition& theory) {
 
 Moments superposition_moments(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses,
                               const py::object& times) {
-  const std::vector<double> at = to_vector(times, "PulseSuperposition: times");
+  const std::vector<double> at = to_vector(times, "PulseSuperposition: times", "s");
   const py::gil_scoped_release released;
   return with_position_law(slider, "PulseSuperposition",
                            [&](const auto& s) { return self.predict(s, pulses, at, &check_for_interrupt); });
@@ -36,7 +36,7 @@ Moments superposition_moments(const PulseSuperposition& self, const AnySlider& s
 
 Moments superposition_from_rest(const PulseSuperposition& self, const AnySlider& slider, const PoissonPulses& pulses,
                                 const py::object& times) {
-  const std::vector<double> at = to_vector(times, "PulseSuperposition: times");
+  const std::vector<double> at = to_vector(times, "PulseSuperposition: times", "s");
   const auto* block = std::get_if<Slider<Coulomb>>(&slider);
   if (block == nullptr) throw std::invalid_argument("PulseSuperposition: from_rest covers Coulomb friction");
   const py::gil_scoped_release released;

@@ -26,7 +26,7 @@ constexpr const char* amplitudes = "SlowlyVaryingParameters: amplitude";
 /// Two numbers by amplitude: a tuple of floats for a float, of arrays of the same shape for an array.
 template <class F>
 py::tuple branches(const py::object& given, const F& f) {
-  const Numbers amplitude = to_numbers(given, amplitudes);
+  const Numbers amplitude = to_numbers(given, amplitudes, "m");
   if (amplitude.ndim() == 0) {
     const Branches b = f(*amplitude.data());
     return py::make_tuple(b.lower, b.upper);
@@ -309,7 +309,7 @@ ValueError
               "transient",
               [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase,
                  const py::object& times) {
-                const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times");
+                const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times", "s");
                 theory::HarmonicTransient found;
                 {
                   const py::gil_scoped_release released;
@@ -385,7 +385,7 @@ Some milliseconds where several are stable.)")
               "predict",
               [](const SlowlyVaryingParameters&, const AnySlider& slider, const HarmonicMotion& excitation,
                  const py::object& times) {
-                const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times");
+                const std::vector<double> at = to_vector(times, "SlowlyVaryingParameters: times", "s");
                 const SlowlyVaryingParameters theory(slider);
                 const py::gil_scoped_release released;
                 return theory.theory::SlowlyVaryingParameters::predict(excitation, at, check_for_interrupt);

@@ -61,7 +61,7 @@ float or ndarray
       .def(
           "transient",
           [](const StationaryPrediction& self, const py::object& times) {
-            const std::vector<double> at = to_vector(times, "StationaryPrediction: times");
+            const std::vector<double> at = to_vector(times, "StationaryPrediction: times", "s");
             const py::gil_scoped_release released;
             return self.transient(at, check_for_interrupt);
           },
@@ -158,7 +158,7 @@ Round-off for band-pass and white noise without a spring, in 1 us; else quadratu
               "predict",
               [](const StationaryLinearization& self, const AnySlider& slider, const AnyNoise& excitation,
                  const py::object& times) {
-                const std::vector<double> at = to_vector(times, "StationaryLinearization: times");
+                const std::vector<double> at = to_vector(times, "StationaryLinearization: times", "s");
                 const Slider<Coulomb>& friction = coulomb(slider);
                 const theory::StationaryNoise noise = stationary_noise(excitation);
                 const py::gil_scoped_release released;

@@ -100,8 +100,8 @@ float or numpy.ndarray
               [](const WhiteNoise& self, const py::object& velocity, const py::object& time, const py::object& start) {
                 return py::vectorize([&self](double v, double t, double v0) {
                   return self.transition_density(v, t, v0);
-                })(to_numbers(velocity, "WhiteNoise: velocity"), to_numbers(time, "WhiteNoise: time"),
-                   to_numbers(start, "WhiteNoise: start"));
+                })(to_numbers(velocity, "WhiteNoise: velocity", "m/s"), to_numbers(time, "WhiteNoise: time", "s"),
+                   to_numbers(start, "WhiteNoise: start", "m/s"));
               },
               py::arg("velocity"), py::arg("time"), py::arg("start") = 0.0,
               R"(Probability density of the velocity at a time, from the velocity at time 0.
@@ -177,7 +177,7 @@ ValueError
           .def(
               "predict",
               [](const WhiteNoise& self, const py::object& times) {
-                const std::vector<double> t = to_vector(times, "WhiteNoise: times");
+                const std::vector<double> t = to_vector(times, "WhiteNoise: times", "s");
                 const py::gil_scoped_release released;
                 return self.predict(t);
               },
@@ -202,7 +202,7 @@ ValueError
           .def(
               "predict",
               [](const WhiteNoise&, const AnySlider& slider, const AnyNoise& excitation, const py::object& times) {
-                const std::vector<double> t = to_vector(times, "WhiteNoise: times");
+                const std::vector<double> t = to_vector(times, "WhiteNoise: times", "s");
                 const WhiteNoise theory = of_slider(slider, excitation);
                 const py::gil_scoped_release released;
                 return theory.predict(t);

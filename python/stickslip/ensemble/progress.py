@@ -7,7 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 Progress: TypeAlias = Callable[[int, int], object]
 
@@ -19,13 +19,50 @@ def shown(progress: bool | Progress) -> Iterator[Progress]:
     elif progress not in (True, False, None):
         raise TypeError(f"run_ensemble: progress must be True, False or callable, got {progress!r}")
     elif progress and sys.stderr is not None:
-        bar = _Bar()
+        bar = _bar()
         try:
             yield bar
         finally:
             bar.close()
     else:
         yield lambda done, total: None
+
+
+def _bar() -> _Bar | _Tqdm:
+    """That of tqdm in a notebook, and in a terminal where there is tqdm; else our own."""
+    if sys.stderr.isatty() or _in_notebook():
+        try:
+            return _Tqdm()
+        except ImportError:
+            pass
+    return _Bar()
+
+
+def _in_notebook() -> bool:
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return type(shell).__name__ == "ZMQInteractiveShell"
+
+
+class _Tqdm:
+    """The bar of tqdm, which also knows notebooks."""
+
+    def __init__(self) -> None:
+        from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+
+        self.tqdm = tqdm
+        self.bar: Any = None
+
+    def __call__(self, done: int, total: int) -> None:
+        if self.bar is None:  # what a checkpoint had is no speed
+            self.bar = self.tqdm(
+                total=total, initial=done, unit="member", unit_scale=True, file=sys.stderr
+            )
+        self.bar.update(done - self.bar.n)
+
+    def close(self) -> None:
+        if self.bar is not None:
+            self.bar.close()
 
 
 class _Bar:

@@ -54,7 +54,5 @@ class SliderSource(Protocol):
 
 AnySlider: TypeAlias = "Slider | Coulomb | Caster | VelocityDependent | Stribeck | StaticKinetic"
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
-AnyMotions: TypeAlias = (
-    "GaussianExcitation | PoissonPulses | GroundMotion"
-    " | Sequence[GroundMotion] | Drawn[GroundMotion] | Excitation"
-)
+Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
+AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | Excitation | Records"

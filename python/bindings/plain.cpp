@@ -1,0 +1,236 @@
+// Signatures and errors of the module as a reader of Python expects them: signatures that `inspect` and `help` can
+// read, and messages without the words of the binding library.
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "bindings.hpp"
+
+namespace stickslip::python {
+namespace {
+
+/// The end of what stands at `begin`, a bracket or a quote that closes where it ends.
+std::size_t end_of(std::string_view text, std::size_t begin) {
+  const char open = text[begin];
+  if (open == '\'' || open == '"') {
+    std::size_t i = begin + 1;
+    while (i < text.size() && text[i] != open) i += text[i] == '\\' ? 2 : 1;
+    return i + 1;
+  }
+  std::size_t i = begin + 1;
+  while (i < text.size() && std::string_view(")]}").find(text[i]) == std::string_view::npos)
+    i = std::string_view("([{'\"").find(text[i]) == std::string_view::npos ? i + 1 : end_of(text, i);
+  return i + 1;
+}
+
+/// The place of `what` outside of brackets and quotes, or the end.
+std::size_t find_outside(std::string_view text, std::string_view what) {
+  for (std::size_t i = 0; i < text.size();) {
+    if (text.substr(i).starts_with(what)) return i;
+    i = std::string_view("([{'\"").find(text[i]) == std::string_view::npos ? i + 1 : end_of(text, i);
+  }
+  return text.size();
+}
+
+struct Parameter {
+  std::string name, value;  // a default value or nothing
+};
+
+/// One that has no name in C++ cannot be given by name.
+bool nameless(std::string_view name) {
+  return name.starts_with("arg") && name.find_first_not_of("0123456789", 3) == std::string_view::npos;
+}
+
+/// Parameters as "self: Slider, x: float = 0.0, *, backward: bool = False" lists them.
+std::vector<Parameter> parameters_of(std::string_view text) {
+  std::vector<Parameter> found;
+  while (!text.empty()) {
+    const std::size_t end = find_outside(text, ", ");
+    const std::string_view one = text.substr(0, end), named = one.substr(0, find_outside(one, " = "));
+    std::string value(one.substr(std::min(named.size() + 3, one.size())));
+    // What is no literal cannot be read back.
+    if (!value.empty() && value != "[]" && value != "()" && value != "None" && value != "True" && value != "False" &&
+        std::string_view("0123456789'\"").find(value[value[0] == '-' ? 1 : 0]) == std::string_view::npos)
+      value = "...";
+    found.push_back({std::string(named.substr(0, find_outside(named, ": "))), std::move(value)});
+    text.remove_prefix(std::min(end + 2, text.size()));
+  }
+  return found;
+}
+
+std::string text_of(const std::vector<Parameter>& parameters) {
+  std::string text;
+  for (const Parameter& one : parameters)
+    text += (text.empty() ? "" : ", ") + (nameless(one.name) ? "other, /" : one.name) + (one.value.empty() ? "" : "=") +
+            one.value;
+  return text;
+}
+
+/// As a user writes the call, without the object of a method.
+std::string call_of(const std::string& name, std::vector<Parameter> form) {
+  if (!form.empty() && form[0].name == "self") form.erase(form.begin());
+  return name + "(" + text_of(form) + ")";
+}
+
+/// One signature for all overloads: the longest, in which what others lack has a default value. Where no such signature
+/// says what a call takes, it takes anything, and the text begins with the forms.
+std::string signature_of(const std::string& name, const std::vector<std::vector<Parameter>>& forms, std::string& text) {
+  std::vector<Parameter> longest;
+  for (const auto& form : forms)
+    if (form.size() > longest.size()) longest = form;
+  bool after_optional = false, by_name = false, fits = true;
+  for (Parameter& one : longest) {
+    const auto has = [&](const std::vector<Parameter>& form) {
+      return std::ranges::any_of(form, [&](const Parameter& p) { return p.name == one.name; });
+    };
+    by_name = by_name || one.name == "*";
+    if (one.value.empty() && one.name != "*" && one.name != "/") {
+      if (!std::ranges::all_of(forms, has))
+        one.value = "...";
+      else if (after_optional && !by_name)
+        fits = false;
+    }
+    after_optional = after_optional || !one.value.empty();
+  }
+  if (fits) return text_of(longest);
+  std::string known;
+  for (const auto& form : forms) known += call_of(name, form) + "\n";
+  text = known + text;
+  return "self, *args, **kwargs";
+}
+
+/// The documentation that pybind11 wrote, with one signature that CPython understands in place of all typed ones.
+std::string plain(const std::string& name, const std::string& doc) {
+  const auto parameters_at = [&](std::size_t begin) {
+    return parameters_of(std::string_view(doc).substr(begin + 1, end_of(doc, begin) - begin - 2));
+  };
+  const auto after_line = [&](std::size_t i) { return std::min(doc.find('\n', i), doc.size() - 1) + 1; };
+  std::vector<std::vector<Parameter>> forms;
+  std::string text;
+  const std::string overloaded = name + "(*args, **kwargs)\nOverloaded function.\n";
+  if (!doc.starts_with(overloaded)) {
+    forms.push_back(parameters_at(name.size()));
+    text = doc.substr(after_line(end_of(doc, name.size())));
+  }
+  for (std::size_t i = overloaded.size(), number = 1; doc.starts_with(overloaded); ++number) {
+    const std::string head = "\n" + std::to_string(number) + ". " + name;
+    i = doc.find(head + "(", i - 1);
+    if (i == std::string::npos) break;
+    const std::size_t bracket = i + head.size(), begin = after_line(end_of(doc, bracket));
+    const std::size_t next = doc.find("\n" + std::to_string(number + 1) + ". " + name + "(", begin - 1);
+    forms.push_back(parameters_at(bracket));
+    const std::string own = doc.substr(begin, next == std::string::npos ? next : next - begin);
+    if (own.find_first_not_of('\n') != std::string::npos)
+      text += (text.empty() ? "" : "\n" + call_of(name, forms.back()) + "\n") + own;
+    i = begin;
+  }
+  const std::string signature = signature_of(name, forms, text);
+  return name + "(" + signature + ")\n--\n\n" + text.substr(std::min(text.find_first_not_of('\n'), text.size()));
+}
+
+/// Full names of functions, by the object that CPython hands to them.
+std::unordered_map<PyObject*, std::string>& names() {
+  static auto* const names = new std::unordered_map<PyObject*, std::string>;
+  return *names;
+}
+
+/// Says in plain words why a call was refused, if the reason was written by pybind11.
+void explain(PyObject* function, const py::tuple& args, const py::dict& kwargs) {
+  if (PyErr_ExceptionMatches(PyExc_TypeError) == 0) return;
+  py::error_already_set error;
+  const auto message = py::str(error.value()).cast<std::string>();
+  if (message.find("(): incompatible ") == std::string::npos) {
+    error.restore();
+    return;
+  }
+  try {
+    const py::object text =
+        py::module_::import("stickslip._refusals").attr("explain")(names().at(function), args, kwargs);
+    PyErr_SetObject(PyExc_TypeError, text.ptr());
+  } catch (py::error_already_set& other) {
+    other.restore();
+  }
+}
+
+// pybind11 has one way to call its functions; which of both depends on its version.
+using FastCall = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
+FastCall fast = nullptr;
+PyCFunctionWithKeywords slow = nullptr;
+
+PyObject* call_fast(PyObject* self, PyObject* const* given, Py_ssize_t count, PyObject* keywords) {
+  PyObject* const result = fast(self, given, count, keywords);
+  if (result != nullptr) return result;
+  py::tuple args(static_cast<std::size_t>(count));
+  for (Py_ssize_t i = 0; i < count; ++i)
+    args[static_cast<std::size_t>(i)] = py::reinterpret_borrow<py::object>(given[i]);
+  py::dict kwargs;
+  if (keywords != nullptr)
+    for (Py_ssize_t i = 0; i < PyTuple_GET_SIZE(keywords); ++i)
+      kwargs[py::handle(PyTuple_GET_ITEM(keywords, i))] = py::reinterpret_borrow<py::object>(given[count + i]);
+  explain(self, args, kwargs);
+  return nullptr;
+}
+
+PyObject* call_slow(PyObject* self, PyObject* given, PyObject* keywords) {
+  PyObject* const result = slow(self, given, keywords);
+  if (result != nullptr) return result;
+  explain(self, py::reinterpret_borrow<py::tuple>(given),
+          keywords == nullptr ? py::dict() : py::reinterpret_borrow<py::dict>(keywords));
+  return nullptr;
+}
+
+void make_function_plain(py::handle object, const std::string& owner) {
+  if (PyInstanceMethod_Check(object.ptr()) != 0) object = PyInstanceMethod_GET_FUNCTION(object.ptr());
+  if (Py_IS_TYPE(object.ptr(), &PyStaticMethod_Type)) {
+    make_function_plain(object.attr("__func__"), owner);
+    return;
+  }
+  if (PyCFunction_Check(object.ptr()) == 0) return;
+  PyMethodDef* const definition = reinterpret_cast<PyCFunctionObject*>(object.ptr())->m_ml;
+  PyObject* const self = PyCFunction_GET_SELF(object.ptr());
+  const std::string name = definition->ml_name, doc = definition->ml_doc == nullptr ? "" : definition->ml_doc;
+  if (self == nullptr || names().contains(self) || !doc.starts_with(name + "(")) return;
+  names()[self] = owner + name;
+  std::free(const_cast<char*>(definition->ml_doc));  // pybind11's, which frees the next one, too
+  definition->ml_doc = ::strdup(plain(name, doc).c_str());
+  if ((definition->ml_flags & METH_FASTCALL) != 0) {
+    const auto call = reinterpret_cast<FastCall>(reinterpret_cast<void (*)()>(definition->ml_meth));
+    if (fast == nullptr) fast = call;
+    if (call == fast) definition->ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&call_fast));
+  } else {
+    const auto call = reinterpret_cast<PyCFunctionWithKeywords>(reinterpret_cast<void (*)()>(definition->ml_meth));
+    if (slow == nullptr) slow = call;
+    if (call == slow) definition->ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&call_slow));
+  }
+}
+
+}  // namespace
+
+void make_plain(py::module_& m) {
+  for (const auto& [key, thing] : m.attr("__dict__").cast<py::dict>()) {
+    if (!py::isinstance<py::type>(thing)) {
+      make_function_plain(thing, "");
+      continue;
+    }
+    const auto name = py::str(key).cast<std::string>();
+    if (py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(thing.ptr())) == nullptr) continue;  // an exception
+    const auto members = py::dict(thing.attr("__dict__"));
+    if (PyInstanceMethod_Check(py::object(members["__init__"]).ptr()) == 0) {  // none is bound
+      py::options options;
+      options.disable_function_signatures();
+      thing.attr("__init__") = py::cpp_function(
+          [name](const py::object&, const py::args&, const py::kwargs&) {
+            throw py::type_error(
+                name + ": made by the functions and methods that return one, not by a call; see help(" + name + ")");
+          },
+          py::name("__init__"), py::is_method(thing), "__init__(self, *args, **kwargs)\n--\n\nNot to be called.");
+    }
+    for (const auto& [member, value] : members) make_function_plain(value, name + ".");
+  }
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,250 @@
+"""``stickslip ensemble``: many random ground motions, and their statistics."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from .. import Ensemble, Estimate, GaussianExcitation, Interval, PoissonPulses, Spectrum
+from .._text import printable
+from .output import FAILURES, check_outputs, check_whole, complain, json_text, reason_of
+from .parser import numbers, text_argument
+from .slider import add_slider, slider_of
+
+__all__ = ["add_ensemble"]
+
+
+def add_ensemble(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "ensemble",
+        help="slide through many random earthquakes and print statistics",
+        description="Slides a block through many members of a random ground motion and prints the"
+        " distribution of its displacement relative to the ground, with standard errors (+-) and"
+        " confidence bounds (in brackets). The ground motion is one of --event, --rate, --band.",
+        epilog=f"Events: {', '.join(PoissonPulses.events())}.",
+    )
+    add = parser.add_argument
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument(
+        "--event", metavar="NAME", type=text_argument, help="an earthquake of the list below"
+    )
+    source.add_argument("--rate", type=float, metavar="R", help="Poisson pulse rate [1/s]")
+    source.add_argument(
+        "--band",
+        nargs=3,
+        type=float,
+        metavar=("S0", "LOW", "HIGH"),
+        help="Gaussian motion with two-sided spectral density S0 [m^2/s^3] from LOW to HIGH"
+        " [rad/s]",
+    )
+    add("--half-width", type=float, metavar="S", help="pulse half width [s] (with --rate)")
+    add("--sigma", type=float, metavar="A", help="rms pulse amplitude [m/s^2] (with --rate)")
+    add("--duration", type=float, metavar="S", help="duration of a motion [s] (with --rate)")
+    add("--dt", type=float, metavar="S", help="time step [s] (with --band)")
+    add("--samples", type=int, metavar="N", help="samples of a motion (with --band)")
+    add("--mu", type=float, required=True, help="coefficient of friction [-]")
+    add_slider(parser)
+    add(
+        "--members", type=int, default=10_000, metavar="N", help="number of members (default 10000)"
+    )
+    add("--seed", type=int, default=0, metavar="N", help="random seed (default 0)")
+    add("--threads", type=int, metavar="N", help="maximum number of threads (default: all cores)")
+    add("--settle", action="store_true", help="continue after each motion until the block rests")
+    add(
+        "--level",
+        nargs="+",
+        type=numbers,
+        default=[0.01, 0.03, 0.1, 0.3, 1.0],
+        metavar="M",
+        help="peak displacements whose probability of exceedance is printed [m] (default 0.01 0.03"
+        " 0.1 0.3 1)",
+    )
+    add(
+        "--confidence",
+        type=float,
+        default=0.95,
+        metavar="P",
+        help="level of the bounds (default 0.95)",
+    )
+    add("--checkpoint", type=Path, metavar="FILE", help="saves progress; resumed from if it exists")
+    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg)")
+    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    parser.set_defaults(run=_ensemble)
+
+
+def _ensemble(args: argparse.Namespace) -> str:
+    if args.plot:
+        from .. import plotting  # matplotlib: only who plots waits for it
+
+        plotting.check_suffix(args.plot)
+    files = {"--checkpoint": args.checkpoint, "--plot": args.plot}
+    check_outputs((option, file) for option, file in files.items() if file)
+    check_whole("--members", args.members, 2)  # for standard errors
+    check_whole("--samples", args.samples, 1)
+    for level in args.level:
+        if not 0 <= level < math.inf:
+            raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
+    if not 0 < args.confidence < 1:
+        raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
+    from ..ensemble import EnsembleError, run_ensemble  # NumPy: only who needs it waits for it
+
+    try:
+        ensemble = run_ensemble(
+            slider_of(args),
+            _excitation(args),
+            members=args.members,
+            seed=args.seed,
+            threads=args.threads,
+            settle=args.settle,
+            progress=sys.stderr is not None and sys.stderr.isatty(),
+            checkpoint=args.checkpoint,
+        )
+    except EnsembleError as error:  # the checkpoint could not be written
+        ensemble = error.partial
+        if ensemble.members < 2:
+            raise ValueError(str(error)) from error
+        complain(str(error))
+        args.code, args.checkpoint = 1, None
+    result = _statistics(args, ensemble)
+    written = [str(args.checkpoint)] if args.checkpoint else []
+    if args.plot:
+        try:
+            plotting.save(plotting.plot_ensemble(ensemble), args.plot)
+            written.append(str(args.plot))
+        except FAILURES as error:  # a picture is not worth the ensemble
+            complain(reason_of(error))
+            args.code = 1
+    if args.json:
+        return json_text({**result, "files": written})
+    return "\n".join([*_report(args, result), *(f"wrote {printable(name)}" for name in written)])
+
+
+def _excitation(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation:
+    """The ground motion of the command line."""
+    belong = {"rate": ("half_width", "sigma", "duration"), "band": ("dt", "samples"), "event": ()}
+    (kind,) = (kind for kind in belong if getattr(args, kind) is not None)
+    for other, names in belong.items():
+        for name in names:
+            given, option = getattr(args, name) is not None, f"--{name.replace('_', '-')}"
+            if given and other != kind:
+                raise ValueError(f"{option} goes with --{other}, got --{kind}")
+            if not given and other == kind:
+                raise ValueError(f"--{kind} needs {option}, got none")
+    if kind == "event":
+        return PoissonPulses.event(args.event)
+    if kind == "rate":
+        return PoissonPulses(
+            rate=args.rate, half_width=args.half_width, sigma=args.sigma, duration=args.duration
+        )
+    s0, low, high = args.band
+    spectrum = Spectrum.band_pass(s0=s0, low=low, high=high)
+    return GaussianExcitation(spectrum, dt=args.dt, samples=args.samples)
+
+
+def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
+    """The statistics that are printed; keys carry their units."""
+
+    def interval(name: str, key: float, found: Interval) -> dict:
+        return {name: key, "value": found.value, "low": found.low, "high": found.high}
+
+    def estimate(name: str, found: Estimate) -> dict:
+        if not (math.isfinite(found.value) and math.isfinite(found.error)):
+            raise OverflowError(
+                f"ensemble: {name} must be finite, got {found.value:g} +- {found.error:g}"
+            )
+        return {"value": found.value, "error": found.error}
+
+    shares = (0.5, 0.95, 0.99)
+    stationary = ensemble.stationary
+    return {
+        "configuration": ensemble.configuration,
+        "members": ensemble.members,
+        "confidence": args.confidence,
+        "peak_m": [interval("quantile", p, ensemble.quantile(p, args.confidence)) for p in shares],
+        "exceedance": [
+            interval("peak_m", level, ensemble.exceedance(level, args.confidence))
+            for level in args.level
+        ],
+        **_residual(ensemble),
+        "stationary": {
+            "begin_s": stationary.begin,
+            "end_s": stationary.end,
+            "velocity_variance_m2_s2": estimate(
+                "the velocity variance", stationary.velocity_variance
+            ),
+            "growth_rate_m2_s": estimate("the growth rate", stationary.growth_rate),
+            "remark": stationary.remark,
+        },
+    }
+
+
+def _residual(ensemble: Ensemble) -> dict:
+    """Mean and root mean square of the residuals; None where they are not kept."""
+    try:
+        residual = ensemble.residual
+    except ValueError:
+        return {"residual_mean_m": None, "residual_rms_m": None}
+    unit = float(abs(residual).max()) or 1.0  # squares stay within the range of doubles
+    residual = residual / unit
+    root_n = math.sqrt(len(residual))
+    squares = residual**2
+    rms = math.sqrt(squares.mean())
+    return {
+        "residual_mean_m": {
+            "value": unit * float(residual.mean()),
+            "error": unit * float(residual.std(ddof=1)) / root_n,
+        },
+        # d(rms) = d(rms^2) / (2 rms)
+        "residual_rms_m": {
+            "value": unit * rms,
+            "error": unit * float(squares.std(ddof=1)) / root_n / (2 * rms) if rms else 0.0,
+        },
+    }
+
+
+def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
+    def row(name: str, which: str, found: dict, factor: float, unit: str) -> str:
+        value = factor * found["value"]
+        if "error" in found:
+            error = factor * found["error"]
+            text, around = _with_error(value, error)
+        else:
+            low, high = factor * found["low"], factor * found["high"]
+            text, around = f"{value:.4g}", f"({low:.4g} to {high:.4g})"
+        return f"{name:24}{which:>9}  {text:>10} {unit:7}  {around}"
+
+    stationary = result["stationary"]
+    yield (
+        f"{result['members']:,} members, seed {args.seed}; {100 * args.confidence:g} % bounds in"
+        f" brackets, standard errors after +-"
+    )
+    for i, found in enumerate(result["peak_m"]):
+        share = found["quantile"]
+        which = "median" if share == 0.5 else f"{100 * share:g} %"
+        yield row("" if i else "peak displacement", which, found, 100, "cm")
+    for name in ("mean", "rms"):
+        found = result[f"residual_{name}_m"]
+        if found:
+            yield row("residual displacement" if name == "mean" else "", name, found, 100, "cm")
+    for i, found in enumerate(result["exceedance"]):
+        level = f"{100 * found['peak_m']:g} cm"
+        yield row("" if i else "peak exceeds", level, found, 100, "%")
+    yield row("velocity variance", "", stationary["velocity_variance_m2_s2"], 1, "m^2/s^2")
+    yield row("growth of variance of x", "", stationary["growth_rate_m2_s"], 1, "m^2/s")
+    yield f"(the last two from {stationary['begin_s']:.3g} to {stationary['end_s']:.3g} s)"
+    if stationary["remark"]:
+        yield f"({stationary['remark']})"
+
+
+def _with_error(value: float, error: float) -> tuple[str, str]:
+    """The error to two digits and the value as far."""
+    if not error > 0:
+        return f"{value:.4g}", f"+- {error:.2g}"
+    places = 1 - math.floor(math.log10(error))
+    if 0 <= places <= 8:
+        return f"{value:.{places}f}", f"+- {error:.{places}f}"
+    digits = max(0, math.floor(math.log10(max(abs(value), error))) + places)
+    return f"{value:.{digits}e}", f"+- {error:.1e}"

@@ -1,0 +1,149 @@
+"""What the command prints and writes."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import errno
+import io
+import math
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+from .. import ConvergenceError, build_info
+from .._files import check_writable, replacing
+from .._text import printable
+
+__all__ = [
+    "FAILURES",
+    "check_outputs",
+    "check_whole",
+    "column",
+    "complain",
+    "json_text",
+    "reason_of",
+    "version",
+    "write",
+    "write_csv",
+    "write_error",
+]
+
+# What ends the work on one file, but not that on the others.
+FAILURES = (ConvergenceError, ImportError, MemoryError, OSError, OverflowError, ValueError)
+
+
+def write(text: str, stream: TextIO | None) -> None:
+    try:
+        if stream is None:
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        encoding = getattr(stream, "encoding", None) or "utf-8"
+        stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+        stream.flush()
+    except OSError as error:
+        with contextlib.suppress(AttributeError, OSError):  # else Python fails again at exit
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        raise OSError(error.errno, error.strerror, "standard output") from error
+
+
+def write_error(text: str) -> None:
+    with contextlib.suppress(OSError):  # nobody is left to be told
+        write(text, sys.stderr)
+
+
+def complain(message: str) -> None:
+    write_error(f"stickslip: {printable(message)}\n")
+
+
+def reason_of(error: BaseException, file: Path | None = None) -> str:
+    """What went wrong, without the name of `file`."""
+    if isinstance(error, OSError) and error.strerror:
+        named = error.filename is not None and str(error.filename) != str(file)
+        return f"{error.filename}: {error.strerror}" if named else error.strerror
+    if isinstance(error, MemoryError):
+        detail = str(error).replace("std::bad_alloc", "")
+        return f"not enough memory{f': {detail}' if detail else ''}"
+    return str(error).removeprefix(f"read_record: {file}: ")
+
+
+def json_text(document: dict) -> str:
+    """Exact doubles; infinity, which JSON lacks, becomes null, and NaN raises ValueError."""
+    import json
+
+    def finite(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: finite(item) for key, item in value.items()}
+        if isinstance(value, list):
+            return [finite(item) for item in value]
+        return None if value == math.inf else value
+
+    document = {"stickslip": build_info()["version"], **finite(document)}
+    return json.dumps(document, indent=2, allow_nan=False)
+
+
+def check_outputs(outputs: Iterable[tuple[str, Path]], records: Iterable[Path] = ()) -> None:
+    """Raises where a file cannot be made or would replace a record or another output."""
+    taken = {_identity(record): f"the record {record}" for record in records}
+    for option, file in outputs:
+        try:
+            check_writable(file)
+        except OSError as error:
+            if (
+                error.errno != errno.ENAMETOOLONG
+            ):  # by the name of one record: no more than its picture fails
+                raise
+        owner = f"the file of {option}, {file}"
+        if taken.setdefault(_identity(file), owner) is not owner:
+            raise ValueError(f"{option} {file} would overwrite {taken[_identity(file)]}")
+
+
+def check_whole(option: str, value: int | None, least: int, most: int = 2**64 - 1) -> None:
+    if value is not None and not least <= value <= most:
+        bound = f"at least {least}" if value < least else f"at most {most}"
+        raise ValueError(f"{option} must be {bound}, got {value}")
+
+
+def _identity(file: Path) -> Any:
+    """Equal for all names of one file: relative, symbolic and hard links."""
+    try:
+        status = file.stat()
+    except OSError:
+        return os.path.realpath(file)
+    return status.st_dev, status.st_ino
+
+
+def version() -> str:
+    info = build_info()
+    contained = [
+        f"{name} {info[key]}"
+        for name, key in (("FFTW", "fftw"), ("GSL", "gsl"), ("SUNDIALS", "sundials"))
+        if info.get(key)
+    ]
+    made = [f"{word} {info[word]}" for word in ("commit", "compiler") if info.get(word)]
+    gpl = info.get("fftw") or info.get("gsl")
+    return "\n".join(
+        [
+            " ".join(["stickslip", info["version"], *([f"({', '.join(made)})"] if made else [])]),
+            f"contains {', '.join(contained)}" if contained else "contains no other library",
+            "source: BSD-3-Clause; this build, with FFTW and GSL: GPL-3.0-or-later"
+            if gpl
+            else "source and this build: BSD-3-Clause",
+        ]
+    )
+
+
+def write_csv(file: Path, names: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
+    """Rows as comma-separated values, exact doubles, whole or not at all; None is an empty cell."""
+    text = io.StringIO()
+    table = csv.DictWriter(text, names, extrasaction="ignore", lineterminator="\n")
+    table.writeheader()
+    table.writerows(rows)
+    with replacing(file) as stream:
+        stream.write(text.getvalue().encode("utf-8", "backslashreplace"))
+
+
+def column(value: float, width: int, places: int = 2) -> str:
+    text = f"{value:{width}.{places}f}"
+    return text if len(text) <= width else f"{value:{width}.1e}"

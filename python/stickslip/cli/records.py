@@ -1,0 +1,97 @@
+"""``stickslip records``: what files hold."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from .. import STANDARD_GRAVITY, strong_motion
+from .._text import printable
+from .batch import Batch, Motion, add_files
+from .output import column, json_text, write_csv
+
+__all__ = ["add_records"]
+
+_COLUMNS = (
+    "file",
+    "record",
+    "component",
+    "dt_s",
+    "samples",
+    "duration_s",
+    "pga_g",
+    "pgv_m_s",
+    "arias_intensity_m_s",
+    "d5_95_s",
+)
+
+
+def add_records(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "records",
+        help="print what records hold",
+        description="Reads records and prints a line for each component of each: its number in the"
+        " file, time step, samples and duration, peak ground acceleration and velocity, Arias"
+        " intensity and the significant duration D5-95, with their units in the heading. The"
+        " velocity is that of the record as it is, without a correction of its baseline.",
+        epilog="A file that cannot be read is reported in one line on stderr; the others are"
+        " printed, and the exit code is 1.",
+    )
+    add = parser.add_argument
+    add_files(parser)
+    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
+    add("--json", action="store_true", help="one JSON document, exact doubles")
+    parser.set_defaults(run=_records, component="all", plot=None)
+
+
+def _records(args: argparse.Namespace) -> str:
+    batch = Batch(args)
+    rows: list[dict[str, Any]] = []
+    for file in batch.files:
+        with batch.reported(file):
+            rows += [_row(file, found) for found in batch.motions(file)]
+    if args.csv:
+        write_csv(args.csv, _COLUMNS, rows)
+    args.code = batch.code
+    if args.json:
+        return json_text({"records": rows, "errors": batch.errors})
+    wrote = [f"wrote {printable(str(args.csv))}"] if args.csv else []
+    return "\n".join([*_table(rows), *wrote])
+
+
+def _row(file: Path, found: Motion) -> dict[str, Any]:
+    motion = found.motion
+    measures = strong_motion(motion)
+    return {
+        "file": str(file),
+        "record": motion.name,
+        "component": found.component,
+        "dt_s": motion.dt,
+        "samples": len(motion),
+        "duration_s": motion.duration,
+        "pga_g": motion.peak_acceleration / STANDARD_GRAVITY,
+        "pgv_m_s": measures.peak_velocity,
+        "arias_intensity_m_s": measures.arias_intensity,
+        "d5_95_s": measures.duration,
+    }
+
+
+def _table(rows: list[dict[str, Any]]) -> Iterable[str]:
+    if not rows:
+        return
+    names = [printable(row["record"] or row["file"]) for row in rows]
+    width = max(len("record"), *map(len, names))
+    yield (
+        f"{'record':{width}}  component  dt [s]  samples  duration [s]  PGA [g]  PGV [cm/s]"
+        "  Arias [m/s]  D5-95 [s]"
+    )
+    for name, row in zip(names, rows):
+        dt = "uneven" if row["dt_s"] is None else f"{row['dt_s']:.4g}"
+        yield (
+            f"{name:{width}}  {row['component'] or 1:9d}  {dt:>6}  {row['samples']:7d}"
+            f"  {column(row['duration_s'], 12)}  {column(row['pga_g'], 7, 3)}"
+            f"  {column(row['pgv_m_s'] * 100, 10, 1)}"
+            f"  {column(row['arias_intensity_m_s'], 11, 3)}  {column(row['d5_95_s'], 9)}"
+        )

@@ -1,0 +1,230 @@
+"""``stickslip slide``: how far a slider slides in records."""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from .. import STANDARD_GRAVITY, ConvergenceError, GroundMotion, Response, Slider, integrate
+from .._text import printable
+from .batch import Batch, add_files
+from .output import column, json_text, write_csv
+from .parser import numbers
+from .slider import add_slider, described, heading, slider_of, variations
+
+__all__ = ["add_slide"]
+
+_COLUMNS = (
+    "file",
+    "record",
+    "component",
+    "scale",
+    "pga_g",
+    "law",
+    "mu",
+    "slip_level_forward_m_s2",
+    "slip_level_backward_m_s2",
+    "reach_m",
+    "slope_degrees",
+    "period_s",
+    "damping_ratio",
+    "polarity",
+    "peak_m",
+    "residual_m",
+    "sliding_distance_m",
+    "time_sliding_s",
+    "slips",
+    "at_rest",
+)
+
+
+def add_slide(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "slide",
+        help="slide records and print displacements",
+        description="Slides a block through strong-motion records and continues after the end of"
+        " each record until the block comes to rest. Prints peak, residual and path length of the"
+        " displacement relative to the ground [cm], the time spent sliding [s] and the number of"
+        " slips (a reversal ends one slip and begins another). Ground acceleration is given in g ="
+        " 9.80665 m/s^2.",
+        epilog="--mu, --reach, --slope, --period, --damping-ratio and --scale take a number or a"
+        " range START:STOP:STEP, the stop included, as 0.05:0.6:0.05; every combination is slid."
+        " A slider that does not come to rest (no friction; a caster that has escaped) is"
+        " reported in its state at the end of the record, and its row says so. A record that cannot"
+        " be read or slid is reported in one line on stderr; the others are printed, and the exit"
+        " code is 1. With --json, such failures are also listed under 'errors', and null is an"
+        " infinite value or an option that was not given. Bad options end the command with exit"
+        " code 2 before any file is read.",
+    )
+    add = parser.add_argument
+    add_files(parser)
+    add(
+        "--mu",
+        nargs="+",
+        type=numbers,
+        required=True,
+        help="coefficients of friction [-] or ranges; a repeated value is used once",
+    )
+    add_slider(parser, ranges=True)
+    add("--scale", type=numbers, default=1.0, help="factor on the ground acceleration (default 1)")
+    add(
+        "--both",
+        action="store_true",
+        help="slide each record as it is and reversed; also print the mean of both, of the"
+        " magnitudes of their residuals",
+    )
+    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
+    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
+    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    parser.set_defaults(run=_slide)
+
+
+def _slide(args: argparse.Namespace) -> str:
+    cases, several = variations(args)
+    sliders = [(case, slider_of(case)) for case in cases]
+    batch = Batch(args)
+    rows: list[dict[str, Any]] = []
+    written: list[str] = []
+    polarities = {"recorded": 1, "reversed": -1} if args.both else {None: 1}
+    for place, file in enumerate(batch.files):
+        with batch.reported(file):
+            for found in batch.motions(file):
+                responses = {}
+                for case, slider in sliders:
+                    label = ", ".join(described(case, several, "\u03bc"))
+                    who = ", ".join(described(case, several))
+                    with batch.reported(file, f"{who}: "):
+                        both = []
+                        for polarity, sign in polarities.items():
+                            factor = sign * case.scale
+                            motion = found.motion if factor == 1 else found.motion.scaled(factor)
+                            response = _settle(slider, motion)
+                            responses[label + (f", {polarity}" if polarity else "")] = response
+                            both.append(
+                                _row(case, file, found.component, slider, response, polarity)
+                            )
+                        rows += [*both, *([_mean(both)] if args.both else [])]
+                if args.plot and responses:
+                    picture = batch.picture(place, found)
+                    _draw(responses, picture)
+                    written.append(str(picture))
+    if args.csv:
+        write_csv(args.csv, _COLUMNS, rows)
+    args.code = batch.code
+    if args.json:
+        return json_text({"results": rows, "errors": batch.errors, "figures": written})
+    written += [str(args.csv)] if args.csv else []
+    table = _table(rows, [name for name in several if name != "mu"])
+    return "\n".join([*table, *(f"wrote {printable(name)}" for name in written)])
+
+
+def _draw(responses: dict[str, Response], file: Path) -> None:
+    from .. import plotting
+
+    if len(responses) == 1:
+        figure = plotting.plot_response(*responses.values())
+    else:
+        figure = plotting.plot_responses(list(responses.values()), list(responses))
+    plotting.save(figure, file)
+
+
+def _settle(slider: Slider, motion: GroundMotion) -> Response:
+    try:
+        return integrate(slider, motion, settle=True)
+    except ConvergenceError:
+        return integrate(slider, motion)
+
+
+def _row(
+    args: argparse.Namespace,
+    file: Path,
+    component: int | None,
+    slider: Slider,
+    response: Response,
+    polarity: str | None,
+) -> dict[str, Any]:
+    """One response; keys carry their units."""
+    forward, backward = (slider.resist(backward=back) for back in (False, True))
+    return {
+        "file": str(file),
+        "record": response.motion.name,
+        "component": component,
+        "scale": args.scale,
+        "pga_g": response.motion.peak_acceleration / STANDARD_GRAVITY,
+        "law": args.law,
+        "mu": args.mu,
+        "slip_level_forward_m_s2": forward,
+        "slip_level_backward_m_s2": backward,
+        "reach_m": getattr(slider.law, "reach", None),
+        "slope_degrees": args.slope,
+        "period_s": args.period,
+        "damping_ratio": args.damping_ratio,
+        "polarity": polarity,
+        "peak_m": response.peak,
+        "residual_m": response.residual,
+        "sliding_distance_m": response.sliding_distance,
+        "time_sliding_s": response.time_sliding,
+        "slips": response.slips,
+        "at_rest": response.at_rest,
+    }
+
+
+def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Of both polarities; of residuals their magnitudes, for a block that slides either way
+    mirrors them."""
+
+    def mean(name: str) -> float:
+        return statistics.fmean(abs(row[name]) for row in rows)
+
+    names = ("peak_m", "residual_m", "sliding_distance_m", "time_sliding_s", "slips")
+    return {
+        **rows[0],
+        "polarity": "mean",
+        **{name: mean(name) for name in names},
+        "at_rest": all(row["at_rest"] for row in rows),
+    }
+
+
+# The key of each option that may be a range.
+_KEYS = {
+    "reach": "reach_m",
+    "slope": "slope_degrees",
+    "period": "period_s",
+    "damping_ratio": "damping_ratio",
+    "scale": "scale",
+}
+
+
+def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
+    if not rows:
+        return
+    names = [_name(row) for row in rows]
+    width = max(len("record"), *map(len, names))
+    both = any(row["polarity"] for row in rows)
+    more = "".join(f"  {heading(name):>11}" for name in several)
+    yield (
+        f"{'record':{width}}  PGA [g]     mu{more}{'  polarity' if both else ''}  peak [cm]"
+        "  residual [cm]  distance [cm]  sliding [s]  slips"
+    )
+    last: object = None
+    for name, row in zip(names, rows):
+        head = f"{name:{width}}  {column(row['pga_g'], 7, 3)}"
+        this = row["file"], row["component"], row["scale"]
+        more = "".join(f"  {row[_KEYS[name]]:11.4g}" for name in several)
+        polarity = f"  {row['polarity']:8}" if both else ""
+        yield (
+            f"{head if this != last else '':{width + 9}}  {row['mu']:5.4g}{more}{polarity}"
+            f"  {column(row['peak_m'] * 100, 9)}  {column(row['residual_m'] * 100, 13)}"
+            f"  {column(row['sliding_distance_m'] * 100, 13)}"
+            f"  {column(row['time_sliding_s'], 11)}"
+            f"  {row['slips']:5g}{'' if row['at_rest'] else '  never rests: at end of record'}"
+        )
+        last = this
+
+
+def _name(row: dict[str, Any]) -> str:
+    component = f" ({row['component']})" if row["component"] else ""
+    return printable(row["record"] or row["file"]) + component

@@ -1,0 +1,114 @@
+"""The slider of the command line."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from .. import Caster, Coulomb, Slider
+from .parser import numbers
+
+__all__ = ["add_slider", "described", "heading", "slider_of", "variations"]
+
+# What may be given as a range, with the words for it in a table and in a legend.
+_VARIED = {
+    "mu": "mu",
+    "reach": "reach [m]",
+    "slope": "slope [deg]",
+    "period": "period [s]",
+    "damping_ratio": "damping",
+    "scale": "scale",
+}
+
+
+def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
+    """Add the options that `slider_of` reads, except --mu.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+    ranges : bool, optional
+        Whether they may be ranges START:STOP:STEP.
+    """
+    number: Callable[[str], Any] = numbers if ranges else float
+    add = parser.add_argument
+    add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
+    add("--reach", type=number, metavar="M", help="caster: distance over which the level falls [m]")
+    add(
+        "--trail",
+        type=float,
+        metavar="M",
+        help="caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach",
+    )
+    add("--wheel-width", type=float, metavar="M", help="caster: width of a wheel [m]; with --trail")
+    add("--period", type=number, metavar="S", help="period of the mass on its spring [s]")
+    add("--damping-ratio", type=number, metavar="Z", help="damping ratio; with --period")
+    add("--slope", type=number, metavar="DEGREES", help="slope of the ground; downhill is forward")
+
+
+def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list[str]]:
+    """Every combination of the numbers that were given, and the options that have several."""
+    given = {
+        name: list(value) if isinstance(value, list | tuple) else [value]
+        for name in _VARIED
+        for value in [getattr(args, name)]
+    }
+    every = [
+        argparse.Namespace(**{**vars(args), **dict(zip(given, values))})
+        for values in itertools.product(*given.values())
+    ]
+    return every, [name for name, values in given.items() if len(values) > 1]
+
+
+def heading(name: str) -> str:
+    return _VARIED[name]
+
+
+def described(args: argparse.Namespace, several: list[str], mu: str = "mu") -> Iterator[str]:
+    """As "mu = 0.1" and what else differs."""
+    yield f"{mu} = {args.mu:g}"
+    for name in several:
+        if name != "mu":
+            word, _, unit = _VARIED[name].partition(" ")
+            yield f"{word} = {getattr(args, name):g}{f' {unit[1:-1]}' if unit else ''}"
+
+
+def slider_of(args: argparse.Namespace) -> Slider:
+    """The slider of the command line."""
+    mu = args.mu
+    lengths = {"--reach": args.reach, "--trail": args.trail, "--wheel-width": args.wheel_width}
+    given = [option for option, length in lengths.items() if length is not None]
+    if args.law != "caster" and given:
+        raise ValueError(f"{given[0]} goes with --law caster, got --law {args.law}")
+    if args.law == "caster":
+        if given not in (["--reach"], ["--trail", "--wheel-width"]):
+            raise ValueError(
+                "--law caster needs --reach, or --trail and --wheel-width, in meters, got "
+                + (" and ".join(given) or "none")
+            )
+        law: Caster | Coulomb = (
+            Caster(mu=mu, reach=args.reach)
+            if given == ["--reach"]
+            else Caster.from_geometry(mu=mu, trail=args.trail, wheel_width=args.wheel_width)
+        )
+    else:
+        law = Coulomb(mu=mu)
+    ratio = args.damping_ratio
+    if ratio is not None and not 0 <= ratio < math.inf:
+        raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
+    if ratio is not None and args.period in (None, math.inf):
+        raise ValueError(f"--damping-ratio goes with a finite --period, got {ratio:g} without")
+    ground: dict[str, Any] = {
+        "slope_degrees": args.slope or 0.0,
+        "one_way": args.law == "one-way",
+    }
+    if args.period is None:
+        return Slider(law, **ground)
+    if not args.period > 0:
+        raise ValueError(f"--period must be positive, got {args.period:g} s")
+    if args.period == math.inf:
+        return Slider(law, **ground)
+    return Slider(law, period=args.period, damping_ratio=ratio, **ground)

@@ -1,0 +1,155 @@
+"""``stickslip spectrum``: response spectra of records."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from .. import STANDARD_GRAVITY, ResponseSpectrum, response_spectrum
+from .._text import printable
+from .batch import Batch, Motion, add_files
+from .output import column, json_text, write_csv
+from .parser import numbers
+
+__all__ = ["add_spectrum"]
+
+# Of each kind: the unit of the table, its size in SI units, and the name of the value in files.
+_KINDS = {
+    "pseudo_acceleration": ("PSA [g]", STANDARD_GRAVITY, "pseudo_acceleration_m_s2"),
+    "pseudo_velocity": ("PSV [cm/s]", 0.01, "pseudo_velocity_m_s"),
+    "displacement": ("SD [cm]", 0.01, "displacement_m"),
+    "velocity": ("SV [cm/s]", 0.01, "velocity_m_s"),
+    "acceleration": ("SA [g]", STANDARD_GRAVITY, "acceleration_m_s2"),
+}
+_PRINTED = [0.0, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0]  # periods [s]
+_DRAWN = [10 ** (k / 33 - 2) for k in range(100)]  # 100 from 0.01 to 10 s
+
+
+def add_spectrum(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "spectrum",
+        help="print the response spectra of records",
+        description="Computes elastic response spectra of records: the largest response of linear"
+        " oscillators, in continuous time, exact for straight lines between samples. Prints it for"
+        " a few periods (0 is a rigid oscillator: the PGA), or for those of --periods. Picture,"
+        " CSV and JSON have 100 periods from 0.01 to 10 s, or those of --periods.",
+        epilog="--periods, --damping and --scale take numbers or ranges START:STOP:STEP. A file"
+        " that cannot be read is reported in one line on stderr; the others are printed, and the"
+        " exit code is 1.",
+    )
+    add = parser.add_argument
+    add_files(parser)
+    add(
+        "--periods",
+        nargs="+",
+        type=numbers,
+        metavar="T",
+        help="undamped natural periods [s], 0 or from 1e-6 to 1e6, as 0.1:4:0.1",
+    )
+    add(
+        "--damping",
+        nargs="+",
+        type=numbers,
+        default=[0.05],
+        metavar="Z",
+        help="ratios of critical damping, at least 0 and below 2 (default 0.05)",
+    )
+    add(
+        "--kind",
+        choices=tuple(_KINDS),
+        default="pseudo_acceleration",
+        help="what is printed (default pseudo_acceleration)",
+    )
+    add("--scale", type=float, default=1.0, help="factor on the ground acceleration (default 1)")
+    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
+    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
+    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    parser.set_defaults(run=_spectrum)
+
+
+def _spectrum(args: argparse.Namespace) -> str:
+    for ratio in args.damping:
+        if not 0 <= ratio < 2:
+            raise ValueError(f"--damping must be at least 0 and below 2, got {ratio:g}")
+    for period in args.periods or []:
+        if not (period == 0 or 1e-6 <= period <= 1e6):
+            raise ValueError(f"--periods must be 0 or from 1e-6 to 1e6 s, got {period:g} s")
+    batch = Batch(args)
+    printed: list[dict[str, Any]] = []
+    rows: list[dict[str, Any]] = []
+    written: list[str] = []
+    in_files = args.csv or args.json or args.plot
+    for place, file in enumerate(batch.files):
+        with batch.reported(file):
+            for found in batch.motions(file):
+                motion = found.motion if args.scale == 1 else found.motion.scaled(args.scale)
+                few = response_spectrum(
+                    motion, args.periods or _PRINTED, args.damping, kind=args.kind
+                )
+                printed += _rows(args, file, found, few)
+                if not in_files:
+                    continue
+                many = few
+                if not args.periods:
+                    many = response_spectrum(motion, _DRAWN, args.damping, kind=args.kind)
+                rows += _rows(args, file, found, many)
+                if args.plot:
+                    picture = batch.picture(place, found)
+                    _draw(many, motion.name, picture)
+                    written.append(str(picture))
+    if args.csv:
+        names = ("file", "record", "component", "scale", "damping_ratio", "period_s")
+        write_csv(args.csv, (*names, _KINDS[args.kind][2]), rows)
+    args.code = batch.code
+    if args.json:
+        return json_text({"results": rows, "errors": batch.errors, "figures": written})
+    written += [str(args.csv)] if args.csv else []
+    return "\n".join([*_table(args, printed), *(f"wrote {printable(name)}" for name in written)])
+
+
+def _draw(spectrum: ResponseSpectrum, name: str, file: Path) -> None:
+    from .. import plotting
+
+    plotting.save(spectrum.plot(title=printable(name)), file)
+
+
+def _rows(
+    args: argparse.Namespace, file: Path, found: Motion, spectrum: ResponseSpectrum
+) -> Iterator[dict[str, Any]]:
+    key = _KINDS[args.kind][2]
+    values = spectrum.values.reshape(len(args.damping), -1).tolist()
+    for ratio, row in zip(args.damping, values):
+        for period, value in zip(spectrum.periods.tolist(), row):
+            yield {
+                "file": str(file),
+                "record": found.motion.name,
+                "component": found.component,
+                "scale": args.scale,
+                "damping_ratio": ratio,
+                "period_s": period,
+                key: value,
+            }
+
+
+def _table(args: argparse.Namespace, rows: list[dict[str, Any]]) -> Iterable[str]:
+    if not rows:
+        return
+    heading, unit, key = _KINDS[args.kind]
+
+    def named(row: dict[str, Any]) -> str:
+        component = f" ({row['component']})" if row["component"] else ""
+        return printable(row["record"] or row["file"]) + component
+
+    width = max(len("record"), *(len(named(row)) for row in rows))
+    yield f"{'record':{width}}  damping  period [s]  {heading:>10}"
+    last: object = None
+    for row in rows:
+        this = row["file"], row["component"], row["damping_ratio"]
+        head = f"{named(row):{width}}  {row['damping_ratio']:7.4g}"
+        yield (
+            f"{head if this != last else '':{width + 9}}  {row['period_s']:10.4g}"
+            f"  {column(row[key] / unit, 10, 3)}"
+        )
+        last = this

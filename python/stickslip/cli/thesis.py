@@ -1,0 +1,105 @@
+"""``stickslip thesis``: the figures of the thesis, redrawn."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from .._files import replacing
+from .._text import printable
+from .output import check_whole
+
+__all__ = ["add_thesis"]
+
+
+def add_thesis(commands: argparse._SubParsersAction) -> None:
+    parser = commands.add_parser(
+        "thesis",
+        help="redraw the figures of the thesis, theory beside simulation",
+        description="Redraws figures and tables of the thesis, The Response of Stick-Slip Systems"
+        " to Random Seismic Excitation: its curves, exact solutions, and ensembles with standard"
+        " errors. For each, writes a picture and a CSV file of all curves and points; writes a page"
+        " that shows them all, gallery.md; prints the numerical claims of the thesis next to our"
+        " results. With --check, prints every number with its expected value and its tolerance,"
+        " exits with code 1 if one is off, and writes nothing unless --out is given.",
+    )
+    add = parser.add_argument
+    add("numbers", nargs="*", metavar="NUMBER", help="such as 4.6, A.2, 'Table 5.1' (default: all)")
+    add("--members", type=int, metavar="N", help="of an ensemble (default 100000; --check: 2000)")
+    add("--seed", type=int, metavar="N", help="random seed (default 1; --check: 2)")
+    add("--threads", type=int, metavar="N", help="maximum number of threads (default: all cores)")
+    add(
+        "--out",
+        type=Path,
+        metavar="FOLDER",
+        help="folder for the files (default: thesis; --check: none)",
+    )
+    add("--format", choices=("png", "pdf", "svg"), default="png", help="of pictures (default png)")
+    add("--check", action="store_true", help="quick check against expected values")
+    parser.set_defaults(run=_thesis)
+
+
+def _thesis(args: argparse.Namespace) -> str:
+    from .. import thesis
+
+    numbers = list(dict.fromkeys(args.numbers)) or thesis.Thesis.numbers
+    for number in numbers:
+        if number not in thesis.Thesis.numbers:
+            raise ValueError(
+                f"NUMBER must be one of {', '.join(thesis.Thesis.numbers)}, got {number}"
+            )
+    check_whole("--members", args.members, 1)
+    check_whole("--seed", args.seed, 0)
+    check_whole("--threads", args.threads, 1, 2**16)
+    members = args.members if args.members is not None else 2000 if args.check else 100_000
+    seed = args.seed if args.seed is not None else 2 if args.check else 1
+    shown = sys.stderr is not None and sys.stderr.isatty()
+
+    def heartbeat(what: str, share: float) -> None:
+        print(f"\r\33[K{what} {share:4.0%}", end="", file=sys.stderr, flush=True)
+
+    source = thesis.Thesis(
+        members=members,
+        seed=seed,
+        threads=args.threads,
+        heartbeat=heartbeat if shown else None,
+    )
+    folder = args.out or (None if args.check else Path("thesis"))
+    if folder:
+        from .. import plotting  # matplotlib: only who plots waits for it
+
+        folder.mkdir(parents=True, exist_ok=True)
+    figures, checks = [], []
+    try:
+        for number in numbers:
+            figure = source.figure(number)
+            figures.append(figure)
+            if folder:
+                stem = folder / thesis.file_stem(number)
+                with replacing(stem.with_suffix(".csv")) as stream:
+                    stream.write(figure.csv().encode())
+                plotting.save(thesis.plot(figure), stem.with_suffix(f".{args.format}"))
+            if args.check:
+                checks += figure.check()
+    finally:
+        if shown:
+            print("\r\33[K", end="", file=sys.stderr, flush=True)
+    summary = thesis.thesis_summary(figures)
+    if folder:
+        with replacing(folder / "gallery.md") as stream:
+            stream.write(thesis.page(figures, f".{args.format}").encode())
+    if not args.check:
+        return f"{summary}wrote {len(figures)} figures to {printable(str(folder))}"
+    args.code = 0 if all(check.holds for check in checks) else 1
+    plural = "" if len(figures) == 1 else "s"
+    verdict = f"{len(figures)} figure{plural}, {thesis.thesis_verdict(checks)}"
+    return "\n".join([*map(_checked, checks), verdict])
+
+
+def _checked(check: Any) -> str:
+    return (
+        f"{'holds' if check.holds else 'off  '}  {check.what:28} found {check.found:<14.8g}"
+        f" expected {check.expected:<14.8g} +- {check.allowed:.2g}"
+    )
