@@ -57,6 +57,7 @@ PYBIND11_MODULE(_core, m) {
   bind_drawn(m);
   bind_ensemble(m);
   bind_run_ensemble(m);
+  bind_sweep(m);
   bind_slowly_varying_parameters(m);
   bind_white_noise(m);
   bind_shaping_filter(m);

@@ -1,14 +1,13 @@
 // Coulomb blocks of many slip levels side by side, all under one ground motion.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/state.hpp"
 
@@ -38,14 +37,14 @@ class LevelGround {
   std::vector<double> lowest_, highest_;
 };
 
-/// A block on Coulomb friction, which starts from rest at 0. Unlike `Coulomb` it may be one that never slides forward,
-/// which a block that never slides backward is under the flipped motion.
+/// A block on Coulomb friction, which starts from rest at 0.
 struct LevelLane {
-  double forward, backward;  ///< slip levels [m/s^2], at least 0
-  State state{};             ///< at the end
-  double peak = 0;           ///< largest |x| at the events and at the end [m]
-  double sliding_distance = 0;
-  double slip_from = 0;  ///< x where the slip at hand began [m]
+  Coulomb law;
+  bool turned;                  ///< under the flipped motion
+  State state{};                ///< at the end
+  double peak = 0;              ///< largest |x| [m]
+  double sliding_distance = 0;  ///< [m]
+  double slip_from = 0;         ///< x where the slip at hand began [m]
   std::size_t events = 0;
   std::string failure{};  ///< why it does not settle
 };
@@ -53,18 +52,15 @@ struct LevelLane {
 /// Whether `slide_levels` takes a motion: with even steps, and accelerations and times whose products neither overflow
 /// nor underflow.
 bool has_level_lanes(const GroundMotion& motion) noexcept;
-/// Whether it takes these levels.
-inline bool has_level_lanes(double forward, double backward) noexcept {
-  const auto usual = [](double level) { return level == 0 || (level > 1e-60 && level < 1e60); };
-  return usual(std::min(forward, backward)) && (usual(std::max(forward, backward)) || std::isinf(forward + backward));
-}
+/// The same of the levels.
+bool has_level_lanes(const Coulomb& law) noexcept;
 
 /// Moves all lanes through the motion, as `integrate` does each: thesis (4.51) to (4.53).
 ///
 /// The lanes are taken as many at a time as a vector holds. Those next to each other should be alike: a vector that is
 /// stuck in all lanes skips to the next segment that moves one of them; where each goes on as it was, sliding or stuck,
-/// it is one step without a branch; those lanes that may have an event in a segment take the event loop
-/// (sliding/advance.hpp).
+/// it is one step without a branch; a segment in which some may have an event takes one with all that may happen
+/// (blocks-inl.hpp), and those lanes whose velocity comes to zero at its very end the event loop (sliding/advance.hpp).
 ///
 /// @param settle  go on without ground acceleration until they rest; one that does not says so in `failure`
 /// @pre has_level_lanes

@@ -23,13 +23,13 @@ struct Stopped {};
 /// under the flipped motion it does the same the other way.
 struct Lane {
   std::size_t slider;
+  Coulomb law;
   bool flipped, both;
-  double forward, backward;
 };
 
 class Sweep {
  public:
-  Sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion> motions, const SweepOptions& options)
+  Sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions, const SweepOptions& options)
       : sliders_(sliders), motions_(motions), options_(options) {
     table_.sliders = sliders.size();
     table_.records = motions.size();
@@ -41,14 +41,14 @@ class Sweep {
     table_.events.assign(size, 0);
 
     for (std::size_t s = 0; s < sliders.size(); ++s)
-      if (const Coulomb* law = sliders[s].law; law && has_level_lanes(law->forward(), law->backward()))
+      if (const Coulomb* law = sliders[s].law; law && has_level_lanes(*law))
         add_lanes(s, *law);
       else
         singles_.push_back(s);
     // Those next to each other do nearly the same.
     std::ranges::stable_sort(lanes_, {}, [](const Lane& lane) {
-      const auto [least, most] = std::minmax(lane.forward, lane.backward);
-      return std::tuple(most == least, std::isinf(most), lane.forward > lane.backward, least);
+      const bool one_way = std::isinf(lane.law.backward());
+      return std::tuple(one_way, lane.flipped, std::min(lane.law.forward(), lane.law.backward()));
     });
   }
 
@@ -111,12 +111,9 @@ class Sweep {
   }
 
   void add_lanes(std::size_t slider, const Coulomb& law) {
-    const double forward = law.forward(), backward = law.backward();
-    const bool both = options_.polarity == Polarity::both;
-    if (options_.polarity != Polarity::flipped)
-      lanes_.push_back({slider, false, both && forward == backward, forward, backward});
-    if (options_.polarity == Polarity::flipped || (both && forward != backward))
-      lanes_.push_back({slider, true, false, backward, forward});
+    const bool alike = law.forward() == law.backward(), both = options_.polarity == Polarity::both;
+    if (options_.polarity != Polarity::flipped) lanes_.push_back({slider, law, false, both && alike});
+    if (options_.polarity == Polarity::flipped || (both && !alike)) lanes_.push_back({slider, law, true, false});
   }
 
   std::size_t place(std::size_t slider, std::size_t record, bool flipped) const {
@@ -138,7 +135,7 @@ class Sweep {
   }
 
   void run_lanes(std::size_t record) {
-    const GroundMotion& motion = motions_[record];
+    const GroundMotion& motion = *motions_[record];
     if (!has_level_lanes(motion)) {
       Response storage;
       for (const Lane& lane : lanes_)
@@ -146,16 +143,16 @@ class Sweep {
       return;
     }
     std::vector<LevelLane> lanes;
-    for (const Lane& lane : lanes_) lanes.push_back({lane.forward, lane.backward});
+    for (const Lane& lane : lanes_) lanes.push_back({lane.law, lane.flipped});
     slide_levels(LevelGround(motion), lanes, options_.settle);
     for (std::size_t k = 0; k < lanes.size(); ++k) {
-      const auto& [slider, flipped, both, forward, backward] = lanes_[k];
+      const auto& [slider, law, flipped, both] = lanes_[k];
       const LevelLane& lane = lanes[k];
       for (const bool other : {false, true}) {
         if (other && !both) continue;
         const bool turned = flipped || other;
         if (lane.failure.empty())
-          write(slider, record, turned, lane.peak, turned ? -lane.state.displacement : lane.state.displacement,
+          write(slider, record, turned, lane.peak, other ? -lane.state.displacement : lane.state.displacement,
                 lane.sliding_distance, lane.events);
         else
           fail(slider, record, turned, lane.failure);
@@ -171,7 +168,7 @@ class Sweep {
     for (const bool flipped : {false, true}) {
       if (options_.polarity == (flipped ? Polarity::as_recorded : Polarity::flipped)) continue;
       try {
-        const GroundMotion& motion = motions_[record];
+        const GroundMotion& motion = *motions_[record];
         storage =
             sliders_[slider].integrate(flipped ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
         write(slider, record, flipped, storage.peak, storage.residual, storage.sliding_distance,
@@ -186,7 +183,7 @@ class Sweep {
   }
 
   std::span<const SweepSlider> sliders_;
-  std::span<const GroundMotion> motions_;
+  std::span<const GroundMotion* const> motions_;
   const SweepOptions& options_;
   std::vector<Lane> lanes_;
   std::vector<std::size_t> singles_;  // sliders that go one by one
@@ -198,7 +195,7 @@ class Sweep {
 
 }  // namespace
 
-SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion> motions,
+SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions,
                  const SweepOptions& options) {
   if (sliders.empty()) throw std::invalid_argument("sweep: needs at least one slider, got an empty list");
   if (motions.empty()) throw std::invalid_argument("sweep: needs at least one ground motion, got an empty list");

@@ -80,7 +80,7 @@ SweepSlider sweep_slider(const std::variant<Sliders...>& slider) {
   return std::visit([](const auto& one) { return sweep_slider(one); }, slider);
 }
 
-SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion> motions,
+SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions,
                  const SweepOptions& options);
 
 }  // namespace detail
@@ -100,7 +100,8 @@ SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMot
 /// 12 to 30. All other combinations go by `integrate`, one by one on all threads. The same bits for any number of
 /// threads.
 template <class S>
-SweepTable sweep(std::span<const S> sliders, std::span<const GroundMotion> motions, const SweepOptions& options = {}) {
+SweepTable sweep(const std::vector<S>& sliders, const std::vector<const GroundMotion*>& motions,
+                 const SweepOptions& options = {}) {
   std::vector<detail::SweepSlider> these;
   for (const S& slider : sliders) these.push_back(detail::sweep_slider(slider));
   return detail::sweep(these, motions, options);
@@ -108,7 +109,9 @@ SweepTable sweep(std::span<const S> sliders, std::span<const GroundMotion> motio
 template <class S>
 SweepTable sweep(const std::vector<S>& sliders, const std::vector<GroundMotion>& motions,
                  const SweepOptions& options = {}) {
-  return sweep(std::span<const S>(sliders), std::span<const GroundMotion>(motions), options);
+  std::vector<const GroundMotion*> these;
+  for (const GroundMotion& motion : motions) these.push_back(&motion);
+  return sweep(sliders, these, options);
 }
 template <FrictionLaw Law>
 SweepTable sweep(const std::vector<Law>& laws, const std::vector<GroundMotion>& motions,
