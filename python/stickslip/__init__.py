@@ -65,6 +65,8 @@ if TYPE_CHECKING:
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, run_ensemble
     from .samples import sample_record, sample_records
+    from .suite import Suite
+    from .sweeps import Grid, SweepError, SweepTable, grid, sliding_spectrum, sweep
 
 __all__ = [
     "STANDARD_GRAVITY",
@@ -79,6 +81,7 @@ __all__ = [
     "Envelope",
     "Estimate",
     "GaussianExcitation",
+    "Grid",
     "GroundMotion",
     "HarmonicMotion",
     "Interval",
@@ -95,6 +98,9 @@ __all__ = [
     "Spectrum",
     "Stationary",
     "StrongMotion",
+    "Suite",
+    "SweepError",
+    "SweepTable",
     "Uniform",
     "VelocityDependent",
     "VelocitySpectrum",
@@ -104,6 +110,7 @@ __all__ = [
     "compare",
     "estimate_spectrum",
     "fit_pulses",
+    "grid",
     "harmonic",
     "histories",
     "integrate",
@@ -112,7 +119,9 @@ __all__ = [
     "run_ensemble",
     "sample_record",
     "sample_records",
+    "sliding_spectrum",
     "strong_motion",
+    "sweep",
     "theory",
 ]
 
@@ -132,6 +141,14 @@ if not TYPE_CHECKING:
             from . import samples
 
             return globals().setdefault(name, getattr(samples, name))
+        if name == "Suite":
+            from . import suite
+
+            return globals().setdefault(name, suite.Suite)
+        if name in ("Grid", "SweepError", "SweepTable", "grid", "sliding_spectrum", "sweep"):
+            from . import sweeps
+
+            return globals().setdefault(name, getattr(sweeps, name))
         raise AttributeError(f"module 'stickslip' has no attribute {name!r}")
 
     def __dir__():

@@ -90,7 +90,7 @@ exit codes:
     )
     parser.add_argument("--version", action="version", version=_version())
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for add in (_add_slide, _add_ensemble, _add_thesis):
+    for add in (_add_slide, _add_newmark, _add_ensemble, _add_thesis):
         add(commands)
     args = argparse.Namespace(code=0)
     try:
@@ -502,6 +502,15 @@ def _table(rows: list[dict]) -> Iterable[str]:
 def _column(value: float, width: int, places: int = 2) -> str:
     text = f"{value:{width}.{places}f}"
     return text if len(text) <= width else f"{value:{width}.1e}"
+
+
+# ---- newmark
+
+
+def _add_newmark(commands: argparse._SubParsersAction) -> None:
+    from .newmark import Tools, add_newmark
+
+    add_newmark(commands, Tools(_complain, _json, _check_outputs))
 
 
 # ---- ensemble

@@ -16,6 +16,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
     DOCS / "start.md",
     DOCS / "ground_motions.md",
+    DOCS / "sweeps.md",
     DOCS / "conventions.md",
     *sorted((DOCS / "guides").glob("*.md")),
 ]
@@ -50,7 +51,7 @@ def kobe(tmp_path, monkeypatch, pyslammer_files):
 
 
 def test_every_guide_has_code():
-    assert len(PAGES) == 8
+    assert len(PAGES) == 9
     pages = {param.id.rsplit("-", 1)[0] for kind in ("python", "cpp") for param in blocks(kind)}
     assert pages == {page.stem for page in PAGES}
 

@@ -13,13 +13,15 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 
 @contextmanager
-def shown(progress: bool | Progress) -> Iterator[Progress]:
+def shown(
+    progress: bool | Progress, who: str = "run_ensemble", things: str = "members"
+) -> Iterator[Progress]:
     if callable(progress):
         yield progress
     elif progress not in (True, False, None):
-        raise TypeError(f"run_ensemble: progress must be True, False or callable, got {progress!r}")
+        raise TypeError(f"{who}: progress must be True, False or callable, got {progress!r}")
     elif progress and sys.stderr is not None:
-        bar = _Bar()
+        bar = _Bar(things)
         try:
             yield bar
         finally:
@@ -31,10 +33,11 @@ def shown(progress: bool | Progress) -> Iterator[Progress]:
 class _Bar:
     """How far a run has come, in one line of stderr, or in lines where that is no terminal."""
 
-    def __init__(self) -> None:
+    def __init__(self, things: str) -> None:
+        self.things = things
         self.stream = sys.stderr
         self.in_place = self.stream.isatty()
-        self.began: tuple[float, int] | None = None  # [s], members
+        self.began: tuple[float, int] | None = None  # [s], things
         self.tenths = 0
         self.width = 0
 
@@ -43,7 +46,7 @@ class _Bar:
         if self.began is None:  # what a checkpoint had is no speed
             self.began = now, done
         seconds, fresh = now - self.began[0], done - self.began[1]
-        line = f"{done:,} of {total:,} members"
+        line = f"{done:,} of {total:,} {self.things}"
         if seconds > 0 and fresh > 0:
             speed = fresh / seconds
             left = (total - done) / speed
