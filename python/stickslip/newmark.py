@@ -93,7 +93,7 @@ def newmark_rows(table: SweepTable) -> list[dict[str, Any]]:
 
 
 def _block(ky: float) -> Coulomb:
-    return Coulomb(mu=ky, mu_backward=math.inf)
+    return Coulomb(mu=ky, backward=math.inf)
 
 
 def _newmark(tools: Tools, args: argparse.Namespace) -> str:

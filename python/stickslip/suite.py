@@ -123,7 +123,7 @@ class Suite(Sequence[GroundMotion]):
     def __getitem__(self, index: Any) -> GroundMotion | Suite:
         if isinstance(index, slice):
             return self._of(np.arange(len(self))[index])
-        if hasattr(index, "__index__"):
+        if isinstance(index, (int, np.integer)):
             return self._motions[operator.index(index)]
         chosen = np.asarray(index)
         if chosen.dtype == bool and chosen.shape != (len(self),):

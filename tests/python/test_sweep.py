@@ -17,7 +17,8 @@ RNG = np.random.default_rng(20)
 def quake(seed: int, samples: int = 800) -> ss.GroundMotion:
     n = np.random.default_rng(seed).normal(0, 3, samples)
     t = np.arange(samples) / samples
-    return ss.GroundMotion(n * t * (1 - t) * 4, dt=0.02, name=f"quake {seed}")
+    n *= t * (1 - t) * 4
+    return ss.GroundMotion(n - n.mean(), dt=0.02, name=f"quake {seed}")
 
 
 QUAKES = ss.Suite([quake(i) for i in range(6)], {"magnitude": [5, 5.5, 6, 6.5, 7, 7.5]})
@@ -27,7 +28,7 @@ MU = [0.05, 0.1, 0.2, 0.4]
 def test_each_combination_is_what_integrate_says():
     sliders = [
         ss.Coulomb(mu=0.1),
-        ss.Coulomb(mu=0.1, mu_backward=math.inf),
+        ss.Coulomb(mu=0.1, backward=math.inf),
         ss.Slider(ss.Coulomb(mu=0.05), period=2),
         ss.VelocityDependent(mu_slow=0.05, mu_fast=0.1, rate=50),
     ]
@@ -139,7 +140,7 @@ def test_the_table_goes_to_frames_files_and_back(tmp_path):
     assert data.peak.sel(polarity="flipped").values == pytest.approx(table.peak[:, :, 1], rel=0)
     assert data.magnitude.values.tolist() == QUAKES.magnitude.tolist()
     assert ss.SweepTable.open(table.save(tmp_path / "t.h5")) == table
-    rows = list(csv.DictReader(table.to_csv(tmp_path / "t.csv").open()))
+    rows = list(csv.DictReader(table.to_csv(tmp_path / "t.csv").read_text().splitlines()))
     assert [float(r["peak [m]"]) for r in rows] == frame["peak [m]"].tolist()
     assert pickle.loads(pickle.dumps(table)) == table
     assert table != ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES, settle=True)
@@ -267,7 +268,7 @@ def test_slammers_table_of_a_sample_record(capsys, tmp_path):
     assert main(["newmark", "sample:Kobe", "--ky", "0.1", "--csv", str(file)]) == 0
     line = capsys.readouterr().out.splitlines()[1].split()
     assert line[-3:] == ["194.24", "167.82", "181.03"]
-    (row,) = csv.DictReader(file.open())
+    (row,) = csv.DictReader(file.read_text().splitlines())
     assert float(row["normal_m"]) == pytest.approx(1.9424, abs=5e-5)
 
 
@@ -285,7 +286,7 @@ def test_the_command_tells_mean_median_and_deviation_and_what_it_left_out(capsys
     assert "notes.txt" in err
     document = json.loads(out)
     assert [row["ky_g"] for row in document["results"]] == [0.02, 0.05] * 3
-    assert {row["pga_g"] for row in document["results"]} == {pytest.approx(0.4)}
+    assert [row["pga_g"] for row in document["results"]] == pytest.approx([0.4] * 6)
     values = [row["normal_m"] for row in document["results"] if row["ky_g"] == 0.05]
     found = {s["statistic"]: s["normal_m"] for s in document["statistics"] if s["ky_g"] == 0.05}
     assert found["mean"] == pytest.approx(np.mean(values), rel=1e-12)

@@ -48,7 +48,7 @@ class Checkpoint:
         if self.file is None or not self.file.exists():
             return
         try:
-            with np.load(self.file, allow_pickle=False) as kept:
+            with self.file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
                 if str(kept["format"]) != _FORMAT:
                     raise ValueError(f"is of format '{kept['format']}', not '{_FORMAT}'")
                 if str(kept["key"]) != self.key:

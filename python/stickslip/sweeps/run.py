@@ -248,13 +248,15 @@ def _run_on(
             flying[future] = part
         while flying:
             finished, _ = wait(flying, timeout=0.1, return_when=FIRST_COMPLETED)
+            broken: list[tuple[list[int], Exception]] = []
             for future in finished:
                 part = flying.pop(future)
                 try:
-                    result = future.result()
+                    table.put(part, future.result())
                 except Exception as error:
-                    raise failed(part, error) from error
-                table.put(part, result)
+                    broken.append((part, error))
+            for part, error in sorted(broken, key=lambda one: one[0]):
+                raise failed(part, error) from error
             show(_combinations(table), table.peak.size)
             keeper.save_if_due(table)
     except BaseException:

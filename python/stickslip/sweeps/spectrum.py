@@ -54,7 +54,7 @@ def sliding_spectrum(
     100 levels under a record of 10,000 samples take less than a millisecond, without a spring.
     """
     levels = _numbers("mu", mu)
-    backward: dict[str, Any] = {"mu_backward": math.inf} if one_way else {}
+    backward: dict[str, Any] = {"backward": math.inf} if one_way else {}
     blocks = grid(Coulomb, mu=levels, **backward)
     if period is not None:
         periods = _numbers("period", period)

@@ -456,7 +456,7 @@ def parameters_of(
     if given or not all(isinstance(one, Coulomb) for one in sliders):
         return dict(given)
     blocks = [one for one in sliders if isinstance(one, Coulomb)]
-    return {"mu": [one.hold() / STANDARD_GRAVITY for one in blocks]}
+    return {"mu": [one.slip_level / STANDARD_GRAVITY for one in blocks]}
 
 
 def _checked(quantity: str) -> str:
