@@ -485,24 +485,26 @@ def plot_sweep(
         )
     heading = quantity.replace("_", " ")
     samples = len(table.records) * len(table.polarity)
-    values = 100 * np.abs(getattr(table, quantity)) if samples else None
     quantiles = 100 * table.quantile([0.16, 0.5, 0.84], quantity)
+    values = 100 * np.abs(getattr(table, quantity))
     axis = {"mu": "coefficient of friction [\N{MINUS SIGN}]", "period": "period [s]"}
     with style():
         figure, axes = _one_panel("plot_sweep", None, ax, 7, 4.5)
         for (name, label, places), colour in zip(curves, COLOURS):
             x = table.parameters[name][places]
-            if len(curves) == 1 and samples > 1:
-                assert values is not None
+            if len(table.records) == 1:  # no statistics of one record: its two polarities
+                for p, polarity in enumerate(table.polarity):
+                    shown = ", ".join(part for part in (label, polarity) if part)
+                    style_of = {"linestyle": "--" if p else "-", "linewidth": 1.5}
+                    axes.plot(x, values[places, 0, p], color=colour, label=shown, **style_of)
+                continue
+            if len(curves) == 1:
                 thin = values[places].reshape(len(places), -1)
                 axes.plot(x, thin, color="#c4c4c4", linewidth=0.5, alpha=min(1, 40 / samples + 0.2))
-            if samples > 1:
-                low, middle, high = quantiles[:, places]
-                axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0)
-                shown = f"median, 16 and 84 % of {samples} histories"
-                axes.plot(x, middle, color=colour, linewidth=2, label=label or shown)
-            else:
-                axes.plot(x, quantiles[1, places], color=colour, linewidth=1.5, label=label)
+            low, middle, high = quantiles[:, places]
+            axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0)
+            shown = f"median, 16 and 84 % of {samples} histories"
+            axes.plot(x, middle, color=colour, linewidth=2, label=label or shown)
         name = curves[0][0]
         axes.set_xlabel(axis.get(name, name))
         axes.set_ylabel(
@@ -513,18 +515,23 @@ def plot_sweep(
         x = table.parameters[name]
         if (x > 0).all() and x.max() > 5 * x.min():
             axes.set_xscale("log")
-            axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
-        top = np.nanmax(quantiles[2]) if np.isfinite(quantiles).any() else 0
-        if top > 0.1:  # what hardly slips would pull a log axis down for ever
-            axes.set_yscale("log")
-            axes.set_ylim(0.01, 10 * top)
+            steps = [m * 10.0**e for e in range(-4, 4) for m in (1, 2, 5)]
+            ticks = [m for m in steps if x.min() * (1 - 1e-9) <= m <= x.max() * (1 + 1e-9)]
+            axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
+            axes.minorticks_off()
+        shown_values = quantiles[np.isfinite(quantiles) & (quantiles > 0.01)]
+        if shown_values.size and shown_values.max() > 10 * shown_values.min():
+            axes.set_yscale("log")  # to a tenth of a millimetre, which is no displacement
+            top = np.nanmax(values) if len(table.records) == 1 or len(curves) == 1 else None
+            axes.set_ylim(shown_values.min() / 2, 2 * (top or shown_values.max()))
             axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        else:
+            axes.set_ylim(bottom=0)
         axes.margins(x=0)
         records = f"{len(table.records)} records" if len(table.records) > 1 else table.records[0]
         axes.set_title(printable(title if title is not None else f"Sliding in {records}"))
-        if samples > 1 or len(curves) > 1:
-            for text in axes.legend(fontsize=8).get_texts():
-                text.set_parse_math(False)
+        for text in axes.legend(fontsize=8).get_texts():
+            text.set_parse_math(False)
         axes.title.set_parse_math(False)
     return figure
 

@@ -218,6 +218,32 @@ def test_processes_find_the_same_bits():
         assert ss.sweep(sliders, QUAKES, executor=pool) == ss.sweep(sliders, QUAKES)
 
 
+def test_a_cluster_one_worker_of_which_is_killed_finds_the_same_bits():
+    distributed = pytest.importorskip(
+        "distributed", reason="needs a cluster: pip install dask[distributed]"
+    )
+    sliders = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=np.linspace(0.01, 0.3, 40)), period=2)
+    quakes = [quake(i, 4000) for i in range(64)]
+    killed = []
+
+    def kill_one(done, total):
+        if done and not killed:
+            killed.append(pids.pop())
+            os.kill(killed[0], signal.SIGKILL)
+
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        pids = list(client.run(os.getpid).values())
+        with client.get_executor() as pool:
+            table = ss.sweep(sliders, quakes, executor=pool, progress=kill_one)
+    assert len(killed) == 1
+    assert table == ss.sweep(sliders, quakes)
+
+
 def test_a_sweep_that_broke_off_resumes_to_the_same_bits(tmp_path):
     sliders = [*ss.grid(ss.Coulomb, mu=MU), ss.Slider(ss.Coulomb(mu=0.1), period=2)]
     file = tmp_path / "sweep.npz"
