@@ -3,7 +3,9 @@
 import csv
 import json
 import math
+import os
 import pickle
+import signal
 import threading
 from concurrent.futures import Future, ProcessPoolExecutor
 
