@@ -27,6 +27,7 @@
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/statistics/distribution.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/sweep/sweep.hpp"
 #include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "stickslip/theory/noise.hpp"

@@ -68,6 +68,7 @@ void bind_velocity_spectrum(py::module_& m);
 void bind_drawn(py::module_& m);
 void bind_ensemble(py::module_& m);
 void bind_run_ensemble(py::module_& m);
+void bind_sweep(py::module_& m);
 void bind_slowly_varying_parameters(py::module_& m);
 void bind_white_noise(py::module_& m);
 void bind_shaping_filter(py::module_& m);

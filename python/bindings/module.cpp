@@ -62,6 +62,7 @@ PYBIND11_MODULE(_core, m) {
   bind_velocity_spectrum(m);
   bind_drawn(m);
   bind_ensemble(m);
+  bind_sweep(m);
   bind_build_info(m);
   in("stickslip.harmonic");
   bind_harmonic(m);

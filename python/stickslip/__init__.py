@@ -71,6 +71,8 @@ if TYPE_CHECKING:
     from .ensemble import EnsembleError, Random, run_ensemble
     from .records import read_record, read_station, record_formats
     from .samples import sample_record, sample_records
+    from .suite import Suite
+    from .sweeps import Grid, SweepError, SweepTable, grid, sliding_spectrum, sweep
 
 __all__ = [
     "STANDARD_GRAVITY",
@@ -86,6 +88,7 @@ __all__ = [
     "Estimate",
     "FrictionPendulum",
     "GaussianExcitation",
+    "Grid",
     "GroundMotion",
     "HarmonicMotion",
     "Interval",
@@ -106,6 +109,9 @@ __all__ = [
     "Stops",
     "Stribeck",
     "StrongMotion",
+    "Suite",
+    "SweepError",
+    "SweepTable",
     "Uniform",
     "VelocityDependent",
     "VelocitySpectrum",
@@ -116,6 +122,7 @@ __all__ = [
     "compare",
     "estimate_spectrum",
     "fit_pulses",
+    "grid",
     "harmonic",
     "histories",
     "integrate",
@@ -126,7 +133,9 @@ __all__ = [
     "run_ensemble",
     "sample_record",
     "sample_records",
+    "sliding_spectrum",
     "strong_motion",
+    "sweep",
     "theory",
 ]
 
@@ -150,6 +159,14 @@ if not TYPE_CHECKING:
             from . import samples
 
             return globals().setdefault(name, getattr(samples, name))
+        if name == "Suite":
+            from . import suite
+
+            return globals().setdefault(name, suite.Suite)
+        if name in ("Grid", "SweepError", "SweepTable", "grid", "sliding_spectrum", "sweep"):
+            from . import sweeps
+
+            return globals().setdefault(name, getattr(sweeps, name))
         raise AttributeError(f"module 'stickslip' has no attribute {name!r}")
 
     def __dir__():

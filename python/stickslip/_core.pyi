@@ -1704,6 +1704,15 @@ def run_ensemble(
     heartbeat: Callable[[int, int, Callable[[], Ensemble]], object] | None,
     interrupted: Callable[[Callable[[], Ensemble]], object] | None,
 ) -> Ensemble: ...
+def sweep(
+    sliders: Sequence[Any],
+    motions: Sequence[GroundMotion],
+    *,
+    polarity: str,
+    settle: bool,
+    threads: SupportsIndex,
+    heartbeat: Callable[[int, int], object] | None,
+) -> dict[str, Any]: ...
 def run_nothing(
     sliders: Any,
     motions: Any,

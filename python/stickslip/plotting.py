@@ -46,6 +46,7 @@ __all__ = [
     "plot_response",
     "plot_response_spectrum",
     "plot_responses",
+    "plot_sweep",
     "save",
     "sticks",
     "style",
@@ -449,6 +450,90 @@ def plot_hysteresis(
             axes.set_ylim(low, high + 0.12 * (high - low))  # room for the legend
             axes.legend(loc="upper left", fontsize=8)
     return figure if ax is None else ax
+
+
+def plot_sweep(
+    table: Any,
+    quantity: str = "peak",
+    *,
+    against: str | None = None,
+    ax: Axes | None = None,
+    title: str | None = None,
+) -> FigureBase:
+    """The table of a sweep, as `SweepTable.plot`.
+
+    Parameters
+    ----------
+    table : SweepTable
+    quantity, against, ax, title : optional
+        As `SweepTable.plot` takes them.
+
+    Returns
+    -------
+    matplotlib Figure
+
+    Raises
+    ------
+    ValueError
+        As `SweepTable.plot` does.
+    """
+    curves = list(table.curves(against))
+    if len(curves) > len(COLOURS):
+        raise ValueError(
+            f"plot_sweep: draws {len(COLOURS)} combinations of the other parameters at most, got"
+            f" {len(curves)}; fix some of them"
+        )
+    heading = quantity.replace("_", " ")
+    samples = len(table.records) * len(table.polarity)
+    quantiles = 100 * table.quantile([0.16, 0.5, 0.84], quantity)
+    values = 100 * np.abs(getattr(table, quantity))
+    axis = {"mu": "coefficient of friction [\N{MINUS SIGN}]", "period": "period [s]"}
+    with style():
+        figure, axes = _one_panel("plot_sweep", None, ax, 7, 4.5)
+        for (name, label, places), colour in zip(curves, COLOURS):
+            x = table.parameters[name][places]
+            if len(table.records) == 1:  # no statistics of one record: its two polarities
+                for p, polarity in enumerate(table.polarity):
+                    shown = ", ".join(part for part in (label, polarity) if part)
+                    style_of = {"linestyle": "--" if p else "-", "linewidth": 1.5}
+                    axes.plot(x, values[places, 0, p], color=colour, label=shown, **style_of)
+                continue
+            if len(curves) == 1:
+                thin = values[places].reshape(len(places), -1)
+                axes.plot(x, thin, color="#c4c4c4", linewidth=0.5, alpha=min(1, 40 / samples + 0.2))
+            low, middle, high = quantiles[:, places]
+            axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0)
+            shown = f"median, 16 and 84 % of {samples} histories"
+            axes.plot(x, middle, color=colour, linewidth=2, label=label or shown)
+        name = curves[0][0]
+        axes.set_xlabel(axis.get(name, name))
+        axes.set_ylabel(
+            f"{heading}{' displacement' if quantity != 'sliding_distance' else ''} [cm]"
+        )
+        axes.grid(color=PALE, linewidth=0.6)
+        axes.set_axisbelow(True)
+        x = table.parameters[name]
+        if (x > 0).all() and x.max() > 5 * x.min():
+            axes.set_xscale("log")
+            steps = [m * 10.0**e for e in range(-4, 4) for m in (1, 2, 5)]
+            ticks = [m for m in steps if x.min() * (1 - 1e-9) <= m <= x.max() * (1 + 1e-9)]
+            axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
+            axes.minorticks_off()
+        shown_values = quantiles[np.isfinite(quantiles) & (quantiles > 0.01)]
+        if shown_values.size and shown_values.max() > 10 * shown_values.min():
+            axes.set_yscale("log")  # to a tenth of a millimetre, which is no displacement
+            top = np.nanmax(values) if len(table.records) == 1 or len(curves) == 1 else None
+            axes.set_ylim(shown_values.min() / 2, 2 * (top or shown_values.max()))
+            axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        else:
+            axes.set_ylim(bottom=0)
+        axes.margins(x=0)
+        records = f"{len(table.records)} records" if len(table.records) > 1 else table.records[0]
+        axes.set_title(printable(title if title is not None else f"Sliding in {records}"))
+        for text in axes.legend(fontsize=8).get_texts():
+            text.set_parse_math(False)
+        axes.title.set_parse_math(False)
+    return figure
 
 
 @overload

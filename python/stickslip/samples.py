@@ -6,10 +6,15 @@ They come with ``pip install stickslip[records]``.
 from __future__ import annotations
 
 import importlib.util
+import re
 from pathlib import Path
 
 from ._core import GroundMotion
 from .records import read_record
+
+TYPE_CHECKING = False  # that of `typing`, whose import takes long
+if TYPE_CHECKING:
+    from .suite import Suite
 
 __all__ = ["sample_files", "sample_record", "sample_records"]
 
@@ -38,20 +43,30 @@ def sample_files() -> list[Path]:
     return sorted(files)
 
 
-def sample_records() -> list[GroundMotion]:
+def sample_records() -> Suite:
     """Eighteen strong-motion records of earthquakes from 1979 to 2001.
 
     Returns
     -------
-    list of GroundMotion
-        In order of name.
+    Suite
+        In order of name, with the columns `event` and `year`.
 
     Raises
     ------
     ImportError
         pyslammer is not installed, or without its records.
     """
-    return [read_record(file) for file in sample_files()]
+    from .suite import Suite  # and NumPy: who asks for one record waits for neither
+
+    files = sample_files()
+    parts = [re.fullmatch(r"(.+)_(\d{4})_.+", file.stem) for file in files]
+    return Suite(
+        map(read_record, files),
+        {
+            "event": [part[1].replace("_", " ") if part else "" for part in parts],
+            "year": [int(part[2]) if part else 0 for part in parts],
+        },
+    )
 
 
 def sample_record(name: str) -> GroundMotion:

@@ -66,8 +66,8 @@ def run(tmp_path, monkeypatch, pyslammer_files):
 
 
 def test_all_examples_are_here():
-    numbers = sorted(file.stem for file in EXAMPLES.glob("0*.py"))
-    assert [number[:2] for number in numbers] == [f"0{i}" for i in range(1, 10)]
+    numbers = sorted(file.stem for file in EXAMPLES.glob("[01]*.py"))
+    assert [number[:2] for number in numbers] == [f"{i:02}" for i in range(1, 11)]
     assert {f"test_{number}" for number in numbers} <= set(globals())
 
 
@@ -215,3 +215,15 @@ def test_09_pulses_of_a_record(run):
     assert np.abs(had - asked).sum() < 0.011 * asked.sum()
     fitted = names["rectangular"].density(omega)
     assert np.abs(fitted - asked).sum() / asked.sum() == pytest.approx(fit.misfit, rel=0.03)
+
+
+def test_10_map(run):
+    names = run("10_map", "--cells", 100)
+    ky, displacement, bound = names["ky"], names["displacement"], names["bound"]
+    # Levels that it did not compute: the displacement is within the bound.
+    own = ky.ravel()[::397]
+    blocks = ss.grid(ss.Coulomb, mu=own, backward=math.inf)
+    exact = ss.sweep(blocks, names["suite"], settle=True).peak.mean(axis=(1, 2))
+    assert (np.abs(exact - displacement.ravel()[::397]) <= bound.ravel()[::397] * (1 + 1e-9)).all()
+    assert 0 < bound.max() < 0.2 * displacement.max()
+    assert np.all(np.diff(names["mean"]) <= 0)

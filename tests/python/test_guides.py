@@ -18,6 +18,7 @@ PAGES = [
     DOCS / "start.md",
     DOCS / "ground_motions.md",
     DOCS / "command.md",
+    DOCS / "sweeps.md",
     DOCS / "conventions.md",
     *sorted((DOCS / "guides").glob("*.md")),
 ]

@@ -9,7 +9,7 @@ from stickslip import cli
 
 def test_the_sample_records_are_those_of_the_files(pyslammer_files):
     records = ss.sample_records()
-    assert records == [ss.read_record(file) for file in pyslammer_files]
+    assert list(records) == [ss.read_record(file) for file in pyslammer_files]
     assert len(records) == 18
 
 

@@ -25,6 +25,7 @@ PULSES = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
 ENSEMBLE = ss.run_ensemble(BLOCK, SHAKING, members=70, seed=1)
 SMALLER = ss.run_ensemble(BLOCK, SHAKING, members=64, seed=1)
 COMPARED = ss.compare(ss.Coulomb(slip_level=0.5), PULSES, [2, 4], members=64)
+SWEPT = ss.sweep(ss.Coulomb(mu=0.1), EVEN)
 RESPONSES = [
     ss.integrate(BLOCK, EVEN, displacement=0.01, velocity=-0.3, settle=True),
     ss.integrate(CART, ss.HarmonicMotion(2, 3, 4)),
@@ -128,6 +129,18 @@ EXAMPLES = {
         ss.Random(ss.Coulomb, slip_level=ss.Lognormal(0.3, 0.3)),
         ss.Random(ss.Slider, law=ss.Random(ss.Coulomb, mu=ss.Uniform(0.1, 0.2))),
     ],
+    ss.Suite: [
+        ss.Suite([EVEN, UNEVEN]),
+        ss.Suite([EVEN, UNEVEN], {"magnitude": [6.5, float("nan")]}),
+        ss.Suite([EVEN, UNEVEN], {"event": ["one", "two"]}),
+    ],
+    ss.Grid: [ss.grid(ss.Coulomb, mu=[0.1, 0.2]), ss.grid(ss.Coulomb, mu=[0.1])],
+    ss.SweepTable: [
+        SWEPT,
+        ss.sweep(ss.Coulomb(mu=0.1), EVEN, settle=True),
+        ss.sweep(ss.Coulomb(mu=0.2), EVEN),
+    ],
+    ss.SweepError: [ss.SweepError("no node here", range(2, 4), SWEPT)],
     ss.Energy: [r.energy for r in RESPONSES],
     ss.Response: RESPONSES,
     ss.ResponseSpectrum: [
@@ -300,7 +313,7 @@ def test_what_differs_compares_different(kind):
 
 def test_what_can_change_has_no_hash_and_all_else_has_one():
     unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
-    assert unhashable == {ss.Ensemble, ss.Comparison}
+    assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid, ss.SweepTable}
     for kind in EXAMPLES.keys() - unhashable:
         assert len({*EXAMPLES[kind], *EXAMPLES[kind]}) == len(EXAMPLES[kind])
 

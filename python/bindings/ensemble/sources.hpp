@@ -117,7 +117,8 @@ class PythonSliders : public PythonSource {
 /// A list that each member has one of, and whether it is drawn; nothing if the object is neither a list nor Drawn.
 inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& object, const char* name) {
   if (py::isinstance<Drawn>(object)) return std::pair(py::sequence(object.cast<const Drawn&>().items), Order::drawn);
-  if (!py::isinstance<py::list>(object) && !py::isinstance<py::tuple>(object)) return std::nullopt;
+  if (!py::isinstance<py::sequence>(object) || py::isinstance<py::str>(object) || py::hasattr(object, "sample"))
+    return std::nullopt;
   if (py::len(object) == 0)
     throw std::invalid_argument(std::string("run_ensemble: ") + name + " must hold at least one, got an empty list");
   return std::pair(py::sequence(object), Order::in_turn);

@@ -28,6 +28,7 @@ import warnings
 from .batch import StrictError
 from .completion import add_completion, complete
 from .ensemble import add_ensemble
+from .newmark import add_newmark
 from .output import FAILURES, complain, reason_of, version, write
 from .parser import Parser
 from .records import add_records
@@ -72,6 +73,7 @@ exit codes:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     for add in (
         add_slide,
+        add_newmark,
         add_records,
         add_spectrum,
         add_ensemble,

@@ -13,13 +13,15 @@ Progress: TypeAlias = Callable[[int, int], object]
 
 
 @contextmanager
-def shown(progress: bool | Progress) -> Iterator[Progress]:
+def shown(
+    progress: bool | Progress, who: str = "run_ensemble", things: str = "members"
+) -> Iterator[Progress]:
     if callable(progress):
         yield progress
     elif progress not in (True, False, None):
-        raise TypeError(f"run_ensemble: progress must be True, False or callable, got {progress!r}")
+        raise TypeError(f"{who}: progress must be True, False or callable, got {progress!r}")
     elif progress and sys.stderr is not None:
-        bar = _bar()
+        bar = _bar(things)
         try:
             yield bar
         finally:
@@ -28,14 +30,14 @@ def shown(progress: bool | Progress) -> Iterator[Progress]:
         yield lambda done, total: None
 
 
-def _bar() -> _Bar | _Tqdm:
+def _bar(things: str) -> _Bar | _Tqdm:
     """That of tqdm in a notebook, and in a terminal where there is tqdm; else our own."""
     if sys.stderr.isatty() or _in_notebook():
         try:
-            return _Tqdm()
+            return _Tqdm(things)
         except ImportError:
             pass
-    return _Bar()
+    return _Bar(things)
 
 
 def _in_notebook() -> bool:
@@ -47,16 +49,17 @@ def _in_notebook() -> bool:
 class _Tqdm:
     """The bar of tqdm, which also knows notebooks."""
 
-    def __init__(self) -> None:
+    def __init__(self, things: str) -> None:
         from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
 
         self.tqdm = tqdm
+        self.unit = things.removesuffix("s")
         self.bar: Any = None
 
     def __call__(self, done: int, total: int) -> None:
         if self.bar is None:  # what a checkpoint had is no speed
             self.bar = self.tqdm(
-                total=total, initial=done, unit="member", unit_scale=True, file=sys.stderr
+                total=total, initial=done, unit=self.unit, unit_scale=True, file=sys.stderr
             )
         self.bar.update(done - self.bar.n)
 
@@ -68,10 +71,11 @@ class _Tqdm:
 class _Bar:
     """How far a run has come, in one line of stderr, or in lines where that is no terminal."""
 
-    def __init__(self) -> None:
+    def __init__(self, things: str) -> None:
+        self.things = things
         self.stream = sys.stderr
         self.in_place = self.stream.isatty()
-        self.began: tuple[float, int] | None = None  # [s], members
+        self.began: tuple[float, int] | None = None  # [s], things
         self.tenths = 0
         self.width = 0
 
@@ -80,7 +84,7 @@ class _Bar:
         if self.began is None:  # what a checkpoint had is no speed
             self.began = now, done
         seconds, fresh = now - self.began[0], done - self.began[1]
-        line = f"{done:,} of {total:,} members"
+        line = f"{done:,} of {total:,} {self.things}"
         if seconds > 0 and fresh > 0:
             speed = fresh / seconds
             left = (total - done) / speed

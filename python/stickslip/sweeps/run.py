@@ -1,0 +1,266 @@
+"""`sweep`, on threads or on any executor."""
+
+from __future__ import annotations
+
+import math
+import operator
+import os
+import time
+import warnings
+from collections.abc import Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from typing import Any, Literal, SupportsIndex
+
+from .. import _core
+from .._core import Caster, Coulomb, GroundMotion, Slider, VelocityDependent
+from ..ensemble.progress import Progress, shown
+from ..ensemble.sources import AnySlider
+from ..suite import Suite
+from .checkpoint import Checkpoint
+from .error import SweepError
+from .grid import Grid
+from .table import SweepTable, parameters_of
+
+Polarity = Literal["both", "as recorded", "flipped"]
+
+_PARTS = 64  # that the records are cut in for an executor
+
+
+def sweep(
+    sliders: AnySlider | Sequence[AnySlider],
+    motions: GroundMotion | Sequence[GroundMotion],
+    *,
+    polarity: Polarity = "both",
+    settle: bool = False,
+    threads: SupportsIndex | None = None,
+    progress: bool | Progress = False,
+    executor: Executor | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    checkpoint_every: float = 30.0,
+) -> SweepTable:
+    """Slides many sliders through many ground motions, from rest at x = 0.
+
+    x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2);
+    each combination as by `integrate`.
+
+    Parameters
+    ----------
+    sliders : Slider, friction law or list of these
+        What slides, of any laws; `grid` makes lists.
+    motions : GroundMotion, Suite or list of GroundMotion
+        Records of any lengths and time steps.
+    polarity : {'both', 'as recorded', 'flipped'}
+        Under n(t), under -n(t), or one after the other.
+    settle : bool, optional
+        Continue under zero ground acceleration after each record until the slider rests, so that
+        residuals are final.
+    threads : int, optional
+        At most so many, at least 1; as many as the machine has, if not given.
+    progress : bool or callable, optional
+        True: a bar on stderr. A callable is called with the combinations done and to do, ten times
+        a second or so.
+    executor : concurrent.futures.Executor, optional
+        Where to run, with one thread for each part of the records: a ProcessPoolExecutor, Dask's
+        `Client.get_executor()`, mpi4py's MPIPoolExecutor. It is not shut down.
+    checkpoint : path-like, optional
+        A file that keeps what is done: written every `checkpoint_every` seconds, at the end, and
+        where the run is broken off. If it is there already, the run resumes from it.
+    checkpoint_every : float, optional
+        [s], at least 0.
+
+    Returns
+    -------
+    SweepTable
+        Arrays over [slider, record, polarity]; the same bits for any threads, executor and parts,
+        and for a run that was resumed.
+
+    Raises
+    ------
+    ValueError
+        An empty list; a value out of its range; a checkpoint that is damaged or of another sweep.
+    TypeError
+        An argument of the wrong type.
+    SweepError
+        A part failed in the executor; or the checkpoint could not be written at the end. `partial`
+        has what was done.
+    OSError
+        Before the run: the checkpoint cannot be read, or is not a regular file that may be written.
+    KeyboardInterrupt
+        Within a second of Ctrl-C.
+
+    Warns
+    -----
+    RuntimeWarning
+        Combinations failed: a slider that does not come to rest, a motion beyond the range of
+        doubles. They are NaN, and `SweepTable.failures` says why: no combination ends the others.
+
+    Notes
+    -----
+    Coulomb friction without spring and damper, under a record of even steps: as many slip levels as
+    a vector holds go through a record together, exact to round-off, 1e-13 of the scale of x; 0.05
+    to 0.2 ns a sample and slider, where `integrate` takes 12 to 30. All else goes by `integrate`,
+    one by one on all threads. The interpreter is not held meanwhile.
+    """
+    these = _sliders(sliders)
+    those = [motions] if isinstance(motions, GroundMotion) else list(motions)
+    if polarity not in ("both", "as recorded", "flipped"):
+        raise ValueError(
+            f"sweep: polarity must be 'both', 'as recorded' or 'flipped', got {polarity!r}"
+        )
+    count = 0 if threads is None else operator.index(threads)
+    if threads is not None and not 1 <= count <= 2**16:
+        raise ValueError(f"sweep: threads must be from 1 to 65536, got {count}")
+    if executor is not None and threads is not None:
+        raise ValueError(
+            "sweep: give threads or executor, whose parts have one thread, got threads ="
+            f" {count} with {type(executor).__name__}"
+        )
+    if executor is not None and not hasattr(executor, "submit"):
+        raise TypeError(
+            f"sweep: executor must be a concurrent.futures.Executor, got {type(executor).__name__}"
+        )
+    for kind, given in (("slider", these), ("ground motion", those)):
+        if not given:
+            raise ValueError(f"sweep: needs at least one {kind}, got an empty list")
+    for i, motion in enumerate(those):
+        if not isinstance(motion, GroundMotion):
+            raise TypeError(
+                f"sweep: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
+            )
+    table = SweepTable.empty(
+        sliders=[repr(s) for s in these],
+        parameters=parameters_of(these, getattr(sliders, "parameters", {})),
+        records=[m.name or f"record {i}" for i, m in enumerate(those)],
+        metadata=motions.metadata if isinstance(motions, Suite) else {},
+        polarity=("as recorded", "flipped") if polarity == "both" else (polarity,),
+        settle=settle,
+    )
+    how = {"polarity": polarity, "settle": settle}
+    with shown(progress, who="sweep", things="combinations") as show:
+        if executor is None and checkpoint is None:
+            result = _core.sweep(these, those, threads=count, heartbeat=show, **how)
+            table.put(range(len(those)), result)
+        else:
+            keeper = Checkpoint(checkpoint, checkpoint_every, these, those, how)
+            keeper.load(table)
+            if executor is None:
+                _run_here(these, those, how, count, table, keeper, show)
+            else:
+                _run_on(executor, these, those, how, table, keeper, show)
+            keeper.save(table)
+    if table.failures:
+        first = table.failures[0]
+        warnings.warn(
+            f"sweep: {len(table.failures)} of {table.peak.size} combinations failed and are NaN;"
+            f" the first, slider {first.slider} under record {first.record} {first.polarity}:"
+            f" {first.message}",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+    return table
+
+
+def _sliders(given: Any) -> list[AnySlider]:
+    if isinstance(given, (Slider, Coulomb, Caster, VelocityDependent)):
+        return [given]
+    if not isinstance(given, Iterable):
+        raise TypeError(
+            f"sweep: sliders must be a Slider, a friction law or a list, got {type(given).__name__}"
+        )
+    these = list(given)
+    for i, one in enumerate(these):
+        if not isinstance(one, (Slider, Coulomb, Caster, VelocityDependent)):
+            raise TypeError(
+                f"sweep: sliders[{i}] must be a Slider or friction law, got {type(one).__name__}"
+            )
+    return Grid(these) if isinstance(given, Grid) else these
+
+
+def _run_here(
+    sliders: list[AnySlider],
+    motions: list[GroundMotion],
+    how: dict[str, Any],
+    threads: int,
+    table: SweepTable,
+    keeper: Checkpoint,
+    show: Progress,
+) -> None:
+    """Some records at a time, twice as many until they take half a second."""
+    size = 1
+    todo = [i for i in range(len(motions)) if not table.done[i]]
+    try:
+        while todo:
+            part, todo = todo[:size], todo[size:]
+            began = time.monotonic()
+            result = _core.sweep(
+                sliders, [motions[i] for i in part], threads=threads, heartbeat=None, **how
+            )
+            table.put(part, result)
+            show(_combinations(table), table.peak.size)
+            keeper.save_if_due(table)
+            if time.monotonic() - began < 0.5:
+                size *= 2
+    except BaseException:
+        keeper.save(table)
+        raise
+
+
+def _combinations(table: SweepTable) -> int:
+    return int(table.done.sum()) * (table.peak.size // len(table.records))
+
+
+def _run_part(
+    sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, Any]
+) -> dict[str, Any]:
+    """A part; a function of the module, so that it pickles."""
+    return _core.sweep(sliders, motions, threads=1, heartbeat=None, **how)
+
+
+def _run_on(
+    executor: Executor,
+    sliders: list[AnySlider],
+    motions: list[GroundMotion],
+    how: dict[str, Any],
+    table: SweepTable,
+    keeper: Checkpoint,
+    show: Progress,
+) -> None:
+    todo = [i for i in range(len(motions)) if not table.done[i]]
+    size = max(1, math.ceil(len(todo) / _PARTS))
+    flying: dict[Future[dict[str, Any]], list[int]] = {}
+
+    def failed(part: list[int], error: BaseException) -> SweepError:
+        return SweepError(
+            f"sweep: records {part[0]} to {part[-1]} failed in the executor:"
+            f" {type(error).__name__}: {error}; .partial has the {int(table.done.sum())} records"
+            " that are done",
+            range(part[0], part[-1] + 1),
+            table,
+        )
+
+    try:
+        for k in range(0, len(todo), size):
+            part = todo[k : k + size]
+            try:
+                future = executor.submit(_run_part, sliders, [motions[i] for i in part], how)
+            except Exception as error:  # as of a pool whose processes are gone
+                raise failed(part, error) from error
+            flying[future] = part
+        while flying:
+            finished, _ = wait(flying, timeout=0.1, return_when=FIRST_COMPLETED)
+            broken: list[tuple[list[int], Exception]] = []
+            for future in finished:
+                part = flying.pop(future)
+                try:
+                    table.put(part, future.result())
+                except Exception as error:
+                    broken.append((part, error))
+            for part, error in sorted(broken, key=lambda one: one[0]):
+                raise failed(part, error) from error
+            show(_combinations(table), table.peak.size)
+            keeper.save_if_due(table)
+    except BaseException:
+        for future in flying:
+            future.cancel()
+        keeper.save(table)
+        raise

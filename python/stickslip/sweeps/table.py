@@ -1,0 +1,476 @@
+"""The table that a sweep makes."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._core import STANDARD_GRAVITY, Coulomb
+from .._files import check_regular, replacing
+from ..ensemble.sources import AnySlider
+from ..suite import _column, _h5py, _pandas
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import FigureBase
+
+__all__ = ["SweepFailure", "SweepTable"]
+
+_FORMAT = "stickslip sweep table 1"
+QUANTITIES = {
+    "peak": ("peak", "m", "largest displacement over all time"),
+    "residual": ("residual", "m", "displacement at the end"),
+    "sliding_distance": ("sliding distance", "m", "length of the way slid"),
+    "events": ("events", "", "breakaways, reversals and arrests"),
+}
+
+
+class SweepFailure(NamedTuple):
+    """A combination that has no answer, and why."""
+
+    slider: int
+    record: int
+    polarity: str
+    message: str
+
+
+class SweepTable:
+    """What comes of many sliders under many ground motions.
+
+    `sweep` makes it. Arrays have the shape (sliders, records, polarities). NaN (0 of the events)
+    where a combination failed.
+
+    Attributes
+    ----------
+    peak : ndarray
+        Largest |x| over all time [m].
+    residual : ndarray
+        x at the end [m]; final if the slider rests.
+    sliding_distance : ndarray
+        Length of the way slid [m].
+    events : ndarray of int
+        Breakaways, reversals and arrests.
+    sliders : tuple of str
+        The sliders, as they are written.
+    parameters : dict of ndarray
+        By name, the parameters of each slider that `grid` varied; of a list of blocks alone `mu`.
+    records : tuple of str
+        Names of the ground motions.
+    metadata : dict of ndarray
+        Of the suite, a value for each record.
+    polarity : tuple of str
+        'as recorded' and 'flipped', or one of them.
+    settle : bool
+        Whether it went on until the sliders rested.
+    failures : tuple of SweepFailure
+        Combinations that failed.
+
+    Notes
+    -----
+    Objects compare by content; they can be copied and pickled.
+    """
+
+    def __init__(
+        self,
+        *,
+        sliders: Sequence[str],
+        parameters: Mapping[str, ArrayLike],
+        records: Sequence[str],
+        metadata: Mapping[str, ArrayLike],
+        polarity: Sequence[str],
+        settle: bool,
+        peak: ArrayLike,
+        residual: ArrayLike,
+        sliding_distance: ArrayLike,
+        events: ArrayLike,
+        failures: Sequence[SweepFailure] = (),
+    ) -> None:
+        self.sliders = tuple(sliders)
+        self.parameters = {name: _column(values) for name, values in parameters.items()}
+        self.records = tuple(records)
+        self.metadata = {name: _column(values) for name, values in metadata.items()}
+        self.polarity = tuple(polarity)
+        self.settle = bool(settle)
+        self.failures = tuple(SweepFailure(*one) for one in failures)
+        self.peak: NDArray[np.float64] = np.array(peak, float)
+        self.residual: NDArray[np.float64] = np.array(residual, float)
+        self.sliding_distance: NDArray[np.float64] = np.array(sliding_distance, float)
+        self.events: NDArray[np.int64] = np.array(events, np.int64)
+        shape = (len(self.sliders), len(self.records), len(self.polarity))
+        for name in QUANTITIES:
+            if getattr(self, name).shape != shape:
+                raise ValueError(
+                    f"SweepTable: {name} must have shape {shape}, got {getattr(self, name).shape}"
+                )
+        for columns, length in ((self.parameters, shape[0]), (self.metadata, shape[1])):
+            for name, column in columns.items():
+                if column.shape != (length,):
+                    raise ValueError(
+                        f"SweepTable: '{name}' must have {length} values, got {column.size}"
+                    )
+        self.done = np.isfinite(self.peak).any(axis=(0, 2))
+
+    @classmethod
+    def empty(cls, **about: Any) -> SweepTable:
+        """A table of which nothing is done."""
+        shape = tuple(len(about[name]) for name in ("sliders", "records", "polarity"))
+        nothing = np.full(shape, np.nan)
+        return cls(
+            **about,
+            peak=nothing,
+            residual=nothing,
+            sliding_distance=nothing,
+            events=np.zeros(shape, int),
+        )
+
+    def put(self, records: Sequence[int], result: Mapping[str, Any]) -> None:
+        """Take over what was found for some records."""
+        places = list(records)
+        for name in QUANTITIES:
+            getattr(self, name)[:, places, :] = result[name]
+        self.done[places] = True
+        failures = [SweepFailure(s, places[r], p, text) for s, r, p, text in result["failures"]]
+        self.failures = tuple(sorted((*self.failures, *failures)))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, SweepTable):
+            return NotImplemented
+        mine, theirs = self.__getstate__(), other.__getstate__()
+        return all(_same(mine[name], theirs[name]) for name in mine)
+
+    __hash__ = None  # type: ignore[assignment]  # its arrays can change
+
+    def __getstate__(self) -> dict[str, Any]:
+        return dict(self.__dict__)
+
+    def __repr__(self) -> str:
+        sliders, records, polarities = self.peak.shape
+        return f"SweepTable({sliders} sliders, {records} records, {polarities} polarities)"
+
+    # ---- statistics over records and polarities
+
+    def quantile(self, p: ArrayLike, quantity: str = "peak") -> NDArray[np.float64]:
+        """Quantiles of |quantity| over all records and polarities, of each slider.
+
+        Parameters
+        ----------
+        p : float or array_like
+            Probabilities from 0 to 1.
+        quantity : {'peak', 'residual', 'sliding_distance'}
+            The residual counts by its magnitude.
+
+        Returns
+        -------
+        ndarray, shape (sliders,) or (probabilities, sliders)
+            [m]. Combinations that failed are left out; NaN where all failed.
+        """
+        values = np.abs(getattr(self, _checked(quantity))).reshape(len(self.sliders), -1)
+        found = [
+            np.quantile(row[np.isfinite(row)], p)
+            if np.isfinite(row).any()
+            else np.full(np.shape(p), np.nan)
+            for row in values
+        ]
+        return np.moveaxis(np.array(found), 0, -1)
+
+    # ---- other forms
+
+    def to_dataframe(self) -> Any:
+        """A pandas DataFrame with a row for each combination.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Slider and its parameters, record and its metadata, polarity, peak [m], residual [m],
+            sliding distance [m], events.
+
+        Raises
+        ------
+        ImportError
+            pandas is missing.
+        """
+        return _pandas("SweepTable.to_dataframe").DataFrame(self._columns())
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        s, r, p = (index.ravel() for index in np.indices(self.peak.shape))
+        columns: dict[str, NDArray[Any]] = {"slider": np.array(self.sliders)[s]}
+        columns |= {name: column[s] for name, column in self.parameters.items()}
+        columns["record"] = np.array(self.records)[r]
+        columns |= {name: column[r] for name, column in self.metadata.items()}
+        columns["polarity"] = np.array(self.polarity)[p]
+        for name, (heading, unit, _) in QUANTITIES.items():
+            columns[f"{heading} [{unit}]" if unit else heading] = getattr(self, name).ravel()
+        return columns
+
+    def to_csv(self, file: str | os.PathLike[str]) -> Path:
+        """Write the rows of `to_dataframe` to a CSV file.
+
+        Parameters
+        ----------
+        file : path-like
+            Replaced whole or not at all.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        OSError
+            It cannot be written.
+        """
+        columns = self._columns()
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*(column.tolist() for column in columns.values())))
+        with replacing(file) as stream:
+            stream.write(text.getvalue().encode())
+        return Path(file)
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over slider, record and polarity.
+
+        Returns
+        -------
+        xarray.Dataset
+            Parameters and metadata are coordinates.
+
+        Raises
+        ------
+        ImportError
+            xarray is missing.
+        """
+        try:
+            import xarray
+        except ImportError as error:
+            raise ImportError(
+                "SweepTable.to_xarray: needs xarray, which is missing; pip install"
+                " stickslip[tables]"
+            ) from error
+        dimensions = ("slider", "record", "polarity")
+        coordinates: dict[str, Any] = {
+            "slider": list(self.sliders),
+            "record": list(self.records),
+            "polarity": list(self.polarity),
+        }
+        coordinates |= {name: ("slider", column) for name, column in self.parameters.items()}
+        coordinates |= {name: ("record", column) for name, column in self.metadata.items()}
+        return xarray.Dataset(
+            {
+                name: (
+                    dimensions,
+                    getattr(self, name),
+                    {"long_name": what} | ({"units": unit} if unit else {}),
+                )
+                for name, (_, unit, what) in QUANTITIES.items()
+            },
+            coords=coordinates,
+            attrs={"settle": int(self.settle)},
+        )
+
+    def save(self, file: str | os.PathLike[str]) -> Path:
+        """Write the table to an HDF5 file.
+
+        Parameters
+        ----------
+        file : path-like
+            Replaced whole or not at all.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        ImportError
+            h5py is missing: ``pip install stickslip[suites]``.
+        OSError
+            It cannot be written.
+        """
+        h5py = _h5py("SweepTable.save")
+        text = h5py.string_dtype()
+        content = io.BytesIO()
+        with h5py.File(content, "w") as h5:
+            h5.attrs["format"] = _FORMAT
+            h5.attrs["settle"] = self.settle
+            h5.attrs["failures"] = json.dumps([list(one) for one in self.failures])
+            for name in ("sliders", "records", "polarity"):
+                h5.create_dataset(name, data=list(getattr(self, name)), dtype=text)
+            for name, (_, unit, what) in QUANTITIES.items():
+                h5[name] = getattr(self, name)
+                h5[name].attrs.update({"units": unit, "long_name": what})
+            for name in ("parameters", "metadata"):
+                group = h5.create_group(name, track_order=True)
+                for key, column in getattr(self, name).items():
+                    if column.dtype.kind == "U":
+                        group.create_dataset(
+                            key.replace("/", "\\"), data=column.tolist(), dtype=text
+                        )
+                    else:
+                        group[key.replace("/", "\\")] = column
+        with replacing(file) as stream:
+            stream.write(content.getbuffer())
+        return Path(file)
+
+    @classmethod
+    def open(cls, file: str | os.PathLike[str]) -> SweepTable:
+        """Open a table that was saved.
+
+        Parameters
+        ----------
+        file : path-like
+
+        Returns
+        -------
+        SweepTable
+            Equal to the one that was saved.
+
+        Raises
+        ------
+        ImportError
+            h5py is missing: ``pip install stickslip[suites]``.
+        OSError
+            The file is missing or cannot be read.
+        ValueError
+            It is no table of a sweep, or damaged.
+        """
+        h5py = _h5py("SweepTable.open")
+        path = Path(os.fspath(file))
+        if check_regular(path) is None:
+            raise FileNotFoundError(2, "No such file or directory", str(path))
+
+        def column(data: Any) -> Any:
+            return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
+
+        try:
+            h5 = h5py.File(path, "r")
+        except OSError as error:
+            raise ValueError(f"SweepTable.open: '{path}' is no HDF5 file, or damaged") from error
+        with h5:
+            if h5.attrs.get("format") != _FORMAT:
+                raise ValueError(
+                    f"SweepTable.open: '{path}' must be of format '{_FORMAT}', got"
+                    f" '{h5.attrs.get('format')}'"
+                )
+            try:
+                return cls(
+                    **{name: column(h5[name]) for name in ("sliders", "records", "polarity")},
+                    **{
+                        name: {k.replace("\\", "/"): column(data) for k, data in h5[name].items()}
+                        for name in ("parameters", "metadata")
+                    },
+                    **{name: h5[name][:] for name in QUANTITIES},
+                    settle=bool(h5.attrs["settle"]),
+                    failures=json.loads(h5.attrs["failures"]),
+                )
+            except (KeyError, OSError, TypeError, ValueError) as error:
+                raise ValueError(f"SweepTable.open: '{path}' is damaged: {error}") from error
+
+    def plot(
+        self,
+        quantity: str = "peak",
+        *,
+        against: str | None = None,
+        ax: Axes | None = None,
+        title: str | None = None,
+    ) -> FigureBase:
+        """The median over records and polarities, 16 and 84 %, and each record thin.
+
+        Parameters
+        ----------
+        quantity : {'peak', 'residual', 'sliding_distance'}
+            The residual counts by its magnitude.
+        against : str, optional
+            The parameter on the horizontal axis; the first one with numbers, if not given. Where
+            others vary too, each combination of them has its own median and band, six at most.
+        ax : matplotlib Axes, optional
+            Where to draw; a new figure of 7 x 4.5 inches if not given.
+        title : str, optional
+
+        Returns
+        -------
+        matplotlib Figure
+
+        Raises
+        ------
+        ValueError
+            No parameter with numbers; an unknown quantity or parameter; more than six combinations.
+        ImportError
+            matplotlib is missing.
+        """
+        from ..plotting import plot_sweep
+
+        return plot_sweep(self, quantity, against=against, ax=ax, title=title)
+
+    def curves(self, against: str | None = None) -> Iterator[tuple[str, str, NDArray[Any]]]:
+        """Sliders that differ in one parameter alone, in order of it.
+
+        Parameters
+        ----------
+        against : str, optional
+            The parameter; the first one with numbers, if not given.
+
+        Yields
+        ------
+        name, others, places
+            The parameter's name; what the others are, as 'period = 2'; the places of the sliders.
+        """
+        numeric = [n for n, c in self.parameters.items() if c.dtype.kind in "biuf"]
+        if against is None and not numeric:
+            raise ValueError(
+                "SweepTable.curves: needs a parameter with numbers, as of sliders made by grid; the"
+                f" parameters are {', '.join(self.parameters) or 'none'}"
+            )
+        name = numeric[0] if against is None else against
+        if name not in numeric:
+            raise ValueError(
+                f"SweepTable.curves: against must be one of {', '.join(numeric) or 'none'}, got"
+                f" {name!r}"
+            )
+        others = [n for n in self.parameters if n != name]
+        groups: dict[tuple[Any, ...], list[int]] = {}
+        for i in range(len(self.sliders)):
+            groups.setdefault(tuple(self.parameters[n][i] for n in others), []).append(i)
+        for values, members in groups.items():
+            order = np.argsort(self.parameters[name][members], kind="stable")
+            label = ", ".join(
+                f"{n} = {v:g}" if isinstance(v, np.number) else f"{n} = {v}"
+                for n, v in zip(others, values)
+            )
+            yield name, label, np.array(members)[order]
+
+
+def parameters_of(
+    sliders: Sequence[AnySlider], given: Mapping[str, Sequence[Any]]
+) -> dict[str, Any]:
+    """What `grid` varied; of a list of Coulomb laws mu."""
+    if given or not all(isinstance(one, Coulomb) for one in sliders):
+        return dict(given)
+    blocks = [one for one in sliders if isinstance(one, Coulomb)]
+    return {"mu": [one.slip_level / STANDARD_GRAVITY for one in blocks]}
+
+
+def _checked(quantity: str) -> str:
+    names = [name for name in QUANTITIES if name != "events"]
+    if quantity not in names:
+        raise ValueError(
+            f"SweepTable: quantity must be one of {', '.join(names)}, got {quantity!r}"
+        )
+    return quantity
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(_same(a[k], b[k]) for k in a)
+    if isinstance(a, np.ndarray):
+        return np.array_equal(a, b, equal_nan=a.dtype.kind == "f" and b.dtype.kind == "f")
+    return bool(a == b)

@@ -1,0 +1,205 @@
+#include "stickslip/sweep/sweep.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <tuple>
+
+#include "simd/level_lanes.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+struct Stopped {};
+
+/// A block in a lane: which slider it is, and under which polarity. A block that is alike both ways goes once for both:
+/// under the flipped motion it does the same the other way.
+struct Lane {
+  std::size_t slider;
+  Coulomb law;
+  bool flipped, both;
+};
+
+class Sweep {
+ public:
+  Sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions, const SweepOptions& options)
+      : sliders_(sliders), motions_(motions), options_(options) {
+    table_.sliders = sliders.size();
+    table_.records = motions.size();
+    table_.polarity = options.polarity;
+    table_.polarities = options.polarity == Polarity::both ? 2 : 1;
+    const std::size_t size = table_.sliders * table_.records * table_.polarities;
+    for (auto* values : {&table_.peak, &table_.residual, &table_.sliding_distance})
+      values->assign(size, std::numeric_limits<double>::quiet_NaN());
+    table_.events.assign(size, 0);
+
+    for (std::size_t s = 0; s < sliders.size(); ++s)
+      if (const Coulomb* law = sliders[s].law; law && has_level_lanes(*law))
+        add_lanes(s, *law);
+      else
+        singles_.push_back(s);
+    // Those next to each other do nearly the same.
+    std::ranges::stable_sort(lanes_, {}, [](const Lane& lane) {
+      const bool one_way = std::isinf(lane.law.backward());
+      return std::tuple(one_way, lane.flipped, std::min(lane.law.forward(), lane.law.backward()));
+    });
+  }
+
+  SweepTable run() {
+    // Long tasks first would be fairer, but these are short: a record's lanes, or one slider under one record.
+    const std::size_t tasks_a_record = (lanes_.empty() ? 0 : 1) + singles_.size();
+    const std::size_t tasks = tasks_a_record * motions_.size();
+    std::atomic<std::size_t> next = 0;
+    std::condition_variable changed;
+    std::exception_ptr error;
+    const std::size_t wanted =
+        options_.threads != 0 ? options_.threads : std::max(1U, std::thread::hardware_concurrency());
+    std::size_t working = std::min(wanted, tasks);
+
+    const auto work = [&] {
+      try {
+        Response storage;
+        for (std::size_t task; !stopped_ && (task = next++) < tasks;) {
+          const std::size_t record = task / tasks_a_record, part = task % tasks_a_record;
+          if (part == singles_.size())
+            run_lanes(record);
+          else
+            run_single(singles_[part], record, storage);
+        }
+      } catch (const Stopped&) {
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        if (!error) error = std::current_exception();
+        stopped_ = true;
+      }
+      const std::scoped_lock lock(mutex_);
+      --working;
+      changed.notify_all();
+    };
+
+    std::vector<std::thread> threads;
+    const auto join = [&] {
+      for (std::thread& thread : threads) thread.join();
+    };
+    try {
+      for (std::size_t i = working; i > 0; --i) threads.emplace_back(work);
+      std::unique_lock lock(mutex_);
+      while (!changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; })) beat();
+      if (!error) beat();
+    } catch (...) {
+      stopped_ = true;
+      join();
+      throw;
+    }
+    join();
+    if (error) std::rethrow_exception(error);
+    std::ranges::sort(table_.failures, {},
+                      [](const SweepFailure& f) { return std::tuple(f.slider, f.record, f.polarity); });
+    return std::move(table_);
+  }
+
+ private:
+  void beat() const {
+    if (options_.heartbeat) options_.heartbeat({done_, table_.peak.size()});
+  }
+
+  void add_lanes(std::size_t slider, const Coulomb& law) {
+    const bool alike = law.forward() == law.backward(), both = options_.polarity == Polarity::both;
+    if (options_.polarity != Polarity::flipped) lanes_.push_back({slider, law, false, both && alike});
+    if (options_.polarity == Polarity::flipped || (both && !alike)) lanes_.push_back({slider, law, true, false});
+  }
+
+  std::size_t place(std::size_t slider, std::size_t record, bool flipped) const {
+    return table_.at(slider, record, flipped && table_.polarities == 2 ? 1 : 0);
+  }
+
+  void write(std::size_t slider, std::size_t record, bool flipped, double peak, double residual,
+             double sliding_distance, std::size_t events) {
+    const std::size_t i = place(slider, record, flipped);
+    table_.peak[i] = peak;
+    table_.residual[i] = residual + 0.0;  // minus zero is zero
+    table_.sliding_distance[i] = sliding_distance;
+    table_.events[i] = events;
+  }
+
+  void fail(std::size_t slider, std::size_t record, bool flipped, const std::string& message) {
+    const std::scoped_lock lock(mutex_);
+    table_.failures.push_back({slider, record, flipped ? Polarity::flipped : Polarity::as_recorded, message});
+  }
+
+  void run_lanes(std::size_t record) {
+    const GroundMotion& motion = *motions_[record];
+    if (!has_level_lanes(motion)) {
+      Response storage;
+      for (const Lane& lane : lanes_)
+        if (!lane.flipped || options_.polarity == Polarity::flipped) run_single(lane.slider, record, storage);
+      return;
+    }
+    std::vector<LevelLane> lanes;
+    for (const Lane& lane : lanes_) lanes.push_back({lane.law, lane.flipped});
+    slide_levels(LevelGround(motion), lanes, options_.settle);
+    for (std::size_t k = 0; k < lanes.size(); ++k) {
+      const auto& [slider, law, flipped, both] = lanes_[k];
+      const LevelLane& lane = lanes[k];
+      for (const bool other : {false, true}) {
+        if (other && !both) continue;
+        const bool turned = flipped || other;
+        if (lane.failure.empty())
+          write(slider, record, turned, lane.peak, other ? -lane.state.displacement : lane.state.displacement,
+                lane.sliding_distance, lane.events);
+        else
+          fail(slider, record, turned, lane.failure);
+        ++done_;
+      }
+    }
+  }
+
+  void run_single(std::size_t slider, std::size_t record, Response& storage) {
+    const IntegrateOptions how{0, 0, options_.settle, [this] {
+                                 if (stopped_) throw Stopped{};
+                               }};
+    for (const bool flipped : {false, true}) {
+      if (options_.polarity == (flipped ? Polarity::as_recorded : Polarity::flipped)) continue;
+      try {
+        const GroundMotion& motion = *motions_[record];
+        storage =
+            sliders_[slider].integrate(flipped ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
+        write(slider, record, flipped, storage.peak, storage.residual, storage.sliding_distance,
+              storage.events.size() - 1);
+      } catch (const ConvergenceError& error) {
+        fail(slider, record, flipped, error.what());
+      } catch (const std::overflow_error& error) {
+        fail(slider, record, flipped, error.what());
+      }
+      ++done_;
+    }
+  }
+
+  std::span<const SweepSlider> sliders_;
+  std::span<const GroundMotion* const> motions_;
+  const SweepOptions& options_;
+  std::vector<Lane> lanes_;
+  std::vector<std::size_t> singles_;  // sliders that go one by one
+  SweepTable table_;
+  std::mutex mutex_;  // guards the failures
+  std::atomic<bool> stopped_ = false;
+  std::atomic<std::size_t> done_ = 0;
+};
+
+}  // namespace
+
+SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions,
+                 const SweepOptions& options) {
+  if (sliders.empty()) throw std::invalid_argument("sweep: needs at least one slider, got an empty list");
+  if (motions.empty()) throw std::invalid_argument("sweep: needs at least one ground motion, got an empty list");
+  return Sweep(sliders, motions, options).run();
+}
+
+}  // namespace stickslip::detail

@@ -1,0 +1,253 @@
+"""Suites of ground motions: made, filtered, scaled, read, kept in files."""
+
+import math
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+
+def quake(seed: int, samples: int = 400) -> ss.GroundMotion:
+    n = np.random.default_rng(seed).normal(0, 2, samples)
+    return ss.GroundMotion(n - n.mean(), dt=0.02, name=f"quake {seed}")
+
+
+MOTIONS = [quake(i) for i in range(4)]
+SUITE = ss.Suite(MOTIONS, {"magnitude": [5, 6, 7, math.nan], "event": ["a", "b", "b", ""]})
+
+
+def write(folder, name, motion, label="Acceleration (m/s^2)"):
+    rows = "".join(
+        f"{t!r},{a!r}\n" for t, a in zip(motion.time.tolist(), motion.acceleration.tolist())
+    )
+    file = folder / name
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(f"Time (s), {label}\n{rows}")
+    return file
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for i, motion in enumerate(MOTIONS):
+        write(tmp_path / ("one" if i < 2 else "two"), f"r{i}.csv", motion)
+    return tmp_path
+
+
+def test_a_suite_is_a_sequence_that_filters_by_its_columns():
+    assert len(SUITE) == 4
+    assert SUITE[1] is MOTIONS[1]
+    assert list(SUITE[1:3]) == MOTIONS[1:3]
+    strong = SUITE[SUITE.magnitude > 5.5]
+    assert list(strong) == MOTIONS[1:3]
+    assert strong.event.tolist() == ["b", "b"]
+    assert SUITE[[3, 0]].names == ("quake 3", "quake 0")
+    assert SUITE[SUITE.event == "b"] == SUITE[1:3]
+    assert SUITE[-1] == MOTIONS[3]
+
+
+def test_an_empty_selection_and_a_wrong_index_are_refused():
+    with pytest.raises(ValueError, match="the selection holds none of the 4 motions"):
+        SUITE[SUITE.magnitude > 9]
+    with pytest.raises(IndexError, match="a mask must have one value for each of the 4 motions"):
+        SUITE[np.array([True])]
+    with pytest.raises(TypeError, match="an index must be"):
+        SUITE[[0.5]]
+    with pytest.raises(
+        AttributeError, match="no column 'depth'; the columns are: magnitude, event"
+    ):
+        _ = SUITE.depth
+
+
+def test_what_a_suite_cannot_be_made_of_is_refused():
+    with pytest.raises(ValueError, match="needs at least one ground motion, got none"):
+        ss.Suite([])
+    with pytest.raises(TypeError, match=r"motions\[1\] must be a GroundMotion, got int"):
+        ss.Suite([MOTIONS[0], 3])
+    with pytest.raises(ValueError, match="'depth' must have one value for each of the 4 motions"):
+        ss.Suite(MOTIONS, {"depth": [1, 2]})
+    with pytest.raises(ValueError, match="must not be named 'names'"):
+        ss.Suite(MOTIONS, {"names": list("abcd")})
+
+
+def test_a_suite_goes_wherever_a_list_of_motions_goes():
+    block = ss.Coulomb(mu=0.1)
+    a = ss.run_ensemble(block, SUITE, members=64, seed=1)
+    assert a == ss.run_ensemble(block, MOTIONS, members=64, seed=1)
+    assert ss.sweep(block, SUITE[:2]).records == ("quake 0", "quake 1")
+
+
+def test_each_rule_of_scaling_meets_its_target():
+    g = ss.STANDARD_GRAVITY
+    assert SUITE.scaled_to(pga_g=0.4).pga_g == pytest.approx(0.4, rel=1e-14)
+    for motion in SUITE.scaled_to(arias=1.5):
+        assert ss.strong_motion(motion).arias_intensity == pytest.approx(1.5, rel=1e-12)
+    for motion in SUITE.scaled_to(pgv=0.3):
+        assert ss.strong_motion(motion).peak_velocity == pytest.approx(0.3, rel=1e-12)
+    for motion in SUITE.scaled_to(sa_g=0.5, period=0.6):
+        values = ss.response_spectrum(motion, [0.6]).values
+        assert np.ravel(values)[0] == pytest.approx(0.5 * g, rel=1e-12)
+    periods = np.array([0.2, 0.5, 1.0])
+    for motion in SUITE.scaled_to(spectrum=(periods, [9.0, 6.0, 3.0])):
+        sa = np.ravel(ss.response_spectrum(motion, periods).values)
+        assert np.log(sa / [9, 6, 3]).mean() == pytest.approx(0, abs=1e-12)
+    target = ss.response_spectrum(MOTIONS[2], periods, 0.02)
+    assert SUITE[2:3].scaled(3).scaled_to(spectrum=target).pga_g == pytest.approx(
+        SUITE[2:3].pga_g, rel=1e-12
+    )
+    assert SUITE.scaled([1, 2, 3, 4]).pga_g == pytest.approx(SUITE.pga_g * [1, 2, 3, 4])
+    assert SUITE.scaled(2).magnitude[1] == 6
+
+
+def test_scaling_without_one_clear_target_is_refused():
+    with pytest.raises(ValueError, match=r"give one of pga_g, .* got none"):
+        SUITE.scaled_to()
+    with pytest.raises(ValueError, match="got pga_g and arias"):
+        SUITE.scaled_to(pga_g=1, arias=1)
+    with pytest.raises(ValueError, match="sa_g and period go together"):
+        SUITE.scaled_to(sa_g=1)
+    with pytest.raises(ValueError, match="targets must be positive and finite, got -1"):
+        SUITE.scaled_to(spectrum=([1, 2], [-1, 2]))
+    with pytest.raises(ValueError, match="'quiet' is zero throughout"):
+        ss.Suite([ss.GroundMotion([0, 0], dt=1, name="quiet")]).scaled_to(sa_g=1, period=1)
+
+
+def test_duplicates_are_found_whatever_their_names():
+    again = ss.GroundMotion(MOTIONS[1].acceleration, dt=0.02, name="other name")
+    other_step = ss.GroundMotion(MOTIONS[1].acceleration, dt=0.01)
+    assert ss.Suite([*MOTIONS, again, other_step]).duplicates == [(1, 4)]
+    assert SUITE.duplicates == []
+
+
+def test_a_folder_a_pattern_and_a_list_are_read(folder):
+    suite = ss.Suite.read(folder)
+    assert list(m.acceleration.tolist() for m in suite) == [
+        m.acceleration.tolist() for m in MOTIONS
+    ]
+    assert [f.rsplit("/", 1)[1] for f in suite.file] == ["r0.csv", "r1.csv", "r2.csv", "r3.csv"]
+    assert len(ss.Suite.read(f"{folder}/**/*.csv")) == 4
+    assert len(ss.Suite.read(f"{folder}/one/*")) == 2
+    assert len(ss.Suite.read([folder / "two", folder / "one" / "r0.csv"], threads=2)) == 3
+
+
+def test_nothing_to_read_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=f"no files in '{tmp_path}'"):
+        ss.Suite.read(tmp_path)
+    with pytest.raises(ValueError, match=r"no files in '.*AT2'"):
+        ss.Suite.read(f"{tmp_path}/*.AT2")
+    with pytest.raises(ValueError, match="no files in the list"):
+        ss.Suite.read([])
+    with pytest.raises(ValueError, match=r"cannot read 1 of 1 files: .*none.AT2: No such file"):
+        ss.Suite.read(tmp_path / "none.AT2")
+    with pytest.raises(ValueError, match="on_error must be 'raise' or 'skip', got 'ignore'"):
+        ss.Suite.read(tmp_path, on_error="ignore")
+
+
+def test_all_files_that_cannot_be_read_are_told_at_once(folder):
+    (folder / "notes.txt").write_text("no record")
+    for i in (5, 6):
+        write(folder / "one", f"r{i}.csv", quake(i), label="Acceleration")
+    with pytest.raises(ValueError) as error:
+        ss.Suite.read(folder)
+    text = str(error.value)
+    assert "cannot read 3 of 7 files" in text
+    assert text.index("r5.csv") < text.index("r6.csv") < text.index("give units=")
+    assert "notes.txt" in text
+    with pytest.warns(RuntimeWarning, match="cannot read 3 of 7 files.*they are left out"):
+        suite = ss.Suite.read(folder, on_error="skip")
+    assert len(suite) == 4
+    assert {one.file.rsplit("/", 1)[1] for one in suite.left_out} == {
+        "notes.txt",
+        "r5.csv",
+        "r6.csv",
+    }
+    (folder / "notes.txt").unlink()
+    assert len(ss.Suite.read(sorted(folder.glob("one/r[56].csv")), units="m/s^2")) == 2
+
+
+def test_files_that_are_the_same_record_are_told(folder):
+    write(folder / "two", "copy.csv", MOTIONS[0])
+    with pytest.warns(ss.PlausibilityWarning, match="r0.csv = copy.csv"):
+        suite = ss.Suite.read(folder)
+    assert suite.duplicates == [(0, 2)]
+
+
+def test_metadata_beside_the_records_are_joined_in_any_order(folder):
+    table = folder / "metadata.csv"
+    table.write_text("Magnitude,file,event\n7,r2,\n5.5,r0.csv,Kobe\n,r1.csv,Landers\n")
+    suite = ss.Suite.read(folder, metadata=table)
+    assert suite.Magnitude == pytest.approx([5.5, math.nan, 7, math.nan], nan_ok=True)
+    assert suite.event.tolist() == ["Kobe", "Landers", "", ""]
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"record": ["r3", "r0"], "vs30": [300.0, 760.0]})
+    assert ss.Suite.read(folder / "one", metadata=frame).vs30 == pytest.approx(
+        [760, math.nan], nan_ok=True
+    )
+
+
+@pytest.mark.parametrize(
+    "text, error",
+    [
+        ("magnitude,depth\n7,3\n", "needs a column 'file', 'record' or 'name'"),
+        ("file,depth\nr7.csv,3\n", "has a row for none of the 4 records; its 'file' has 'r7.csv'"),
+        ("file,depth\nr0.csv,3\nr0.csv,4\n", "two rows for 'r0.csv'"),
+        ("file,depth\nr0.csv\n", "row 2 must have 2 cells, got 1"),
+        ("file,depth\n", "must have names and at least one row"),
+    ],
+)
+def test_metadata_that_cannot_be_joined_are_refused(folder, text, error):
+    (folder / "metadata.csv").write_text(text)
+    with pytest.raises(ValueError, match=error):
+        ss.Suite.read(folder, metadata=folder / "metadata.csv")
+
+
+def test_a_saved_suite_is_the_same_to_the_last_bit(tmp_path):
+    pytest.importorskip("h5py")
+    uneven = ss.GroundMotion([0.0, 1 / 3, 0.1], times=[0, 0.1, 0.3], name="uneven")
+    held = ss.GroundMotion([0.0, 1 / 3, 0.1], dt=0.1, interpolation="constant", name="held \u03bc")
+    suite = ss.Suite(
+        [*MOTIONS, uneven, held],
+        {"magnitude": [1, 2, 3, 4, 5, math.nan], "event": [*"abcde", ""], "a/b": range(6)},
+    )
+    assert ss.Suite.open(suite.save(tmp_path / "s.h5")) == suite
+    assert pickle.loads(pickle.dumps(suite)) == suite
+    assert suite != SUITE
+    assert suite.with_metadata({"magnitude": [0.0] * 6}) != suite
+
+
+def test_a_file_that_is_no_suite_is_refused(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    file = tmp_path / "s.h5"
+    file.write_text("text")
+    with pytest.raises(ValueError, match="is no HDF5 file, or damaged"):
+        ss.Suite.open(file)
+    with h5py.File(file, "w") as h5:
+        h5["x"] = 1
+    with pytest.raises(ValueError, match="must be of format 'stickslip suite 1', got 'None'"):
+        ss.Suite.open(file)
+    SUITE.save(file)
+    with h5py.File(file, "a") as h5:
+        del h5["dt"]
+    with pytest.raises(ValueError, match="is damaged"):
+        ss.Suite.open(file)
+    with pytest.raises(FileNotFoundError):
+        ss.Suite.open(tmp_path / "none.h5")
+
+
+def test_a_suite_is_a_table():
+    pytest.importorskip("pandas")
+    frame = SUITE.to_dataframe()
+    assert frame["record"].tolist() == list(SUITE.names)
+    assert frame["PGA [g]"].tolist() == SUITE.pga_g.tolist()
+    assert repr(SUITE) == "Suite(4 records, with magnitude, event)"
+
+
+def test_the_sample_records_are_a_suite():
+    pytest.importorskip("pyslammer")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        suite = ss.sample_records()
+    assert len(suite) == 18
+    assert suite.event[suite.year == 1995].tolist() == ["Kobe"]
+    assert suite.duplicates == []

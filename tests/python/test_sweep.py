@@ -1,0 +1,324 @@
+"""Sweeps and their tables; C++ tests each combination against `integrate`."""
+
+import csv
+import json
+import math
+import os
+import pickle
+import signal
+import threading
+from concurrent.futures import Future, ProcessPoolExecutor
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+RNG = np.random.default_rng(20)
+
+
+def quake(seed: int, samples: int = 800) -> ss.GroundMotion:
+    n = np.random.default_rng(seed).normal(0, 3, samples)
+    t = np.arange(samples) / samples
+    n *= t * (1 - t) * 4
+    return ss.GroundMotion(n - n.mean(), dt=0.02, name=f"quake {seed}")
+
+
+QUAKES = ss.Suite([quake(i) for i in range(6)], {"magnitude": [5, 5.5, 6, 6.5, 7, 7.5]})
+MU = [0.05, 0.1, 0.2, 0.4]
+
+
+def test_each_combination_is_what_integrate_says():
+    sliders = [
+        ss.Coulomb(mu=0.1),
+        ss.Coulomb(mu=0.1, backward=math.inf),
+        ss.Slider(ss.Coulomb(mu=0.05), period=2),
+        ss.VelocityDependent(mu_slow=0.05, mu_fast=0.1, rate=50),
+    ]
+    table = ss.sweep(sliders, QUAKES, settle=True)
+    assert table.peak.shape == (4, 6, 2)
+    for s, slider in enumerate(sliders):
+        for r, motion in enumerate(QUAKES):
+            for p, sign in enumerate((1, -1)):
+                one = ss.integrate(slider, motion * sign, settle=True)
+                allowed = 1e-12 * (1 + one.sliding_distance)
+                assert table.peak[s, r, p] == pytest.approx(one.peak, abs=allowed)
+                assert table.residual[s, r, p] == pytest.approx(one.residual, abs=allowed)
+                assert table.sliding_distance[s, r, p] == pytest.approx(
+                    one.sliding_distance, abs=allowed
+                )
+                assert table.events[s, r, p] == len(one.events) - 1
+
+
+def test_one_slider_one_motion_and_one_polarity_make_a_table_of_one():
+    table = ss.sweep(ss.Coulomb(mu=0.1), QUAKES[0], polarity="flipped")
+    assert table.peak.shape == (1, 1, 1)
+    assert table.polarity == ("flipped",)
+    assert table.residual[0, 0, 0] == pytest.approx(
+        ss.integrate(ss.Coulomb(mu=0.1), -QUAKES[0]).residual, rel=1e-12
+    )
+
+
+def test_a_grid_has_each_combination_and_knows_its_parameters():
+    floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=[0.05, 0.1]), period=[2.0, 3.0, 4.0])
+    assert len(floors) == 6
+    assert floors[4] == ss.Slider(ss.Coulomb(mu=0.1), period=3)
+    assert floors.parameters == {
+        "mu": [0.05, 0.05, 0.05, 0.1, 0.1, 0.1],
+        "period": [2, 3, 4, 2, 3, 4],
+    }
+    assert pickle.loads(pickle.dumps(floors)).parameters == floors.parameters
+    with pytest.raises(ValueError, match=r"grid: with \{'mu': -0.1\}: .* got -0.1"):
+        ss.grid(ss.Coulomb, mu=[0.1, -0.1])
+    with pytest.raises(ValueError, match="mu must have at least one value"):
+        ss.grid(ss.Coulomb, mu=[])
+
+
+def test_a_failed_combination_is_nan_and_told_once_and_ends_nothing():
+    sliders = [ss.Coulomb(mu=0.1), ss.Slider(ss.Coulomb(mu=0), period=1)]
+    with pytest.warns(RuntimeWarning, match="12 of 24 combinations failed.*slider 1 under"):
+        table = ss.sweep(sliders, QUAKES, settle=True)
+    assert np.isfinite(table.peak[0]).all()
+    assert np.isnan(table.peak[1]).all()
+    assert len(table.failures) == 12
+    assert "does not come to rest" in table.failures[0].message
+    assert np.isnan(table.quantile(0.5)[1])
+
+
+@pytest.mark.parametrize(
+    "arguments, error",
+    [
+        (([], QUAKES), "needs at least one slider, got an empty list"),
+        ((ss.Coulomb(mu=0.1), []), "needs at least one ground motion, got an empty list"),
+    ],
+)
+def test_nothing_to_sweep_is_refused(arguments, error):
+    with pytest.raises(ValueError, match=error):
+        ss.sweep(*arguments)
+
+
+def test_what_is_no_slider_motion_or_option_is_refused_by_name():
+    one = ss.Coulomb(mu=0.1)
+    with pytest.raises(TypeError, match=r"sliders\[1\] must be a Slider or friction law, got int"):
+        ss.sweep([one, 3], QUAKES)
+    with pytest.raises(TypeError, match=r"motions\[0\] must be a GroundMotion, got str"):
+        ss.sweep(one, "kobe.AT2")
+    with pytest.raises(ValueError, match=r"polarity must be 'both', .* got 'up'"):
+        ss.sweep(one, QUAKES, polarity="up")
+    with pytest.raises(ValueError, match="threads must be from 1 to 65536, got 0"):
+        ss.sweep(one, QUAKES, threads=0)
+    with pytest.raises(ValueError, match="give threads or executor"):
+        ss.sweep(one, QUAKES, threads=1, executor=ProcessPoolExecutor())
+    with pytest.raises(TypeError, match="executor must be"):
+        ss.sweep(one, QUAKES, executor=3)
+
+
+def test_the_interpreter_goes_on_and_progress_is_told():
+    told = []
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES, progress=lambda *p: told.append(p))
+    assert told[-1] == (48, 48)
+    assert table.done.all()
+
+
+def test_a_sweep_can_be_interrupted_by_its_progress():
+    class Enough(Exception): ...
+
+    def stop(done, total):
+        raise Enough
+
+    casters = [ss.Caster(mu=0.1, reach=0.05)] * 500
+    began = threading.active_count()
+    with pytest.raises(Enough):
+        ss.sweep(casters, QUAKES, progress=stop)
+    assert threading.active_count() == began
+
+
+def test_the_table_goes_to_frames_files_and_back(tmp_path):
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES)
+    frame = table.to_dataframe()
+    assert len(frame) == 48
+    row = frame[(frame.mu == 0.1) & (frame.magnitude == 6.5) & (frame.polarity == "flipped")]
+    assert row["peak [m]"].item() == table.peak[1, 3, 1]
+    data = table.to_xarray()
+    assert data.peak.sel(polarity="flipped").values == pytest.approx(table.peak[:, :, 1], rel=0)
+    assert data.magnitude.values.tolist() == QUAKES.magnitude.tolist()
+    assert ss.SweepTable.open(table.save(tmp_path / "t.h5")) == table
+    rows = list(csv.DictReader(table.to_csv(tmp_path / "t.csv").read_text().splitlines()))
+    assert [float(r["peak [m]"]) for r in rows] == frame["peak [m]"].tolist()
+    assert pickle.loads(pickle.dumps(table)) == table
+    assert table != ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES, settle=True)
+
+
+def test_a_file_that_is_no_table_is_refused(tmp_path):
+    (tmp_path / "x.h5").write_text("no table")
+    with pytest.raises(ValueError, match="is no HDF5 file, or damaged"):
+        ss.SweepTable.open(tmp_path / "x.h5")
+    QUAKES.save(tmp_path / "s.h5")
+    with pytest.raises(ValueError, match="must be of format 'stickslip sweep table 1', got"):
+        ss.SweepTable.open(tmp_path / "s.h5")
+    with pytest.raises(FileNotFoundError):
+        ss.SweepTable.open(tmp_path / "none.h5")
+
+
+def test_quantiles_are_those_of_all_histories():
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES)
+    expected = np.quantile(table.peak.reshape(4, -1), [0.16, 0.5], axis=1)
+    assert np.array_equal(table.quantile([0.16, 0.5]), expected)
+    assert table.quantile(0.5, "residual") == pytest.approx(
+        np.median(np.abs(table.residual).reshape(4, -1), axis=1), rel=1e-15
+    )
+
+
+def test_a_table_draws_records_thin_and_their_median():
+    pytest.importorskip("matplotlib")
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES)
+    (axes,) = table.plot().axes
+    lines = axes.get_lines()
+    assert len(lines) == 13  # 12 histories and the median
+    assert lines[-1].get_ydata() == pytest.approx(100 * table.quantile(0.5), rel=1e-12)
+    floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=MU), period=[2, 3])
+    both = ss.sweep(floors, QUAKES[:2])
+    assert len(both.plot(against="mu").axes[0].get_lines()) == 2
+    with pytest.raises(ValueError, match="against must be one of mu, period, got 'law'"):
+        both.plot(against="law")
+    with pytest.raises(ValueError, match="needs a parameter with numbers"):
+        ss.sweep([ss.Slider(ss.Coulomb(mu=0.1), period=2)], QUAKES).plot()
+
+
+def test_a_sliding_spectrum_is_a_sweep_of_one_record():
+    table = ss.sliding_spectrum(QUAKES[5], MU)
+    assert table.settle
+    assert table.parameters["mu"].tolist() == MU
+    assert table.peak[2, 0, 0] == pytest.approx(
+        ss.integrate(ss.Coulomb(mu=0.2), QUAKES[5], settle=True).peak, rel=1e-12
+    )
+    one_way = ss.sliding_spectrum(QUAKES[5], MU, one_way=True)
+    assert (one_way.residual == one_way.peak).all()
+    sprung = ss.sliding_spectrum(QUAKES[5], MU, period=[1, math.inf])
+    assert sprung.peak.shape == (8, 1, 2)
+    assert sprung.peak[1::2, 0] == pytest.approx(table.peak[:, 0], rel=1e-12)
+
+
+class Refusing:
+    """An executor that fails after some parts."""
+
+    def __init__(self, good):
+        self.good = good
+
+    def submit(self, function, *arguments):
+        future: Future = Future()
+        self.good -= 1
+        if self.good >= 0:
+            future.set_result(function(*arguments))
+        else:
+            future.set_exception(OSError("the node is gone"))
+        return future
+
+
+def test_processes_find_the_same_bits():
+    sliders = ss.grid(ss.Coulomb, mu=MU)
+    with ProcessPoolExecutor(2) as pool:
+        assert ss.sweep(sliders, QUAKES, executor=pool) == ss.sweep(sliders, QUAKES)
+
+
+def test_a_cluster_one_worker_of_which_is_killed_finds_the_same_bits():
+    distributed = pytest.importorskip(
+        "distributed", reason="needs a cluster: pip install dask[distributed]"
+    )
+    sliders = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=np.linspace(0.01, 0.3, 40)), period=2)
+    quakes = [quake(i, 4000) for i in range(64)]
+    killed = []
+
+    def kill_one(done, total):
+        if done and not killed:
+            killed.append(pids.pop())
+            os.kill(killed[0], signal.SIGKILL)
+
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        pids = list(client.run(os.getpid).values())
+        with client.get_executor() as pool:
+            table = ss.sweep(sliders, quakes, executor=pool, progress=kill_one)
+    assert len(killed) == 1
+    assert table == ss.sweep(sliders, quakes)
+
+
+def test_a_sweep_that_broke_off_resumes_to_the_same_bits(tmp_path):
+    sliders = [*ss.grid(ss.Coulomb, mu=MU), ss.Slider(ss.Coulomb(mu=0.1), period=2)]
+    file = tmp_path / "sweep.npz"
+    whole = ss.sweep(sliders, QUAKES)
+    with pytest.raises(ss.SweepError, match="failed in the executor: OSError: the node") as error:
+        ss.sweep(sliders, QUAKES, executor=Refusing(3), checkpoint=file)
+    assert error.value.partial.done.sum() == 3
+    assert error.value.records == range(3, 4)
+    counted = []
+    resumed = ss.sweep(
+        sliders, QUAKES, checkpoint=file, progress=lambda done, total: counted.append(done)
+    )
+    assert resumed == whole
+    assert counted[0] > 30  # three of six records were there already
+    assert ss.sweep(sliders, QUAKES, checkpoint=file) == whole
+
+
+def test_a_checkpoint_of_another_sweep_is_refused(tmp_path):
+    file = tmp_path / "sweep.npz"
+    ss.sweep(ss.Coulomb(mu=0.1), QUAKES, checkpoint=file)
+    for sliders, motions, options in (
+        (ss.Coulomb(mu=0.2), QUAKES, {}),
+        (ss.Coulomb(mu=0.1), QUAKES.scaled(2), {}),
+        (ss.Coulomb(mu=0.1), QUAKES, {"settle": True}),
+    ):
+        with pytest.raises(ValueError, match="is of another sweep"):
+            ss.sweep(sliders, motions, checkpoint=file, **options)
+    file.write_bytes(b"PK\x03\x04 and no more")
+    with pytest.raises(ValueError, match=r"sweep: checkpoint '.*sweep.npz'"):
+        ss.sweep(ss.Coulomb(mu=0.1), QUAKES, checkpoint=file)
+
+
+def test_failures_survive_a_checkpoint(tmp_path):
+    sliders = [ss.Coulomb(mu=0.1), ss.Slider(ss.Coulomb(mu=0), period=1)]
+    for _ in range(2):
+        with pytest.warns(RuntimeWarning, match="combinations failed"):
+            table = ss.sweep(sliders, QUAKES, settle=True, checkpoint=tmp_path / "c.npz")
+        assert len(table.failures) == 12
+    assert ss.SweepTable.open(table.save(tmp_path / "t.h5")).failures == table.failures
+
+
+def test_slammers_table_of_a_sample_record(capsys, tmp_path):
+    """SLAMMER's own numbers for Kobe TAK-090 at ky = 0.1 g: normal 194.24, inverse 167.82 cm."""
+    pytest.importorskip("pyslammer")
+    from stickslip.cli import main
+
+    file = tmp_path / "t.csv"
+    assert main(["newmark", "sample:Kobe", "--ky", "0.1", "--csv", str(file)]) == 0
+    line = capsys.readouterr().out.splitlines()[1].split()
+    assert line[-3:] == ["194.24", "167.82", "181.03"]
+    (row,) = csv.DictReader(file.read_text().splitlines())
+    assert float(row["normal_m"]) == pytest.approx(1.9424, abs=5e-5)
+
+
+def test_the_command_tells_mean_median_and_deviation_and_what_it_left_out(capsys, tmp_path):
+    from stickslip.cli import main
+
+    for i in range(3):
+        m = QUAKES[i]
+        text = "".join(f"{t},{a}\n" for t, a in zip(m.time.tolist(), m.acceleration.tolist()))
+        (tmp_path / f"r{i}.csv").write_text(f"Time (s), Acceleration (m/s^2)\n{text}")
+    (tmp_path / "notes.txt").write_text("no record")
+    code = main(["newmark", str(tmp_path), "--ky", "0.05", "0.02", "--scale-pga", "0.4", "--json"])
+    out, err = capsys.readouterr()
+    assert code == 1
+    assert "notes.txt" in err
+    document = json.loads(out)
+    assert [row["ky_g"] for row in document["results"]] == [0.02, 0.05] * 3
+    assert [row["pga_g"] for row in document["results"]] == pytest.approx([0.4] * 6)
+    values = [row["normal_m"] for row in document["results"] if row["ky_g"] == 0.05]
+    found = {s["statistic"]: s["normal_m"] for s in document["statistics"] if s["ky_g"] == 0.05}
+    assert found["mean"] == pytest.approx(np.mean(values), rel=1e-12)
+    assert found["median"] == np.median(values)
+    assert found["sd"] == pytest.approx(np.std(values, ddof=1), rel=1e-12)
+    assert main(["newmark", "sample:Kobe", "--ky", "-1"]) == 2
+    assert "--ky must be positive and finite, got -1 g" in capsys.readouterr().err
