@@ -1710,6 +1710,7 @@ def sweep(
     *,
     polarity: str,
     settle: bool,
+    contact: str,
     threads: SupportsIndex,
     heartbeat: Callable[[int, int], object] | None,
 ) -> dict[str, Any]: ...

@@ -162,9 +162,10 @@ class Sweep {
   }
 
   void run_single(std::size_t slider, std::size_t record, Response& storage) {
-    const IntegrateOptions how{0, 0, options_.settle, [this] {
-                                 if (stopped_) throw Stopped{};
-                               }};
+    const auto heartbeat = [this] {
+      if (stopped_) throw Stopped{};
+    };
+    const IntegrateOptions how{0, 0, options_.settle, options_.contact, heartbeat};
     for (const bool flipped : {false, true}) {
       if (options_.polarity == (flipped ? Polarity::as_recorded : Polarity::flipped)) continue;
       try {
@@ -176,6 +177,8 @@ class Sweep {
       } catch (const ConvergenceError& error) {
         fail(slider, record, flipped, error.what());
       } catch (const std::overflow_error& error) {
+        fail(slider, record, flipped, error.what());
+      } catch (const std::invalid_argument& error) {  // a vertical motion under which it never lands
         fail(slider, record, flipped, error.what());
       }
       ++done_;

@@ -181,6 +181,17 @@ TEST_CASE("spectra and counts are not taken for acceleration", "[records][errors
   refuses(csmip_channel().substr(0, csmip_channel().find("  9.000000")), {"ends after 8 of the 10 samples"});
 }
 
+TEST_CASE("formats that begin alike are told apart", "[records]") {
+  CHECK(record_format(smc("1 UNCORRECTED ACCELEROGRAM"))->name == "USGS SMC");
+  CHECK(read(smc("1 UNCORRECTED ACCELEROGRAM")) == read(smc()));
+  CHECK(record_format(replaced(geonet(), "Corrected", "Uncorrected"))->name == "GeoNet V1A and V2A");
+  CHECK(record_format(csmip_channel())->name == "CSMIP V1 and V2");
+  CHECK(record_format(csmip_uncorrected(true))->name == "CSMIP V1 and V2");
+  CHECK(record_format("0.1\n0.2\n")->name == "one column of acceleration");
+  CHECK(!record_format("nothing\n"));
+  CHECK(!record_format(std::string(4, '\0')));
+}
+
 TEST_CASE("one column needs its time step, and units", "[records]") {
   const std::string column = "# Made-up, one column\n0.1\n-0.25\n1.5E-4\n\n0.5\n";
   const GroundMotion motion = read(column, {.units = "g", .dt = 0.02});

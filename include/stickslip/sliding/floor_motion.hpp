@@ -145,6 +145,10 @@ class FloorPiece {
 template <FrictionLaw Law, Motion M>
 std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, const Response& response,
                                   double tolerance = 1e-6) {
+  detail::require_plain_mounting(slider, "floor_motion");
+  if constexpr (std::same_as<M, GroundMotion>)
+    if (motion.has_vertical())
+      throw std::invalid_argument("floor_motion: covers horizontal motion alone, got a vertical component");
   detail::require(tolerance >= 1e-10 && tolerance <= 1, "floor_motion: tolerance must be from 1e-10 to 1", tolerance);
   if (response.truncated) throw std::invalid_argument("floor_motion: the response must not be truncated");
   const std::size_t samples = response.displacement.size();

@@ -29,7 +29,8 @@ struct SweepProgress {
 struct SweepOptions {
   Polarity polarity = Polarity::both;
   bool settle = false;   ///< continue under zero ground acceleration after the last sample until the slider rests
-  unsigned threads = 0;  ///< at most so many; 0: as many as the machine has
+  Contact contact = Contact::flight;  ///< what a slider does where the ground falls away from under it
+  unsigned threads = 0;               ///< at most so many; 0: as many as the machine has
   std::function<void(const SweepProgress&)> heartbeat{};  ///< called ten times a second; may throw to end the work
 };
 
@@ -70,7 +71,7 @@ template <FrictionLaw Law>
 SweepSlider sweep_slider(const Slider<Law>& slider) {
   const Coulomb* law = nullptr;
   if constexpr (std::same_as<Law, Coulomb>)
-    if (slider.natural_frequency() == 0 && slider.damping() == 0) law = &slider.law();
+    if (slider.plain() && slider.natural_frequency() == 0 && slider.damping() == 0) law = &slider.law();
   return {law, [&slider](const GroundMotion& motion, const IntegrateOptions& options, Response storage) {
             return stickslip::integrate(slider, motion, options, std::move(storage));
           }};

@@ -20,8 +20,8 @@ py::array_t<T> shaped(const SweepTable& table, std::vector<T> values) {
 }
 
 py::dict run(const py::sequence& sliders, const py::sequence& motions, const std::string& polarity, bool settle,
-             unsigned threads, const py::object& heartbeat) {
-  SweepOptions options{polarity_of(polarity), settle, threads};
+             const std::string& contact, unsigned threads, const py::object& heartbeat) {
+  SweepOptions options{polarity_of(polarity), settle, contact_of(contact, "sweep"), threads};
   options.heartbeat = [&](const SweepProgress& progress) {
     const py::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -65,7 +65,7 @@ py::dict run(const py::sequence& sliders, const py::sequence& motions, const std
 
 void bind_sweep(py::module_& m) {
   m.def("sweep", &run, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("polarity"), py::arg("settle"),
-        py::arg("threads"), py::arg("heartbeat"),
+        py::arg("contact"), py::arg("threads"), py::arg("heartbeat"),
         R"(What `stickslip.sweep` calls, which see.
 
 `heartbeat(done, combinations)` is called ten times a second with the interpreter held. Returns the arrays of the table

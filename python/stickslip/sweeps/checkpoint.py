@@ -53,7 +53,7 @@ class Checkpoint:
                     raise ValueError(f"is of format '{kept['format']}', not '{_FORMAT}'")
                 if str(kept["key"]) != self.key:
                     raise ValueError(
-                        "is of another sweep: other sliders, motions, polarity or settle"
+                        "is of another sweep: other sliders, motions, polarity, settle or contact"
                     )
                 done = kept["done"]
                 values = {name: kept[name] for name in QUANTITIES}
@@ -120,6 +120,9 @@ def _key(sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, A
     for motion in motions:
         digest.update(repr((len(motion), motion.dt, motion.interpolation)).encode())
         digest.update(np.ascontiguousarray(motion.acceleration))
+        if motion.vertical is not None:
+            digest.update(b"vertical")
+            digest.update(np.ascontiguousarray(motion.vertical))
         if motion.dt is None:
             digest.update(np.ascontiguousarray(motion.time))
     return digest.hexdigest()

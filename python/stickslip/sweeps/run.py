@@ -12,7 +12,15 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from typing import Any, Literal, SupportsIndex
 
 from .. import _core
-from .._core import Caster, Coulomb, GroundMotion, Slider, VelocityDependent
+from .._core import (
+    Caster,
+    Coulomb,
+    GroundMotion,
+    Slider,
+    StaticKinetic,
+    Stribeck,
+    VelocityDependent,
+)
 from ..ensemble.progress import Progress, shown
 from ..ensemble.sources import AnySlider
 from ..suite import Suite
@@ -23,6 +31,7 @@ from .table import SweepTable, parameters_of
 
 Polarity = Literal["both", "as recorded", "flipped"]
 
+_SLIDERS = (Slider, Coulomb, Caster, VelocityDependent, Stribeck, StaticKinetic)
 _PARTS = 64  # that the records are cut in for an executor
 
 
@@ -32,6 +41,7 @@ def sweep(
     *,
     polarity: Polarity = "both",
     settle: bool = False,
+    contact: Literal["flight", "clipped"] = "flight",
     threads: SupportsIndex | None = None,
     progress: bool | Progress = False,
     executor: Executor | None = None,
@@ -54,6 +64,8 @@ def sweep(
     settle : bool, optional
         Continue under zero ground acceleration after each record until the slider rests, so that
         residuals are final.
+    contact : {'flight', 'clipped'}, optional
+        What a slider does where the ground falls away from under it; see `integrate`.
     threads : int, optional
         At most so many, at least 1; as many as the machine has, if not given.
     progress : bool or callable, optional
@@ -135,7 +147,7 @@ def sweep(
         polarity=("as recorded", "flipped") if polarity == "both" else (polarity,),
         settle=settle,
     )
-    how = {"polarity": polarity, "settle": settle}
+    how = {"polarity": polarity, "settle": settle, "contact": contact}
     with shown(progress, who="sweep", things="combinations") as show:
         if executor is None and checkpoint is None:
             result = _core.sweep(these, those, threads=count, heartbeat=show, **how)
@@ -161,7 +173,7 @@ def sweep(
 
 
 def _sliders(given: Any) -> list[AnySlider]:
-    if isinstance(given, (Slider, Coulomb, Caster, VelocityDependent)):
+    if isinstance(given, _SLIDERS):
         return [given]
     if not isinstance(given, Iterable):
         raise TypeError(
@@ -169,7 +181,7 @@ def _sliders(given: Any) -> list[AnySlider]:
         )
     these = list(given)
     for i, one in enumerate(these):
-        if not isinstance(one, (Slider, Coulomb, Caster, VelocityDependent)):
+        if not isinstance(one, _SLIDERS):
             raise TypeError(
                 f"sweep: sliders[{i}] must be a Slider or friction law, got {type(one).__name__}"
             )

@@ -14,7 +14,7 @@ namespace stickslip::records {
 namespace {
 
 bool is_spectra(std::string_view line) { return has(line, "response") && has(line, "spectra"); }
-bool is_uncorrected(std::string_view line) { return has(line, "uncorrected accelerogram"); }
+bool is_uncorrected(std::string_view line) { return has(line, "uncorrected accelerogram data"); }
 bool is_end(std::string_view line) { return trim(line).starts_with("/&") || has(line, "end of data"); }
 
 /// Columns of a Fortran format as `(8f10.6)`, or 0.
@@ -66,7 +66,7 @@ std::string orientation_of(const Lines& text) {
 }  // namespace
 
 bool is_csmip(const Lines& lines) {
-  if (lines.size() < 2 || is_geonet(lines)) return false;
+  if (lines.size() < 2) return false;
   return is_uncorrected(lines[0]) || (has(lines[0], "corrected accelerogram") && is_uncorrected(lines[1])) ||
          (is_spectra(lines[0]) && has(lines[1], "corrected accelerogram"));
 }
