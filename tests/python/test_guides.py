@@ -34,20 +34,9 @@ def blocks(language):
 
 
 @pytest.fixture
-def kobe(tmp_path, monkeypatch, pyslammer_files):
-    """The file of the guides' name, in PEER's format, in the current directory; Kobe itself."""
-    record = ss.read_record(next(f for f in pyslammer_files if f.name.startswith("Kobe")))
-    samples = [f"{n / ss.STANDARD_GRAVITY:.7E}" for n in record.acceleration]
-    header = [
-        "PEER NGA STRONG MOTION DATABASE RECORD",
-        "Kobe, Japan 1995, TAK, 90",
-        "ACCELERATION TIME SERIES IN UNITS OF G",
-        f"NPTS= {len(samples)}, DT= {record.dt:.4f} SEC",
-    ]
-    rows = [" ".join(samples[i : i + 5]) for i in range(0, len(samples), 5)]
-    (tmp_path / "kobe.AT2").write_text("\n".join(header + rows) + "\n")
+def empty(tmp_path, monkeypatch, pyslammer_files):
+    """An empty current directory: code of a page is copied and pasted, and finds nothing there."""
     monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def test_every_guide_has_code():
@@ -58,7 +47,7 @@ def test_every_guide_has_code():
 
 
 @pytest.mark.parametrize("code", blocks("python"))
-def test_the_python_runs(code, kobe, capsys):
+def test_the_python_runs(code, empty, capsys):
     if "plot" in code:
         pytest.importorskip("matplotlib")
     exec(compile(code, "guide", "exec"), {"__name__": "guide"})
@@ -66,7 +55,7 @@ def test_the_python_runs(code, kobe, capsys):
 
 
 @pytest.mark.parametrize("block", blocks("sh"))
-def test_the_commands_run(block, kobe):
+def test_the_commands_run(block, empty):
     for line in block.splitlines():
         words = shlex.split(line, comments=True)
         if not words or words[0] != "stickslip":
@@ -76,9 +65,11 @@ def test_the_commands_run(block, kobe):
         subprocess.run([sys.executable, "-m", *words], check=True, capture_output=True)
 
 
-def test_the_table_of_the_first_page_is_the_one_printed(kobe):
-    command = [sys.executable, "-m", "stickslip", "slide", "kobe.AT2", "--mu", "0.1", "0.2", "0.3"]
-    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+def test_the_table_of_the_first_page_is_the_one_printed(empty):
+    command = ["stickslip", "slide", "sample:Kobe", "--mu", "0.1", "0.2", "0.3"]
+    printed = subprocess.run(
+        [sys.executable, "-m", *command], check=True, capture_output=True, text=True
+    ).stdout
     shown = (DOCS / "start.md").read_text(encoding="utf-8").splitlines()
     figures = [line.split()[-6:] for line in printed.splitlines()[1:]]  # mu and what follows it
     assert len(figures) == 3
