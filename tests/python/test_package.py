@@ -4,7 +4,9 @@ import ast
 import importlib
 import subprocess
 import sys
+import tarfile
 from graphlib import TopologicalSorter
+from importlib.util import find_spec
 
 import pytest
 from pages import ROOT
@@ -52,3 +54,20 @@ def test_modules_do_not_import_each_other_in_a_circle():
                 known.update(target.partition(".")[0] for target in targets)
     assert imports["comparison"] >= {"ensemble", "plotting", "theory"}  # else it reads nothing
     list(TopologicalSorter(imports).static_order())  # raises CycleError
+
+
+@pytest.mark.skipif(
+    find_spec("scikit_build_core") is None or not (ROOT / ".git").exists(),
+    reason="needs scikit-build-core and the repository",
+)
+def test_a_source_distribution_holds_the_whole_repository(tmp_path):
+    """A wheel can then be built from it as from the repository."""
+    tree = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True)
+    make = "import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])"
+    subprocess.run([sys.executable, "-c", make, tmp_path], cwd=ROOT, check=True)
+    (archive,) = tmp_path.glob("stickslip-*.tar.gz")
+    with tarfile.open(archive) as packed:
+        names = {name.partition("/")[2] for name in packed.getnames()}
+    tracked = {name for name in tree.stdout.decode().split("\0") if name}
+    assert tracked - names == set()
+    assert archive.stat().st_size < 5e6

@@ -11,7 +11,8 @@ import pytest
 from pages import README, blocks, run
 
 
-def test_the_python_runs(kobe, capsys):
+def test_the_python_runs(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
     code, _, _ = blocks(README, "python")
     run(README, code, {})
     lines = capsys.readouterr().out.splitlines()

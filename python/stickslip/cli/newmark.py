@@ -111,9 +111,7 @@ def _newmark(args: argparse.Namespace) -> str:
     if args.csv:
         write_csv(args.csv, _COLUMNS, rows)
     if args.json:
-        return json_text(
-            {"results": rows, "statistics": _statistics(rows), "errors": batch.errors}
-        )
+        return json_text({"results": rows, "statistics": _statistics(rows), "errors": batch.errors})
     return "\n".join(_lines(rows))
 
 
