@@ -1,7 +1,8 @@
 """Pictures, in one house style; needs matplotlib (``pip install stickslip[plot]``).
 
 Every function returns a matplotlib Figure: a notebook shows it, `save` writes it. Where pyplot was
-imported and has windows, plt.show() shows it too; else pyplot is left alone. Colours are Okabe and Ito's, told apart by colour-blind eyes and in grey print.
+imported and has windows, plt.show() shows it too; else pyplot is left alone. Colours are Okabe and
+Ito's, told apart by colour-blind eyes and in grey print.
 """
 
 from __future__ import annotations
