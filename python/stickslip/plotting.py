@@ -1,13 +1,15 @@
 """Pictures, in one house style; needs matplotlib (``pip install stickslip[plot]``).
 
-Every function returns a matplotlib Figure and leaves pyplot alone: a notebook shows it, `save`
-writes it. Colours are Okabe and Ito's, told apart by colour-blind eyes and in grey print.
+Every function returns a matplotlib Figure: a notebook shows it, `save` writes it. Where pyplot was
+imported and has windows, plt.show() shows it too; else pyplot is left alone. Colours are Okabe and
+Ito's, told apart by colour-blind eyes and in grey print.
 """
 
 from __future__ import annotations
 
 import io
 import os
+import sys
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -86,6 +88,13 @@ def style() -> Any:
             "svg.hashsalt": "stickslip",
         }
     )
+
+
+# Backends in which plt.show() shows nothing, or, in a notebook, what is shown as it is returned.
+_WITHOUT_WINDOWS = (
+    *("agg", "cairo", "pdf", "pgf", "ps", "svg", "template", "inline"),
+    "module://matplotlib_inline.backend_inline",
+)
 
 
 class _Picture(Figure):
@@ -779,8 +788,15 @@ _AT_RIGHT = {
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of a size in inches that belongs to no window."""
-    figure = _Picture(figsize=(width, height), layout="constrained", dpi=100)
+    """An empty figure of a size in inches.
+
+    Where pyplot has windows, it is one of those that plt.show() shows; else it belongs to none.
+    """
+    options: dict[str, Any] = {"figsize": (width, height), "layout": "constrained", "dpi": 100}
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is not None and matplotlib.get_backend().lower() not in _WITHOUT_WINDOWS:
+        return pyplot.figure(FigureClass=_Picture, **options)
+    figure = _Picture(**options)
     FigureCanvasAgg(figure)
     return figure
 

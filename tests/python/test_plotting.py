@@ -352,3 +352,16 @@ def test_without_matplotlib_the_message_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(ImportError, match=r"pip install stickslip\[plot\]"):
         r.plot()
+
+
+def test_pyplot_shows_the_picture_where_it_has_windows(response, monkeypatch):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    assert pyplot.get_fignums() == []
+    response.plot()  # without windows no figure is kept
+    assert pyplot.get_fignums() == []
+    monkeypatch.setattr("matplotlib.get_backend", lambda: "TkAgg")
+    figure = response.plot()
+    assert [pyplot.figure(number) for number in pyplot.get_fignums()] == [figure]
+    assert response.plot(figure=figure.add_subfigure(figure.add_gridspec(1, 1)[0])) is not figure
+    assert len(pyplot.get_fignums()) == 1
+    pyplot.close(figure)
