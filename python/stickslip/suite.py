@@ -642,7 +642,7 @@ def _reason(error: Exception, path: Path) -> str:
     """What went wrong, without the name of the file."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
-    return str(error).replace(f"'{path}'", "").replace(str(path), "").strip(" :")
+    return str(error).removeprefix(f"read_record: {path}: ")
 
 
 def _failures(left: Sequence[LeftOut], total: int) -> str:
