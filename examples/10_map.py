@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import stickslip as ss
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from stickslip.plotting import save, style
 
@@ -20,18 +21,18 @@ ask.add_argument("--cells", type=int, default=1000, help="along each side")
 ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
 args = ask.parse_args()
 
-# Terrain: a random surface with a spectrum that falls off, and its slope angle.
+# Terrain: a random surface with a spectrum that falls off; 1 % of it is steeper than 0.6.
 side, cell = args.cells, 10.0  # cells, m
 rng = np.random.default_rng(1)
 k = np.hypot(np.fft.fftfreq(side)[:, None], np.fft.rfftfreq(side)[None, :]) * side
 rough = np.exp(2j * np.pi * rng.random(k.shape)) / np.maximum(k, 1) ** 2.2 * (k > 0)
 height = np.fft.irfft2(rough, (side, side))
-height *= 400 / np.ptp(height)  # m
 steep = np.hypot(*np.gradient(height, cell))
+steep *= 0.6 / np.quantile(steep, 0.99)
 
 # An infinite slope: ky = c / (gamma t cos) + tan(phi) cos - sin, in g.
 angle = np.arctan(steep)
-ky = 0.2 + np.tan(np.radians(32)) * np.cos(angle) - np.sin(angle)
+ky = 0.1 + np.tan(np.radians(30)) * np.cos(angle) - np.sin(angle)
 ky = np.maximum(ky, 0.02)
 
 suite = ss.sample_records().scaled_to(pga_g=0.8)
@@ -45,6 +46,7 @@ low, high = mean[above], mean[above - 1]  # the displacement is between these
 part = np.log(ky / levels[above - 1]) / np.log(levels[above] / levels[above - 1])
 displacement = high + part * (low - high)
 bound = np.maximum(high - displacement, displacement - low)
+print(f"yield acceleration    {ky.min():8.2f} to {ky.max():.2f} g")
 print(f"{ky.size:,} cells, {table.peak.size:,} analyses")
 print(f"largest displacement  {100 * displacement.max():8.2f} cm")
 print(f"error at most         {100 * bound.max():8.2f} cm, mean {100 * bound.mean():.3f} cm")
@@ -53,11 +55,11 @@ with style():
     figure = Figure(figsize=(7, 3.2), layout="constrained")
     axes = figure.subplots(1, 2)
     extent = (0, side * cell / 1000, 0, side * cell / 1000)
-    for ax, values, title in (
-        (axes[0], ky, "yield acceleration [g]"),
-        (axes[1], 100 * displacement, "mean displacement [cm]"),
+    for ax, values, title, norm in (
+        (axes[0], ky, "yield acceleration [g]", None),
+        (axes[1], 100 * displacement, "mean displacement [cm]", LogNorm(0.1)),
     ):
-        image = ax.imshow(values, extent=extent, origin="lower", cmap="viridis")
+        image = ax.imshow(values, extent=extent, origin="lower", cmap="viridis", norm=norm)
         figure.colorbar(image, ax=ax, shrink=0.8)
         ax.set(title=title, xlabel="km")
 args.out.mkdir(parents=True, exist_ok=True)

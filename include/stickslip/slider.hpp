@@ -60,11 +60,11 @@ class Slider {
     detail::require(degrees >= 0 && degrees < 90, "Slider: slope_degrees must be from 0 to less than 90", degrees,
                     "degrees");
     if (degrees > 0 && stiffness() == 0 && !std::isfinite(mounting_.stops.forward())) {
-      const double steepest = std::tan(slope()), holds = hold(law_, 0, Direction::forward) / standard_gravity;
-      detail::require(holds >= steepest,
+      const double steepest = std::tan(slope()), holds = hold(law_, 0, Direction::forward);
+      detail::require(holds >= steepest * standard_gravity,
                       "Slider: on a slope of " + detail::shortest(degrees) +
                           " degrees it slides under its own weight unless mu is at least " + detail::shortest(steepest),
-                      holds);
+                      holds / standard_gravity);
     }
     if (mounting_.pendulum && !(stiffness() > 0))
       throw std::invalid_argument("Slider: a pendulum needs a natural_frequency, sqrt(g / radius)");

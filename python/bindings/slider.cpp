@@ -266,19 +266,18 @@ float
           py::is_operator())
       .def("__hash__",
            [](const AnySlider& s) { return py::hash(py::make_tuple(law_of(s), described(mounting_of(s)))); })
-      .def("__reduce__", [](const py::object& self) {
-        const Mounting& on = mounting_of(self.cast<const AnySlider&>());
-        return py::make_tuple(py::type::of(self).attr("_mounted"),
-                              py::make_tuple(self.attr("law"), on.natural_frequency, on.damping, on.slope_degrees,
-                                             on.one_way, on.stops, on.pendulum));
-      });
-  slider.def_static(
-      "_mounted",
-      [](const py::object& law, double natural_frequency, double damping, double slope_degrees, bool one_way,
-         const Stops& stops, bool pendulum) {
-        return mounted(law, {natural_frequency, damping, slope_degrees, one_way, stops, pendulum});
-      },
-      "For copies and pickles.");
+      .def(py::pickle(
+          [](const AnySlider& self) {
+            const Mounting& on = mounting_of(self);
+            return py::make_tuple(law_of(self), on.natural_frequency, on.damping, on.slope_degrees, on.one_way,
+                                  on.stops, on.pendulum);
+          },
+          [](const py::tuple& state) {
+            if (state.size() != 7)
+              throw std::invalid_argument("unpickling: expected 7 values, got " + std::to_string(state.size()));
+            return mounted(state[0], {state[1].cast<double>(), state[2].cast<double>(), state[3].cast<double>(),
+                                      state[4].cast<bool>(), state[5].cast<Stops>(), state[6].cast<bool>()});
+          }));
   m.def(
       "FrictionPendulum",
       [](double radius, std::optional<double> mu, std::optional<double> mu_slow, std::optional<double> mu_fast,

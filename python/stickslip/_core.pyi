@@ -266,19 +266,10 @@ class Slider(metaclass=_Pybind11Type):
     ) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    @staticmethod
-    def _mounted(
-        law: _Law,
-        natural_frequency: float,
-        damping: float,
-        slope_degrees: float,
-        one_way: bool,
-        stops: Stops,
-        pendulum: bool,
-    ) -> Slider: ...
-    def __reduce__(
-        self,
-    ) -> tuple[Callable[..., Slider], tuple[_Law, float, float, float, bool, Stops, bool]]: ...
+    def __getstate__(self) -> tuple[_Law, float, float, float, bool, Stops, bool]: ...
+    def __setstate__(
+        self, state: tuple[_Law, float, float, float, bool, Stops, bool], /
+    ) -> None: ...
 
 def FrictionPendulum(
     *,

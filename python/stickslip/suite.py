@@ -23,11 +23,11 @@ from ._core import (
     GroundMotion,
     PlausibilityWarning,
     ResponseSpectrum,
-    read_record,
     response_spectrum,
 )
 from ._files import check_regular, replacing
 from ._text import printable
+from .records import read_record
 
 __all__ = ["LeftOut", "Suite"]
 
@@ -388,6 +388,8 @@ class Suite(Sequence[GroundMotion]):
         *,
         units: str | None = None,
         component: str | int | None = None,
+        dt: float | None = None,
+        gaps: bool = False,
         on_error: Literal["raise", "skip"] = "raise",
         metadata: str | os.PathLike[str] | Mapping[str, ArrayLike] | Any | None = None,
         threads: int | None = None,
@@ -399,7 +401,7 @@ class Suite(Sequence[GroundMotion]):
         files : path-like, str or iterable of these
             A folder, with all in it and below but hidden files; a pattern, as
             ``"records/**/*.AT2"``, where ``**`` is any folders; a file; or a list of these.
-        units, component : optional
+        units, component, dt, gaps : optional
             As `read_record` takes them, for all files.
         on_error : {'raise', 'skip'}
             What becomes of files that cannot be read: 'raise' names all of them in one error;
@@ -448,7 +450,7 @@ class Suite(Sequence[GroundMotion]):
 
         def read(path: Path) -> GroundMotion | Exception:
             try:
-                return read_record(path, units=units, component=component)
+                return read_record(path, units=units, component=component, dt=dt, gaps=gaps)
             except (OSError, ValueError) as error:
                 return error
 
@@ -642,7 +644,7 @@ def _reason(error: Exception, path: Path) -> str:
     """What went wrong, without the name of the file."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
-    return str(error).replace(f"'{path}'", "").replace(str(path), "").strip(" :")
+    return str(error).removeprefix(f"read_record: {path}: ")
 
 
 def _failures(left: Sequence[LeftOut], total: int) -> str:

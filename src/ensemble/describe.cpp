@@ -41,7 +41,8 @@ std::string describe(const std::string& law, const Mounting& mounting) {
          (mounting.pendulum ? ", \"pendulum\": true" : "") +
          (mounting.slope_degrees > 0 ? ", \"slope_degrees\": " + json(mounting.slope_degrees) : "") +
          (mounting.one_way ? ", \"one_way\": true" : "") +
-         (stops ? ", \"stops\": " + json(std::array{stops.forward(), stops.backward(), stops.restitution()}) : "") + "}";
+         (stops ? ", \"stops\": " + json(std::array{stops.forward(), stops.backward(), stops.restitution()}) : "") +
+         "}";
 }
 
 namespace {

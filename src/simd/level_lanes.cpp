@@ -269,7 +269,8 @@ LevelGround::LevelGround(const GroundMotion& motion)
 }
 
 bool has_level_lanes(const GroundMotion& motion) noexcept {
-  return !motion.has_vertical() && std::isfinite(motion.dt()) && motion.dt() > 1e-60 && motion.dt() < 1e60 && motion.peak_acceleration() < 1e60;
+  return !motion.has_vertical() && std::isfinite(motion.dt()) && motion.dt() > 1e-60 && motion.dt() < 1e60 &&
+         motion.peak_acceleration() < 1e60;
 }
 
 bool has_level_lanes(const Coulomb& law) noexcept {

@@ -199,5 +199,6 @@ TEST_CASE("a sweep tells how far it is, and ends with what its heartbeat throws"
 
 TEST_CASE("a sweep of nothing is refused", "[sweep]") {
   CHECK_THROWS_WITH(sweep(std::vector<Coulomb>{}, {quake(1)}), "sweep: needs at least one slider, got an empty list");
-  CHECK_THROWS_WITH(sweep(std::vector{Coulomb(1)}, std::vector<GroundMotion>{}), "sweep: needs at least one ground motion, got an empty list");
+  CHECK_THROWS_WITH(sweep(std::vector{Coulomb(1)}, std::vector<GroundMotion>{}),
+                    "sweep: needs at least one ground motion, got an empty list");
 }

@@ -60,7 +60,7 @@ template <FrictionLaw Law, class Flows, class Recording>
                           Recording& recorder, const HistorySpans& histories) {
   State moving = state;
   walk(
-      motion, Recording::work_a_beat,
+      GroundMotion::Pieces(motion), motion.segments(), Recording::work_a_beat,
       [&](std::size_t i, double begin, double end, const Segment& segment) {
         recorder.begin_segment(begin, end);
         detail::advance(law, flows, segment, moving, recorder);

@@ -39,8 +39,8 @@ struct Forces {
 
 namespace detail {
 
-/// Ground acceleration just after each of the first `samples` samples [m/s^2], of a component of a motion: at the end of
-/// the motion the value just before it, then 0.
+/// Ground acceleration just after each of the first `samples` samples [m/s^2], of a component of a motion: at the end
+/// of the motion the value just before it, then 0.
 inline std::vector<double> acting(const GroundMotion& motion, std::span<const double> component, std::size_t samples) {
   std::vector<double> n(component.begin(), component.end());
   if (motion.interpolation() == Interpolation::constant && !n.empty()) {  // the last value never acts, nor do pieces of

@@ -30,8 +30,8 @@ Pair levels_of(const std::optional<Level>& mu, const std::optional<Level>& level
 }
 
 AnyStaticKinetic make_static_kinetic(const py::object& sliding, const std::optional<Level>& mu_static,
-                      const std::optional<Level>& mu_kinetic, const std::optional<Level>& hold,
-                      const std::optional<Level>& kinetic) {
+                                     const std::optional<Level>& mu_kinetic, const std::optional<Level>& hold,
+                                     const std::optional<Level>& kinetic) {
   const Pair at_rest = levels_of(mu_static, hold, "mu_static", "static");
   const auto with = [&](auto law) -> AnyStaticKinetic {
     return StaticKinetic(std::move(law), at_rest.first, at_rest.second);
@@ -89,8 +89,9 @@ Notes
 -----
 As exact as the sliding law. The response is not a continuous function of its input: where a slip all but stops, or a
 load all but reaches the static level, the least change decides.)");
-  type.def(py::init(&make_static_kinetic), py::arg("sliding") = py::none(), py::kw_only(), py::arg("mu_static") = py::none(),
-           py::arg("mu_kinetic") = py::none(), py::arg("static") = py::none(), py::arg("kinetic") = py::none())
+  type.def(py::init(&make_static_kinetic), py::arg("sliding") = py::none(), py::kw_only(),
+           py::arg("mu_static") = py::none(), py::arg("mu_kinetic") = py::none(), py::arg("static") = py::none(),
+           py::arg("kinetic") = py::none())
       .def_property_readonly("sliding", &sliding_of, "The law of sliding.")
       .def_property_readonly("static", &forward_of, "Level that holds against forward sliding [m/s^2].")
       .def_property_readonly("static_backward", &backward_of, "Level that holds against backward sliding [m/s^2].")
@@ -122,7 +123,8 @@ load all but reaches the static level, the least change decides.)");
           },
           [](const py::tuple& parts) {
             if (parts.size() != 3) throw std::invalid_argument("unpickling: expected 3 values");
-            return make_static_kinetic(parts[0], {}, {}, Level(Pair(parts[1].cast<double>(), parts[2].cast<double>())), {});
+            return make_static_kinetic(parts[0], {}, {}, Level(Pair(parts[1].cast<double>(), parts[2].cast<double>())),
+                                       {});
           }));
   explain_constructor(type,
                       "StaticKinetic: give mu_static= or static= [m/s^2], and a sliding law, mu_kinetic= or kinetic= "
