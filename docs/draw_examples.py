@@ -1,7 +1,7 @@
 """Draws the pictures of the page of examples: python docs/draw_examples.py [NAME...]
 
 They are in the repository, so that the page shows them wherever it is read; with 64 colors each has
-less than 100 kB.
+at most 200 kB.
 """
 
 import subprocess
@@ -22,12 +22,14 @@ def draw(example: Path) -> Path:
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         (drawn,) = Path(folder).iterdir()
         picture = PICTURES / drawn.name
-        Image.open(drawn).convert("RGB").quantize(64).save(picture, optimize=True)
+        Image.open(drawn).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
+            picture, optimize=True
+        )
     return picture
 
 
 if __name__ == "__main__":
     PICTURES.mkdir(exist_ok=True)
-    names = sys.argv[1:] or sorted(file.stem for file in (ROOT / "examples").glob("0*.py"))
+    names = sys.argv[1:] or sorted(file.stem for file in (ROOT / "examples").glob("[0-9]*.py"))
     for name in names:
         print(draw(ROOT / "examples" / f"{name}.py"))

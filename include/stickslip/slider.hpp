@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "stickslip/error.hpp"
@@ -118,22 +119,21 @@ class Slider {
 
   /// Whether horizontal ground motion is all that loads it: on level ground, both ways, without stops, and with a
   /// spring that does not depend on the normal force.
-  bool plain() const noexcept {
-    return mounting_.slope_degrees == 0 && !mounting_.one_way && !mounting_.stops && !mounting_.pendulum;
-  }
+  bool plain() const noexcept { return plain_; }
 
  private:
   Law law_;
   Mounting mounting_;
+  bool plain_ = mounting_.slope_degrees == 0 && !mounting_.one_way && !mounting_.stops && !mounting_.pendulum;
 };
 
 namespace detail {
 
 /// Refuses what a function does not cover.
 template <FrictionLaw Law>
-void require_plain_mounting(const Slider<Law>& slider, const std::string& function) {
+void require_plain_mounting(const Slider<Law>& slider, std::string_view function) {
   if (!slider.plain())
-    throw std::invalid_argument(function +
+    throw std::invalid_argument(std::string(function) +
                                 ": covers sliders on level ground that slide both ways, without stops and pendulum");
 }
 

@@ -133,10 +133,14 @@ Notes
 -----
 Wherever a slider is asked for, a law alone will do: a slider on level ground without spring and damper.)");
   slider.def(py::init([](const py::object& law, std::optional<double> natural_frequency, std::optional<double> damping,
-                         std::optional<double> period, std::optional<double> damping_ratio, double slope_degrees,
+                         std::optional<double> period, std::optional<double> damping_ratio, const py::object& slope,
                          bool one_way, const Stops* stops, bool pendulum) {
                const double wn = natural_frequency_from(natural_frequency, period);
-               return mounted(law, {wn, damping_from(damping, damping_ratio, wn), slope_degrees, one_way,
+               // A quantity in degrees would count as a number of radians; a number needs no NumPy to be one.
+               const double degrees = PyFloat_CheckExact(slope.ptr())
+                                          ? PyFloat_AS_DOUBLE(slope.ptr())
+                                          : to_number(slope, "Slider: slope_degrees", "degree");
+               return mounted(law, {wn, damping_from(damping, damping_ratio, wn), degrees, one_way,
                                     stops ? *stops : Stops(), pendulum});
              }),
              py::arg("law"), py::arg("natural_frequency") = py::none(), py::arg("damping") = py::none(), py::kw_only(),

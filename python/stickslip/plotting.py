@@ -32,6 +32,7 @@ from ._core import (
     Ensemble,
     Estimate,
     GroundMotion,
+    HarmonicMotion,
     Moments,
     Response,
     ResponseSpectrum,
@@ -193,7 +194,7 @@ def plot_response(
 
         _title(ground, response.motion, title, _describe(response.slider))
         _draw_ground(ground, response)
-        lower, upper = _held(response, x)
+        lower, upper = _held(response, t, x)
         if np.isfinite(lower).all() and np.isfinite(upper).all():
             ground.fill_between(t, lower, upper, color=BLUE, alpha=0.12, linewidth=0, zorder=0)
         for bound, edge in ((lower, "forward"), (upper, "backward")):
@@ -279,7 +280,7 @@ def plot_responses(
             colour = COLOURS[i % len(COLOURS)]
             dashes = ("-", "--", ":")[i // len(COLOURS) % 3]
             t, x, _ = _path(response)
-            for bound in _held(response, x):
+            for bound in _held(response, t, x):
                 if np.isfinite(bound).all():
                     ground.plot(t, bound, color=colour, linestyle=dashes, linewidth=0.8)
             way.plot(
@@ -858,20 +859,23 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
     t, x, v = (events[name] for name in ("time", "displacement", "velocity"))
     ways = np.sign(np.diff(x))  # of the slips between events, 0 of sticks
 
-    def force(at: np.ndarray, speed: np.ndarray, way: np.ndarray) -> np.ndarray:
+    def force(k: np.ndarray, way: np.ndarray) -> np.ndarray:
+        at, speed = x[k], v[k]
+        weight = _normal(response, t[k]) / STANDARD_GRAVITY
         friction = [
             w * slider.resist(one, abs(u), backward=w < 0)
             for one, u, w in zip(at.tolist(), speed.tolist(), way.tolist())
         ]
-        return np.array(friction) + slider.damping * speed + slider.natural_frequency**2 * at
+        spring = slider.natural_frequency**2 * at * (weight if slider.pendulum else 1)
+        return np.array(friction) * weight + slider.damping * speed + spring
 
     ends, begins = np.flatnonzero(ways) + 1, np.flatnonzero(ways)
     times = np.concatenate([t[ends], t[begins], response.time])
     places = np.concatenate([x[ends], x[begins], response.displacement])
     forces = np.concatenate(
         [
-            force(x[ends], v[ends], ways[ends - 1]),
-            force(x[begins], v[begins], ways[begins]),
+            force(ends, ways[ends - 1]),
+            force(begins, ways[begins]),
             response.force,
         ]
     )
@@ -879,19 +883,56 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
     return places[order], forces[order]
 
 
-def _held(response: Response, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _at(response: Response, t: np.ndarray, component: str) -> np.ndarray:
+    """A component of the ground acceleration at given times [m/s^2]; 0 after the motion."""
+    motion = response.motion
+    samples = getattr(motion, component, None)
+    if samples is None:
+        return np.zeros(np.shape(t))
+    if motion.interpolation == "linear":
+        return np.interp(t, motion.time, samples, right=0)
+    after = np.searchsorted(motion.time, t, "right") - 1
+    return np.where(t < motion.time[-1], samples[np.minimum(after, len(samples) - 1)], 0)
+
+
+def _normal(response: Response, t: np.ndarray) -> np.ndarray:
+    """Normal force per unit mass at given times [m/s^2], 0 in flight."""
+    if isinstance(response.motion, HarmonicMotion):
+        return np.full(np.shape(t), STANDARD_GRAVITY)
+    slope = np.radians(response.slider.slope_degrees)
+    heavy = STANDARD_GRAVITY + _at(response, t, "vertical")
+    normal = heavy * np.cos(slope) + _at(response, t, "acceleration") * np.sin(slope)
+    changes = response.events[np.isin(response.events["kind"], ("liftoff", "landing"))]
+    flies = np.searchsorted(changes["time"], t, "right") % 2 == 1
+    return np.where(flies, 0, np.maximum(normal, 0))
+
+
+def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Bounds [g] of the ground acceleration that friction holds at rest, at displacements x [m].
 
-    Infinite, which draws nothing, where there is none.
+    On a slope, of its horizontal part, which changes the normal force. Infinite, which draws
+    nothing, where there is none.
     """
     slider = response.slider
     if not _has_friction(slider):
         return np.full(x.shape, -np.inf), np.full(x.shape, np.inf)
     spring = slider.natural_frequency**2 * x
+    slope = np.radians(slider.slope_degrees)
+    sin, cos = np.sin(slope), np.cos(slope)
+    up = 0 if isinstance(response.motion, HarmonicMotion) else _at(response, t, "vertical")
+    heavy = np.maximum(STANDARD_GRAVITY + up, 0)
+    if slider.pendulum:
+        spring = spring * heavy / STANDARD_GRAVITY
     forward, backward = (
-        np.array([slider.hold(at, backward=back) for at in x.tolist()]) for back in (False, True)
+        np.array([slider.hold(at, backward=back) for at in x.tolist()]) / STANDARD_GRAVITY
+        for back in (False, True)
     )
-    return (-forward - spring) / STANDARD_GRAVITY, (backward - spring) / STANDARD_GRAVITY
+    lower = (heavy * (sin - forward * cos) - spring) / (cos + forward * sin)
+    # Uphill friction may hold, however hard the ground pulls.
+    gives = np.isfinite(backward) & (np.where(np.isfinite(backward), backward, 0) * sin < cos)
+    level = np.where(gives, backward, 0)
+    upper = np.where(gives, (heavy * (sin + level * cos) - spring) / (cos - level * sin), np.inf)
+    return lower / STANDARD_GRAVITY, upper / STANDARD_GRAVITY
 
 
 def _draw_ground(axes: Axes, response: Response) -> None:
@@ -913,7 +954,8 @@ def _note_levels(axes: Axes, response: Response) -> None:
     slider, x = response.slider, response.residual
     if not _has_friction(slider):
         return
-    (lower,), (upper,) = _held(response, np.array([x]))
+    end = response.events["time"][-1:]
+    (lower,), (upper,) = _held(response, end, np.array([x]))
     ahead, back = (slider.resist(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
     if ahead == back:
         notes = [("slip level", ahead, (lower + upper) / 2, "center")]

@@ -224,7 +224,10 @@ def _read(
 
 def _content(file: _File) -> tuple[bytes, str]:
     """The bytes of a file, out of what it is packed in; and its name for messages."""
-    shown = os.fsdecode(file)
+    try:
+        shown = os.fsdecode(file)
+    except TypeError:
+        raise TypeError(f"read_record: file must be a string or a path, got {file!r}") from None
     if shown == "-":
         return sys.stdin.buffer.read(), shown
     path, member = shown, None

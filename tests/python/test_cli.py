@@ -147,7 +147,9 @@ def test_one_column_takes_a_time_step_and_a_gap_a_flag(capsys, tmp_path, record)
     assert code == 1
     assert "a gap of 0.42 s after 1.94 s" in err
     assert "pass gaps" in err
-    assert len(results(capsys, gap, "--mu", 0.1, "--gaps")) == 1
+    code, out, _ = run(capsys, gap, "--mu", 0.1, "--gaps", "--json")
+    assert code == 0
+    assert len(json.loads(out)["results"]) == 1
 
 
 def test_a_record_may_come_from_standard_input(record):

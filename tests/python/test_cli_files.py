@@ -282,6 +282,17 @@ def test_spectrum_draws_each_record(capsys, folder, tmp_path):
 # ---- what is written
 
 
+def test_the_formats_are_listed(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["records", "--formats"])
+    assert end.value.code == 0
+    heading, *lines = capsys.readouterr().out.splitlines()
+    assert heading.split()[:2] == ["format", "units"]
+    names = [one["name"] for one in ss.record_formats()]
+    assert len(lines) == len(names)
+    assert all(line.startswith(name) for line, name in zip(lines, names))
+
+
 @pytest.mark.parametrize("command", [["slide", "--mu", "0.1"], ["records"], ["spectrum"]])
 def test_results_are_never_half_written(capsys, folder, tmp_path, command):
     file = tmp_path / "out.csv"
@@ -370,7 +381,7 @@ def test_without_argcomplete_it_says_what_to_install(capsys, monkeypatch):
 
 def test_the_page_shows_every_command_and_option():
     page = (Path(__file__).parents[2] / "docs" / "command.md").read_text(encoding="utf-8")
-    for command in ("slide", "records", "spectrum"):
+    for command in ("slide", "newmark", "records", "spectrum"):
         done = subprocess.run(
             [sys.executable, "-m", "stickslip", command, "--help"], capture_output=True, text=True
         )

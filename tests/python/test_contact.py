@@ -233,7 +233,7 @@ def test_ensembles_know_what_they_are_of():
 
 
 def test_random_excitations_move_them_too():
-    noise = ss.GaussianExcitation(ss.Spectrum.white(s0=0.05), dt=0.02, duration=10)
+    noise = ss.GaussianExcitation(ss.Spectrum.white(s0=0.05), dt=0.02, samples=512)
     for slider in SLIDERS:
         e = ss.run_ensemble(slider, noise, members=3, seed=5)
         for member in range(3):
@@ -265,7 +265,7 @@ def test_a_time_loop_of_ones_own():
 
 
 def test_theories_refuse_what_they_do_not_cover():
-    noise = ss.GaussianExcitation(ss.Spectrum.white(s0=0.05), dt=0.02, duration=10)
+    noise = ss.Spectrum.white(s0=0.05)
     theory = ss.theory.EquivalentLinearization()
     for slider in SLIDERS:
         coverage = theory.covers(slider, noise)

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 block = ss.Coulomb(mu=0.2)
 block = ss.Coulomb(slip_level=1, backward=float("inf"))
 block = ss.Coulomb(mu=np.float32(0.2), backward=Fraction(1, 5))
-block = ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20, one_way=True)
+slope = ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20, one_way=True)
 wheel = ss.Caster(slip_level=1.0, reach=0.5)
 wheel = ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02, thesis=True)
 liner = ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=50)

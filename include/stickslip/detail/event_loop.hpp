@@ -80,8 +80,8 @@ concept LoadedPiece = requires(const Piece& piece) {
 
 /// The event loop, over a piece of any kind (segment.hpp); `flows` makes the flows of the law under its load.
 template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, class Within = Unbounded>
-[[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const Piece& segment, State& state, Observer& observer,
-             const Within& within = {}) {
+[[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const Piece& segment, State& state,
+                                           Observer& observer, const Within& within = {}) {
   constexpr bool loaded = LoadedPiece<Piece>, bounded = !std::same_as<Within, Unbounded>;
   if (!(segment.duration > 0)) return;
   double left = segment.duration;

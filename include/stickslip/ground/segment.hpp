@@ -58,16 +58,27 @@ struct LoadSegment {
   double normal_start;  ///< N at its beginning [m/s^2], finite
   double normal_end;    ///< N at its end [m/s^2], finite
 
-  double first_load() const noexcept { return load_start; }
-
   /// p and N at a time within it [m/s^2].
   double load(double time) const noexcept { return load_start + (load_end - load_start) * (time / duration); }
   double normal(double time) const noexcept { return normal_start + (normal_end - normal_start) * (time / duration); }
+};
+
+namespace detail {
+
+/// A piece of a load segment within which N has one sign, as the event loop asks it.
+struct WeighedSegment {
+  double duration;      ///< [s]
+  double load_start;    ///< p at its beginning [m/s^2]
+  double load_end;      ///< p at its end [m/s^2]
+  double weight_start;  ///< N+ / g at its beginning, by which all friction is multiplied
+  double weight_end;    ///< N+ / g at its end
+
+  double first_load() const noexcept { return load_start; }
 
   /// N+ / g, `left` before its end.
   double weight(double left) const noexcept {
-    const double normal_now = normal_end + (normal_start - normal_end) * (left / duration);
-    return std::max(normal_now, 0.0) / standard_gravity;
+    if (left == duration) return weight_start;
+    return left > 0 ? weight_end + (weight_start - weight_end) * (left / duration) : weight_end;
   }
 
   /// A level [m/s^2] under this weight; what holds for good holds under none.
@@ -75,24 +86,23 @@ struct LoadSegment {
 
   /// As above; `pull` is the spring's at the end, `forward` and `backward` are levels under the weight g.
   Departure departure(double net, double pull, double forward, double backward, double left) const noexcept {
-    const double now = weight(left), then = weight(0);
-    const double above = load_end - (weigh(then, forward) + pull), below = -load_end - (weigh(then, backward) - pull);
+    const double above = load_end - (weigh(weight_end, forward) + pull);
+    const double below = -load_end - (weigh(weight_end, backward) - pull);
+    if (!(above > 0) && !(below > 0)) return {};
+    const double now = weight(left);
     const auto delay = [&](double room, double beyond) { return left * (room / (room + beyond)); };
     const double first = above > 0 ? delay(weigh(now, forward) - net, above) : never;
     const double second = below > 0 ? delay(weigh(now, backward) + net, below) : never;
     if (first < second) return {Mode::forward, first};
-    if (second < never) return {Mode::backward, second};
-    return {};
+    return {Mode::backward, second};
   }
 
   /// As above; `level` is what resists under the weight g when it begins [m/s^2].
   LoadStart slip(double s, double speed, double acceleration, double now, double left, double level) const noexcept {
-    const double weight_now = weight(left), gained = s * (load_end - now), weight_gained = weight(0) - weight_now;
+    const double weight_now = weight(left), gained = s * (load_end - now), weight_gained = weight_end - weight_now;
     return {{speed, acceleration, gained - level * weight_gained}, gained, weight_now, weight_gained, level};
   }
 };
-
-namespace detail {
 
 /// The load and the normal force that a piece of ground motion makes on a slope.
 /// @param n, up   horizontal and upward ground acceleration at both ends [m/s^2]

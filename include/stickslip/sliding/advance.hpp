@@ -135,13 +135,13 @@ void advance_plain(const Slider<Law>& slider, const Segment& segment, State& sta
 template <FrictionLaw Law>
 void check_start(const Slider<Law>& slider, const State& state, const char* function) {
   const Mounting& mounting = slider.mounting();
-  const std::string who(function);
-  require(state.displacement <= mounting.stops.forward() && state.displacement >= -mounting.stops.backward(),
-          who + ": displacement must be between the stops, from " + shortest(-mounting.stops.backward()) + " to " +
-              shortest(mounting.stops.forward()) + " m",
-          state.displacement, "m");
-  require(!(mounting.one_way && state.velocity < 0), who + ": velocity must not point backward on a one-way slider",
-          state.velocity, "m/s");
+  const double first = -mounting.stops.backward(), last = mounting.stops.forward();
+  if (state.displacement < first || state.displacement > last)
+    refuse(std::string(function) + ": displacement must be between the stops, from " + shortest(first) + " to " +
+               shortest(last) + " m",
+           state.displacement, "m");
+  if (mounting.one_way && state.velocity < 0)
+    refuse(std::string(function) + ": velocity must not point backward on a one-way slider", state.velocity, "m/s");
 }
 
 }  // namespace detail

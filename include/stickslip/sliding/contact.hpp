@@ -88,18 +88,20 @@ template <FrictionLaw Law, class Flows, MotionObserver Observer>
 void advance(const Law& law, const Flows& flows, LoadSegment segment, const Bounds& bounds, Contact contact,
              State& state, Observer& observer) {
   const double duration = segment.duration;
+  const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
   // Moves over the first `time` of what is left.
   const auto go = [&](double time, double normal, bool touching) {
     const double begin = duration - segment.duration;
-    LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});
-    if (!touching) piece.normal_start = piece.normal_end = 0;
+    const LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});
+    const WeighedSegment weighed{piece.duration, piece.load_start, piece.load_end,
+                                 weight_of(piece.normal_start, touching), weight_of(piece.normal_end, touching)};
     WithinSegment<Observer> within{observer, begin};
-    advance(law, flows, piece, state, within, bounds);
+    advance(law, flows, weighed, state, within, bounds);
   };
   const auto tell = [&](EventKind kind) { observer.event(kind, duration - segment.duration, state); };
   while (segment.duration > 0) {
     const double first = segment.normal_start, last = segment.normal_end;
-    const double crossing = segment.duration * (first / (first - last));  // of N and zero, if any
+    const auto crossing = [&] { return segment.duration * (first / (first - last)); };  // of N and zero
     if (state.in_flight) {
       const double lands = landing(segment, state.gap, state.gap_velocity);
       const double t = std::min(lands, segment.duration), change = (last - first) * (t / segment.duration);
@@ -127,10 +129,10 @@ void advance(const Law& law, const Flows& flows, LoadSegment segment, const Boun
         state.in_flight = true;
         tell(EventKind::liftoff);
       } else {
-        go(last > 0 ? crossing : segment.duration, 0, false);
+        go(last > 0 ? crossing() : segment.duration, 0, false);
       }
     } else {
-      go(last < 0 ? crossing : segment.duration, 0, true);
+      go(last < 0 ? crossing() : segment.duration, 0, true);
     }
   }
 }

@@ -117,7 +117,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
       const double way = v != 0 ? v : gone != 0 ? gone : load - result.spring[i];
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;
       const double level = resist(slider.law(), x, direction, std::abs(v));
-      result.friction[i] = sign(direction) * LoadSegment::weigh(weight, level) + 0.0;  // no minus zero
+      result.friction[i] = sign(direction) * detail::WeighedSegment::weigh(weight, level) + 0.0;  // no minus zero
     }
   }
   return result;

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from .. import STANDARD_GRAVITY, strong_motion
+from .. import STANDARD_GRAVITY, record_formats, strong_motion
 from .._text import printable
 from .batch import Batch, Motion, add_files
-from .output import column, json_text, write_csv
+from .output import column, json_text, write, write_csv
 
 __all__ = ["add_records"]
 
@@ -18,6 +19,7 @@ _COLUMNS = (
     "file",
     "record",
     "component",
+    "orientation",
     "dt_s",
     "samples",
     "duration_s",
@@ -40,10 +42,31 @@ def add_records(commands: argparse._SubParsersAction) -> None:
         " printed, and the exit code is 1.",
     )
     add = parser.add_argument
+    add("--formats", action=_Formats, help="print the formats that are known, and exit")
     add_files(parser)
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
     add("--json", action="store_true", help="one JSON document, exact doubles")
     parser.set_defaults(run=_records, component="all", plot=None)
+
+
+class _Formats(argparse.Action):
+    """Prints the table of formats and ends the command, as --version does."""
+
+    def __init__(self, option_strings: list[str], dest: str, **options: Any) -> None:
+        super().__init__(option_strings, dest, nargs=0, **options)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        formats = record_formats()
+        columns = ("name", "units", "time_step", "extension")
+        heading = dict(zip(columns, ("format", "units", "time step", "files")))
+        table = [heading, *formats]
+        width = [max(len(row[name]) for row in table) for name in columns]
+        lines = (
+            "  ".join(f"{row[name]:{w}}" for name, w in zip(columns, width)).rstrip()
+            for row in table
+        )
+        write("\n".join(lines) + "\n", sys.stdout)
+        parser.exit()
 
 
 def _records(args: argparse.Namespace) -> str:
@@ -68,6 +91,7 @@ def _row(file: Path, found: Motion) -> dict[str, Any]:
         "file": str(file),
         "record": motion.name,
         "component": found.component,
+        "orientation": motion.orientation,
         "dt_s": motion.dt,
         "samples": len(motion),
         "duration_s": motion.duration,
@@ -84,13 +108,14 @@ def _table(rows: list[dict[str, Any]]) -> Iterable[str]:
     names = [printable(row["record"] or row["file"]) for row in rows]
     width = max(len("record"), *map(len, names))
     yield (
-        f"{'record':{width}}  component  dt [s]  samples  duration [s]  PGA [g]  PGV [cm/s]"
+        f"{'record':{width}}  component  points  dt [s]  samples  duration [s]  PGA [g]  PGV [cm/s]"
         "  Arias [m/s]  D5-95 [s]"
     )
     for name, row in zip(names, rows):
         dt = "uneven" if row["dt_s"] is None else f"{row['dt_s']:.4g}"
         yield (
-            f"{name:{width}}  {row['component'] or 1:9d}  {dt:>6}  {row['samples']:7d}"
+            f"{name:{width}}  {row['component'] or 1:9d}"
+            f"  {printable(row['orientation'])[:6]:6}  {dt:>6}  {row['samples']:7d}"
             f"  {column(row['duration_s'], 12)}  {column(row['pga_g'], 7, 3)}"
             f"  {column(row['pgv_m_s'] * 100, 10, 1)}"
             f"  {column(row['arias_intensity_m_s'], 11, 3)}  {column(row['d5_95_s'], 9)}"

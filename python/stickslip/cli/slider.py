@@ -96,6 +96,8 @@ def slider_of(args: argparse.Namespace) -> Slider:
         )
     else:
         law = Coulomb(mu=mu)
+        if args.law == "one-way" and args.slope is None:
+            law = Coulomb(mu=mu, backward=math.inf)
     ratio = args.damping_ratio
     if ratio is not None and not 0 <= ratio < math.inf:
         raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
@@ -103,7 +105,7 @@ def slider_of(args: argparse.Namespace) -> Slider:
         raise ValueError(f"--damping-ratio goes with a finite --period, got {ratio:g} without")
     ground: dict[str, Any] = {
         "slope_degrees": args.slope or 0.0,
-        "one_way": args.law == "one-way",
+        "one_way": args.law == "one-way" and args.slope is not None,
     }
     if args.period is None:
         return Slider(law, **ground)

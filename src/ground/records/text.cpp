@@ -85,9 +85,9 @@ std::string_view after_separator(std::string_view text) {
 }
 
 std::size_t find(std::string_view text, std::string_view key) {
-  const auto found = std::ranges::search(text, key, [](char a, char b) { return lower(a) == lower(b); });
-  return found.empty() && !key.empty() ? std::string_view::npos
-                                       : static_cast<std::size_t>(found.begin() - text.begin());
+  const auto alike = [](char a, char b) { return lower(a) == lower(b); };
+  const auto found = std::search(text.begin(), text.end(), key.begin(), key.end(), alike);
+  return found == text.end() && !key.empty() ? std::string_view::npos : static_cast<std::size_t>(found - text.begin());
 }
 
 std::string_view after(std::string_view text, std::string_view key) {

@@ -1,0 +1,104 @@
+// What a slider stands on: the cost of vertical motion, a slope, stops, static friction and friction that depends on
+// the speed, beside the same slider without.
+//
+// contact [--check] [--json] [--rounds N]
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <stickslip/core.hpp>
+#include <stickslip/stickslip.hpp>
+#include <string>
+#include <vector>
+
+#include "bench.hpp"
+
+using namespace stickslip;
+
+namespace {
+
+constexpr std::size_t samples = 4096;
+constexpr double dt = 0.01, level = 1, frequency = 3;
+
+// Noise of a correlation time of 0.1 s, by a multiplicative generator of its own.
+std::vector<double> noise(unsigned seed, double deviation) {
+  std::vector<double> values(samples);
+  double value = 0;
+  unsigned state = seed;
+  for (double& n : values) {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += (state = state * 1664525U + 1013904223U) / 4294967296.0;
+    n = value = 0.9 * value + 0.436 * deviation * sum;
+  }
+  values.back() = 0;
+  return values;
+}
+
+const GroundMotion horizontal(noise(1, 1.5), dt);
+const GroundMotion shaken = horizontal.with_components({}, noise(2, 1));
+
+Slider<Coulomb> on(const Mounting& mounting) { return Slider(Coulomb(level), mounting); }
+
+void check() {
+  const auto closes = [](const std::string& name, const auto& slider, const GroundMotion& motion) {
+    const Response r = integrate(slider, motion);
+    bench::require_below(name + ": energy that does not add up", std::abs(r.energy.imbalance()),
+                         1e-12 * (std::abs(r.energy.input) + r.energy.dissipated));
+  };
+  const Coulomb law(level);
+  closes("vertical motion", law, shaken);
+  closes("stops that are hit", on({.stops = {0.02, 0.5}}), shaken);
+  closes("slope", on({.slope_degrees = 3}), shaken);
+  const GroundMotion still = horizontal.with_components({}, std::vector<double>(samples));
+  const auto same = [](const std::string& name, const Response& one, const Response& other) {
+    bench::require_below(name + ": residual", std::abs(one.residual - other.residual), 1e-12 * other.peak);
+    bench::require_below(name + ": peak", std::abs(one.peak - other.peak), 1e-12 * other.peak);
+  };
+  same("a vertical motion of none", integrate(law, still), integrate(law, horizontal));
+  same("stops far away", integrate(on({.stops = {1e3, 0.5}}), horizontal), integrate(law, horizontal));
+  same("equal levels", integrate(StaticKinetic(law, level), horizontal), integrate(law, horizontal));
+  same("equal speeds", integrate(VelocityDependent(level, level, 20), horizontal), integrate(law, horizontal));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bench::Options asked = bench::options(argc, argv, "contact");
+  check();
+  if (asked.check) return EXIT_SUCCESS;
+
+  bench::Bench bench(samples * 20);
+  const auto add = [&](const std::string& name, const auto& slider, const GroundMotion& motion) {
+    bench.add(name, [slider, &motion] {
+      Response r;
+      for (int i = 0; i < 20; ++i) bench::keep(r = integrate(slider, motion, {}, std::move(r)));
+    });
+  };
+  const VelocityDependent liner(0.5 * level, level, 20);
+  add("Coulomb", Slider(Coulomb(level)), horizontal);
+  add("Coulomb, vertical motion", Slider(Coulomb(level)), shaken);
+  add("Coulomb, stops far away", on({.stops = {1e3, 0.5}}), horizontal);
+  add("static above kinetic", Slider(StaticKinetic(Coulomb(level), 1.3 * level)), horizontal);
+  add("Coulomb, spring", on({.natural_frequency = frequency}), horizontal);
+  add("Coulomb, spring, vertical motion", on({.natural_frequency = frequency}), shaken);
+  add("velocity-dependent, spring", Slider(liner, frequency), horizontal);
+  add("velocity-dependent, spring, vertical motion", Slider(liner, frequency), shaken);
+  add("velocity-dependent, pendulum, vertical motion",
+      Slider(liner, Mounting{.natural_frequency = frequency, .pendulum = true}), shaken);
+
+  const auto timings = bench.run(asked.rounds);
+  if (asked.json) {
+    std::printf("{\"commit\": %s, \"rows\": {", bench::json_string(build_info().commit).c_str());
+    const char* comma = "";
+    for (const bench::Timing& timing : timings) {
+      std::printf("%s\n  %s: {\"median\": %.3f, \"least\": %.3f, \"spread\": %.3f}", comma,
+                  bench::json_string(timing.name).c_str(), timing.median(), timing.least(), timing.spread());
+      comma = ",";
+    }
+    std::printf("}}\n");
+    return EXIT_SUCCESS;
+  }
+  bench::print_machine();
+  std::printf("%zu samples 0.01 s apart; answers checked; ns of processor time, %d rounds\n", samples, asked.rounds);
+  bench::print_table("integrate, each sample", timings, 0);
+  return EXIT_SUCCESS;
+}
