@@ -184,7 +184,7 @@ PyObject* call_slow(PyObject* self, PyObject* given, PyObject* keywords) {
 }
 
 void make_function_plain(py::handle object, const std::string& owner) {
-  if (PyInstanceMethod_Check(object.ptr()) != 0) object = PyInstanceMethod_GET_FUNCTION(object.ptr());
+  if (PyInstanceMethod_Check(object.ptr()) != 0) object = PyInstanceMethod_Function(object.ptr());
   if (Py_IS_TYPE(object.ptr(), &PyStaticMethod_Type)) {
     make_function_plain(object.attr("__func__"), owner);
     return;

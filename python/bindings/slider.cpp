@@ -138,7 +138,7 @@ Wherever a slider is asked for, a law alone will do: a slider on level ground wi
                const double wn = natural_frequency_from(natural_frequency, period);
                // A quantity in degrees would count as a number of radians; a number needs no NumPy to be one.
                const double degrees = PyFloat_CheckExact(slope.ptr())
-                                          ? PyFloat_AS_DOUBLE(slope.ptr())
+                                          ? PyFloat_AsDouble(slope.ptr())
                                           : to_number(slope, "Slider: slope_degrees", "degree");
                return mounted(law, {wn, damping_from(damping, damping_ratio, wn), degrees, one_way,
                                     stops ? *stops : Stops(), pendulum});
