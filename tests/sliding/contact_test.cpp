@@ -1,5 +1,5 @@
 // Vertical motion, slopes and lost contact: reference values, closed forms, limits, energy.
-#include "stickslip/sliding/contact.hpp"
+#include "stickslip/detail/contact.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "stickslip/detail/contact.hpp"
 #include "stickslip/detail/event_loop.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
@@ -18,7 +19,6 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/contact.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/state.hpp"
 
