@@ -12,6 +12,7 @@ import numpy as np
 
 from ._core import Ensemble, Estimate, Interval, Response
 from ._files import replacing
+from ._optional import optional
 from ._text import printable
 
 if TYPE_CHECKING:
@@ -42,10 +43,7 @@ _HISTORIES = (
 
 def to_dataframe(response: Response) -> Any:
     """The histories of a response as a pandas DataFrame; see `Response.to_dataframe`."""
-    try:
-        import pandas
-    except ImportError as error:
-        raise _missing("to_dataframe", "pandas") from error
+    pandas = optional("pandas", "tables", "Response.to_dataframe")
     index = pandas.Index(response.time, name="time [s]")
     return pandas.DataFrame(
         {_heading(name, unit): _history(response, name) for name, unit, _ in _HISTORIES}, index
@@ -54,10 +52,7 @@ def to_dataframe(response: Response) -> Any:
 
 def to_xarray(response: Response) -> Any:
     """The histories of a response as an xarray Dataset; see `Response.to_xarray`."""
-    try:
-        import xarray
-    except ImportError as error:
-        raise _missing("to_xarray", "xarray") from error
+    xarray = optional("xarray", "tables", "Response.to_xarray")
     variables = {
         name.replace(" ", "_"): (
             "time",
@@ -148,12 +143,6 @@ def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]
     head = f"<thead>{row(heading, 'th')}</thead>" if heading else ""
     body = "".join(row(cells, "td") for cells in rows)
     return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
-
-
-def _missing(method: str, library: str) -> ImportError:
-    return ImportError(
-        f"Response.{method}: needs {library}, which is missing; pip install stickslip[tables]"
-    )
 
 
 def _heading(name: str, unit: str) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import glob
 import hashlib
-import io
 import math
 import operator
 import os
@@ -25,7 +24,8 @@ from ._core import (
     ResponseSpectrum,
     response_spectrum,
 )
-from ._files import check_regular, replacing
+from ._hdf5 import as_column, creating, opening, read_columns, read_texts, write_columns
+from ._optional import optional
 from ._text import printable
 from .records import read_record
 
@@ -97,7 +97,7 @@ class Suite(Sequence[GroundMotion]):
                 )
         self._metadata: dict[str, NDArray[Any]] = {}
         for name, values in dict({} if metadata is None else metadata).items():
-            column = _column(values)
+            column = as_column(values)
             if column.shape != (len(self),):
                 raise ValueError(
                     f"Suite: metadata '{name}' must have one value for each of the {len(self)}"
@@ -262,7 +262,7 @@ class Suite(Sequence[GroundMotion]):
         ImportError
             pandas is missing.
         """
-        pandas = _pandas("Suite.to_dataframe")
+        pandas = optional("pandas", "tables", "Suite.to_dataframe")
         own = {"record": self.names, "PGA [g]": self.pga_g, "duration [s]": self.duration}
         return pandas.DataFrame({**own, **self._metadata})
 
@@ -515,27 +515,15 @@ class Suite(Sequence[GroundMotion]):
         [m/s^2], `first` where each begins, `dt` the steps [s], or NaN, where `time` holds the
         times [s]; `held` is whether values are held, `name` the names; `metadata` has the columns.
         """
-        h5py = _h5py("Suite.save")
-        content = io.BytesIO()
-        with h5py.File(content, "w") as h5:
-            h5.attrs["format"] = _FORMAT
+        with creating(file, _FORMAT, "Suite.save") as h5:
             sizes = [len(m) for m in self._motions]
             h5["first"] = np.concatenate([[0], np.cumsum(sizes)])
             h5["acceleration"] = np.concatenate([m.acceleration for m in self._motions])
             h5["dt"] = [math.nan if m.dt is None else m.dt for m in self._motions]
             h5["time"] = np.concatenate([[], *(m.time for m in self._motions if m.dt is None)])
             h5["held"] = [m.interpolation == "constant" for m in self._motions]
-            text = h5py.string_dtype()
-            h5.create_dataset("name", data=list(self.names), dtype=text)
-            group = h5.create_group("metadata", track_order=True)
-            for name, column in self._metadata.items():
-                key = name.replace("/", "\\")  # a slash would make a group
-                if column.dtype.kind in "US":
-                    group.create_dataset(key, data=column.tolist(), dtype=text)
-                else:
-                    group[key] = column
-        with replacing(file) as stream:
-            stream.write(content.getbuffer())
+            h5["name"] = list(self.names)
+            write_columns(h5, "metadata", self._metadata)
         return Path(file)
 
     @classmethod
@@ -560,60 +548,21 @@ class Suite(Sequence[GroundMotion]):
         ValueError
             It is no suite, or damaged.
         """
-        h5py = _h5py("Suite.open")
-        path = Path(os.fspath(file))
-        if check_regular(path) is None:
-            raise FileNotFoundError(2, "No such file or directory", str(path))
-        try:
-            h5 = h5py.File(path, "r")
-        except OSError as error:
-            raise ValueError(f"Suite.open: '{path}' is no HDF5 file, or damaged") from error
-        with h5:
-            if h5.attrs.get("format") != _FORMAT:
-                raise ValueError(
-                    f"Suite.open: '{path}' must be of format '{_FORMAT}', got"
-                    f" '{h5.attrs.get('format')}'"
-                )
-            try:
-                first, dt, held = h5["first"][:], h5["dt"][:], h5["held"][:]
-                acceleration, time = h5["acceleration"][:], h5["time"][:]
-                names = h5["name"].asstr()[:]
-                motions, used = [], 0
-                for i, name in enumerate(names):
-                    n = acceleration[first[i] : first[i + 1]]
-                    how = "constant" if held[i] else "linear"
-                    if math.isnan(dt[i]):
-                        times = time[used : used + n.size]
-                        used += n.size
-                        motion = GroundMotion(n, times=times, interpolation=how, name=name)
-                    else:
-                        motion = GroundMotion(n, float(dt[i]), interpolation=how, name=name)
-                    motions.append(motion)
-                columns = {
-                    key.replace("\\", "/"): (
-                        data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
-                    )
-                    for key, data in h5["metadata"].items()
-                }
-                return cls(motions, columns)
-            except (KeyError, IndexError, OSError, TypeError, ValueError) as error:
-                raise ValueError(f"Suite.open: '{path}' is damaged: {error}") from error
-
-
-def _column(values: Any) -> NDArray[Any]:
-    """A column as numbers, else as texts."""
-    listed = list(values)
-    try:
-        numbers = np.array(listed)
-        if numbers.dtype.kind in "biuf" and numbers.ndim == 1:
-            return numbers
-    except ValueError:
-        pass
-    return np.array(["" if _is_nothing(v) else str(v) for v in listed], dtype=str)
-
-
-def _is_nothing(value: Any) -> bool:
-    return value is None or (isinstance(value, float) and math.isnan(value))
+        with opening(file, _FORMAT, "Suite.open") as h5:
+            first, dt, held = h5["first"][:], h5["dt"][:], h5["held"][:]
+            acceleration, time = h5["acceleration"][:], h5["time"][:]
+            motions, used = [], 0
+            for i, name in enumerate(read_texts(h5["name"])):
+                n = acceleration[first[i] : first[i + 1]]
+                how = "constant" if held[i] else "linear"
+                if math.isnan(dt[i]):
+                    times = time[used : used + n.size]
+                    used += n.size
+                    motion = GroundMotion(n, times=times, interpolation=how, name=name)
+                else:
+                    motion = GroundMotion(n, float(dt[i]), interpolation=how, name=name)
+                motions.append(motion)
+            return cls(motions, read_columns(h5, "metadata"))
 
 
 def _files(source: Any) -> list[Path]:
@@ -712,27 +661,7 @@ def _joined(files: Sequence[str], table: Mapping[str, Any]) -> dict[str, list[An
     for name, values in columns.items():
         if name == key:
             continue
-        numeric = _column(values).dtype.kind in "biuf"
+        numeric = as_column(values).dtype.kind in "biuf"
         missing: Any = math.nan if numeric else ""
         joined[name] = [missing if place is None else values[place] for place in found]
     return joined
-
-
-def _pandas(who: str) -> Any:
-    try:
-        import pandas
-    except ImportError as error:
-        raise ImportError(
-            f"{who}: needs pandas, which is missing; pip install stickslip[tables]"
-        ) from error
-    return pandas
-
-
-def _h5py(who: str) -> Any:
-    try:
-        import h5py
-    except ImportError as error:
-        raise ImportError(
-            f"{who}: needs h5py, which is missing; pip install stickslip[suites]"
-        ) from error
-    return h5py

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
+
+#include "detail/threads.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -22,27 +20,6 @@ void check(const EnsembleOptions& options, std::size_t block) {
     throw std::invalid_argument("run_ensemble: first_member + members must be less than 2^64, got members = " +
                                 std::to_string(options.members));
 }
-
-// Threads that are waited for, come what may.
-class Threads {
- public:
-  Threads() = default;
-  ~Threads() { join(); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-
-  template <class Work>
-  void start(const Work& work) {
-    threads_.emplace_back(work);
-  }
-  void join() {
-    for (std::thread& thread : threads_) thread.join();
-    threads_.clear();
-  }
-
- private:
-  std::vector<std::thread> threads_;
-};
 
 // Throws where motions are so large that their statistics could overflow.
 void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
@@ -90,68 +67,39 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
                                   "; what is to be gone on from must end on a whole block");
 
   std::mutex mutex;  // guards all that follows, and the ensemble
-  std::condition_variable changed;
   std::atomic<bool> stopped = false;
-  std::exception_ptr failure;
   std::uint64_t next = 0, done = 0;
-  unsigned working = 0;
 
   const auto work = [&] {
-    try {
-      const std::unique_ptr<Simulator> simulator = make_simulator();
-      Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped);
-      for (;;) {
-        std::uint64_t number = 0;
-        {
-          const std::scoped_lock lock(mutex);
-          while (next < blocks && ensemble.parts().tallies.overlaps({0, first_block + next}))
-            done += members_of(first_block + next++);
-          if (next == blocks || stopped) break;
-          number = first_block + next++;
-        }
-        const std::size_t members = members_of(number);
-        block.begin(members);
-        simulator->simulate(number * block_size, members, block);
-        Tally tally = block.finish();
-        Ensemble::Kept kept;
-        kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
-        kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
-        check_range(kept, tally, times, number * block_size);
+    const std::unique_ptr<Simulator> simulator = make_simulator();
+    Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped);
+    for (;;) {
+      std::uint64_t number = 0;
+      {
         const std::scoped_lock lock(mutex);
-        ensemble.insert(number, std::move(tally), std::move(kept));
-        done += members;
+        while (next < blocks && ensemble.parts().tallies.overlaps({0, first_block + next}))
+          done += members_of(first_block + next++);
+        if (next == blocks || stopped) break;
+        number = first_block + next++;
       }
-    } catch (const Block::Stopped&) {
-    } catch (...) {
+      const std::size_t members = members_of(number);
+      block.begin(members);
+      simulator->simulate(number * block_size, members, block);
+      Tally tally = block.finish();
+      Ensemble::Kept kept;
+      kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
+      kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
+      check_range(kept, tally, times, number * block_size);
       const std::scoped_lock lock(mutex);
-      if (!failure) failure = std::current_exception();
-      stopped = true;
+      ensemble.insert(number, std::move(tally), std::move(kept));
+      done += members;
     }
-    const std::scoped_lock lock(mutex);
-    --working;
-    changed.notify_all();
   };
-
-  const std::uint64_t wanted =
-      options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  working = static_cast<unsigned>(std::min(wanted, blocks));
-  Threads threads;
-  try {
-    const unsigned count = working;
-    for (unsigned i = 0; i < count; ++i) threads.start(work);
-    std::unique_lock lock(mutex);
-    const auto beat = [&] {
-      if (options.heartbeat) options.heartbeat({done, options.members, ensemble});
-    };
-    while (!changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; })) beat();
-    if (!failure) beat();
-  } catch (...) {
-    stopped = true;
-    threads.join();
-    throw;
-  }
-  threads.join();
-  if (failure) std::rethrow_exception(failure);
+  const auto beat = [&] {
+    const std::scoped_lock lock(mutex);
+    if (options.heartbeat) options.heartbeat({done, options.members, ensemble});
+  };
+  run_on_threads(options.threads, blocks, stopped, work, beat);
   return ensemble;
 }
 

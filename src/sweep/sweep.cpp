@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <tuple>
 
+#include "detail/threads.hpp"
 #include "simd/level_lanes.hpp"
 
 namespace stickslip::detail {
@@ -57,59 +54,25 @@ class Sweep {
     const std::size_t tasks_a_record = (lanes_.empty() ? 0 : 1) + singles_.size();
     const std::size_t tasks = tasks_a_record * motions_.size();
     std::atomic<std::size_t> next = 0;
-    std::condition_variable changed;
-    std::exception_ptr error;
-    const std::size_t wanted =
-        options_.threads != 0 ? options_.threads : std::max(1U, std::thread::hardware_concurrency());
-    std::size_t working = std::min(wanted, tasks);
-
     const auto work = [&] {
-      try {
-        Response storage;
-        for (std::size_t task; !stopped_ && (task = next++) < tasks;) {
-          const std::size_t record = task / tasks_a_record, part = task % tasks_a_record;
-          if (part == singles_.size())
-            run_lanes(record);
-          else
-            run_single(singles_[part], record, storage);
-        }
-      } catch (const Stopped&) {
-      } catch (...) {
-        const std::scoped_lock lock(mutex_);
-        if (!error) error = std::current_exception();
-        stopped_ = true;
+      Response storage;
+      for (std::size_t task; !stopped_ && (task = next++) < tasks;) {
+        const std::size_t record = task / tasks_a_record, part = task % tasks_a_record;
+        if (part == singles_.size())
+          run_lanes(record);
+        else
+          run_single(singles_[part], record, storage);
       }
-      const std::scoped_lock lock(mutex_);
-      --working;
-      changed.notify_all();
     };
-
-    std::vector<std::thread> threads;
-    const auto join = [&] {
-      for (std::thread& thread : threads) thread.join();
-    };
-    try {
-      for (std::size_t i = working; i > 0; --i) threads.emplace_back(work);
-      std::unique_lock lock(mutex_);
-      while (!changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; })) beat();
-      if (!error) beat();
-    } catch (...) {
-      stopped_ = true;
-      join();
-      throw;
-    }
-    join();
-    if (error) std::rethrow_exception(error);
+    run_on_threads(options_.threads, tasks, stopped_, work, [this] {
+      if (options_.heartbeat) options_.heartbeat({done_, table_.peak.size()});
+    });
     std::ranges::sort(table_.failures, {},
                       [](const SweepFailure& f) { return std::tuple(f.slider, f.record, f.polarity); });
     return std::move(table_);
   }
 
  private:
-  void beat() const {
-    if (options_.heartbeat) options_.heartbeat({done_, table_.peak.size()});
-  }
-
   void add_lanes(std::size_t slider, const Coulomb& law) {
     const bool alike = law.forward() == law.backward(), both = options_.polarity == Polarity::both;
     if (options_.polarity != Polarity::flipped) lanes_.push_back({slider, law, false, both && alike});

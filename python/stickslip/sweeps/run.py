@@ -146,6 +146,7 @@ def sweep(
         metadata=motions.metadata if isinstance(motions, Suite) else {},
         polarity=("as recorded", "flipped") if polarity == "both" else (polarity,),
         settle=settle,
+        contact=contact,
     )
     how = {"polarity": polarity, "settle": settle, "contact": contact}
     with shown(progress, who="sweep", things="combinations") as show:

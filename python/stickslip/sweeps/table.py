@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import STANDARD_GRAVITY, Coulomb
-from .._files import check_regular, replacing
+from .._files import replacing
+from .._hdf5 import as_column, creating, opening, read_columns, read_texts, write_columns
+from .._optional import optional
 from ..ensemble.sources import AnySlider
-from ..suite import _column, _h5py, _pandas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,6 +71,8 @@ class SweepTable:
         'as recorded' and 'flipped', or one of them.
     settle : bool
         Whether it went on until the sliders rested.
+    contact : {'flight', 'clipped'}
+        What the sliders did where the ground fell away from under them.
     failures : tuple of SweepFailure
         Combinations that failed.
 
@@ -87,6 +90,7 @@ class SweepTable:
         metadata: Mapping[str, ArrayLike],
         polarity: Sequence[str],
         settle: bool,
+        contact: str,
         peak: ArrayLike,
         residual: ArrayLike,
         sliding_distance: ArrayLike,
@@ -94,11 +98,12 @@ class SweepTable:
         failures: Sequence[SweepFailure] = (),
     ) -> None:
         self.sliders = tuple(sliders)
-        self.parameters = {name: _column(values) for name, values in parameters.items()}
+        self.parameters = {name: as_column(values) for name, values in parameters.items()}
         self.records = tuple(records)
-        self.metadata = {name: _column(values) for name, values in metadata.items()}
+        self.metadata = {name: as_column(values) for name, values in metadata.items()}
         self.polarity = tuple(polarity)
         self.settle = bool(settle)
+        self.contact = str(contact)
         self.failures = tuple(SweepFailure(*one) for one in failures)
         self.peak: NDArray[np.float64] = np.array(peak, float)
         self.residual: NDArray[np.float64] = np.array(residual, float)
@@ -197,7 +202,7 @@ class SweepTable:
         ImportError
             pandas is missing.
         """
-        return _pandas("SweepTable.to_dataframe").DataFrame(self._columns())
+        return optional("pandas", "tables", "SweepTable.to_dataframe").DataFrame(self._columns())
 
     def _columns(self) -> dict[str, NDArray[Any]]:
         s, r, p = (index.ravel() for index in np.indices(self.peak.shape))
@@ -249,13 +254,7 @@ class SweepTable:
         ImportError
             xarray is missing.
         """
-        try:
-            import xarray
-        except ImportError as error:
-            raise ImportError(
-                "SweepTable.to_xarray: needs xarray, which is missing; pip install"
-                " stickslip[tables]"
-            ) from error
+        xarray = optional("xarray", "tables", "SweepTable.to_xarray")
         dimensions = ("slider", "record", "polarity")
         coordinates: dict[str, Any] = {
             "slider": list(self.sliders),
@@ -274,7 +273,7 @@ class SweepTable:
                 for name, (_, unit, what) in QUANTITIES.items()
             },
             coords=coordinates,
-            attrs={"settle": int(self.settle)},
+            attrs={"settle": int(self.settle), "contact": self.contact},
         )
 
     def save(self, file: str | os.PathLike[str]) -> Path:
@@ -296,29 +295,17 @@ class SweepTable:
         OSError
             It cannot be written.
         """
-        h5py = _h5py("SweepTable.save")
-        text = h5py.string_dtype()
-        content = io.BytesIO()
-        with h5py.File(content, "w") as h5:
-            h5.attrs["format"] = _FORMAT
+        with creating(file, _FORMAT, "SweepTable.save") as h5:
             h5.attrs["settle"] = self.settle
+            h5.attrs["contact"] = self.contact
             h5.attrs["failures"] = json.dumps([list(one) for one in self.failures])
             for name in ("sliders", "records", "polarity"):
-                h5.create_dataset(name, data=list(getattr(self, name)), dtype=text)
+                h5[name] = list(getattr(self, name))
             for name, (_, unit, what) in QUANTITIES.items():
                 h5[name] = getattr(self, name)
                 h5[name].attrs.update({"units": unit, "long_name": what})
             for name in ("parameters", "metadata"):
-                group = h5.create_group(name, track_order=True)
-                for key, column in getattr(self, name).items():
-                    if column.dtype.kind == "U":
-                        group.create_dataset(
-                            key.replace("/", "\\"), data=column.tolist(), dtype=text
-                        )
-                    else:
-                        group[key.replace("/", "\\")] = column
-        with replacing(file) as stream:
-            stream.write(content.getbuffer())
+                write_columns(h5, name, getattr(self, name))
         return Path(file)
 
     @classmethod
@@ -343,37 +330,15 @@ class SweepTable:
         ValueError
             It is no table of a sweep, or damaged.
         """
-        h5py = _h5py("SweepTable.open")
-        path = Path(os.fspath(file))
-        if check_regular(path) is None:
-            raise FileNotFoundError(2, "No such file or directory", str(path))
-
-        def column(data: Any) -> Any:
-            return data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
-
-        try:
-            h5 = h5py.File(path, "r")
-        except OSError as error:
-            raise ValueError(f"SweepTable.open: '{path}' is no HDF5 file, or damaged") from error
-        with h5:
-            if h5.attrs.get("format") != _FORMAT:
-                raise ValueError(
-                    f"SweepTable.open: '{path}' must be of format '{_FORMAT}', got"
-                    f" '{h5.attrs.get('format')}'"
-                )
-            try:
-                return cls(
-                    **{name: column(h5[name]) for name in ("sliders", "records", "polarity")},
-                    **{
-                        name: {k.replace("\\", "/"): column(data) for k, data in h5[name].items()}
-                        for name in ("parameters", "metadata")
-                    },
-                    **{name: h5[name][:] for name in QUANTITIES},
-                    settle=bool(h5.attrs["settle"]),
-                    failures=json.loads(h5.attrs["failures"]),
-                )
-            except (KeyError, OSError, TypeError, ValueError) as error:
-                raise ValueError(f"SweepTable.open: '{path}' is damaged: {error}") from error
+        with opening(file, _FORMAT, "SweepTable.open") as h5:
+            return cls(
+                **{name: read_texts(h5[name]) for name in ("sliders", "records", "polarity")},
+                **{name: read_columns(h5, name) for name in ("parameters", "metadata")},
+                **{name: h5[name][:] for name in QUANTITIES},
+                settle=bool(h5.attrs["settle"]),
+                contact=h5.attrs["contact"],
+                failures=json.loads(h5.attrs["failures"]),
+            )
 
     def plot(
         self,

@@ -1,0 +1,21 @@
+// One piece of work on several threads, with a heartbeat.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+
+namespace stickslip::detail {
+
+/// Runs `work` on several threads at once and returns when all have ended. Meanwhile the calling thread calls `beat`
+/// ten times a second, and once more at the end.
+///
+/// The first exception, of `work`, of `beat` or of a thread that does not start, sets `stopped` and is thrown again
+/// when all threads have ended. Work should look at `stopped`, and end by returning or by any exception.
+///
+/// @param wanted  number of threads; 0: as many as the machine has
+/// @param tasks   no more threads than tasks are started
+void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopped, const std::function<void()>& work,
+                    const std::function<void()>& beat);
+
+}  // namespace stickslip::detail
