@@ -61,6 +61,39 @@ std::vector<Slider<Coulomb>> one_way() {
   return sliders;
 }
 
+/// The same with vertical motion: another record, two thirds as strong as the horizontal one.
+std::vector<GroundMotion> with_vertical(const std::vector<GroundMotion>& motions) {
+  std::vector<GroundMotion> result;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const GroundMotion& other = motions[(i + 1) % motions.size()];
+    const double factor = 2.0 / 3 * motions[i].peak_acceleration() / other.peak_acceleration();
+    const GroundMotion up = other.scaled(factor);
+    result.push_back(motions[i].with_components({}, {up.acceleration().begin(), up.acceleration().end()}));
+  }
+  return result;
+}
+
+/// One-way blocks on a slope of 10 degrees, whose friction is above what its own weight asks by the levels above.
+std::vector<Slider<Coulomb>> on_slope() {
+  std::vector<Slider<Coulomb>> sliders;
+  const double slope = std::numbers::pi / 18;
+  for (std::size_t i = 1; i <= levels; ++i)
+    sliders.emplace_back(
+        Coulomb((std::tan(slope) + 0.01 * static_cast<double>(i) / std::cos(slope)) * standard_gravity),
+        Mounting{.slope_degrees = 10, .one_way = true});
+  return sliders;
+}
+
+/// One-way blocks whose static friction is a third above the kinetic one.
+std::vector<Slider<StaticKinetic<Coulomb>>> with_static() {
+  std::vector<Slider<StaticKinetic<Coulomb>>> sliders;
+  for (const auto& slider : one_way()) {
+    const Coulomb& law = slider.law();
+    sliders.emplace_back(StaticKinetic(law, law.forward() * 4 / 3, law.backward()));
+  }
+  return sliders;
+}
+
 /// One-way displacement as one writes it by hand: exact on straight pieces, and to rest after the record.
 double by_hand(const std::vector<double>& n, double sign, double level) {
   double x = 0, v = 0;
@@ -104,26 +137,37 @@ int main(int argc, char** argv) {
   const std::vector<Slider<Coulomb>> sliders = one_way();
   const SweepOptions one{.settle = true, .threads = 1}, two{.settle = true, .threads = 2};
 
-  const SweepTable table = sweep(sliders, few, one);
   double worst = 0, apart = 0;
   std::size_t events = 0, moved = 0;
-  for (std::size_t s = 0; s < levels; ++s)
-    for (std::size_t r = 0; r < few.size(); ++r)
-      for (std::size_t p = 0; p < 2; ++p) {
-        const GroundMotion motion = few[r].scaled(p == 0 ? 1 : -1);
-        const Response expected = integrate(sliders[s], motion, {.settle = true});
-        const std::size_t i = table.at(s, r, p);
-        worst = std::max(worst, std::abs(table.peak[i] - expected.peak) / (1e-6 + expected.peak));
-        events += table.events[i] != expected.events.size() - 1;
-        const std::vector<double> n(few[r].acceleration().begin(), few[r].acceleration().end());
-        const double hand = by_hand(n, p == 0 ? 1 : -1, sliders[s].law().forward());
-        apart = std::max(apart, std::abs(hand - expected.peak) / (1e-6 + expected.peak));
-        moved += expected.peak > 0;
-      }
+  const auto compare = [&](const auto& these, const std::vector<GroundMotion>& those, auto&& peer) {
+    const SweepTable table = sweep(these, those, one);
+    for (std::size_t s = 0; s < levels; ++s)
+      for (std::size_t r = 0; r < those.size(); ++r)
+        for (std::size_t p = 0; p < 2; ++p) {
+          const Response expected = integrate(these[s], those[r].scaled(p == 0 ? 1 : -1), {.settle = true});
+          const std::size_t i = table.at(s, r, p);
+          worst = std::max(worst, std::abs(table.peak[i] - expected.peak) / (1e-6 + expected.peak));
+          events += table.events[i] != expected.events.size() - 1;
+          moved += expected.peak > 0;
+          peer(those[r], p == 0 ? 1 : -1, s, expected);
+        }
+  };
+  compare(sliders, few, [&](const GroundMotion& motion, double sign, std::size_t s, const Response& expected) {
+    const std::vector<double> n(motion.acceleration().begin(), motion.acceleration().end());
+    const double hand = by_hand(n, sign, sliders[s].law().forward());
+    apart = std::max(apart, std::abs(hand - expected.peak) / (1e-6 + expected.peak));
+  });
+  const std::vector<GroundMotion> shaken = with_vertical(few);
+  const auto sloping = on_slope();
+  const auto stuck_faster = with_static();
+  const auto nobody = [](const GroundMotion&, double, std::size_t, const Response&) {};
+  compare(sliders, shaken, nobody);
+  compare(sloping, few, nobody);
+  compare(stuck_faster, few, nobody);
   bench::require_below("peaks against integrate", worst, 1e-11);
   bench::require_below("numbers of events that differ from integrate's", static_cast<double>(events), 0);
   bench::require_below("peaks of the plain loop against integrate", apart, 1e-9);
-  bench::require(moved > 200, "combinations that slide", static_cast<double>(moved), 200);
+  bench::require(moved > 800, "combinations that slide", static_cast<double>(moved), 800);
   if (options.check) return 0;
 
   const double analyses = static_cast<double>(2 * levels * motions.size());
@@ -141,6 +185,9 @@ int main(int argc, char** argv) {
   const double items = static_cast<double>(2 * levels * few.size() * samples);
   bench::Bench peers(1);
   peers.add("sweep", items, [&] { run(few, one); });
+  peers.add("sweep, vertical motion", items, [&] { bench::keep(sweep(sliders, shaken, one).peak); });
+  peers.add("sweep, on a slope", items, [&] { bench::keep(sweep(sloping, few, one).peak); });
+  peers.add("sweep, static above kinetic", items, [&] { bench::keep(sweep(stuck_faster, few, one).peak); });
   peers.add("plain loop in C++", items, [&] {
     double sum = 0;
     for (const GroundMotion& motion : few) {

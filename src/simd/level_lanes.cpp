@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "simd/blocks-inl.hpp"
 #include "stickslip/error.hpp"
@@ -17,8 +18,8 @@
 #define STICKSLIP_LEVEL_LANES
 namespace stickslip::detail {
 
-/// Moves a lane over a segment by the event loop.
-void advance_lane(LevelLane& lane, const Segment& segment);
+/// Moves a lane over segment i by the event loop.
+void advance_lane(LevelLane& lane, const LevelGround& ground, std::size_t i);
 
 }  // namespace stickslip::detail
 #endif
@@ -79,7 +80,7 @@ struct LevelAccount {
 // The lanes of one vector, in memory.
 struct LevelGroup {
   static constexpr std::size_t size = Real::size;
-  alignas(64) double turned[size], forward[size], backward[size];
+  alignas(64) double turned[size], forward[size], backward[size], lowest_held[size], highest_held[size];
   alignas(64) double x[size] = {}, v[size] = {}, peak[size] = {},
                      sliding_distance[size] = {}, from[size] = {}, events[size] = {};
 
@@ -89,10 +90,13 @@ struct LevelGroup {
     for (std::size_t k = 0; k < size; ++k) {
       const LevelLane& lane = these[std::min(k, these.size() - 1)];
       turned[k] = lane.turned ? -1 : 1;
-      forward[k] = lane.law.forward();
-      backward[k] = lane.law.backward();
-      lowest = std::max(lowest, lane.turned ? -backward[k] : -forward[k]);
-      highest = std::min(highest, lane.turned ? forward[k] : backward[k]);
+      forward[k] = lane.law.sliding().forward();
+      backward[k] = lane.law.sliding().backward();
+      const double hold_forward = lane.law.static_forward(), hold_backward = lane.law.static_backward();
+      lowest_held[k] = lane.turned ? -hold_backward : -hold_forward;
+      highest_held[k] = lane.turned ? hold_forward : hold_backward;
+      lowest = std::max(lowest, lowest_held[k]);
+      highest = std::min(highest, highest_held[k]);
     }
   }
 
@@ -126,7 +130,7 @@ HWY_INLINE void slide_group(const LevelGround& ground, std::span<LevelLane> thes
   LevelGroup group(these);
   const Real turned = Real::load(group.turned), forward = Real::load(group.forward),
              backward = Real::load(group.backward);
-  const Real least_held = select(turned > 0, -forward, -backward), most_held = select(turned > 0, backward, forward);
+  const Real least_held = Real::load(group.lowest_held), most_held = Real::load(group.highest_held);
 
   Real x = 0.0, v = 0.0;
   for (std::size_t i = 0;;) {
@@ -189,7 +193,7 @@ HWY_INLINE void slide_group(const LevelGround& ground, std::span<LevelLane> thes
           for (std::uint64_t rest = alone; rest != 0; rest &= rest - 1) {
             const auto k = static_cast<std::size_t>(std::countr_zero(rest));
             if (k >= these.size()) continue;
-            advance_lane(these[k], {duration, start[i], end[i]});
+            advance_lane(these[k], ground, i);
             group.take(k, these[k]);
           }
           x = Real::load(group.x);
@@ -213,10 +217,81 @@ HWY_INLINE void slide_group(const LevelGround& ground, std::span<LevelLane> thes
   for (std::size_t k = 0; k < these.size(); ++k) group.give(k, these[k]);
 }
 
+// The same where the normal force varies, or static friction is above kinetic.
+template <bool held>
+HWY_INLINE void slide_weighed_group(const LevelGround& ground, std::span<LevelLane> these) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::size_t segments = ground.segments(), next = ground.next();
+  const double *const to_hold = ground.end(), *const load = ground.load(), *const weight = ground.weight();
+  const Real h = ground.duration(), half = ground.duration() / 2, sixth = ground.duration() / 6;
+  LevelGroup group(these);
+  const Real forward = Real::load(group.forward), backward = Real::load(group.backward);
+  // What is held for sure, whatever the rounding of -p / W.
+  constexpr double surely_held = 1 - 0x1p-50;
+  const Real least_held = Real::load(group.lowest_held) * surely_held;
+  const Real most_held = Real::load(group.highest_held) * surely_held;
+
+  Real x = 0.0, v = 0.0;
+  for (std::size_t i = 0; i < segments;) {
+    const Bool stuck = v == 0, back = v < 0;
+    if (all(stuck)) {
+      i = next_departure(ground, i, group.lowest * surely_held, group.highest * surely_held);
+      if (i == segments) break;
+    }
+    const Real direction = select(back, Real(-1.0), 1.0), step = direction * h;
+    const Real way = where(~stuck, direction), against = where(~stuck, select(back, -backward, -forward));
+    const Real least = where(stuck, Real(-1.0));
+    const Real low = select(stuck, least_held, -infinity), high = select(stuck, most_held, infinity);
+    Real speed = abs(v), first = multiply_add(way, load[i], against * weight[i]);
+    Bool eventful = Bool::first(i == 0 ? Real::size : 0) & stuck;
+    for (;; ++i) {
+      const Real last = multiply_add(way, load[i + next], against * weight[i + next]);
+      const Real middle = multiply_add(half, first, speed), after = multiply_add(half, last, middle);
+      const Real n = to_hold[i];
+      eventful = eventful | ~(min(middle, after) > least) | (n < low) | (n > high);
+      const Real there = multiply_add(step, multiply_add(sixth, (first + first) + last, speed), x);
+      if (HWY_UNLIKELY(any(eventful))) {
+        x.store(group.x);
+        (direction * speed).store(group.v);
+        for (std::uint64_t rest = bits(eventful); rest != 0; rest &= rest - 1) {
+          const auto k = static_cast<std::size_t>(std::countr_zero(rest));
+          // The last lane fills the vector.
+          if (k >= these.size()) {
+            group.take(k, these.back());
+            continue;
+          }
+          group.give(k, these[k]);
+          advance_lane(these[k], ground, i);
+          group.take(k, these[k]);
+        }
+        x = select(eventful, Real::load(group.x), there);
+        v = select(eventful, Real::load(group.v), where(~stuck, direction * after));
+        ++i;
+        break;
+      }
+      x = there;
+      speed = after;
+      if (i + 1 == segments) {
+        v = where(~stuck, direction * speed);
+        ++i;
+        break;
+      }
+      first = held ? multiply_add(way, load[i + 1], against * weight[i + 1]) : last;
+    }
+  }
+  x.store(group.x);
+  v.store(group.v);
+  for (std::size_t k = 0; k < these.size(); ++k) group.give(k, these[k]);
+}
+
 void SlideLevels(const LevelGround& ground, std::span<LevelLane> blocks) {
   for (std::size_t i = 0; i < blocks.size(); i += Real::size) {
     const std::span<LevelLane> these = blocks.subspan(i, std::min(Real::size, blocks.size() - i));
-    if (ground.held())
+    if (ground.weighed() && ground.held())
+      slide_weighed_group<true>(ground, these);
+    else if (ground.weighed())
+      slide_weighed_group<false>(ground, these);
+    else if (ground.held())
       slide_group<true>(ground, these);
     else
       slide_group<false>(ground, these);
@@ -249,33 +324,70 @@ struct Watch {
 
 }  // namespace
 
-void advance_lane(LevelLane& lane, const Segment& segment) {
-  const double s = lane.turned ? -1 : 1;
+void advance_lane(LevelLane& lane, const LevelGround& ground, std::size_t i) {
   Watch watch{lane};
-  detail::advance(lane.law, Polynomial{}, Segment{segment.duration, s * segment.start, s * segment.end}, lane.state,
-                  watch);
+  const double duration = ground.duration();
+  const std::size_t end = i + ground.next();
+  if (ground.weighed()) {
+    const WeighedSegment segment{duration, ground.load()[i], ground.load()[end], ground.weight()[i],
+                                 ground.weight()[end]};
+    detail::advance(lane.law, Polynomial{}, segment, lane.state, watch);
+  } else {
+    const double s = lane.turned ? -1 : 1;
+    detail::advance(lane.law.sliding(), Polynomial{}, Segment{duration, s * ground.start()[i], s * ground.end()[i]},
+                    lane.state, watch);
+  }
 }
 
 LevelGround::LevelGround(const GroundMotion& motion)
     : start_(motion.acceleration().data()),
-      end_(start_ + (motion.interpolation() == Interpolation::linear ? 1 : 0)),
+      next_(motion.interpolation() == Interpolation::linear ? 1 : 0),
       segments_(motion.segments()),
-      duration_(motion.dt()) {
+      duration_(motion.dt()),
+      peak_(motion.peak_acceleration()) {
+  find_extremes();
+}
+
+LevelGround::LevelGround(const GroundMotion& motion, double slope_degrees, bool flipped)
+    : next_(motion.interpolation() == Interpolation::linear ? 1 : 0),
+      segments_(motion.segments()),
+      duration_(motion.dt()),
+      peak_(0),
+      slope_degrees_(slope_degrees) {
+  const double slope = slope_degrees * (std::numbers::pi / 180), s = std::sin(slope), c = std::cos(slope);
+  const std::span<const double> n = motion.acceleration(), up = motion.vertical();
+  const std::size_t values = segments_ + next_;
+  load_.resize(values);
+  weight_.resize(values);
+  held_back_.resize(values);
+  for (std::size_t i = 0; i < values; ++i) {
+    const double horizontal = flipped ? -n[i] : n[i], heavy = standard_gravity + (up.empty() ? 0 : up[i]);
+    load_[i] = slope == 0 ? -horizontal : heavy * s - horizontal * c;
+    weight_[i] = (slope == 0 ? heavy : heavy * c + horizontal * s) / standard_gravity;
+    held_back_[i] = -load_[i] / weight_[i];
+    peak_ = std::max({peak_, std::abs(load_[i]), weight_[i], weight_[i] > 1e-60 ? 0 : never});
+  }
+  start_ = held_back_.data();
+  find_extremes();
+}
+
+void LevelGround::find_extremes() {
   for (std::size_t i = 0; i < segments_; i += block) {
-    const auto [low, high] = std::minmax_element(end_ + i, end_ + std::min(i + block, segments_));
+    const auto [low, high] = std::minmax_element(end() + i, end() + std::min(i + block, segments_));
     lowest_.push_back(*low);
     highest_.push_back(*high);
   }
 }
 
-bool has_level_lanes(const GroundMotion& motion) noexcept {
-  return !motion.has_vertical() && std::isfinite(motion.dt()) && motion.dt() > 1e-60 && motion.dt() < 1e60 &&
-         motion.peak_acceleration() < 1e60;
+bool LevelGround::usable() const noexcept {
+  return std::isfinite(duration_) && duration_ > 1e-60 && duration_ < 1e60 && peak_ < 1e60;
 }
 
-bool has_level_lanes(const Coulomb& law) noexcept {
+bool has_level_lanes(const StaticKinetic<Coulomb>& law) noexcept {
   const auto usual = [](double level) { return level == 0 || (level > 1e-60 && level < 1e60); };
-  return usual(law.forward()) && (usual(law.backward()) || std::isinf(law.backward()));
+  const auto usual_backward = [&](double level) { return usual(level) || std::isinf(level); };
+  return usual(law.sliding().forward()) && usual(law.static_forward()) && usual_backward(law.sliding().backward()) &&
+         usual_backward(law.static_backward());
 }
 
 void slide_levels(const LevelGround& ground, std::span<LevelLane> lanes, bool settle) {
@@ -283,7 +395,7 @@ void slide_levels(const LevelGround& ground, std::span<LevelLane> lanes, bool se
   for (LevelLane& lane : lanes) {
     const Watch watch{lane};
     if (settle && lane.state.mode != Mode::stuck) {
-      const Slider<Coulomb> slider(lane.law);
+      const Slider slider(lane.law, Mounting{.slope_degrees = ground.slope_degrees()});
       try {
         detail::settle(slider, lane.state, [&](double duration) {
           advance(slider, Segment{duration, 0, 0}, lane.state, watch);

@@ -16,12 +16,19 @@ namespace {
 
 struct Stopped {};
 
-/// A block in a lane: which slider it is, and under which polarity. A block that is alike both ways goes once for both:
-/// under the flipped motion it does the same the other way.
+/// A block in a lane: which slider it is, and under which polarity. A block that is alike both ways on level ground
+/// goes once for both: under the flipped motion it does the same the other way.
 struct Lane {
   std::size_t slider;
-  Coulomb law;
+  LevelBlock block;
   bool flipped, both;
+
+  bool has_static() const {
+    const auto& law = block.law;
+    return law.static_forward() != law.sliding().forward() || law.static_backward() != law.sliding().backward();
+  }
+  /// What lanes that go together share.
+  auto kind() const { return std::tuple(block.slope_degrees, has_static(), flipped); }
 };
 
 class Sweep {
@@ -38,14 +45,14 @@ class Sweep {
     table_.events.assign(size, 0);
 
     for (std::size_t s = 0; s < sliders.size(); ++s)
-      if (const Coulomb* law = sliders[s].law; law && has_level_lanes(*law))
-        add_lanes(s, *law);
+      if (const auto& block = sliders[s].block; block && has_level_lanes(block->law))
+        add_lanes(s, *block);
       else
         singles_.push_back(s);
     // Those next to each other do nearly the same.
     std::ranges::stable_sort(lanes_, {}, [](const Lane& lane) {
-      const bool one_way = std::isinf(lane.law.backward());
-      return std::tuple(one_way, lane.flipped, std::min(lane.law.forward(), lane.law.backward()));
+      const double forward = lane.block.law.static_forward(), backward = lane.block.law.static_backward();
+      return std::tuple(lane.kind(), std::isinf(backward), std::min(forward, backward));
     });
   }
 
@@ -61,7 +68,9 @@ class Sweep {
         if (part == singles_.size())
           run_lanes(record);
         else
-          run_single(singles_[part], record, storage);
+          for (const bool flipped : {false, true})
+            if (options_.polarity != (flipped ? Polarity::as_recorded : Polarity::flipped))
+              run_single(singles_[part], record, flipped, storage);
       }
     };
     run_on_threads(options_.threads, tasks, stopped_, work, [this] {
@@ -73,10 +82,13 @@ class Sweep {
   }
 
  private:
-  void add_lanes(std::size_t slider, const Coulomb& law) {
-    const bool alike = law.forward() == law.backward(), both = options_.polarity == Polarity::both;
-    if (options_.polarity != Polarity::flipped) lanes_.push_back({slider, law, false, both && alike});
-    if (options_.polarity == Polarity::flipped || (both && !alike)) lanes_.push_back({slider, law, true, false});
+  void add_lanes(std::size_t slider, const LevelBlock& block) {
+    const auto& law = block.law;
+    const bool alike = block.slope_degrees == 0 && law.static_forward() == law.static_backward() &&
+                       law.sliding().forward() == law.sliding().backward();
+    const bool both = options_.polarity == Polarity::both;
+    if (options_.polarity != Polarity::flipped) lanes_.push_back({slider, block, false, both && alike});
+    if (options_.polarity == Polarity::flipped || (both && !alike)) lanes_.push_back({slider, block, true, false});
   }
 
   std::size_t place(std::size_t slider, std::size_t record, bool flipped) const {
@@ -98,18 +110,33 @@ class Sweep {
   }
 
   void run_lanes(std::size_t record) {
+    for (std::span<const Lane> left = lanes_; !left.empty();) {
+      const auto end = std::ranges::find_if(left, [&](const Lane& lane) { return lane.kind() != left[0].kind(); });
+      const auto count = static_cast<std::size_t>(end - left.begin());
+      run_lanes(record, left.first(count));
+      left = left.subspan(count);
+    }
+  }
+
+  void run_lanes(std::size_t record, std::span<const Lane> these) {
     const GroundMotion& motion = *motions_[record];
-    if (!has_level_lanes(motion)) {
+    const Lane& one = these[0];
+    const bool weighed = one.block.slope_degrees > 0 || one.has_static() || motion.has_vertical();
+    const LevelGround ground =
+        weighed ? LevelGround(motion, one.block.slope_degrees, one.flipped) : LevelGround(motion);
+    if (!ground.usable()) {
       Response storage;
-      for (const Lane& lane : lanes_)
-        if (!lane.flipped || options_.polarity == Polarity::flipped) run_single(lane.slider, record, storage);
+      for (const Lane& lane : these) {
+        run_single(lane.slider, record, lane.flipped, storage);
+        if (lane.both) run_single(lane.slider, record, true, storage);
+      }
       return;
     }
     std::vector<LevelLane> lanes;
-    for (const Lane& lane : lanes_) lanes.push_back({lane.law, lane.flipped});
-    slide_levels(LevelGround(motion), lanes, options_.settle);
+    for (const Lane& lane : these) lanes.push_back({lane.block.law, lane.flipped && !weighed});
+    slide_levels(ground, lanes, options_.settle);
     for (std::size_t k = 0; k < lanes.size(); ++k) {
-      const auto& [slider, law, flipped, both] = lanes_[k];
+      const auto& [slider, block, flipped, both] = these[k];
       const LevelLane& lane = lanes[k];
       for (const bool other : {false, true}) {
         if (other && !both) continue;
@@ -124,28 +151,25 @@ class Sweep {
     }
   }
 
-  void run_single(std::size_t slider, std::size_t record, Response& storage) {
+  void run_single(std::size_t slider, std::size_t record, bool flipped, Response& storage) {
     const auto heartbeat = [this] {
       if (stopped_) throw Stopped{};
     };
     const IntegrateOptions how{0, 0, options_.settle, options_.contact, heartbeat};
-    for (const bool flipped : {false, true}) {
-      if (options_.polarity == (flipped ? Polarity::as_recorded : Polarity::flipped)) continue;
-      try {
-        const GroundMotion& motion = *motions_[record];
-        storage =
-            sliders_[slider].integrate(flipped ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
-        write(slider, record, flipped, storage.peak, storage.residual, storage.sliding_distance,
-              storage.events.size() - 1);
-      } catch (const ConvergenceError& error) {
-        fail(slider, record, flipped, error.what());
-      } catch (const std::overflow_error& error) {
-        fail(slider, record, flipped, error.what());
-      } catch (const std::invalid_argument& error) {  // a vertical motion under which it never lands
-        fail(slider, record, flipped, error.what());
-      }
-      ++done_;
+    try {
+      const GroundMotion& motion = *motions_[record];
+      storage =
+          sliders_[slider].integrate(flipped ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
+      write(slider, record, flipped, storage.peak, storage.residual, storage.sliding_distance,
+            storage.events.size() - 1);
+    } catch (const ConvergenceError& error) {
+      fail(slider, record, flipped, error.what());
+    } catch (const std::overflow_error& error) {
+      fail(slider, record, flipped, error.what());
+    } catch (const std::invalid_argument& error) {  // a vertical motion under which it never lands
+      fail(slider, record, flipped, error.what());
     }
+    ++done_;
   }
 
   std::span<const SweepSlider> sliders_;

@@ -108,9 +108,11 @@ def sweep(
 
     Notes
     -----
-    Coulomb friction without spring and damper, under a record of even steps: as many slip levels as
-    a vector holds go through a record together, exact to round-off, 1e-13 of the scale of x; 0.05
-    to 0.2 ns a sample and slider, where `integrate` takes 12 to 30. All else goes by `integrate`,
+    Coulomb friction, also with static friction above it, without spring, damper and stops, under a
+    record of even steps: as many slip levels as a vector holds go through a record together, exact
+    to round-off, 1e-13 of the scale of x; 0.05 to 0.3 ns a sample and slider, where `integrate`
+    takes 12 to 40. Slopes and vertical motion cost half as much again. All else goes by
+    `integrate`, also a combination whose normal force is ever zero,
     one by one on all threads. The interpreter is not held meanwhile.
     """
     these = _sliders(sliders)
