@@ -1,14 +1,13 @@
 """Executors: threads, processes, a cluster; the same bits, whatever fails."""
 
 import multiprocessing
-import os
 import queue
-import signal
 import threading
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import pytest
 import stickslip as ss
+from clusters import losing_a_worker
 from sources import BLOCK, SHAKING, Delayed, die, refuse, same_bits
 
 MEMBERS = 2000
@@ -189,25 +188,6 @@ def test_what_cannot_be_pickled_is_said(processes):
 
 
 def test_a_cluster_one_worker_of_which_is_killed_gives_the_same_bits(slow_whole):
-    distributed = pytest.importorskip(
-        "distributed", reason="needs a cluster: pip install dask[distributed]"
-    )
-    killed = []
-
-    def kill_one(done, total):
-        if done > total // 4 and not killed:
-            killed.append(pids.pop())
-            os.kill(killed[0], signal.SIGKILL)
-
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        pids = list(client.run(os.getpid).values())
-        assert len(set(pids)) == 2
-        with client.get_executor() as pool:
-            e = run(pool, Delayed(1e-3), progress=kill_one)
-    assert len(killed) == 1
+    with losing_a_worker() as (pool, kill_one):
+        e = run(pool, Delayed(1e-3), progress=kill_one)
     assert same_bits(e, slow_whole)

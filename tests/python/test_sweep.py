@@ -3,15 +3,14 @@
 import csv
 import json
 import math
-import os
 import pickle
-import signal
 import threading
 from concurrent.futures import Future, ProcessPoolExecutor
 
 import numpy as np
 import pytest
 import stickslip as ss
+from clusters import losing_a_worker
 
 RNG = np.random.default_rng(20)
 
@@ -221,28 +220,10 @@ def test_processes_find_the_same_bits():
 
 
 def test_a_cluster_one_worker_of_which_is_killed_finds_the_same_bits():
-    distributed = pytest.importorskip(
-        "distributed", reason="needs a cluster: pip install dask[distributed]"
-    )
     sliders = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=np.linspace(0.01, 0.3, 40)), period=2)
     quakes = [quake(i, 4000) for i in range(64)]
-    killed = []
-
-    def kill_one(done, total):
-        if done and not killed:
-            killed.append(pids.pop())
-            os.kill(killed[0], signal.SIGKILL)
-
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        pids = list(client.run(os.getpid).values())
-        with client.get_executor() as pool:
-            table = ss.sweep(sliders, quakes, executor=pool, progress=kill_one)
-    assert len(killed) == 1
+    with losing_a_worker() as (pool, kill_one):
+        table = ss.sweep(sliders, quakes, executor=pool, progress=kill_one)
     assert table == ss.sweep(sliders, quakes)
 
 
