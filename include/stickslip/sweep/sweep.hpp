@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/function.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
@@ -71,7 +72,7 @@ template <FrictionLaw Law>
 SweepSlider sweep_slider(const Slider<Law>& slider) {
   const Coulomb* law = nullptr;
   if constexpr (std::same_as<Law, Coulomb>)
-    if (slider.plain() && slider.natural_frequency() == 0 && slider.damping() == 0) law = &slider.law();
+    if (slider.plain() && equal(slider.natural_frequency(), 0) && equal(slider.damping(), 0)) law = &slider.law();
   return {law, [&slider](const GroundMotion& motion, const IntegrateOptions& options, Response storage) {
             return stickslip::integrate(slider, motion, options, std::move(storage));
           }};
