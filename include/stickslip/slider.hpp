@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/stops.hpp"
@@ -60,7 +61,7 @@ class Slider {
     const double degrees = mounting_.slope_degrees;
     detail::require(degrees >= 0 && degrees < 90, "Slider: slope_degrees must be from 0 to less than 90", degrees,
                     "degrees");
-    if (degrees > 0 && stiffness() == 0 && !std::isfinite(mounting_.stops.forward())) {
+    if (degrees > 0 && detail::equal(stiffness(), 0) && !std::isfinite(mounting_.stops.forward())) {
       const double steepest = std::tan(slope()), holds = hold(law_, 0, Direction::forward);
       detail::require(holds >= steepest * standard_gravity,
                       "Slider: on a slope of " + detail::shortest(degrees) +
@@ -124,7 +125,8 @@ class Slider {
  private:
   Law law_;
   Mounting mounting_;
-  bool plain_ = mounting_.slope_degrees == 0 && !mounting_.one_way && !mounting_.stops && !mounting_.pendulum;
+  bool plain_ =
+      detail::equal(mounting_.slope_degrees, 0) && !mounting_.one_way && !mounting_.stops && !mounting_.pendulum;
 };
 
 namespace detail {

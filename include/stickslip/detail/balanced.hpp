@@ -4,6 +4,7 @@
 #include <cmath>
 #include <concepts>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
@@ -26,7 +27,7 @@ Balanced<Law> balanced(const Slider<Law>& slider) {
   if constexpr (std::same_as<Law, Coulomb>) {
     const double forward = slider.law().forward(), backward = slider.law().backward();
     const double centre = (backward - forward) / 2 / slider.stiffness();
-    if (forward != backward && std::isfinite(centre))
+    if (!equal(forward, backward) && std::isfinite(centre))
       return {Slider(Coulomb(forward / 2 + backward / 2), slider.natural_frequency(), slider.damping()), centre};
   }
   return {slider, 0};

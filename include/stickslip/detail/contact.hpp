@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/event_loop.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/flow/polynomial.hpp"
@@ -77,7 +78,7 @@ inline double landing(const LoadSegment& s, double gap, double gap_velocity) noe
   const double w[] = {gap, gap_velocity * s.duration, -s.normal_start * square / 2,
                       -(s.normal_end - s.normal_start) * square / 6};
   int leading = 0;  // zeros: it has just left the ground
-  while (leading < 3 && w[leading] == 0) ++leading;
+  while (leading < 3 && equal(w[leading], 0)) ++leading;
   if (w[leading] < 0) return 0;
   const double root = leading < 3 ? FirstRoot(w + leading, 3 - leading).find() : never;
   return root < never ? root * s.duration : never;
@@ -110,7 +111,7 @@ void advance(const Law& law, const Flows& flows, LoadSegment segment, const Boun
       go(t, first + change, false);
       state.gap = std::max(gap, 0.0);
       state.gap_velocity = gap_velocity;
-      if (lands == never) continue;
+      if (equal(lands, never)) continue;
       tell(EventKind::landing);
       state.in_flight = false;
       const double impulse = std::max(-std::exchange(state.gap_velocity, 0.0), 0.0);
@@ -124,7 +125,7 @@ void advance(const Law& law, const Flows& flows, LoadSegment segment, const Boun
       if (after > 0) continue;
       state.mode = Mode::stuck;
       tell(EventKind::arrest);
-    } else if (first < 0 || (first == 0 && last < 0)) {
+    } else if (first < 0 || (equal(first, 0) && last < 0)) {
       if (contact == Contact::flight) {
         state.in_flight = true;
         tell(EventKind::liftoff);

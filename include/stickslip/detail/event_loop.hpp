@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
@@ -230,10 +231,10 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       if (from_stop >= 0) from_stop += direction == struck ? -way : way;
     }
     // Two accounts that differ in little: as one, the way that nearly every piece goes would be 5 to 10 % slower.
-    if (stop == never) {
+    if (equal(stop, never)) {
       const double taken = flow.horizon();
       const Progress end = flow.at_horizon();
-      const bool whole = taken == left;
+      const bool whole = equal(taken, left);
       const double gain = start.gain_within(taken, left);
       show(taken, end, gain);
       state.displacement += s * end.distance;

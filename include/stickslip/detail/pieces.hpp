@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/friction/coulomb.hpp"
@@ -27,9 +28,9 @@ void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state,
 /// Whether that is possible and quicker. The lanes take squares of speeds and accelerations, which must not underflow;
 /// above a slip level of that size no load does that matters.
 inline bool worth_pieces(const Slider<Coulomb>& slider, const GroundMotion& motion) noexcept {
-  return slider.stiffness() == 0 && slider.damping() == 0 && std::isfinite(motion.dt()) && motion.samples() >= 8192 &&
-         std::min(slider.law().forward(), slider.law().backward()) > 1e-100 && motion.peak_acceleration() > 1e-100 &&
-         motion.dt() > 1e-100;
+  return equal(slider.stiffness(), 0) && equal(slider.damping(), 0) && std::isfinite(motion.dt()) &&
+         motion.samples() >= 8192 && std::min(slider.law().forward(), slider.law().backward()) > 1e-100 &&
+         motion.peak_acceleration() > 1e-100 && motion.dt() > 1e-100;
 }
 
 }  // namespace stickslip::detail

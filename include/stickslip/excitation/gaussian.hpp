@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/excitation/envelope.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/ground_motion.hpp"
@@ -161,7 +162,7 @@ class GaussianExcitation {
 
   /// Equal excitations make the same motions.
   friend bool operator==(const GaussianExcitation& a, const GaussianExcitation& b) {
-    return a.spectrum_ == b.spectrum_ && a.coarse_dt_ == b.coarse_dt_ && a.refinement_ == b.refinement_ &&
+    return a.spectrum_ == b.spectrum_ && detail::equal(a.coarse_dt_, b.coarse_dt_) && a.refinement_ == b.refinement_ &&
            a.samples_ == b.samples_ && a.options_ == b.options_;
   }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/excitation/envelope.hpp"
 #include "stickslip/excitation/pulse_shape.hpp"
 #include "stickslip/excitation/spectrum.hpp"
@@ -166,7 +167,8 @@ class PoissonPulses {
 
   /// Equal excitations make the same motions: distributions of amplitudes are compared by that hash.
   friend bool operator==(const PoissonPulses& a, const PoissonPulses& b) noexcept {
-    return a.rate_ == b.rate_ && a.half_width_ == b.half_width_ && a.sigma_ == b.sigma_ && a.duration_ == b.duration_ &&
+    return detail::equal(a.rate_, b.rate_) && detail::equal(a.half_width_, b.half_width_) &&
+           detail::equal(a.sigma_, b.sigma_) && detail::equal(a.duration_, b.duration_) &&
            a.options_.stationary_start == b.options_.stationary_start && a.options_.shape == b.options_.shape &&
            a.quantile_hash_ == b.quantile_hash_ && a.options_.envelope == b.options_.envelope;
   }

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/requirements.hpp"
 
 namespace stickslip {
@@ -48,7 +49,7 @@ class Spectrum {
     std::uint64_t fingerprint = 0;  ///< hash of 1024 values and of the variance, each as a float
     /// Functions are told apart by what they do.
     bool operator==(const Function& other) const {
-      return low == other.low && high == other.high && fingerprint == other.fingerprint;
+      return detail::equal(low, other.low) && detail::equal(high, other.high) && fingerprint == other.fingerprint;
     }
   };
   using Form = std::variant<White, BandPass, KanaiTajimi, CloughPenzien, Table, Function>;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/requirements.hpp"
 
@@ -101,7 +102,7 @@ class ClosedForm {
     // Within one arch a speed that ends above zero can have stopped on the way only if it fell at first and rises at
     // the end.
     if (one_arch && last_speed > 0 && (a >= 0 || oscillator_.acceleration(start_, end_) <= 0)) return never;
-    if (u == 0 && a <= 0) return a < 0 || gain <= 0 ? 0 : never;
+    if (detail::equal(u, 0) && a <= 0) return a < 0 || gain <= 0 ? 0 : never;
     // In units of the duration all terms are speeds, which neither overflow nor underflow where it matters.
     const double stop = oscillator_.first_stop(u, a * duration_, gain * duration_, duration_);
     if (stop <= duration_) return stop;

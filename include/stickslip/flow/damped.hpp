@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/series/series.hpp"
@@ -118,7 +119,7 @@ class DampedSquare {
  public:
   /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
   DampedSquare(double damping, double natural_frequency, double duration) noexcept {
-    if (duration == 0) return;
+    if (detail::equal(duration, 0)) return;
     const double stiffness = natural_frequency * natural_frequency;
     const double size = (damping + natural_frequency) * duration;
     const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
@@ -186,7 +187,7 @@ class Damped {
   /// Drag of the damper per unit mass [m/s^2].
   double drag(double speed) const noexcept { return damping_ * speed; }
 
-  bool usual(double t) const noexcept { return t == usual_duration_; }
+  bool usual(double t) const noexcept { return detail::equal(t, usual_duration_); }
   DampedBasis basis(double t) const noexcept { return usual(t) ? usual_basis_ : compute(t); }
   DampedSquare square(double t) const noexcept {
     return usual(t) ? usual_square_ : DampedSquare(damping_, natural_frequency_, t);
@@ -246,8 +247,8 @@ class DampedFlow {
     const double last = end_.speed;
     const bool one_arch = duration_ <= damped_.half_period();
     if (one_arch && last > 0 && (a_ >= 0 || end_.acceleration <= 0)) return never;
-    const bool rises = a_ > 0 || (a_ == 0 && rise_ > 0);
-    if (u_ == 0 && !rises) return 0;
+    const bool rises = a_ > 0 || (detail::equal(a_, 0) && rise_ > 0);
+    if (detail::equal(u_, 0) && !rises) return 0;
     if (one_arch && last <= 0) return root(0, duration_, end_);
     // It falls from `begin` to `end` for the first time; each later time its least value is higher.
     double begin = 0, end = damped_.turn(a_, rise_);
@@ -300,7 +301,7 @@ class DampedFlow {
   };
 
   const Expansion& expanded() const noexcept {
-    if (expansion_.duration == duration_) return expansion_;
+    if (detail::equal(expansion_.duration, duration_)) return expansion_;
     expansion_.duration = duration_;
     double* const v = expansion_.v;
     const double y = damped_.damping() * duration_, z = damped_.stiffness() * duration_ * duration_;
@@ -320,14 +321,14 @@ class DampedFlow {
   // By Newton's method, for whose slope nothing is evaluated anew, within the bracket, in which the speed comes through
   // zero once, to `last` <= 0. The first guess is that of the parabola through both ends.
   double root(double low, double high, const Progress& last) const noexcept {
-    if (last.speed == 0) return high;
+    if (detail::equal(last.speed, 0)) return high;
     const double h = high - low, fall = last.acceleration * h, first = low > 0 ? at(low).speed : u_;
     double t = high - h * first_root(-last.speed, fall, -2 * (first - last.speed + fall));
     for (int i = 0; i < 200; ++i) {
       if (!(t > low && t < high)) t = low + (high - low) / 2;
       if (!(t > low && t < high)) return high;
       const Progress there = at(t);
-      if (there.speed == 0) return t;
+      if (detail::equal(there.speed, 0)) return t;
       (there.speed > 0 ? low : high) = t;
       const double next = t - there.speed / there.acceleration;
       if (std::abs(next - t) <= 0x1p-52 * t) return t;

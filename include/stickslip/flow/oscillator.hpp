@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/state.hpp"
 
@@ -31,7 +32,7 @@ class Harmonic {
   explicit Harmonic(double natural_frequency, double usual_duration = std::numeric_limits<double>::quiet_NaN()) noexcept
       : w_(natural_frequency), usual_duration_(usual_duration), usual_basis_(compute(usual_duration)) {}
 
-  Basis basis(double t) const noexcept { return t == usual_duration_ ? usual_basis_ : compute(t); }
+  Basis basis(double t) const noexcept { return detail::equal(t, usual_duration_) ? usual_basis_ : compute(t); }
   bool one_arch(double t) const noexcept { return w_ * t <= std::numbers::pi; }
 
   double speed(const Start& start, const Basis& b) const noexcept {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/oscillator.hpp"
@@ -58,7 +59,7 @@ class SinusoidalFlow {
   /// As `ClosedForm::first_stop`.
   double first_stop() const noexcept {
     const auto [u, a, amplitude, omega, phase] = start_;
-    if (u == 0 && (a < 0 || (a == 0 && sine_ >= 0))) return 0;
+    if (detail::equal(u, 0) && (a < 0 || (detail::equal(a, 0) && sine_ >= 0))) return 0;
 
     // So fast that no push could stop it in time, as most of short pieces.
     if (u > (std::abs(amplitude) + std::abs(cosine_ - a)) * duration_) return never;
@@ -69,7 +70,7 @@ class SinusoidalFlow {
     const double room = (push - level) / (2 * push);
     const double turn = room > 0 ? 2 * std::asin(std::sqrt(std::min(room, 1.0))) : 0;
     const double now = std::remainder(amplitude < 0 ? phase + std::numbers::pi : phase, cycle);
-    const bool rises = a > 0 || (a == 0 && sine_ < 0);
+    const bool rises = a > 0 || (detail::equal(a, 0) && sine_ < 0);
     double falls_from = rises ? std::max(turn - now, 0.0) : 0;                               // phase gone until then
     double least = rises || now >= -turn ? std::max(cycle - turn - now, 0.0) : -turn - now;  // at the end of the fall
     if (falls_from >= omega * duration_) return never;
@@ -85,7 +86,7 @@ class SinusoidalFlow {
       if (!(falls_from < omega * duration_)) return never;
     }
     const double low = falls_from / omega, high = std::min(least / omega, duration_);
-    if (high == duration_ && speed(end_, duration_) > 0) return never;
+    if (detail::equal(high, duration_) && speed(end_, duration_) > 0) return never;
     return polish(low, high);
   }
 
@@ -101,7 +102,7 @@ class SinusoidalFlow {
 
   /// Work of what the load has gained since the start [m^2/s^2]: the integral of V' (u + a t + V).
   double work_of_gain(double t) const noexcept {
-    const Harmonic::Basis b = t == duration_ ? end_ : oscillator_.basis(t);
+    const Harmonic::Basis b = detail::equal(t, duration_) ? end_ : oscillator_.basis(t);
     const double v = gained_speed(b, t);
     return v * (start_.speed + start_.acceleration * t + v / 2) - start_.acceleration * gained_distance(b, t);
   }

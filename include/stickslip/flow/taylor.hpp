@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
@@ -58,7 +59,7 @@ class FirstRoot {
     for (int i = 1; i <= degree_; ++i)
       for (int k = degree_; k >= i; --k) b[k] += b[k - 1];
     const double last_value = b[degree_], root = search(b, 0, 1);
-    return root == never && last_value <= 0 ? 1 : root;  // at the end, but for rounding
+    return detail::equal(root, never) && last_value <= 0 ? 1 : root;  // at the end, but for rounding
   }
 
  private:
@@ -202,12 +203,12 @@ class TaylorFlow {
 
     for (;;) {
       double within_reach = expand();
-      if (within_reach == 1) {
+      if (detail::equal(within_reach, 1)) {
         if constexpr (SpeedLaw<Law>) {
           stop_ = find_first_stop();
           if (!balanced_where_slowest()) within_reach = 0.5;
         }
-        if (within_reach == 1) return;
+        if (detail::equal(within_reach, 1)) return;
       }
       const double longer = std::exchange(horizon_, horizon_ * within_reach);
       if (!(horizon_ < longer && horizon_ > 0x1p-200 * duration))
@@ -261,7 +262,7 @@ class TaylorFlow {
 
   /// Work on the damper within t [m^2/s^2].
   double damped_work(double t) const noexcept {
-    if (slider_.damping() == 0) return 0;
+    if (detail::equal(slider_.damping(), 0)) return 0;
     return slider_.damping() * integral(t, [](const Progress& at, double) { return at.speed * at.speed; });
   }
   /// Work against friction within t [m^2/s^2].
@@ -305,7 +306,7 @@ class TaylorFlow {
   double find_first_stop() const noexcept {
     // Roots at the start are taken out by leaving out leading zeros.
     int leading = 0;
-    while (leading < order_ && speed_[leading] == 0) ++leading;
+    while (leading < order_ && detail::equal(speed_[leading], 0)) ++leading;
     // All of them underflow where a slip that does begin is too slow for doubles.
     const double gain = [&] {
       if constexpr (loaded)
@@ -313,7 +314,8 @@ class TaylorFlow {
       else
         return start_.gain_within(horizon_, horizon_);
     }();
-    const bool begins = start_.speed > 0 || start_.acceleration > 0 || (start_.acceleration == 0 && gain > 0);
+    const bool begins =
+        start_.speed > 0 || start_.acceleration > 0 || (detail::equal(start_.acceleration, 0) && gain > 0);
     if (leading == order_) return begins ? never : 0;
     if (speed_[leading] < 0) return 0;
     const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
@@ -324,10 +326,10 @@ class TaylorFlow {
   // must hold where the speed is least, too.
   bool balanced_where_slowest() {
     double slowest = stop_ < never ? stop_ / horizon_ : 1;
-    if (slowest == 1 && start_.acceleration < 0 && end_.acceleration > 0)
+    if (detail::equal(slowest, 1) && start_.acceleration < 0 && end_.acceleration > 0)
       slowest = numerics::root([&](double s) { return at_part(s).acceleration; }, 0, start_.acceleration, 1,
                                end_.acceleration);
-    if (slowest == 1 || slowest == 0) return true;
+    if (detail::equal(slowest, 1) || detail::equal(slowest, 0)) return true;
     const bool holds = balanced(slowest);
     end_ = at_part(1);
     return holds;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
@@ -50,7 +51,7 @@ class Coulomb {
 
   /// Work per unit mass against friction in sliding `distance` >= 0 [m^2/s^2].
   double work(double, double distance, Direction direction) const noexcept {
-    return distance == 0 ? 0 : resist(0, direction) * distance;
+    return detail::equal(distance, 0) ? 0 : resist(0, direction) * distance;
   }
 
  private:

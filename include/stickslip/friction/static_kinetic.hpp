@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
@@ -35,7 +36,7 @@ class StaticKinetic {
       : sliding_(std::move(sliding)), forward_(static_level), backward_(backward) {
     for (const Direction direction : {Direction::forward, Direction::backward}) {
       const double level = static_level_of(direction), kinetic = stickslip::hold(sliding_, 0, direction);
-      detail::require((std::isfinite(level) || level == kinetic) && level >= kinetic,
+      detail::require((std::isfinite(level) || detail::equal(level, kinetic)) && level >= kinetic,
                       "StaticKinetic: the static level " +
                           std::string(direction == Direction::forward ? "forward" : "backward") +
                           " must be finite and at least the kinetic one of " + detail::shortest(kinetic) + " m/s^2",

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/segment.hpp"
@@ -110,7 +111,7 @@ class GroundMotion {
   double last_step() const noexcept {
     if (times_.empty()) return dt_;
     std::size_t i = segments() - 1;
-    while (times_[i] == times_.back()) --i;  // the duration is positive
+    while (detail::equal(times_[i], times_.back())) --i;  // the duration is positive
     return times_.back() - times_[i];
   }
 
@@ -199,7 +200,7 @@ class GroundMotion {
   /// Whether samples of all components, times, interpolation, name and orientation are the same; even times differ from
   /// a list of them.
   friend bool operator==(const GroundMotion& a, const GroundMotion& b) {
-    const bool same_dt = a.dt_ == b.dt_ || (std::isnan(a.dt_) && std::isnan(b.dt_));
+    const bool same_dt = detail::equal(a.dt_, b.dt_) || (std::isnan(a.dt_) && std::isnan(b.dt_));
     return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ && a.transverse_ == b.transverse_ &&
            a.vertical_ == b.vertical_ && a.interpolation_ == b.interpolation_ && a.name_ == b.name_ &&
            a.orientation_ == b.orientation_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
@@ -77,7 +78,7 @@ struct WeighedSegment {
 
   /// N+ / g, `left` before its end.
   double weight(double left) const noexcept {
-    if (left == duration) return weight_start;
+    if (equal(left, duration)) return weight_start;
     return left > 0 ? weight_end + (weight_start - weight_end) * (left / duration) : weight_end;
   }
 
@@ -109,7 +110,7 @@ struct WeighedSegment {
 /// @param slope   [rad]
 inline LoadSegment load_segment(const Segment& n, double slope, double up_start = 0, double up_end = 0) noexcept {
   const double heavy_start = standard_gravity + up_start, heavy_end = standard_gravity + up_end;
-  if (slope == 0) return {n.duration, -n.start, -n.end, heavy_start, heavy_end};
+  if (equal(slope, 0)) return {n.duration, -n.start, -n.end, heavy_start, heavy_end};
   const double s = std::sin(slope), c = std::cos(slope);
   return {n.duration, heavy_start * s - n.start * c, heavy_end * s - n.end * c, heavy_start * c + n.start * s,
           heavy_end * c + n.end * s};

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/harmonic/orbits.hpp"
@@ -74,7 +75,7 @@ class BranchFollower {
         step /= 2;
         continue;
       }
-      if (onward[2] * direction[2] < 0 || (onward[2] == 0 && direction[2] != 0)) {
+      if (onward[2] * direction[2] < 0 || (equal(onward[2], 0) && !equal(direction[2], 0))) {
         if (auto fold = find_fold(last, direction, step)) {
           branch.folds.push_back(branch.orbits.size());
           branch.orbits.push_back(describe(*fold));

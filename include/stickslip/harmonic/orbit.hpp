@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 
@@ -44,7 +45,7 @@ struct Orbit {
   double dissipated;          ///< work against friction in a period, as much as the ground's input [m^2/s^2]
 
   double period() const noexcept { return 2 * std::numbers::pi / omega; }
-  bool at_rest() const noexcept { return amplitude == 0; }
+  bool at_rest() const noexcept { return detail::equal(amplitude, 0); }
 };
 
 }  // namespace stickslip

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "stickslip/detail/balanced.hpp"
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/harmonic/orbit.hpp"
@@ -143,7 +144,7 @@ class OrbitFinder {
         }
         if (now.size() <= close_enough) break;
       }
-      if (!better || now.size() == 0) break;
+      if (!better || equal(now.size(), 0)) break;
     }
     if (now.size() > close_enough) return std::nullopt;
     // What rests there is left with some round-off of a velocity, and would be seen to stop once more.
@@ -177,7 +178,7 @@ class OrbitFinder {
     }
     orbit.amplitude = (high - low) / 2;
     orbit.phase = -std::remainder(omega_ * time, cycle);
-    orbit.mean_arbitrary = ConstantLevelLaw<Law> && slider_.stiffness() == 0;
+    orbit.mean_arbitrary = ConstantLevelLaw<Law> && equal(slider_.stiffness(), 0);
 
     Variation variation(place.state);
     after(place, std::numbers::pi, variation);
@@ -201,7 +202,7 @@ class OrbitFinder {
       return {std::complex{half, other}, std::complex{half, -other}};
     }
     const double one = half + std::copysign(std::sqrt(discriminant), half);
-    return {one, one == 0 ? 0 : determinant / one};
+    return {one, equal(one, 0) ? 0 : determinant / one};
   }
 
   static constexpr double close_enough = 1e-11;  // a miss, of the amplitude: beyond it Newton's method goes on
@@ -216,7 +217,7 @@ class OrbitFinder {
         found.push_back(*orbit);
         return found;  // friction lets no two motions part, and these two would
       }
-      if (slider_.stiffness() == 0) return {with_stops()};
+      if (equal(slider_.stiffness(), 0)) return {with_stops()};
     }
     search(found, heartbeat);
     std::ranges::sort(found, {}, &Orbit::amplitude);
@@ -241,7 +242,7 @@ class OrbitFinder {
     orbit.half_period_multipliers = {-1, 0};
     orbit.multipliers = {1, 0};
     orbit.stable = true;
-    orbit.mean_arbitrary = ConstantLevelLaw<Law> && slider_.stiffness() == 0;
+    orbit.mean_arbitrary = ConstantLevelLaw<Law> && equal(slider_.stiffness(), 0);
     return orbit;
   }
 
@@ -285,7 +286,7 @@ class OrbitFinder {
     const double step = std::min(std::pow(10.0, 1.0 / 12), std::pow(largest / begin, 1.0 / 30));  // at least 30 rows
 
     std::vector<Row> rows;
-    if (least == 0) rows.push_back({.free = load_ > level(0), .misses = {{{-1, 0}}}});
+    if (equal(least, 0)) rows.push_back({.free = load_ > level(0), .misses = {{{-1, 0}}}});
     for (double amplitude = begin; amplitude < largest * step; amplitude *= step) {
       if (heartbeat) heartbeat();
       rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));  // so far goes a slip without stops
@@ -464,8 +465,8 @@ template <FrictionLaw Law>
 void check_orbit_arguments(const Slider<Law>& slider, double load, double omega, const std::string& who) {
   static_assert(PositionLaw<Law>, "orbits: a resistance that depends on the speed is not covered");
   require_plain_mounting(slider, who);
-  require(slider.damping() == 0, who + ": a slider with a damper is not covered, damping must be 0", slider.damping(),
-          "1/s");
+  require(equal(slider.damping(), 0), who + ": a slider with a damper is not covered, damping must be 0",
+          slider.damping(), "1/s");
   require(load > 0 && load <= GroundMotion::largest_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
           load, "m/s^2");
   require(omega > 0 && std::isfinite(omega * omega) && std::isfinite(2 * std::numbers::pi / omega),
@@ -477,7 +478,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
     require(std::isfinite(forward), who + ": the slip level must be finite", forward, "m/s^2");
     if constexpr (LawWithHold<Law>) {
       const double held = hold(slider.law(), x * length, Direction::forward);
-      require(held == forward,
+      require(equal(held, forward),
               who + ": static friction that differs from kinetic is not covered, it must hold " + shortest(forward) +
                   " m/s^2",
               held, "m/s^2");
@@ -493,7 +494,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
 
 /// The same orbit about a place that lies farther by `distance` [m].
 inline Orbit moved(Orbit orbit, double distance) {
-  if (distance == 0) return orbit;
+  if (equal(distance, 0)) return orbit;
   orbit.centre += distance;
   orbit.state.displacement += distance;
   for (Event& event : orbit.events) event.displacement += distance;

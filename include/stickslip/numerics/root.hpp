@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 
 namespace stickslip::numerics {
@@ -43,7 +44,7 @@ double root(F&& f, double a, double fa, double b, double fb, double tolerance = 
     fa = fx;
     const double best = std::abs(fa) < std::abs(fb) ? a : b;
     const double least = (2 * round_off * std::abs(best) + tolerance) / std::abs(b - a);
-    if (least > 0.5 || fa == 0) return best;
+    if (least > 0.5 || detail::equal(fa, 0)) return best;
     const double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
     part = 0.5;
     if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "stickslip/detail/contact.hpp"
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/event_loop.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
@@ -45,7 +46,7 @@ auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
 template <FrictionLaw Law, class Work>
 auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
-    if (slider.stiffness() == 0 && slider.damping() == 0) return work(Sinusoidal{omega, usual_duration});
+    if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0)) return work(Sinusoidal{omega, usual_duration});
   }
   return work(Taylor<Law>{slider});
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/error.hpp"
@@ -100,7 +101,7 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
   std::size_t peak = 1;
   while (peak < events.size() &&
          !((events[peak].kind == EventKind::reversal || events[peak].kind == EventKind::arrest) &&
-           std::abs(events[peak].displacement) == response.peak))
+           detail::equal(std::abs(events[peak].displacement), response.peak)))
     ++peak;
   if (peak >= events.size())
     throw std::invalid_argument("largest_loop: |x| is largest, " + detail::shortest(response.peak) +

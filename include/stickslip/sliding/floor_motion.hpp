@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
@@ -50,7 +51,9 @@ class FloorPiece {
     n_[1] = ground(1);
     if (stuck) return;
     const double moved = to.displacement - from.displacement, speed = from.velocity + to.velocity;
-    const double way = moved != 0 ? moved : speed != 0 ? speed : -n_[0] - slider.stiffness() * from.displacement;
+    const double way = !equal(moved, 0)   ? moved
+                       : !equal(speed, 0) ? speed
+                                          : -n_[0] - slider.stiffness() * from.displacement;
     direction_ = way < 0 ? Direction::backward : Direction::forward;
     a_[0] = absolute(from.displacement, from.velocity) - n_[0];
     a_[1] = absolute(to.displacement, to.velocity) - n_[1];
@@ -61,14 +64,14 @@ class FloorPiece {
   /// Whether the acceleration runs straight.
   bool straight() const {
     if (stuck_) return std::same_as<M, GroundMotion>;
-    return ConstantLevelLaw<Law> && slider_.stiffness() == 0 && slider_.damping() == 0;
+    return ConstantLevelLaw<Law> && equal(slider_.stiffness(), 0) && equal(slider_.damping(), 0);
   }
 
   /// Absolute acceleration after a fraction of the duration [m/s^2].
   double acceleration(double s) const {
     if (stuck_) return ground(s);
-    if (s == 0) return absolute(from_.displacement, from_.velocity);
-    if (s == 1) return absolute(to_.displacement, to_.velocity);
+    if (equal(s, 0)) return absolute(from_.displacement, from_.velocity);
+    if (equal(s, 1)) return absolute(to_.displacement, to_.velocity);
     const double h = duration_, t = s * h;
     if constexpr (ConstantLevelLaw<Law> && std::same_as<M, GroundMotion>) {  // in closed form
       const DampedBasis b(slider_.damping(), slider_.natural_frequency(), t);
@@ -99,9 +102,9 @@ class FloorPiece {
  private:
   double ground(double s) const {
     const double time = std::lerp(from_.time, to_.time, s);
-    const double fraction = s == 0 && from_.time == begin_                  ? 0
-                            : s == 1 && to_.time == motion_.time(step_ + 1) ? 1
-                                                                            : (time - begin_) / whole_;
+    const double fraction = equal(s, 0) && equal(from_.time, begin_)                  ? 0
+                            : equal(s, 1) && equal(to_.time, motion_.time(step_ + 1)) ? 1
+                                                                                      : (time - begin_) / whole_;
     return ground_at(motion_, step_, time, fraction);
   }
 
@@ -170,7 +173,8 @@ std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, co
     const double whole = detail::ground_step(motion, i).duration;
     const auto add = [&](const Event& to) {
       const bool stuck = next == 0 || events[next - 1].kind == EventKind::arrest;
-      const double duration = from.time == motion.time(i) && to.time == last.time ? whole : to.time - from.time;
+      const double duration =
+          detail::equal(from.time, motion.time(i)) && detail::equal(to.time, last.time) ? whole : to.time - from.time;
       if (duration > 0) pieces.emplace_back(slider, motion, i, duration, from, to, stuck);
       from = to;
     };

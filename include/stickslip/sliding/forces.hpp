@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
@@ -46,10 +47,10 @@ inline std::vector<double> acting(const GroundMotion& motion, std::span<const do
   if (motion.interpolation() == Interpolation::constant && !n.empty()) {  // the last value never acts, nor do pieces of
     const std::size_t end = motion.segments();                            // no length
     std::size_t last = end - 1;
-    while (motion.time(last) == motion.time(end)) --last;  // the duration is positive
+    while (equal(motion.time(last), motion.time(end))) --last;  // the duration is positive
     n[end] = n[last];
     for (std::size_t i = end; i-- > 0;)
-      if (motion.time(i) == motion.time(i + 1)) n[i] = n[i + 1];
+      if (equal(motion.time(i), motion.time(i + 1))) n[i] = n[i + 1];
   }
   n.resize(samples);
   return n;
@@ -114,7 +115,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
     } else {
       // Where a slip begins at the sample, its direction shows in where it goes, or in the load if that is round-off.
       const double gone = events[next].displacement - events[next - 1].displacement;
-      const double way = v != 0 ? v : gone != 0 ? gone : load - result.spring[i];
+      const double way = !detail::equal(v, 0) ? v : !detail::equal(gone, 0) ? gone : load - result.spring[i];
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;
       const double level = resist(slider.law(), x, direction, std::abs(v));
       result.friction[i] = sign(direction) * detail::WeighedSegment::weigh(weight, level) + 0.0;  // no minus zero

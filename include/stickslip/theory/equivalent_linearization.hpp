@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
@@ -28,7 +29,7 @@ LinearizedLaw linearized_law(const Law& law) {
     return law;
   } else {
     if constexpr (std::same_as<Law, Caster>)
-      if (law.rolling() == 0) return law;
+      if (equal(law.rolling(), 0)) return law;
     return [law](double x, Direction direction) -> double { return law.resist(x, direction); };
   }
 }

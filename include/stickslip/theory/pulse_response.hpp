@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
@@ -57,7 +58,7 @@ template <class Knot>
 void hold(const Slider<Coulomb>& slider, double n, double duration, Ride& ride, Knot&& knot) {
   const Coulomb& law = slider.law();
   double left = duration;
-  if (ride.state.velocity != 0) {
+  if (!equal(ride.state.velocity, 0)) {
     const double v = ride.state.velocity;
     const double acceleration = v > 0 ? -n - law.forward() : -n + law.backward();
     const double stop = -v / acceleration;
@@ -67,7 +68,7 @@ void hold(const Slider<Coulomb>& slider, double n, double duration, Ride& ride, 
     knot(duration - left, ride);
   }
   const double acceleration = -n > law.forward() ? -n - law.forward() : n > law.backward() ? -n + law.backward() : 0;
-  if (acceleration != 0) ride.uniform(left, acceleration * left);
+  if (!equal(acceleration, 0)) ride.uniform(left, acceleration * left);
 }
 
 /// Any law: by the event loop. Between events the velocity is analytic, so that its square is integrated by
@@ -101,7 +102,7 @@ void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot
 /// Lets it slide on over ground at rest until it stops; returns how long that takes [s], infinite where it never does.
 inline double coast(const Slider<Coulomb>& slider, Ride& ride) {
   const double v = ride.state.velocity;
-  if (v == 0) return 0;
+  if (equal(v, 0)) return 0;
   const double time = std::abs(v) / (v > 0 ? slider.law().forward() : slider.law().backward());
   ride.uniform(time, 0);
   return time;
@@ -167,7 +168,7 @@ Ride ride(const Slider<Law>& slider, const PulseShape& shape, double b, double d
 void check_pulse(double b, double dt, std::span<const double> times);
 
 inline void require_no_spring(double natural_frequency, const char* theory) {
-  require(natural_frequency == 0,
+  require(equal(natural_frequency, 0),
           std::string(theory) +
               ": a slider with a spring is not covered, natural_frequency "
               "must be 0",
@@ -212,10 +213,11 @@ PulseResponse pulse_response(const Slider<Law>& slider, double b, double dt, con
   response.velocity_square = end.velocity_square;
   for (const Knot& knot : knots) {
     response.peak = std::max(response.peak, std::abs(knot.ride.state.displacement - position));
-    if (knot.ride.velocity_square > 0 && response.stop == 0) response.stop = knot.time;  // it has moved
+    if (knot.ride.velocity_square > 0 && detail::equal(response.stop, 0)) response.stop = knot.time;  // it has moved
   }
   if (response.velocity_square > 0)
-    for (auto knot = knots.rbegin(); knot != knots.rend() && knot->ride.velocity_square == end.velocity_square; ++knot)
+    for (auto knot = knots.rbegin();
+         knot != knots.rend() && detail::equal(knot->ride.velocity_square, end.velocity_square); ++knot)
       response.stop = knot->time;
 
   const auto answer = [&](double time, const State& state) {

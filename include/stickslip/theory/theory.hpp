@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
@@ -79,7 +80,7 @@ void require_one_level(const Slider<Law>& slider, const std::string& theory) {
   } else if constexpr (LawWithHold<Law>) {
     for (const Direction direction : {Direction::forward, Direction::backward}) {
       const double kinetic = slider.law().resist(0.0, direction);
-      require(slider.law().hold(0.0, direction) == kinetic,
+      require(equal(slider.law().hold(0.0, direction), kinetic),
               theory + ": static friction that differs from kinetic is not covered, it must hold " + shortest(kinetic) +
                   " m/s^2 at x = 0",
               slider.law().hold(0.0, direction), "m/s^2");
@@ -90,7 +91,7 @@ void require_one_level(const Slider<Law>& slider, const std::string& theory) {
 /// The same, and a damper beside friction.
 template <FrictionLaw Law>
 void require_plain(const Slider<Law>& slider, const std::string& theory) {
-  require(slider.damping() == 0, theory + ": a slider with a damper is not covered, damping must be 0",
+  require(equal(slider.damping(), 0), theory + ": a slider with a damper is not covered, damping must be 0",
           slider.damping(), "1/s");
   require_one_level(slider, theory);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stickslip/detail/ensemble/block.hpp"
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/recorder.hpp"
 #include "stickslip/detail/run.hpp"
 #include "stickslip/ensemble/member.hpp"
@@ -92,7 +93,7 @@ void go_through(const Pieces& pieces, std::size_t segments, const Block& block, 
       wanted = static_cast<double>(next) * dt;
     }
     go(segment);
-    if (next < times && wanted == to) {
+    if (next < times && equal(wanted, to)) {
       keep();
       wanted = static_cast<double>(next) * dt;
     }
