@@ -23,7 +23,7 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         help="slide through many random earthquakes and print statistics",
         description="Slides a block through many members of a random ground motion and prints the"
         " distribution of its displacement relative to the ground, with standard errors (+-) and"
-        " confidence bounds (in brackets). The ground motion is given by --event, --rate or --band.",
+        " confidence bounds (in brackets). --event, --rate or --band gives the ground motion.",
         epilog=f"Scenarios: {', '.join(PoissonPulses.events())}.",
     )
     add = parser.add_argument
