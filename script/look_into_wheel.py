@@ -1,4 +1,4 @@
-"""Holds a wheel against what it must be: small, with its licenses, and showing one symbol."""
+"""Check a wheel: it must be small, contain its licenses, and export one symbol only."""
 
 import subprocess
 import sys
@@ -31,7 +31,7 @@ wrong = []
 if megabytes >= 15:
     wrong.append(f"{megabytes:.1f} MB, must be less than 15")
 if symbols != ["PyInit__core"]:
-    wrong.append(f"shows {len(symbols)} symbols, must show PyInit__core alone: {symbols[:5]}")
+    wrong.append(f"must export PyInit__core only, exports {len(symbols)} symbols: {symbols[:5]}")
 for library in bundled:
     if not any(name.startswith(f"stickslip.libs/{library}") for name in libraries):
         wrong.append(f"lacks {library}, has {libraries}")

@@ -1,4 +1,4 @@
-"""What a wheel must do wherever it is installed: slide a record and hold its license texts."""
+"""Check an installed wheel: slide a record, and find its license texts."""
 
 from importlib import metadata
 

@@ -1,15 +1,16 @@
-"""How far a thing held by friction slides in an earthquake.
+"""How far objects held by friction slide in an earthquake.
 
-A friction law makes a slider, a record or a list of numbers makes a ground motion, and
-`integrate` slides the one through the other, exactly between events::
+A friction law defines a slider; a record or a list of accelerations defines a ground motion.
+`integrate` computes the response of the slider to the ground motion, exactly between events::
 
     import stickslip as ss
 
-    quake = ss.sample_record("Kobe")  # or ss.read_record("a file of yours")
+    quake = ss.sample_record("Kobe")  # or ss.read_record("your_file")
     r = ss.integrate(ss.Coulomb(mu=0.2), quake)
-    print(r.peak, r.residual)  # metres
+    print(r.peak, r.residual)  # meters
 
-`run_ensemble` does so for many members of a random ground motion, and takes their statistics::
+`run_ensemble` does the same for many members of a random ground motion and computes statistics of
+their responses::
 
     e = ss.run_ensemble(ss.Coulomb(mu=0.2), ss.PoissonPulses.event("great near field"),
                         members=10_000, seed=1)
@@ -65,7 +66,7 @@ from ._core import (
     strong_motion,
 )
 
-TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of this
+TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as all of this
 if TYPE_CHECKING:
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, run_ensemble
@@ -142,7 +143,7 @@ __all__ = [
 if not TYPE_CHECKING:
 
     def __getattr__(name):
-        # Imported when first asked for: it needs NumPy, which takes ten times as long as the rest.
+        # Imported on first use: these need NumPy, which takes ten times as long as the rest.
         if name in ("EnsembleError", "Random", "run_ensemble"):
             from . import ensemble
 

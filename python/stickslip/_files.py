@@ -32,7 +32,8 @@ def check_regular(file: str | os.PathLike[str]) -> os.stat_result | None:
     Raises
     ------
     OSError
-        It is something else (says what), or a loop of symbolic links.
+        The file is not a regular file (the message says what it is), or is a loop of symbolic
+        links.
     """
     try:
         status = os.stat(file)
@@ -87,7 +88,7 @@ def replacing(file: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         stream.flush()
         if status is not None:
             _keep(status, part)
-        os.fsync(stream.fileno())  # or a loss of power could leave an empty file in its place
+        os.fsync(stream.fileno())  # otherwise a power failure could leave an empty file
         os.replace(part, path)
     except BaseException as error:
         with suppress(OSError):
@@ -96,7 +97,7 @@ def replacing(file: str | os.PathLike[str]) -> Iterator[BinaryIO]:
             error.filename = os.fspath(file)
         raise
     finally:
-        with suppress(OSError):  # the error that was raised already
+        with suppress(OSError):  # that error was already raised
             stream.close()
 
 
@@ -115,7 +116,7 @@ def _create(folder: Path, mode: int) -> tuple[BinaryIO, Path]:
 
 
 def _lock(stream: BinaryIO, wait: bool = True) -> bool:
-    """Whether the file could be locked; some file systems cannot."""
+    """Lock a file; return whether that succeeded. Some file systems have no locks."""
     try:
         fcntl.flock(stream, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
     except OSError:
@@ -124,7 +125,7 @@ def _lock(stream: BinaryIO, wait: bool = True) -> bool:
 
 
 def _remove_abandoned(folder: Path) -> None:
-    """Remove the files that killed processes have left: those without a lock."""
+    """Remove the files without a lock, which killed processes have left."""
     for left in folder.glob(f"{_PREFIX}*"):
         with suppress(OSError), left.open("r+b") as stream:
             if _lock(stream, wait=False):

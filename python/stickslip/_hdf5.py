@@ -20,7 +20,7 @@ __all__ = ["as_column", "creating", "opening", "read_columns", "read_texts", "wr
 
 
 def as_column(values: Any) -> NDArray[Any]:
-    """A column as numbers, else as texts; what is missing is the empty text."""
+    """A column as numbers if possible, otherwise as texts; missing texts are empty."""
     listed = list(values)
     try:
         numbers = np.array(listed)
@@ -62,7 +62,7 @@ def opening(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]:
     OSError
         The file is missing or cannot be read.
     ValueError
-        It is no HDF5 file, of another format, or what the block finds in it is damaged.
+        The file is not HDF5, has another format, or is damaged (also if the block finds that).
     """
     h5py = optional("h5py", "suites", who)
     path = Path(os.fspath(file))
@@ -71,7 +71,7 @@ def opening(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]:
     try:
         h5 = h5py.File(path, "r")
     except OSError as error:
-        raise ValueError(f"{who}: '{path}' is no HDF5 file, or damaged") from error
+        raise ValueError(f"{who}: '{path}' is not an HDF5 file, or is damaged") from error
     with h5:
         found = h5.attrs.get("format")
         if found != form:
@@ -87,12 +87,12 @@ def write_columns(h5: Any, name: str, columns: Mapping[str, Any]) -> None:
     group = h5.create_group(name, track_order=True)
     for key, values in columns.items():
         column = as_column(values)
-        # A slash would make a group.
+        # A slash would create a group.
         group[key.replace("/", "\\")] = column if column.dtype.kind in "biuf" else column.tolist()
 
 
 def read_columns(h5: Any, name: str) -> dict[str, NDArray[Any]]:
-    """What `write_columns` wrote."""
+    """Read the columns that `write_columns` wrote."""
     return {
         key.replace("\\", "/"): data[:] if data.dtype.kind in "biuf" else read_texts(data)
         for key, data in h5[name].items()
@@ -100,7 +100,7 @@ def read_columns(h5: Any, name: str) -> dict[str, NDArray[Any]]:
 
 
 def read_texts(data: Any) -> NDArray[Any]:
-    """A dataset of texts."""
+    """Read a dataset of texts."""
     texts: NDArray[Any] = data.asstr()[:]
     return texts
 

@@ -14,7 +14,7 @@ def optional(library: str, extra: str, who: str) -> Any:
     Raises
     ------
     ImportError
-        It is missing; names who needs it and how to install it.
+        The library is missing; the message names who needs it and how to install it.
     """
     try:
         return importlib.import_module(library)

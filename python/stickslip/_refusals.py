@@ -1,6 +1,6 @@
-"""Why a call was refused, in plain words: what the stubs say beside what was given.
+"""Plain-language messages for rejected calls: what the stubs require, and what was passed.
 
-Imported when a call has failed.
+Imported only after a call has failed.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 
 __all__ = ["explain"]
 
-# What the names of the stubs mean to a reader.
+# Plain words for the type names in the stubs.
 _WORDS = {
     "_Number": "a number",
     "SupportsFloat": "a number",
@@ -41,14 +41,14 @@ _WORDS = {
 
 
 def explain(function: str, given: Sequence[Any], named: Mapping[str, Any]) -> str:
-    """The message of the TypeError of a call.
+    """The message of the TypeError for a rejected call.
 
     Parameters
     ----------
     function : str
-        As "integrate" or "Slider.hold"; of a constructor "Slider.__init__".
+        Such as "integrate" or "Slider.hold"; "Slider.__init__" for a constructor.
     given, named
-        The arguments; `given` begins with the object of a method.
+        Positional and keyword arguments; for a method, `given` begins with the object.
     """
     owner, _, name = function.rpartition(".")
     who = owner if name == "__init__" else function
@@ -92,7 +92,7 @@ class _Form:
         )
 
     def refusal(self, values: list[Any], named: dict[str, Any]) -> str:
-        """Why it does not take these; nothing if the reason is not to be seen."""
+        """Why this form rejects the arguments; empty if the stubs do not tell."""
         if len(values) > len(self.places):
             extra = _shown(values[len(self.places)])
             if not self.places:
@@ -124,7 +124,7 @@ def _stubs() -> ast.Module:
 
 @functools.cache
 def _forms() -> dict[str, list[_Form]]:
-    """The ways to call each function, by its name."""
+    """The signatures of each function, by name."""
     found: dict[str, list[_Form]] = {}
     for node in _stubs().body:
         if isinstance(node, ast.FunctionDef):
@@ -154,7 +154,7 @@ def _aliases() -> dict[str, ast.expr]:
 
 
 def _kinds(annotation: ast.expr | None) -> Iterator[ast.expr]:
-    """The parts of a union, aliases resolved as far as words need it."""
+    """The members of a union; resolves aliases that `_WORDS` does not list."""
     if isinstance(annotation, ast.BinOp):
         yield from _kinds(annotation.left)
         yield from _kinds(annotation.right)
@@ -178,7 +178,7 @@ def _words(annotation: ast.expr | None) -> Iterator[str]:
 
 
 def _fits(value: Any, annotation: ast.expr | None) -> bool:
-    """Whether a value may be of that kind; yes where that cannot be told."""
+    """Whether a value may have that type; true if this cannot be decided."""
     kinds = list(_kinds(annotation))
     return not kinds or any(_is(value, kind) for kind in kinds)
 
@@ -208,7 +208,7 @@ def _is(value: Any, kind: ast.expr) -> bool:
     if name == "Callable":
         return callable(value)
     if name == "Literal" and isinstance(kind, ast.Subscript):
-        return bool(isinstance(value, str))  # the function itself says which
+        return bool(isinstance(value, str))  # the function itself checks the value
     import stickslip
     from stickslip import _core
 
@@ -225,11 +225,11 @@ def _shown(value: Any) -> str:
 
 
 def _of_unit(value: Any) -> str:
-    """What to do with a quantity that carries its unit."""
+    """Advice for a quantity that carries a unit."""
     if hasattr(value, "magnitude") and hasattr(value, "dimensionality"):
         return (
-            "; of a quantity with a unit give the number in SI units, q.to_base_units().magnitude"
+            "; for a quantity with a unit pass the number in SI units, q.to_base_units().magnitude"
         )
     if hasattr(value, "unit") and hasattr(value, "to_value"):
-        return "; of a quantity with a unit give the number in SI units, q.si.value"
+        return "; for a quantity with a unit pass the number in SI units, q.si.value"
     return ""

@@ -1,4 +1,4 @@
-"""Responses and ensembles as tables: of pandas and xarray, in files, in notebooks."""
+"""Tables of responses and ensembles: pandas, xarray, CSV files, notebooks."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ __all__ = [
     "to_xarray",
 ]
 
-# Name, unit, and what it is.
+# Name, unit, description.
 _HISTORIES = (
     ("ground acceleration", "m/s^2", "ground acceleration"),
     ("displacement", "m", "displacement relative to the ground"),
@@ -130,7 +130,7 @@ def ensemble_html(ensemble: Ensemble) -> str:
 
 
 def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table of texts for a notebook; its first column is set as headings."""
+    """An HTML table of texts for a notebook; the first column holds row headings."""
 
     def row(cells: Sequence[str], tag: str) -> str:
         first, *rest = map(html.escape, cells)
@@ -150,7 +150,7 @@ def _heading(name: str, unit: str) -> str:
 
 
 def _history(response: Response, name: str) -> NDArray[Any]:
-    """A copy, which may be written to."""
+    """A writable copy of a history."""
     if name == "ground acceleration":
         n = np.zeros(response.time.size)
         n[: len(response.motion)] = response.motion.acceleration
@@ -159,7 +159,7 @@ def _history(response: Response, name: str) -> NDArray[Any]:
 
 
 def _rows(columns: Sequence[NDArray[Any]]) -> Iterable[Iterable[tuple[float, ...]]]:
-    """Rows of Python numbers, some thousands at a time."""
+    """Rows of Python numbers, in chunks of a few thousand."""
     for begin in range(0, len(columns[0]), 4096):
         yield zip(*(column[begin : begin + 4096].tolist() for column in columns))
 

@@ -6,7 +6,7 @@ __all__ = ["printable"]
 
 
 def printable(text: str) -> str:
-    r"""The text with what is not printable escaped as by `repr`: an escape character is \x1b.
+    r"""Escape unprintable characters as `repr` does: an escape character becomes \x1b.
 
     Control characters drive a terminal and break an SVG; bidirectional overrides reorder a line.
     """

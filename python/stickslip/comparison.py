@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = ["Comparison", "compare"]
 
-_FIGURES = ("displacement_variance", "velocity_variance", "covariance")
-_FINEST = 512  # times of the statistics at least, for the stationary averages
+_STATISTICS = ("displacement_variance", "velocity_variance", "covariance")
+_FINEST = 512  # minimum number of times of the statistics, for the stationary averages
 
 
 class Comparison:
-    """What `compare` returns: an ensemble, and what each theory predicts of it.
+    """Result of `compare`: an ensemble, and the predictions of each theory.
 
     Comparisons with equal attributes are equal; they can be copied and pickled, but not hashed.
 
@@ -35,11 +35,11 @@ class Comparison:
     time : ndarray, shape (T,)
         Times of the comparison [s].
     ensemble : Ensemble
-        The simulation; it has more times.
+        The simulation, at more times.
     theories : dict of str to Moments
-        What each theory that applies predicts at `time`, in the order in which they were asked.
+        The predictions at `time` of each theory that applies, in the order of `theories`.
     refused : dict of str to str
-        Theories for this kind of excitation that do not apply, and why.
+        Theories for this kind of excitation that do not apply here, and why.
     """
 
     def __init__(
@@ -65,12 +65,12 @@ class Comparison:
             and self.refused == other.refused
         )
 
-    def simulated(self, figure: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """A figure of the ensemble at `time`, and its standard error.
+    def simulated(self, statistic: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """A statistic of the ensemble at `time`, and its standard error.
 
         Parameters
         ----------
-        figure : str
+        statistic : str
             'displacement_variance' [m^2], 'velocity_variance' [m^2/s^2] or 'covariance' [m^2/s].
 
         Returns
@@ -80,56 +80,56 @@ class Comparison:
         Raises
         ------
         ValueError
-            Another figure.
+            An unknown statistic.
         """
-        if figure not in _FIGURES:
+        if statistic not in _STATISTICS:
             raise ValueError(
-                f"Comparison: figure must be one of {', '.join(_FIGURES)}, got {figure!r}"
+                f"Comparison: statistic must be one of {', '.join(_STATISTICS)}, got {statistic!r}"
             )
-        value, error = (getattr(self.ensemble, figure + part) for part in ("", "_error"))
+        value, error = (getattr(self.ensemble, statistic + part) for part in ("", "_error"))
         return value[self._at], error[self._at]
 
-    def ratio(self, name: str, figure: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Theory over simulation, and the standard error that the simulation lends to it.
+    def ratio(self, name: str, statistic: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Theory over simulation, and its standard error, which is that of the simulation.
 
         Parameters
         ----------
         name : str
             One of `theories`.
-        figure : str
-            As of `simulated`.
+        statistic : str
+            As for `simulated`.
 
         Returns
         -------
         value, error : ndarray, shape (T,)
-            NaN where the simulation is zero, as at time 0.
+            NaN where the simulated value is zero.
 
         Raises
         ------
         ValueError
-            Another theory or figure.
+            An unknown theory or statistic.
         """
         if name not in self.theories:
             raise ValueError(
                 f"Comparison: theory must be one of {', '.join(self.theories)}, got {name!r}"
             )
-        value, error = self.simulated(figure)
+        value, error = self.simulated(statistic)
         with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = np.where(value != 0, getattr(self.theories[name], figure) / value, np.nan)
+            ratio = np.where(value != 0, getattr(self.theories[name], statistic) / value, np.nan)
             return ratio, np.abs(ratio * error / value)
 
     def __str__(self) -> str:
         """A table: the simulation with its standard errors, and each theory over it."""
         lines = [f"{self.ensemble.members:,} members; theory / simulation"]
-        for figure, unit in zip(_FIGURES[:2], ("m^2", "(m/s)^2")):
-            value, error = self.simulated(figure)
-            heading = f"{figure.replace('_', ' ')} [{unit}]"
+        for statistic, unit in zip(_STATISTICS[:2], ("m^2", "(m/s)^2")):
+            value, error = self.simulated(statistic)
+            heading = f"{statistic.replace('_', ' ')} [{unit}]"
             lines += ["", _row(heading, (f"t = {t:.4g} s" for t in self.time))]
             lines.append(_row("simulation", map("{:.4g}".format, value)))
             lines.append(_row("standard error", map("{:.1g}".format, error)))
             for name, moments in self.theories.items():
-                if not np.isnan(getattr(moments, figure)).all():  # else it does not predict it
-                    ratio, _ = self.ratio(name, figure)
+                if not np.isnan(getattr(moments, statistic)).all():  # else it is not predicted
+                    ratio, _ = self.ratio(name, statistic)
                     lines.append(_row("  " + name, map("{:.3f}".format, ratio)))
         growth = self.ensemble.stationary.growth_rate
         lines += [
@@ -146,10 +146,10 @@ class Comparison:
         return "\n".join(lines + ([""] if notes else []) + notes)
 
     def _repr_html_(self) -> str:
-        """The same for a notebook."""
+        """The same table for a notebook."""
         tables = []
         times = [f"{t:.4g} s" for t in self.time]
-        for statistic, unit in zip(_FIGURES[:2], ("m²", "m²/s²")):
+        for statistic, unit in zip(_STATISTICS[:2], ("m²", "m²/s²")):
             value, error = self.simulated(statistic)
             rows = [(f"simulation [{unit}]", *(f"{v:.4g} ± {e:.1g}" for v, e in zip(value, error)))]
             for name, moments in self.theories.items():
@@ -162,19 +162,19 @@ class Comparison:
         return "".join(tables)
 
     def plot(self, figure: FigureBase | None = None, title: str | None = None) -> FigureBase:
-        """Variances by time: the ensemble with its errors, and every theory as a line.
+        """Plot the variances over time: the ensemble with its errors, and each theory as a line.
 
         Parameters
         ----------
         figure : matplotlib Figure or SubFigure, optional
-            Where to draw; a new figure of 9 x 4.2 inches if not given.
+            Where to draw; a new figure of 9 x 4.4 inches if not given.
         title : str, optional
-            Instead of what slid and how many members there are.
+            Instead of the number of members and the slider.
 
         Returns
         -------
         matplotlib Figure or SubFigure
-            Its axes: variance of x, variance of x'.
+            With two axes: variance of x, variance of x'.
 
         Raises
         ------
@@ -204,46 +204,45 @@ def compare(
     progress: bool | None = None,
     theories: Sequence[_Theory] | None = None,
 ) -> Comparison:
-    """Every theory that applies, beside an ensemble with its errors.
+    """Compare every theory that applies with an ensemble and its standard errors.
 
-    Each theory is asked whether it covers the slider and the excitation.
+    A theory applies if its `covers` accepts the slider and the excitation.
 
     Parameters
     ----------
     slider : Slider or friction law
     excitation : GaussianExcitation or PoissonPulses
-        Or an excitation of your own, where a theory of your own covers it.
+        Or your own excitation, if one of your own theories covers it.
     times : array_like, shape (T,), optional
-        Where to compare [s], increasing, above 0, at most the excitation's duration; multiples of
-        its dt, or, under pulses, of a common step. Six even ones if not given.
+        Times of the comparison [s], increasing, above 0, at most the excitation's duration;
+        multiples of its dt, or, under pulses, of a common step. Default: six evenly spaced times.
     members, seed, threads, progress
-        As of `run_ensemble`.
+        As for `run_ensemble`.
     theories : sequence, optional
-        The theories to ask; `stickslip.theory.THEORIES` if not given. Each has a `name`, unlike the
-        others', `covers(slider, excitation)`, which answers with a bool or a
-        `stickslip.theory.Coverage`, and `predict(slider, excitation, times)`, which answers in
-        `Moments` at the times.
+        The theories to compare; default `stickslip.theory.THEORIES`. Each has a unique `name`;
+        `covers(slider, excitation)`, which returns a bool or a `stickslip.theory.Coverage`; and
+        `predict(slider, excitation, times)`, which returns `Moments` at the times.
 
     Returns
     -------
     Comparison
-        Printed, a table of theory over simulation; `plot` draws it.
+        `print` shows a table of theory over simulation; `plot` draws it.
 
     Raises
     ------
     ValueError
-        Times out of their range; an excitation that no theory covers, as Gaussian excitation with
-        an envelope, or white without a line at zero frequency; two theories of one name; what
-        `run_ensemble` refuses.
+        Times out of range; an excitation that no theory covers, such as Gaussian excitation with an
+        envelope, or white noise without a line at zero frequency; two theories with the same name;
+        arguments that `run_ensemble` rejects.
     TypeError
-        Another kind of excitation, for which no theory is; an object that is no theory.
+        A kind of excitation for which there is no theory; an object that is not a theory.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
     Notes
     -----
-    Takes what `run_ensemble` takes, and some milliseconds for each theory; a caster under pulses up
-    to ten seconds.
+    Takes as long as `run_ensemble`, plus some milliseconds for each theory; up to ten seconds for
+    a caster under pulses.
     """
     asked = {t.name: t for t in (THEORIES if theories is None else map(_checked, theories))}
     if theories is not None and len(asked) < len(theories):
@@ -269,7 +268,7 @@ def compare(
         if answer:
             try:
                 predictions[name] = _predicted(asked[name], slider, excitation, time)
-            except ValueError as error:  # what only the computation finds
+            except ValueError as error:  # found only by the computation
                 refused[name] = str(error)
         elif answer.excitation:
             refused[name] = answer.reason
@@ -289,7 +288,7 @@ def _answer(theory: _Theory, slider: Any, excitation: Any) -> Coverage:
         return answer
     if not isinstance(answer, (bool, np.bool_)):
         raise TypeError(
-            f"compare: covers of {theory.name} must answer a bool or a Coverage, got {answer!r}"
+            f"compare: covers of {theory.name} must return a bool or a Coverage, got {answer!r}"
         )
     return Coverage() if answer else Coverage(f"{theory.name}: does not cover them")
 
@@ -297,14 +296,14 @@ def _answer(theory: _Theory, slider: Any, excitation: Any) -> Coverage:
 def _predicted(theory: _Theory, slider: Any, excitation: Any, time: NDArray[np.float64]) -> Moments:
     moments = theory.predict(slider, excitation, time)
     if not isinstance(moments, Moments):
-        raise TypeError(f"compare: predict of {theory.name} must answer Moments, got {moments!r}")
+        raise TypeError(f"compare: predict of {theory.name} must return Moments, got {moments!r}")
     if not np.array_equal(moments.time, time):
-        raise ValueError(f"{theory.name} answers at other times than those asked for")
+        raise ValueError(f"{theory.name} returned Moments at other times than requested")
     return moments
 
 
 def _uncovered(excitation: Any, answers: dict[str, Coverage]) -> Exception:
-    """What is raised where no theory is for this kind of excitation, or it makes no motions."""
+    """The error for an excitation that no theory covers, or that makes no motions."""
     if not isinstance(excitation, (GaussianExcitation, PoissonPulses)):
         return TypeError(
             "compare: excitation must be GaussianExcitation or PoissonPulses, got "
@@ -315,7 +314,7 @@ def _uncovered(excitation: Any, answers: dict[str, Coverage]) -> Exception:
 
 
 def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:
-    """The times [s], and a step of the statistics that has all of them."""
+    """The times [s], and a step of the statistics that divides all of them."""
     end, own = excitation.duration, getattr(excitation, "dt", None)
     if times is None:
         time = np.linspace(end / 6, end, 6)

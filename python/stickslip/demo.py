@@ -1,4 +1,4 @@
-"""Slides eighteen real earthquake records: ``python -m stickslip.demo [--out FOLDER]``.
+"""Slides six objects under 18 earthquake records: ``python -m stickslip.demo [--out FOLDER]``.
 
 The records are the data files of the PyPI package pyslammer (``pip install stickslip[records]``).
 Prints a table and draws two pictures.
@@ -28,7 +28,7 @@ __all__ = ["THINGS", "Thing", "main"]
 
 
 class Thing(NamedTuple):
-    """Something that slides: a name for the table, a sentence, and its slider."""
+    """An object that slides: its name in the table, a description, and its slider."""
 
     name: str
     story: str
@@ -59,7 +59,7 @@ THINGS = (
     ),
     Thing(
         "slope",
-        "a slope that slides downhill only, above 0.1 g (Newmark's block)",
+        "a slope that slides only downhill, above 0.1 g (Newmark's block)",
         Slider(Coulomb(mu=0.1, backward=math.inf)),
     ),
 )
@@ -67,14 +67,15 @@ THINGS = (
 CELL = 14  # width of a column of the table
 
 _NOTES = """\
-Peak: largest distance from where it stood. Residual: where it rests in the end, positive in the
-record's positive direction. A dash: it never slips; 0.0: less than half a millimetre.
-(x) beyond its reach: the casters come into line with the motion, where small disturbances, which
-    the model leaves out, decide. "rolls": more than 10 reaches off and still rolling at the end."""
+Peak: largest distance from the initial position. Residual: final position at rest, positive in the
+record's positive direction. A dash: it never slips; 0.0: less than half a millimeter.
+(x) beyond its reach: the casters align with the motion, and the result depends on small
+    disturbances that the model omits. "rolls": more than 10 reaches away and still rolling at the
+    end of the record."""
 
 
 def table(motions: Sequence[GroundMotion]) -> list[str]:
-    """Peak and residual displacements [cm] of every thing under every motion, as lines of text."""
+    """Peak and residual displacements [cm] of each object under each motion, as lines of text."""
     wide = max(len(motion.name) for motion in motions)
     names = "".join(f"{thing.name:>{CELL}}" for thing in THINGS)
     kinds = f"{'peak  resid.':>{CELL}}" * len(THINGS)
@@ -95,14 +96,14 @@ def _cell(slider: Slider, motion: GroundMotion) -> str:
     response = integrate(slider, motion, settle=True)
     if response.sliding_distance == 0:
         return "-"
-    # Adding 0.0 makes a rounded -0.0 plain.
+    # Adding 0.0 turns a rounded -0.0 into 0.0.
     residual = round(response.residual * 100, 1) + 0.0
     mark = "x" if response.peak > reach else " "
     return f"{response.peak * 100:.1f}{mark}{residual:7.1f}"
 
 
 def draw(motions: Sequence[GroundMotion], folder: Path) -> list[Path]:
-    """Draws the two pictures into a folder, which is made; returns their files."""
+    """Draw both pictures into a folder, creating it if needed; return their paths."""
     import numpy as np
 
     from . import plotting
@@ -113,7 +114,7 @@ def draw(motions: Sequence[GroundMotion], folder: Path) -> list[Path]:
         integrate(Coulomb(mu=0.1), kobe, settle=True),
         title=f"A cabinet on a smooth floor in {kobe.name}",
     )
-    history.axes[-1].set_xlim(0, 25)  # [s]; it rests from 20 s on
+    history.axes[-1].set_xlim(0, 25)  # [s]; the cabinet is at rest after 20 s
 
     mu = np.geomspace(0.02, 1, 200)
     peaks = [[integrate(Coulomb(mu=m), motion, settle=True).peak for m in mu] for motion in motions]
@@ -129,7 +130,7 @@ def draw(motions: Sequence[GroundMotion], folder: Path) -> list[Path]:
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Runs the demo; returns the exit code: 2 if the records are missing or a folder is refused."""
+    """Run the demo; return the exit code: 2 if records are missing or a file cannot be written."""
     parser = argparse.ArgumentParser(prog="python -m stickslip.demo", description=__doc__)
     parser.add_argument(
         "--out", type=Path, default=Path("stickslip-demo"), help="folder for the two pictures"

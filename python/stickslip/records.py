@@ -1,4 +1,4 @@
-"""Earthquake records from files: plain text, compressed, in an archive, or what ObsPy reads."""
+"""Earthquake records from files: plain text, compressed, in archives, or as read by ObsPy."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from . import _core
 from ._core import GroundMotion
 
 _File: TypeAlias = "str | bytes | os.PathLike[str] | os.PathLike[bytes]"
-_Component: TypeAlias = "tuple[GroundMotion, str, str]"  # with its name and start in the file
+_Component: TypeAlias = "tuple[GroundMotion, str, str]"  # with the name and start time in the file
 
 __all__ = ["read_record", "read_station", "record_formats"]
 
@@ -47,51 +47,52 @@ def read_record(
 ) -> GroundMotion | list[GroundMotion]:
     """Read a strong-motion record.
 
-    The format is told by the content; `record_formats` lists those that are known. What none of
-    them fits is read by ObsPy where that is installed, with `units` from the caller.
+    The content determines the format; `record_formats` lists the known ones. ObsPy reads all other
+    files if it is installed, with `units` from the caller.
 
-    Columns of numbers are seconds and one or several accelerations, or acceleration alone with
-    `dt`; parted by a comma, a semicolon, a tab or blanks, with any comments and labels before.
-    Where columns are parted by something else a comma is a decimal point. Byte-order marks and
-    CRLF line ends are fine. Even times become a step dt and start at 0; uneven times are kept.
+    A file of columns holds times [s] and one or several accelerations, or one acceleration with
+    `dt`. Columns are separated by commas, semicolons, tabs or blanks; comments and labels may
+    precede them. A comma is a decimal point if something else separates the columns. Byte-order
+    marks and CRLF line ends are accepted. Evenly spaced times become a step dt and start at 0;
+    uneven times are kept.
 
     Parameters
     ----------
     file : path-like
-        The file; one compressed by gzip; a zip archive of one file; ``"archive.zip::member"``, a
-        file in an archive; ``"-"``, standard input.
+        A plain file; a gzip file; a zip archive of one file; ``"archive.zip::member"``, a file in
+        an archive; or ``"-"``, standard input.
     units : str, optional
-        Unit of acceleration where the file does not state one: 'g', 'm/s^2', 'cm/s^2', 'gal',
-        'mm/s^2', 'ft/s^2', 'in/s^2'. Refused if the file states another.
+        Unit of acceleration if the file does not state one: 'g', 'm/s^2', 'cm/s^2', 'gal',
+        'mm/s^2', 'ft/s^2', 'in/s^2'. An error if the file states another one.
     component : str or int, optional
-        Where the file has several: the name in the file, or the number from 1; ``"all"`` for a
-        list of all of them.
+        Name in the file, or number from 1, of the component to read from a file with several;
+        ``"all"`` returns a list of all components.
     dt : float, optional
-        Time between samples [s], of a file of one column. Refused if the file states another.
+        Time step [s] of a file with one column. An error if the file states another one.
     gaps : bool, optional
-        Whether to keep a gap, a time step over ten times the median one, as a straight line.
+        Accept gaps, time steps over ten times the median, as straight lines.
 
     Returns
     -------
     GroundMotion, or list of GroundMotion
-        The acceleration [m/s^2], linear between samples, named after event, station and component
-        as far as the file says; else after the file. `GroundMotion.orientation` is that of the
-        file.
+        The acceleration [m/s^2], linear between samples. Its name consists of event, station and
+        component, as far as the file states them; otherwise it is that of the file.
+        `GroundMotion.orientation` is that in the file.
 
     Raises
     ------
     OSError
         The file is missing (FileNotFoundError), unreadable or not a regular file.
     ValueError
-        Naming the file and the line or value: no known format; velocity, displacement, spectra or
-        raw counts; no or unknown units; no time step; other than one component meant; text, NaN
-        or infinity among the numbers; another count of samples than the header states; a time
-        step that is not positive; times that do not increase; a gap.
+        Unknown format; velocity, displacement, spectra or raw counts; missing or unknown units; no
+        time step; not exactly one component selected; text, NaN or infinity among the numbers; a
+        number of samples that differs from the header; a time step that is not positive; times
+        that do not increase; a gap. The message names the file and the line or value.
 
     Warns
     -----
     PlausibilityWarning
-        The largest acceleration, or the mean, is none of a record in these units.
+        The maximum or mean acceleration is implausible for a record in these units.
     """
     wanted = None if component is None or component == "all" else component
     found = _read(file, units, wanted, dt, gaps, only_one=component != "all")
@@ -118,41 +119,41 @@ def read_station(
 
         n(a) = (u sin(b2 - a) + w sin(a - b1)) / sin(b2 - b1),
 
-    which is u itself along b1. The transverse component is that along a + 90 degrees, the vertical
-    one is positive upward.
+    which equals u at a = b1. The transverse component is that along a + 90 degrees; the vertical
+    component is positive upward.
 
     Parameters
     ----------
     files : path-like or sequence of path-like
-        One file with all components, or several; each as `read_record` takes it. Together they
-        have one or two horizontal components and at most one vertical component.
+        One file with all components, or several files, each as for `read_record`. Together they
+        hold one or two horizontal components and at most one vertical component.
     along : str or float, optional
-        Where the axis points: the name or orientation of a horizontal component, or any azimuth
-        [degrees clockwise from north]. The first horizontal component if not given.
+        Direction of the axis: the name or orientation of a horizontal component, or any azimuth
+        [degrees clockwise from north]. Default: the first horizontal component.
     orientations : sequence of str or float, optional
-        Where each component points, in their order, instead of what the files say: azimuths,
-        'up', or None to keep what the file says.
+        Direction of each component, in order, which replaces that in the file: an azimuth, 'up', or
+        None for that in the file.
     common_length : bool, optional
-        Cut all components to the shortest; otherwise different lengths are refused.
+        Cut all components to the shortest one; otherwise different lengths are an error.
     units, dt, gaps
-        As `read_record` takes them, for all files.
+        As for `read_record`; they apply to all files.
 
     Returns
     -------
     GroundMotion
-        With `transverse` and `vertical` as far as they were recorded, and its `orientation`.
+        With `orientation`, and with `transverse` and `vertical` if the files hold them.
 
     Raises
     ------
     OSError, ValueError
-        As `read_record`. Also ValueError: a component whose orientation is not known; other
-        components than those; horizontal ones more than 10 degrees from perpendicular; different
-        time steps, starts or lengths.
+        As for `read_record`. Also ValueError: a component of unknown orientation; too many or too
+        few components; horizontal components more than 10 degrees from perpendicular; different
+        time steps, start times or lengths.
 
     Warns
     -----
     PlausibilityWarning
-        As `read_record`, of the axis.
+        As for `read_record`, about the component along the axis.
     """
     paths = [files] if isinstance(files, str | bytes | os.PathLike) else list(files)
     components = [part for path in paths for part in _read(path, units, None, dt, gaps)]
@@ -178,8 +179,8 @@ def record_formats() -> list[dict[str, str]]:
     Returns
     -------
     list of dict
-        Of each format its ``name``, where its ``units`` and ``time_step`` come from, a
-        ``reference``, and the usual ``extension`` of file names, which is not looked at.
+        For each format, its ``name``, the sources of its ``units`` and ``time_step``, a
+        ``reference``, and the usual file ``extension``, which does not matter for reading.
     """
     return _core._record_formats()
 
@@ -211,7 +212,7 @@ def _read(
     try:
         return _core._parse_components(content, os.fsencode(shown), *options)
     except ValueError:
-        # A format of columns has no reference: it takes whatever has a number.
+        # Formats of columns have no reference: they accept any file with numbers.
         known = _core._record_format(content)
         stream = None if known and known["reference"] else _by_obspy(content)
         if stream is None:
@@ -219,11 +220,11 @@ def _read(
     return _of_stream(stream, shown, units, wanted, only_one)
 
 
-# ---- what holds the text
+# ---- containers
 
 
 def _content(file: _File) -> tuple[bytes, str]:
-    """The bytes of a file, out of what it is packed in; and its name for messages."""
+    """The uncompressed bytes of a file, and its name for messages."""
     try:
         shown = os.fsdecode(file)
     except TypeError:
@@ -284,11 +285,11 @@ def _gunzipped(content: bytes, shown: str) -> bytes:
         raise ValueError(f"read_record: {shown}: damaged gzip file: {error}") from None
 
 
-# ---- what ObsPy reads
+# ---- ObsPy
 
 
 def _by_obspy(content: bytes) -> Any:
-    """The stream in a file, or None where ObsPy is not installed or does not know it either."""
+    """The ObsPy stream in a file; None if ObsPy is not installed or cannot read the file."""
     import importlib
     import io
     import warnings
@@ -297,7 +298,7 @@ def _by_obspy(content: bytes) -> Any:
         warnings.simplefilter("ignore")
         try:
             return importlib.import_module("obspy").read(io.BytesIO(content))
-        except Exception:  # of any reader that had a look
+        except Exception:  # from any of its readers
             return None
 
 

@@ -1,6 +1,6 @@
-"""Real records to begin with: the 18 of the package pyslammer, which is not imported.
+"""Sample records: the 18 earthquake records of the package pyslammer, which is not imported.
 
-They come with ``pip install stickslip[records]``.
+Install them with ``pip install stickslip[records]``.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 from ._core import GroundMotion
 from .records import read_record
 
-TYPE_CHECKING = False  # that of `typing`, whose import takes long
+TYPE_CHECKING = False  # instead of importing `typing`, which takes long
 if TYPE_CHECKING:
     from .suite import Suite
 
@@ -25,12 +25,12 @@ def sample_files() -> list[Path]:
     Returns
     -------
     list of Path
-        In order of name: seconds and g, for `read_record`.
+        Sorted by name. Each holds times [s] and accelerations [g], as `read_record` takes them.
 
     Raises
     ------
     ImportError
-        pyslammer is not installed, or without its records.
+        pyslammer is not installed, or lacks its records.
     """
     found = importlib.util.find_spec("pyslammer")
     folders = (found and found.submodule_search_locations) or []
@@ -49,14 +49,14 @@ def sample_records() -> Suite:
     Returns
     -------
     Suite
-        In order of name, with the columns `event` and `year`.
+        Sorted by name, with the columns `event` and `year`.
 
     Raises
     ------
     ImportError
-        pyslammer is not installed, or without its records.
+        pyslammer is not installed, or lacks its records.
     """
-    from .suite import Suite  # and NumPy: who asks for one record waits for neither
+    from .suite import Suite  # it imports NumPy, which one record does not need
 
     files = sample_files()
     parts = [re.fullmatch(r"(.+)_(\d{4})_.+", file.stem) for file in files]
@@ -75,7 +75,8 @@ def sample_record(name: str) -> GroundMotion:
     Parameters
     ----------
     name : str
-        A part of the name of one of them alone, in any case: ``"Kobe"``, ``"northridge_1994_pac"``.
+        A part of the name that matches one record only, in upper or lower case: ``"Kobe"``,
+        ``"northridge_1994_pac"``.
 
     Returns
     -------
@@ -84,14 +85,14 @@ def sample_record(name: str) -> GroundMotion:
     Raises
     ------
     ValueError
-        The name is a part of none of their names, or of several.
+        The name matches no record, or several.
     ImportError
-        pyslammer is not installed, or without its records.
+        pyslammer is not installed, or lacks its records.
     """
     files = sample_files()
     found = [f for f in files if name.lower().replace(" ", "_") in f.stem.lower()]
     if len(found) != 1:
         names = ", ".join(f.stem for f in found or files)
-        many = "names several" if found else "names none"
+        many = "matches several" if found else "matches none"
         raise ValueError(f"sample_record: '{name}' {many} of the sample records: {names}")
     return read_record(found[0])

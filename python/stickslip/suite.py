@@ -1,4 +1,4 @@
-"""Suites: ground motions with what is known of them, in one object, in one file."""
+"""Suites: ground motions with their metadata, in one object and one file."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ from .records import read_record
 __all__ = ["LeftOut", "Suite"]
 
 _FORMAT = "stickslip suite 1"
-_KEYS = ("file", "record", "name")  # columns of metadata that tell which record a row is of
-_SHOWN = 10  # files named in one message
+_KEYS = ("file", "record", "name")  # columns of metadata that identify the record of a row
+_SHOWN = 10  # maximum number of files named in one message
 
 
 class LeftOut(NamedTuple):
@@ -47,27 +47,27 @@ class Suite(Sequence[GroundMotion]):
     """Ground motions with their metadata.
 
     A sequence: ``suite[0]`` is a GroundMotion; ``suite[2:5]``, ``suite[suite.magnitude > 6]`` and
-    ``suite[[0, 3]]`` are suites. Each column of the metadata is an attribute. Whatever takes a list
-    of ground motions takes a suite.
+    ``suite[[0, 3]]`` are suites. Each column of the metadata is an attribute. Functions that take
+    a list of ground motions also take a suite.
 
     Parameters
     ----------
     motions : iterable of GroundMotion
         At least one.
     metadata : mapping of columns or pandas DataFrame, optional
-        Columns by name, each as long as the suite: numbers (NaN where one is not known) or texts.
+        Columns by name, each as long as the suite: numbers (NaN for missing ones) or texts.
 
     Attributes
     ----------
     left_out : tuple of LeftOut
-        What `read` left out under ``on_error="skip"``.
+        The files that `read` left out under ``on_error="skip"``.
 
     Raises
     ------
     ValueError
-        No motions; a column of another length, or named like a method.
+        No motions; a column of the wrong length, or named like a method.
     TypeError
-        Something else than a GroundMotion.
+        A motion that is not a GroundMotion.
 
     Notes
     -----
@@ -196,7 +196,7 @@ class Suite(Sequence[GroundMotion]):
         records = "record" if len(self) == 1 else "records"
         return f"Suite({len(self)} {records}{f', with {columns}' if columns else ''})"
 
-    # ---- what is known of the motions
+    # ---- properties of the motions
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -210,22 +210,22 @@ class Suite(Sequence[GroundMotion]):
 
     @property
     def pga_g(self) -> NDArray[np.float64]:
-        """Largest ground acceleration of each motion [g]."""
+        """Peak ground acceleration of each motion [g]."""
         return np.array([m.peak_acceleration for m in self._motions]) / STANDARD_GRAVITY
 
     @property
     def duration(self) -> NDArray[np.float64]:
-        """Of each motion [s]."""
+        """Duration of each motion [s]."""
         return np.array([m.duration for m in self._motions])
 
     @property
     def duplicates(self) -> list[tuple[int, ...]]:
-        """The places of motions whose samples and times are the same, whatever their names.
+        """Indices of motions with equal samples and times; names may differ.
 
         Returns
         -------
         list of tuple of int
-            One tuple for each set of equals; empty where all differ.
+            One tuple for each set of equal motions; empty if all differ.
         """
         places: dict[bytes, list[int]] = {}
         for i, motion in enumerate(self._motions):
@@ -237,12 +237,12 @@ class Suite(Sequence[GroundMotion]):
         return [tuple(equal) for equal in places.values() if len(equal) > 1]
 
     def with_metadata(self, metadata: Mapping[str, ArrayLike] | Any) -> Suite:
-        """The same motions with further columns, or others of the same name.
+        """Add columns of metadata, or replace those of the same name.
 
         Parameters
         ----------
         metadata : mapping of columns or pandas DataFrame
-            As the constructor takes it.
+            As for the constructor.
 
         Returns
         -------
@@ -269,12 +269,12 @@ class Suite(Sequence[GroundMotion]):
     # ---- scaling
 
     def scaled(self, factor: ArrayLike) -> Suite:
-        """The motions times a factor.
+        """Multiply the motions by a factor.
 
         Parameters
         ----------
         factor : float or array_like, shape (records,)
-            Finite; one for all, or one for each.
+            Finite; one for all motions, or one for each.
 
         Returns
         -------
@@ -283,7 +283,7 @@ class Suite(Sequence[GroundMotion]):
         Raises
         ------
         ValueError
-            Another number of factors; a factor that is not finite.
+            The wrong number of factors; a factor that is not finite.
         """
         factors = np.asarray(factor, float)
         if factors.ndim and factors.shape != (len(self),):
@@ -304,26 +304,26 @@ class Suite(Sequence[GroundMotion]):
         period: float | None = None,
         damping: float = 0.05,
     ) -> Suite:
-        """Each motion scaled by one factor, so that it meets a target.
+        """Scale each motion by a factor so that it meets a target.
 
         Parameters
         ----------
         pga_g : float, optional
-            Largest acceleration [g], positive.
+            Peak acceleration [g], positive.
         pgv : float, optional
-            Largest velocity [m/s], positive.
+            Peak velocity [m/s], positive.
         arias : float, optional
             Arias intensity [m/s], positive.
         sa_g : float, optional
             Pseudo-acceleration at `period` and `damping` [g], positive.
         spectrum : ResponseSpectrum or (periods, values), optional
-            Target pseudo-acceleration [m/s^2] at periods [s], positive. The factor is the one whose
-            spectrum has the least mean square difference of logarithms from it:
-            ln factor = mean of ln(target / Sa). A ResponseSpectrum brings its own damping.
+            Target pseudo-acceleration [m/s^2] at periods [s], positive. The factor minimizes the
+            mean square difference of logarithms between the spectrum of the motion and the target:
+            ln factor = mean of ln(target / Sa). The damping is that of a ResponseSpectrum.
         period : float, optional
-            With `sa_g` [s], at least 0.
+            Period [s] for `sa_g`, at least 0.
         damping : float, optional
-            Damping ratio with `sa_g` and `spectrum`.
+            Damping ratio for `sa_g` and for `spectrum` as arrays.
 
         Returns
         -------
@@ -332,7 +332,7 @@ class Suite(Sequence[GroundMotion]):
         Raises
         ------
         ValueError
-            Not exactly one target; a value out of its range; a motion that is zero throughout.
+            Not exactly one target; a value out of range; a motion that is zero throughout.
         """
         targets = {"pga_g": pga_g, "pgv": pgv, "arias": arias, "sa_g": sa_g, "spectrum": spectrum}
         given = [name for name, value in targets.items() if value is not None]
@@ -399,32 +399,32 @@ class Suite(Sequence[GroundMotion]):
         Parameters
         ----------
         files : path-like, str or iterable of these
-            A folder, with all in it and below but hidden files; a pattern, as
-            ``"records/**/*.AT2"``, where ``**`` is any folders; a file; or a list of these.
+            A folder, including subfolders but not hidden files; a pattern, such as
+            ``"records/**/*.AT2"``, where ``**`` matches any folders; a file; or a list of these.
         units, component, dt, gaps : optional
-            As `read_record` takes them, for all files.
+            As for `read_record`; they apply to all files.
         on_error : {'raise', 'skip'}
-            What becomes of files that cannot be read: 'raise' names all of them in one error;
-            'skip' leaves them out, warns once at the end (RuntimeWarning), and keeps what they were
-            in `left_out`.
+            What to do about files that cannot be read: 'raise' names all of them in one error;
+            'skip' leaves them out, warns once at the end (RuntimeWarning), and lists them in
+            `left_out`.
         metadata : path-like, mapping of columns or pandas DataFrame, optional
-            A table beside the records, as a CSV file with a line of names. Its column 'file',
-            'record' or 'name' tells which record a row is of, by the file's path, name or stem, in
-            any order. What a record has no row for is NaN or an empty text.
+            A table with rows in any order, for instance a CSV file with a line of column names. Its
+            column 'file', 'record' or 'name' identifies the record of a row by the path, name or
+            stem of the file. A record without a row gets NaN or an empty text.
         threads : int, optional
-            At most so many, at least 1; as many as the machine has, if not given.
+            Maximum number of threads, at least 1; default: all cores.
 
         Returns
         -------
         Suite
-            In order of the files' names, with the column `file` and those of the metadata.
+            Sorted by file name, with the column `file` and those of the metadata.
 
         Raises
         ------
         ValueError
-            No files; files that cannot be read, all of them named, those without units first; all
-            of them where they are left out; metadata without a column that names the records, or
-            that names none of them.
+            No files; files that cannot be read (named, those without units first; with 'skip', only
+            if no file can be read); metadata without a column that identifies the records, or that
+            identifies none of them.
         OSError
             The folder or the metadata cannot be read.
 
@@ -433,11 +433,11 @@ class Suite(Sequence[GroundMotion]):
         RuntimeWarning
             Files were left out.
         PlausibilityWarning
-            Records that are the same, and what `read_record` warns of.
+            Equal records, and the warnings of `read_record`.
 
         Notes
         -----
-        About 1 ms for 10,000 samples and thread.
+        Takes about 1 ms per 10,000 samples on each thread.
         """
         if on_error not in ("raise", "skip"):
             raise ValueError(f"Suite.read: on_error must be 'raise' or 'skip', got {on_error!r}")
@@ -484,7 +484,7 @@ class Suite(Sequence[GroundMotion]):
                 " = ".join(Path(names[i]).name for i in places) for places in equal[:_SHOWN]
             )
             warnings.warn(
-                f"Suite.read: {len(equal)} records are there more than once: {printable(sets)}",
+                f"Suite.read: {len(equal)} records occur more than once: {printable(sets)}",
                 PlausibilityWarning,
                 stacklevel=2,
             )
@@ -507,13 +507,14 @@ class Suite(Sequence[GroundMotion]):
         ImportError
             h5py is missing: ``pip install stickslip[suites]``.
         OSError
-            It cannot be written.
+            The file cannot be written.
 
         Notes
         -----
-        8 bytes a sample. `acceleration` holds the samples of all motions one after the other
-        [m/s^2], `first` where each begins, `dt` the steps [s], or NaN, where `time` holds the
-        times [s]; `held` is whether values are held, `name` the names; `metadata` has the columns.
+        The file takes 8 bytes per sample. `acceleration` holds the samples of all motions one after
+        the other [m/s^2]; `first` the index at which each motion begins; `dt` the steps [s], or NaN
+        for motions whose times [s] are in `time`; `held` whether values are constant between
+        samples; `name` the names; `metadata` the columns.
         """
         with creating(file, _FORMAT, "Suite.save") as h5:
             sizes = [len(m) for m in self._motions]
@@ -528,7 +529,7 @@ class Suite(Sequence[GroundMotion]):
 
     @classmethod
     def open(cls, file: str | os.PathLike[str]) -> Suite:
-        """Open a suite that was saved.
+        """Open a saved suite.
 
         Parameters
         ----------
@@ -546,7 +547,7 @@ class Suite(Sequence[GroundMotion]):
         OSError
             The file is missing or cannot be read.
         ValueError
-            It is no suite, or damaged.
+            The file is not a suite, or is damaged.
         """
         with opening(file, _FORMAT, "Suite.open") as h5:
             first, dt, held = h5["first"][:], h5["dt"][:], h5["held"][:]
@@ -566,7 +567,7 @@ class Suite(Sequence[GroundMotion]):
 
 
 def _files(source: Any) -> list[Path]:
-    """The files that are meant, each once, in order of name."""
+    """The files of a source, each once, sorted by name."""
     if not isinstance(source, (str, os.PathLike)):
         return list(dict.fromkeys(path for one in source for path in _files(one)))
     path = Path(os.fspath(source))
@@ -575,7 +576,7 @@ def _files(source: Any) -> list[Path]:
     elif glob.has_magic(os.fspath(source)) and not path.exists():
         found = map(Path, glob.glob(os.fspath(source), recursive=True))
     else:
-        return [path]  # missing: read_record says so
+        return [path]  # if it is missing, read_record says so
     return sorted(
         p for p in found if not any(part.startswith(".") for part in p.parts[1:]) and p.is_file()
     )
@@ -590,21 +591,21 @@ def _shown_source(source: Any) -> str:
 
 
 def _reason(error: Exception, path: Path) -> str:
-    """What went wrong, without the name of the file."""
+    """The reason for an error, without the name of the file."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     return str(error).removeprefix(f"read_record: {path}: ")
 
 
 def _failures(left: Sequence[LeftOut], total: int) -> str:
-    """All files that could not be read, those without units first."""
+    """A message about all files that could not be read, those without units first."""
     unitless = [one for one in left if "units" in one.reason]
     others = [one for one in left if one not in unitless]
     parts = []
     if unitless:
         names = ", ".join(one.file for one in unitless[:_SHOWN])
         more = f" and {len(unitless) - _SHOWN} more" if len(unitless) > _SHOWN else ""
-        parts.append(f"no usable units in {names}{more} (give units=, as 'g')")
+        parts.append(f"no usable units in {names}{more} (give units=, such as 'g')")
     parts += [f"{one.file}: {one.reason}" for one in others[:_SHOWN]]
     if len(others) > _SHOWN:
         parts.append(f"and {len(others) - _SHOWN} more")
@@ -612,7 +613,7 @@ def _failures(left: Sequence[LeftOut], total: int) -> str:
 
 
 def _read_table(file: Path) -> dict[str, list[Any]]:
-    """The columns of a CSV file, as numbers where all are, or nothing."""
+    """The columns of a CSV file, as numbers if all cells are numbers or empty."""
     with file.open(newline="", encoding="utf-8-sig") as stream:
         rows = list(csv.reader(stream))
     rows = [row for row in rows if any(cell.strip() for cell in row)]
@@ -636,13 +637,13 @@ def _typed(cells: list[str]) -> list[Any]:
 
 
 def _joined(files: Sequence[str], table: Mapping[str, Any]) -> dict[str, list[Any]]:
-    """The columns of a table in the order of the files."""
+    """The columns of a table, in the order of the files."""
     columns = {str(name): list(values) for name, values in table.items()}
     key = next((name for k in _KEYS for name in columns if name.lower() == k), None)
     if key is None:
         raise ValueError(
-            "Suite.read: metadata needs a column 'file', 'record' or 'name' that tells which record"
-            f" a row is of, got {', '.join(columns)}"
+            "Suite.read: metadata needs a column 'file', 'record' or 'name' that identifies the"
+            f" record of a row, got {', '.join(columns)}"
         )
     rows: dict[str, int] = {}
     for i, value in enumerate(map(str, columns[key])):

@@ -1,10 +1,11 @@
-"""Theories: they predict without simulating what `integrate` and `run_ensemble` find.
+"""Theories, which predict the results of `integrate` and `run_ensemble` without simulation.
 
-Each has a `name`, `covers(slider, excitation)`, which says whether it applies and, if not, why,
-and `predict(slider, excitation, times)`, which answers in `Moments` from rest on. Objects of your
-own with these three are theories too: `stickslip.compare` asks them like the rest.
+Each theory has a `name`; `covers(slider, excitation)`, which says whether the theory applies and,
+if not, why; and `predict(slider, excitation, times)`, which returns the `Moments` of the response
+from rest. Your own objects with these three members are theories, too: pass them to
+`stickslip.compare`.
 
-`THEORIES` lists those that `compare` asks, the best first.
+`THEORIES` lists those that `compare` uses by default, the best first.
 """
 
 from ._core import (
@@ -50,7 +51,7 @@ __all__ = [
     "viscous_pulse_response",
 ]
 
-#: Every theory that `compare` asks if none are named, the best first.
+#: The theories that `compare` uses by default, the best first.
 THEORIES = (
     WhiteNoise(),
     PulseChain(),

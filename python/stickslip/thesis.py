@@ -1,6 +1,6 @@
-"""The thesis's figures and tables, computed anew: theory, exact answer and simulation side by side.
+"""Figures and tables of the thesis, recomputed: theory, exact solution and simulation.
 
-``stickslip thesis`` draws them all; `Thesis` gives their numbers, and `plot` a picture::
+``stickslip thesis`` draws them all; `Thesis` computes one, and `plot` draws it::
 
     from stickslip.thesis import Thesis, plot
 
@@ -57,11 +57,11 @@ _WORDS = {
     "simulation": "simulation ± 2 s.e.",
 }
 _MARKS = {"simulation": "o", "points": "D"}
-_MOST_LABELS = 8  # more are told apart by a scale of colours
+_MOST_LABELS = 8  # if there are more, the legend is beside the panel
 
 
 def file_stem(number: str) -> str:
-    """The name of a figure's files without a suffix: 'figure_2_1', 'table_5_1'.
+    """The name of a figure's files without suffix: 'figure_2_1', 'table_5_1'.
 
     Parameters
     ----------
@@ -73,19 +73,20 @@ def file_stem(number: str) -> str:
 
 
 def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
-    """A page in Markdown that shows figures, with their captions and what the thesis says of them.
+    """A Markdown page of figures, with captions and the claims of the thesis about them.
 
     Parameters
     ----------
     figures : sequence of ThesisFigure
     suffix : str
-        Of the pictures, which lie beside the page under their `file_stem`: '.png', '.svg'.
+        Suffix of the pictures, such as '.png'. They are in the folder of the page, named by
+        `file_stem`.
 
     Returns
     -------
     str
-        For each figure a heading, picture, caption, time taken, and two tables: of what the thesis
-        says, and of what this library says.
+        For each figure a heading, the picture, its caption, the time taken, and two tables: claims
+        of the thesis, and claims of this library.
     """
     lines = []
     for figure in figures:
@@ -119,7 +120,7 @@ def _name(figure: ThesisFigure) -> str:
 def _claim(statement: ThesisStatement) -> str:
     where = f"{statement.where}: " if statement.where else ""
     text = where + statement.claim + (f". *{statement.why}*" if statement.why else "")
-    return text.replace("|", r"\|")  # else it would end a cell
+    return text.replace("|", r"\|")  # a bar would end the cell
 
 
 def _found(statement: ThesisStatement) -> str:
@@ -127,7 +128,7 @@ def _found(statement: ThesisStatement) -> str:
 
 
 def plot(figure: ThesisFigure) -> Figure:
-    """Draws a figure of the thesis, with its caption; needs matplotlib.
+    """Draw a figure of the thesis, with its caption; needs matplotlib.
 
     Parameters
     ----------
@@ -136,7 +137,7 @@ def plot(figure: ThesisFigure) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        As wide as its panels need, up to three side by side; its axes are the panels.
+        With one axes for each panel, side by side; the width depends on their number.
 
     Raises
     ------
@@ -207,7 +208,7 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
 
 
 def _colours(panel: ThesisPanel) -> dict[str, object]:
-    """A colour for each label: the house's, or a scale where there are many."""
+    """A color for each label: those of `plotting`, or a color scale if there are many."""
     from matplotlib import colormaps
 
     from . import plotting
@@ -221,7 +222,7 @@ def _colours(panel: ThesisPanel) -> dict[str, object]:
 
 
 def _legend_of_kinds(picture: Figure, panels: list[ThesisPanel]) -> None:
-    """What dashes and points mean, in one line under the panels."""
+    """Add a legend of line styles and markers above the panels."""
     from matplotlib.lines import Line2D
 
     from . import plotting

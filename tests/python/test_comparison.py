@@ -35,12 +35,12 @@ def test_pulses_bring_all_pulse_theories():
     assert c.refused == {}
     # What the chain claims, 4 % (sigma from 1 to 20), and three standard errors: seed fixed, else a
     # false alarm in 370.
-    for figure in ("displacement_variance", "velocity_variance"):
-        ratio, error = c.ratio("PulseChain", figure)
+    for statistic in ("displacement_variance", "velocity_variance"):
+        ratio, error = c.ratio("PulseChain", statistic)
         assert np.all(np.abs(ratio - 1) < 0.04 + 3 * error)
 
 
-def test_the_figures_are_those_of_the_ensemble():
+def test_the_statistics_are_those_of_the_ensemble():
     c = ss.compare(BLOCK, PULSES, [20.0, 50.0], members=640, seed=3)
     e = c.ensemble
     at = [int(np.argmin(np.abs(e.time - t))) for t in (20.0, 50.0)]
@@ -159,7 +159,7 @@ def test_other_excitations_are_refused():
     with pytest.raises(ValueError, match="multiples of the excitation"):
         ss.compare(BLOCK, white(), [0.25])
     c = ss.compare(BLOCK, PULSES, [60.0], members=64)
-    with pytest.raises(ValueError, match="figure must be one of"):
+    with pytest.raises(ValueError, match="statistic must be one of"):
         c.simulated("peak")
     with pytest.raises(ValueError, match="theory must be one of"):
         c.ratio("Newmark", "covariance")

@@ -611,10 +611,10 @@ def test_a_damaged_file_is_refused_or_has_the_same_bits(ensemble, tmp_path):
 def test_a_file_of_something_else_is_refused_by_name(ensemble, tmp_path):
     text = tmp_path / "text.npz"
     text.write_text("hello")
-    with pytest.raises(ValueError, match=r"text\.npz' is no ensemble: not a NumPy archive"):
+    with pytest.raises(ValueError, match=r"text\.npz' is not an ensemble: not a NumPy archive"):
         ss.Ensemble.load(text)
     np.savez(tmp_path / "other.npz", a=[1], b=[2])
-    with pytest.raises(ValueError, match=r"other\.npz' is no ensemble: it holds a, b"):
+    with pytest.raises(ValueError, match=r"other\.npz' is not an ensemble: it holds a, b"):
         ss.Ensemble.load(tmp_path / "other.npz")
     with zipfile.ZipFile(tmp_path / "words.npz", "w") as archive:
         archive.writestr("letter.txt", "hello")

@@ -261,7 +261,7 @@ def test_parameters_that_the_law_refuses_are_named_with_their_member():
 
 
 def test_random_sliders_are_tried_when_they_are_made():
-    with pytest.raises(TypeError, match=r"kind must be callable, as Coulomb, got 0.3"):
+    with pytest.raises(TypeError, match=r"kind must be callable, such as Coulomb, got 0.3"):
         ss.Random(0.3, mu=0.2)
     with pytest.raises(ValueError, match=r"mu must be finite and at least 0, got -1.75"):
         ss.Random(ss.Coulomb, mu=ss.Uniform(-2, -1))

@@ -246,7 +246,7 @@ def test_quantities_are_converted_to_si_or_refused_with_the_reason():
         lambda: ss.Slider(BLOCK, period=q(2, "s")),
         lambda: plain.cut(q(0, "s"), 1),
     ):
-        with pytest.raises(TypeError, match=r"of a quantity with a unit give the number in SI"):
+        with pytest.raises(TypeError, match=r"for a quantity with a unit pass the number in SI"):
             call()
     with pytest.raises(TypeError, match=r"slip_level=.*Quantity"):
         ss.Coulomb(slip_level=q(2, "m/s^2"))

@@ -23,9 +23,12 @@ def test_a_sample_record_goes_by_a_part_of_its_name(pyslammer_files):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("Northridge", "'Northridge' names several .*: Northridge_1994_PAC-175, Northridge_1994_V"),
-        ("Tokyo", "'Tokyo' names none of the sample records: Cape_Mendocino"),
-        ("", "'' names several"),
+        (
+            "Northridge",
+            "'Northridge' matches several .*: Northridge_1994_PAC-175, Northridge_1994_V",
+        ),
+        ("Tokyo", "'Tokyo' matches none of the sample records: Cape_Mendocino"),
+        ("", "'' matches several"),
     ],
 )
 def test_a_name_that_is_not_of_one_record_is_refused(pyslammer_files, name, message):
@@ -41,7 +44,7 @@ def test_the_command_slides_a_sample_record(pyslammer_files, capsys):
     assert r.peak in row.values() and r.residual in row.values()
     assert cli.main(["slide", "sample:Tokyo", "sample:Kobe", "--mu", "0.1"]) == 1
     seen = capsys.readouterr()
-    assert "sample:Tokyo: sample_record: 'Tokyo' names none" in seen.err
+    assert "sample:Tokyo: sample_record: 'Tokyo' matches none" in seen.err
     assert "TAK-090" in seen.out
 
 

@@ -220,7 +220,7 @@ def test_a_file_that_is_no_suite_is_refused(tmp_path):
     h5py = pytest.importorskip("h5py")
     file = tmp_path / "s.h5"
     file.write_text("text")
-    with pytest.raises(ValueError, match="is no HDF5 file, or damaged"):
+    with pytest.raises(ValueError, match="is not an HDF5 file, or is damaged"):
         ss.Suite.open(file)
     with h5py.File(file, "w") as h5:
         h5["x"] = 1

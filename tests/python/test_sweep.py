@@ -149,7 +149,7 @@ def test_the_table_goes_to_frames_files_and_back(tmp_path):
 
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     (tmp_path / "x.h5").write_text("no table")
-    with pytest.raises(ValueError, match="is no HDF5 file, or damaged"):
+    with pytest.raises(ValueError, match="is not an HDF5 file, or is damaged"):
         ss.SweepTable.open(tmp_path / "x.h5")
     QUAKES.save(tmp_path / "s.h5")
     with pytest.raises(ValueError, match="must be of format 'stickslip sweep table 1', got"):

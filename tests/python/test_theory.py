@@ -262,13 +262,13 @@ def test_what_is_no_theory_is_named():
 
     with pytest.raises(TypeError, match="a theory must have `name`, got 'chain'"):
         compare("chain")
-    with pytest.raises(TypeError, match="answer a bool or a Coverage, got 'no'"):
+    with pytest.raises(TypeError, match="return a bool or a Coverage, got 'no'"):
         compare(Mine("no"))
-    with pytest.raises(TypeError, match=r"predict of mine must answer Moments, got array\(\[60.\]"):
+    with pytest.raises(TypeError, match=r"predict of mine must return Moments, got array\(\[60.\]"):
         compare(Bare())
     with pytest.raises(ValueError, match="different names, got mine, mine"):
         compare(Mine(), Mine())
-    assert compare(Late()).refused["mine"].endswith("at other times than those asked for")
+    assert compare(Late()).refused["mine"].endswith("at other times than requested")
 
 
 def test_a_caster_that_only_rolls_is_a_block_to_every_theory():

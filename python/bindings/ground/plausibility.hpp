@@ -43,7 +43,7 @@ inline void warn_if_implausible(const GroundMotion& motion, const std::string& w
   if (std::abs(mean) > most_plausible_mean * peak)
     warn("the mean acceleration, " + rounded(mean) +
          " m/s^2, is more than 0.5 % of the peak and leaves the ground moving at " + rounded(velocity) +
-         " m/s; this is an error of the baseline, which .detrended() takes away");
+         " m/s; this is a baseline error, which .detrended() removes");
 }
 
 }  // namespace stickslip::python

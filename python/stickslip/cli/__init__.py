@@ -8,15 +8,15 @@ figures of the thesis. ``stickslip completion bash`` prints a script that comple
 shell. Each subcommand is one file here, with a function that adds its arguments and one that runs
 it.
 
-Exit codes: 0 on success, also for a slider that never comes to rest, which its row says; 1 where
-part of the work failed and the rest is printed: a record that cannot be read or slid, a picture or
-checkpoint that cannot be written, each with one line on stderr, or a number that is off in
-``stickslip thesis --check``; 2 where nothing is printed on stdout: bad options, an input error
-(of a file, only under ``--strict``) or not enough memory, with one line on stderr, after the
-usage where the options do not parse; 130 after Ctrl-C.
+Exit codes: 0 on success, also for a slider that never comes to rest (its row says so); 1 if part of
+the work failed and the rest is printed: a record that cannot be read or slid, a picture or
+checkpoint that cannot be written, each with one line on stderr, or a wrong number in
+``stickslip thesis --check``; 2 if nothing is printed on stdout: bad options, an input error (of a
+file, only with ``--strict``) or not enough memory, with one line on stderr, after the usage if the
+options do not parse; 130 after Ctrl-C.
 
-JSON output has no infinity: null is an infinite value (a slip level, a reach, a bound) or an option
-that was not given.
+JSON has no infinity: null stands for an infinite value (a slip level, a reach, a bound) or an
+option that was not given.
 """
 
 from __future__ import annotations
@@ -59,12 +59,12 @@ def main(argv: list[str] | None = None) -> int:
     """
     parser = Parser(
         prog="stickslip",
-        description="How far things held by friction slide in earthquakes.",
+        description="How far objects held by friction slide in earthquakes.",
         epilog="""\
 exit codes:
   0    success
   1    part of the work failed, with a line on stderr each; the rest is printed
-       (thesis --check: a number is off)
+       (thesis --check: a number is wrong)
   2    bad options, or an input error that ends the command; nothing is printed
   130  interrupted by Ctrl-C""",
         formatter_class=argparse.RawDescriptionHelpFormatter,  # keeps the lines of --version

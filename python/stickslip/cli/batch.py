@@ -1,4 +1,4 @@
-"""Many files: which they are, what they hold, and what went wrong with one of them."""
+"""Batches of files: expand their names, read their motions, report failures."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         type=Path,
         metavar="RECORD",
-        help="file: AT2, COSMOS, GeoNet, K-NET, CSV and others; folder, with all files in it;"
-        " pattern such as 'quakes/*.AT2'; or sample:Kobe, a sample record",
+        help="file (AT2, COSMOS, GeoNet, K-NET, CSV and others); folder (all files in it); pattern"
+        " such as 'quakes/*.AT2'; or sample:Kobe, a sample record",
     )
     add(
         "--units",
@@ -40,10 +40,10 @@ def add_files(parser: argparse.ArgumentParser) -> None:
     add(
         "--component",
         type=text_argument,
-        help="name or number (from 1), where a file has several, or all",
+        help="name or number (from 1) in files with several components, or all",
     )
-    add("--dt", type=float, help="time between samples [s], of files of one column")
-    add("--gaps", action="store_true", help="keep time steps over ten times the median one")
+    add("--dt", type=float, help="time step [s] of files with one column")
+    add("--gaps", action="store_true", help="accept time steps over ten times the median")
     add(
         "--strict",
         action="store_true",
@@ -69,9 +69,9 @@ class Batch:
     Attributes
     ----------
     files : list of Path
-        Folders and patterns replaced by the files that they name.
+        The files given, with folders and patterns expanded.
     errors : list of dict
-        What went wrong so far, as --json lists it.
+        Failures so far, as --json lists them.
     """
 
     def __init__(self, args: argparse.Namespace) -> None:
@@ -97,7 +97,7 @@ class Batch:
 
     @contextlib.contextmanager
     def reported(self, file: Path, prefix: str = "") -> Iterator[None]:
-        """Go on after a failure, unless --strict."""
+        """Report a failure and continue, unless --strict."""
         try:
             yield
         except FAILURES as error:
@@ -108,7 +108,7 @@ class Batch:
             self.errors.append({"file": str(file), "error": reason})
 
     def motions(self, file: Path) -> list[Motion]:
-        """The ground motions of a file that were asked for, with what is odd about them said."""
+        """The requested ground motions of a file; prints warnings about them."""
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", PlausibilityWarning)
             found = self._read(file)
@@ -145,11 +145,11 @@ class Batch:
         return [Motion(read_record(file, component=self.args.component, **options), None)]
 
     def _pictures(self) -> Iterator[Path]:
-        """One file for each record: their places tell apart records of the same name."""
+        """One picture for each record; a number distinguishes records of the same name."""
         plot = self.args.plot
         if not plot:
             return
-        from .. import plotting  # matplotlib: only who plots waits for it
+        from .. import plotting  # imports matplotlib, which is slow
 
         plotting.check_suffix(plot)
         for place, record in enumerate(self.files, 1):
@@ -158,7 +158,7 @@ class Batch:
 
 
 def _expanded(given: Path) -> list[Path]:
-    """The files of a folder or a pattern; what is neither, and what names no file, is itself."""
+    """The files of a folder or pattern; the path itself if it is neither, or names no file."""
     if given.is_dir():
         inside = sorted(file for file in given.rglob("*") if file.is_file())
         shown = [f for f in inside if not any(p[0] == "." for p in f.relative_to(given).parts)]
@@ -170,8 +170,8 @@ def _expanded(given: Path) -> list[Path]:
 
 
 def _in_words_of_the_command(text: str) -> str:
-    """A warning of `read_record` without the words of Python."""
+    """A warning of `read_record` in terms of the command's options."""
     _, _, rest = text.partition(": the ")
     text = f"the {rest}" if rest else text
     text = text.replace("check the units", "check the units, with --units if the file states none")
-    return text.replace(", which .detrended() takes away", "")
+    return text.replace(", which .detrended() removes", "")

@@ -23,7 +23,7 @@ def add_completion(commands: argparse._SubParsersAction) -> None:
 
 
 def complete(parser: argparse.ArgumentParser) -> None:
-    """Answer a shell that asks for completions, and exit; do nothing else."""
+    """If a shell asks for completions, print them and exit; otherwise do nothing."""
     if "_ARGCOMPLETE" not in os.environ:
         return
     import argcomplete

@@ -23,13 +23,13 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         help="slide through many random earthquakes and print statistics",
         description="Slides a block through many members of a random ground motion and prints the"
         " distribution of its displacement relative to the ground, with standard errors (+-) and"
-        " confidence bounds (in brackets). The ground motion is one of --event, --rate, --band.",
-        epilog=f"Events: {', '.join(PoissonPulses.events())}.",
+        " confidence bounds (in brackets). --event, --rate or --band gives the ground motion.",
+        epilog=f"Scenarios: {', '.join(PoissonPulses.events())}.",
     )
     add = parser.add_argument
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument(
-        "--event", metavar="NAME", type=text_argument, help="an earthquake of the list below"
+        "--event", metavar="NAME", type=text_argument, help="a scenario from the list below"
     )
     source.add_argument("--rate", type=float, metavar="R", help="Poisson pulse rate [1/s]")
     source.add_argument(
@@ -42,9 +42,9 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
     )
     add("--half-width", type=float, metavar="S", help="pulse half width [s] (with --rate)")
     add("--sigma", type=float, metavar="A", help="rms pulse amplitude [m/s^2] (with --rate)")
-    add("--duration", type=float, metavar="S", help="duration of a motion [s] (with --rate)")
+    add("--duration", type=float, metavar="S", help="duration [s] (with --rate)")
     add("--dt", type=float, metavar="S", help="time step [s] (with --band)")
-    add("--samples", type=int, metavar="N", help="samples of a motion (with --band)")
+    add("--samples", type=int, metavar="N", help="number of samples (with --band)")
     add("--mu", type=float, required=True, help="coefficient of friction [-]")
     add_slider(parser)
     add(
@@ -67,9 +67,14 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         type=float,
         default=0.95,
         metavar="P",
-        help="level of the bounds (default 0.95)",
+        help="confidence level of the bounds (default 0.95)",
     )
-    add("--checkpoint", type=Path, metavar="FILE", help="saves progress; resumed from if it exists")
+    add(
+        "--checkpoint",
+        type=Path,
+        metavar="FILE",
+        help="file to save progress in; the run resumes from it if it exists",
+    )
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg)")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
     parser.set_defaults(run=_ensemble)
@@ -77,7 +82,7 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
 
 def _ensemble(args: argparse.Namespace) -> str:
     if args.plot:
-        from .. import plotting  # matplotlib: only who plots waits for it
+        from .. import plotting  # imports matplotlib, which is slow
 
         plotting.check_suffix(args.plot)
     files = {"--checkpoint": args.checkpoint, "--plot": args.plot}
@@ -89,7 +94,7 @@ def _ensemble(args: argparse.Namespace) -> str:
             raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
     if not 0 < args.confidence < 1:
         raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
-    from ..ensemble import EnsembleError, run_ensemble  # NumPy: only who needs it waits for it
+    from ..ensemble import EnsembleError, run_ensemble  # imports NumPy, slowly
 
     try:
         ensemble = run_ensemble(
@@ -114,7 +119,7 @@ def _ensemble(args: argparse.Namespace) -> str:
         try:
             plotting.save(plotting.plot_ensemble(ensemble), args.plot)
             written.append(str(args.plot))
-        except FAILURES as error:  # a picture is not worth the ensemble
+        except FAILURES as error:  # the ensemble is worth more than its picture
             complain(reason_of(error))
             args.code = 1
     if args.json:
@@ -145,7 +150,7 @@ def _excitation(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation:
 
 
 def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
-    """The statistics that are printed; keys carry their units."""
+    """The statistics to print; keys include units."""
 
     def interval(name: str, key: float, found: Interval) -> dict:
         return {name: key, "value": found.value, "low": found.low, "high": found.high}
@@ -182,7 +187,7 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
 
 
 def _residual(ensemble: Ensemble) -> dict:
-    """Mean and root mean square of the residuals; None where they are not kept."""
+    """Mean and root mean square of the residuals; None if they are not stored."""
     try:
         residual = ensemble.residual
     except ValueError:
@@ -240,7 +245,7 @@ def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
 
 
 def _with_error(value: float, error: float) -> tuple[str, str]:
-    """The error to two digits and the value as far."""
+    """The value and its error: the error to two digits, the value to the same decimal place."""
     if not error > 0:
         return f"{value:.4g}", f"+- {error:.2g}"
     places = 1 - math.floor(math.log10(error))

@@ -31,7 +31,7 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
         description="Slides Newmark's block, which only slides downhill, through strong-motion"
         " records and prints its displacement [cm] for each record and yield acceleration, in both"
         " polarities, with their mean; then mean, median and standard deviation over the records."
-        " The names are SLAMMER's: normal is the record turned round, n = -record, inverse the"
+        " The names are SLAMMER's: normal is the reversed record, n = -record; inverse is the"
         " record itself.",
         epilog="A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
@@ -51,12 +51,12 @@ def newmark_rows(table: SweepTable) -> list[dict[str, Any]]:
     Parameters
     ----------
     table : SweepTable
-        Of one-way blocks under both polarities, with the parameter `ky` or `mu`.
+        Results for one-way blocks in both polarities, with the parameter `ky` or `mu`.
 
     Returns
     -------
     list of dict
-        Keys `record`, `ky_g`, `normal_m`, `inverse_m`, `mean_m`; record by record.
+        Keys `record`, `ky_g`, `normal_m`, `inverse_m`, `mean_m`; ordered by record.
     """
     levels = table.parameters.get("ky", table.parameters.get("mu"))
     assert levels is not None
@@ -81,7 +81,7 @@ def _block(ky: float) -> Coulomb:
 
 
 def _newmark(args: argparse.Namespace) -> str:
-    from ..suite import Suite  # and NumPy: who slides one record waits for neither
+    from ..suite import Suite  # imports NumPy, slowly
     from ..sweeps import grid, sweep
 
     for ky in args.ky:

@@ -1,4 +1,4 @@
-"""What the command prints and writes."""
+"""Output of the command: text, JSON, CSV and error messages."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ __all__ = [
     "write_error",
 ]
 
-# What ends the work on one file, but not that on the others.
+# Errors that end the work on one file, but not on the others.
 FAILURES = (ConvergenceError, ImportError, MemoryError, OSError, OverflowError, ValueError)
 
 
@@ -43,13 +43,13 @@ def write(text: str, stream: TextIO | None) -> None:
         stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
         stream.flush()
     except OSError as error:
-        with contextlib.suppress(AttributeError, OSError):  # else Python fails again at exit
+        with contextlib.suppress(AttributeError, OSError):  # otherwise Python fails again at exit
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
         raise OSError(error.errno, error.strerror, "standard output") from error
 
 
 def write_error(text: str) -> None:
-    with contextlib.suppress(OSError):  # nobody is left to be told
+    with contextlib.suppress(OSError):  # there is nowhere left to report it
         write(text, sys.stderr)
 
 
@@ -58,7 +58,7 @@ def complain(message: str) -> None:
 
 
 def reason_of(error: BaseException, file: Path | None = None) -> str:
-    """What went wrong, without the name of `file`."""
+    """The reason for an error, without the name of `file`."""
     if isinstance(error, OSError) and error.strerror:
         named = error.filename is not None and str(error.filename) != str(file)
         return f"{error.filename}: {error.strerror}" if named else error.strerror
@@ -69,7 +69,7 @@ def reason_of(error: BaseException, file: Path | None = None) -> str:
 
 
 def json_text(document: dict) -> str:
-    """Exact doubles; infinity, which JSON lacks, becomes null, and NaN raises ValueError."""
+    """A JSON text with exact doubles; infinity becomes null, and NaN raises ValueError."""
     import json
 
     def finite(value: Any) -> Any:
@@ -84,15 +84,13 @@ def json_text(document: dict) -> str:
 
 
 def check_outputs(outputs: Iterable[tuple[str, Path]], records: Iterable[Path] = ()) -> None:
-    """Raises where a file cannot be made or would replace a record or another output."""
+    """Raise if a file cannot be written, or would overwrite a record or another output."""
     taken = {_identity(record): f"the record {record}" for record in records}
     for option, file in outputs:
         try:
             check_writable(file)
         except OSError as error:
-            if (
-                error.errno != errno.ENAMETOOLONG
-            ):  # by the name of one record: no more than its picture fails
+            if error.errno != errno.ENAMETOOLONG:  # a long record name: only its picture fails
                 raise
         owner = f"the file of {option}, {file}"
         if taken.setdefault(_identity(file), owner) is not owner:
@@ -106,7 +104,7 @@ def check_whole(option: str, value: int | None, least: int, most: int = 2**64 - 
 
 
 def _identity(file: Path) -> Any:
-    """Equal for all names of one file: relative, symbolic and hard links."""
+    """A key that is equal for all names of a file: relative paths, symbolic and hard links."""
     try:
         status = file.stat()
     except OSError:
@@ -135,7 +133,7 @@ def version() -> str:
 
 
 def write_csv(file: Path, names: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
-    """Rows as comma-separated values, exact doubles, whole or not at all; None is an empty cell."""
+    """Write rows as CSV with exact doubles, whole or not at all; None is an empty cell."""
     text = io.StringIO()
     table = csv.DictWriter(text, names, extrasaction="ignore", lineterminator="\n")
     table.writeheader()

@@ -1,4 +1,4 @@
-"""How arguments are read."""
+"""Parsing of arguments."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .output import write, write_error
 
 __all__ = ["Parser", "numbers", "text_argument"]
 
-_MOST_STEPS = 10_000  # of a range
+_MOST_STEPS = 10_000  # in a range
 
 
 class Parser(argparse.ArgumentParser):
-    """Applies one rule to repeated options, `Store`, and prints as the rest of the command."""
+    """A parser that treats repeated options as `Store` does, and prints like the command."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
@@ -36,7 +36,7 @@ class Parser(argparse.ArgumentParser):
 
 
 class Store(argparse.Action):
-    """Repeated lists add up, and an option's list has each value once; else one value is one."""
+    """Join repeated lists, with each value of an option once; reject other repeated options."""
 
     given: Any = None
 
@@ -59,7 +59,7 @@ class Store(argparse.Action):
 
 
 def text_argument(argument: str) -> str:
-    """An argument that is no path: undecodable bytes, which only paths may have, are refused."""
+    """An argument that is not a path; rejects undecodable bytes, which only paths may have."""
     try:
         argument.encode()
     except UnicodeEncodeError:
@@ -70,7 +70,7 @@ def text_argument(argument: str) -> str:
 
 
 def numbers(argument: str) -> float | tuple[float, ...]:
-    """A number, or those of a range START:STOP:STEP, the stop included, in decimal arithmetic."""
+    """A number, or those of a range START:STOP:STEP, including STOP, in decimal arithmetic."""
     if ":" not in argument:
         return float(argument)
     parts = argument.split(":")

@@ -1,4 +1,4 @@
-"""``stickslip records``: what files hold."""
+"""``stickslip records``: the contents of record files."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ _COLUMNS = (
 def add_records(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser(
         "records",
-        help="print what records hold",
-        description="Reads records and prints a line for each component of each: its number in the"
-        " file, time step, samples and duration, peak ground acceleration and velocity, Arias"
-        " intensity and the significant duration D5-95, with their units in the heading. The"
-        " velocity is that of the record as it is, without a correction of its baseline.",
+        help="list the contents of record files",
+        description="Reads records and prints a line for each component: its number in the file,"
+        " orientation, time step, samples, duration, peak ground acceleration and velocity, Arias"
+        " intensity and the significant duration D5-95, with units in the heading. The velocity is"
+        " integrated from the record as it is, without baseline correction.",
         epilog="A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
     )
     add = parser.add_argument
-    add("--formats", action=_Formats, help="print the formats that are known, and exit")
+    add("--formats", action=_Formats, help="print the known formats and exit")
     add_files(parser)
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
     add("--json", action="store_true", help="one JSON document, exact doubles")
@@ -50,7 +50,7 @@ def add_records(commands: argparse._SubParsersAction) -> None:
 
 
 class _Formats(argparse.Action):
-    """Prints the table of formats and ends the command, as --version does."""
+    """Print the table of formats and exit, like --version."""
 
     def __init__(self, option_strings: list[str], dest: str, **options: Any) -> None:
         super().__init__(option_strings, dest, nargs=0, **options)

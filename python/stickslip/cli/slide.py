@@ -51,13 +51,14 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " slips (a reversal ends one slip and begins another). Ground acceleration is given in g ="
         " 9.80665 m/s^2.",
         epilog="--mu, --reach, --slope, --period, --damping-ratio and --scale take a number or a"
-        " range START:STOP:STEP, the stop included, as 0.05:0.6:0.05; every combination is slid."
+        " range START:STOP:STEP, which includes STOP, such as 0.05:0.6:0.05; every combination is"
+        " computed."
         " A slider that does not come to rest (no friction; a caster that has escaped) is"
         " reported in its state at the end of the record, and its row says so. A record that cannot"
         " be read or slid is reported in one line on stderr; the others are printed, and the exit"
-        " code is 1. With --json, such failures are also listed under 'errors', and null is an"
-        " infinite value or an option that was not given. Bad options end the command with exit"
-        " code 2 before any file is read.",
+        " code is 1. With --json, such failures are also listed under 'errors', and null stands"
+        " for an infinite value or an option that was not given. Bad options end the command with"
+        " exit code 2 before any file is read.",
     )
     add = parser.add_argument
     add_files(parser)
@@ -73,8 +74,8 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     add(
         "--both",
         action="store_true",
-        help="slide each record as it is and reversed; also print the mean of both, of the"
-        " magnitudes of their residuals",
+        help="slide each record as recorded and reversed; also print the mean of both (for"
+        " residuals, of their magnitudes)",
     )
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
@@ -146,7 +147,7 @@ def _row(
     response: Response,
     polarity: str | None,
 ) -> dict[str, Any]:
-    """One response; keys carry their units."""
+    """The row of one response; keys include units."""
     forward, backward = (slider.resist(backward=back) for back in (False, True))
     return {
         "file": str(file),
@@ -173,8 +174,8 @@ def _row(
 
 
 def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """Of both polarities; of residuals their magnitudes, for a block that slides either way
-    mirrors them."""
+    """The mean over both polarities; of residuals, the mean magnitude, because they have opposite
+    signs for a symmetric slider."""
 
     def mean(name: str) -> float:
         return statistics.fmean(abs(row[name]) for row in rows)

@@ -13,7 +13,7 @@ from .parser import numbers
 
 __all__ = ["add_slider", "described", "heading", "slider_of", "variations"]
 
-# What may be given as a range, with the words for it in a table and in a legend.
+# The options that may be ranges, with their headings in tables and names in legends.
 _VARIED = {
     "mu": "mu",
     "reach": "reach [m]",
@@ -31,7 +31,7 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     ----------
     parser : argparse.ArgumentParser
     ranges : bool, optional
-        Whether they may be ranges START:STOP:STEP.
+        Whether the options accept ranges START:STOP:STEP.
     """
     number: Callable[[str], Any] = numbers if ranges else float
     add = parser.add_argument
@@ -50,7 +50,7 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
 
 
 def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list[str]]:
-    """Every combination of the numbers that were given, and the options that have several."""
+    """Every combination of the given values, and the options with several values."""
     given = {
         name: list(value) if isinstance(value, list | tuple) else [value]
         for name in _VARIED
@@ -68,7 +68,7 @@ def heading(name: str) -> str:
 
 
 def described(args: argparse.Namespace, several: list[str], mu: str = "mu") -> Iterator[str]:
-    """As "mu = 0.1" and what else differs."""
+    """Labels such as "mu = 0.1", for mu and the other options that vary."""
     yield f"{mu} = {args.mu:g}"
     for name in several:
         if name != "mu":

@@ -15,7 +15,7 @@ from .parser import numbers
 
 __all__ = ["add_spectrum"]
 
-# Of each kind: the unit of the table, its size in SI units, and the name of the value in files.
+# For each kind: the heading of the table, its unit in SI units, and the key in files.
 _KINDS = {
     "pseudo_acceleration": ("PSA [g]", STANDARD_GRAVITY, "pseudo_acceleration_m_s2"),
     "pseudo_velocity": ("PSV [cm/s]", 0.01, "pseudo_velocity_m_s"),
@@ -31,9 +31,9 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser(
         "spectrum",
         help="print the response spectra of records",
-        description="Computes elastic response spectra of records: the largest response of linear"
+        description="Computes elastic response spectra of records: the maximum response of linear"
         " oscillators, in continuous time, exact for straight lines between samples. Prints it for"
-        " a few periods (0 is a rigid oscillator: the PGA), or for those of --periods. Picture,"
+        " a few periods (0 is a rigid oscillator: the PGA), or for those of --periods. Pictures,"
         " CSV and JSON have 100 periods from 0.01 to 10 s, or those of --periods.",
         epilog="--periods, --damping and --scale take numbers or ranges START:STOP:STEP. A file"
         " that cannot be read is reported in one line on stderr; the others are printed, and the"
@@ -46,7 +46,7 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         nargs="+",
         type=numbers,
         metavar="T",
-        help="undamped natural periods [s], 0 or from 1e-6 to 1e6, as 0.1:4:0.1",
+        help="undamped natural periods [s], 0 or from 1e-6 to 1e6, such as 0.1:4:0.1",
     )
     add(
         "--damping",
@@ -60,7 +60,7 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         "--kind",
         choices=tuple(_KINDS),
         default="pseudo_acceleration",
-        help="what is printed (default pseudo_acceleration)",
+        help="spectral quantity (default pseudo_acceleration)",
     )
     add("--scale", type=float, default=1.0, help="factor on the ground acceleration (default 1)")
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")

@@ -23,11 +23,16 @@ def add_thesis(commands: argparse._SubParsersAction) -> None:
         " errors. For each, writes a picture and a CSV file of all curves and points; writes a page"
         " that shows them all, gallery.md; prints the numerical claims of the thesis next to our"
         " results. With --check, prints every number with its expected value and its tolerance,"
-        " exits with code 1 if one is off, and writes nothing unless --out is given.",
+        " exits with code 1 if one is wrong, and writes nothing unless --out is given.",
     )
     add = parser.add_argument
     add("numbers", nargs="*", metavar="NUMBER", help="such as 4.6, A.2, 'Table 5.1' (default: all)")
-    add("--members", type=int, metavar="N", help="of an ensemble (default 100000; --check: 2000)")
+    add(
+        "--members",
+        type=int,
+        metavar="N",
+        help="number of members of each ensemble (default 100000; --check: 2000)",
+    )
     add("--seed", type=int, metavar="N", help="random seed (default 1; --check: 2)")
     add("--threads", type=int, metavar="N", help="maximum number of threads (default: all cores)")
     add(
@@ -36,7 +41,12 @@ def add_thesis(commands: argparse._SubParsersAction) -> None:
         metavar="FOLDER",
         help="folder for the files (default: thesis; --check: none)",
     )
-    add("--format", choices=("png", "pdf", "svg"), default="png", help="of pictures (default png)")
+    add(
+        "--format",
+        choices=("png", "pdf", "svg"),
+        default="png",
+        help="format of the pictures (default png)",
+    )
     add("--check", action="store_true", help="quick check against expected values")
     parser.set_defaults(run=_thesis)
 
@@ -68,7 +78,7 @@ def _thesis(args: argparse.Namespace) -> str:
     )
     folder = args.out or (None if args.check else Path("thesis"))
     if folder:
-        from .. import plotting  # matplotlib: only who plots waits for it
+        from .. import plotting  # imports matplotlib, which is slow
 
         folder.mkdir(parents=True, exist_ok=True)
     figures, checks = [], []

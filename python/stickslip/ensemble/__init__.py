@@ -1,8 +1,8 @@
-"""Ensembles: many members, a slider under a ground motion each, on threads, on any executor.
+"""Ensembles: many members, each a slider under a ground motion, on threads or on any executor.
 
-Members are simulated and summed in blocks, and the sums merge in an order that the members' numbers
-fix. So it matters to no bit of an answer who simulated what, and when: threads, processes, a
-cluster, a run that was broken off and gone on with.
+Members are simulated and summed in blocks, and the sums merge in an order fixed by the member
+numbers. Results are therefore identical to the last bit on any threads, processes or cluster, also
+for a run that was interrupted and resumed.
 """
 
 from .error import EnsembleError

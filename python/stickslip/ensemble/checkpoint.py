@@ -15,7 +15,7 @@ from .files import load, save
 
 
 class Checkpoint:
-    """The file that keeps what is done, if there is to be one."""
+    """The file that saves the progress of a run; inactive if no file is given."""
 
     def __init__(self, file: str | os.PathLike[str] | None, every: float) -> None:
         if not every >= 0:
@@ -28,7 +28,7 @@ class Checkpoint:
             check_writable(self.file)
 
     def load(self, asked: range) -> Ensemble | None:
-        """The members it holds; ValueError if some are not among those asked for."""
+        """Load the members that it holds; ValueError if the run does not ask for some of them."""
         if self.file is None or not self.file.exists():
             return None
         kept = load(self.file)
@@ -42,7 +42,7 @@ class Checkpoint:
         return kept
 
     def save_if_due(self, so_far: Callable[[], Ensemble]) -> None:
-        """Save once every `every` seconds; a failure is retried after as long."""
+        """Save if `every` seconds have passed; after a failure, warn once and retry later."""
         if self.file is None or time.monotonic() - self.saved < self.every:
             return
         try:
@@ -59,7 +59,7 @@ class Checkpoint:
         self.saved = time.monotonic()
 
     def save(self, ensemble: Ensemble) -> None:
-        """Save for the last time; an error carries the ensemble."""
+        """Save the final state; an error carries the ensemble."""
         if self.file is None:
             return
         try:

@@ -1,4 +1,4 @@
-"""The error of a run that broke off."""
+"""The error of an interrupted run."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ class EnsembleError(RuntimeError):
     Attributes
     ----------
     members : range
-        Those that the part was to simulate; none if it was the checkpoint.
+        The members of the part that failed; empty if the checkpoint failed.
     partial : Ensemble
-        What was done; also in the checkpoint, unless that could not be written.
+        The members that are done; also in the checkpoint, unless that could not be written.
     """
 
     def __init__(self, message: str, members: range, partial: Ensemble) -> None:

@@ -15,7 +15,7 @@ from .._core import Ensemble
 from .._files import check_regular, replacing
 
 _FORMAT = "stickslip ensemble 3"
-_FORMER = "stickslip ensemble 2"  # had nothing of the ground acceleration
+_FORMER = "stickslip ensemble 2"  # without the ground acceleration
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
     *("configuration", "dt", "times", "velocity_spectrum", "ground_acceleration"),
@@ -25,7 +25,7 @@ _NAMES = _ABOUT | {
 
 
 def save(ensemble: Ensemble, file: str | os.PathLike[str]) -> None:
-    """What `Ensemble.save` does, which see."""
+    """Implementation of `Ensemble.save` (see there)."""
     state = ensemble.__getstate__()
     state["configuration"] = json.dumps(state["configuration"])
     with replacing(file) as stream:
@@ -33,7 +33,7 @@ def save(ensemble: Ensemble, file: str | os.PathLike[str]) -> None:
 
 
 def load(file: str | os.PathLike[str]) -> Ensemble:
-    """What `Ensemble.load` does, which see."""
+    """Implementation of `Ensemble.load` (see there)."""
     path = Path(os.fspath(file))
 
     def refuse(what: str) -> ValueError:
@@ -42,12 +42,12 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
     check_regular(path)
     with path.open("rb") as stream:
         if stream.read(4) != b"PK\x03\x04":
-            raise refuse("is no ensemble: not a NumPy archive (.npz)")
+            raise refuse("is not an ensemble: not a NumPy archive (.npz)")
         try:
             archive = zipfile.ZipFile(stream)
         except zipfile.BadZipFile as error:
             raise refuse("is truncated or damaged: its table of contents is missing") from error
-        except Exception as error:  # what the table says is nonsense, in whatever way
+        except Exception as error:  # a damaged table can raise anything
             raise refuse(f"is damaged: {error}") from error
         try:
             entries = _entries(archive, path.stat().st_size)
@@ -55,7 +55,7 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
         except Exception as error:
             raise refuse(f"is damaged: {error}") from error
         if not str(about.get("format")).startswith("stickslip ensemble "):
-            raise refuse(f"is no ensemble: it holds {', '.join(sorted(entries)) or 'nothing'}")
+            raise refuse(f"is not an ensemble: it holds {', '.join(sorted(entries)) or 'nothing'}")
         former = str(about["format"]) == _FORMER
         names = _NAMES - {"ground_acceleration"} if former else _NAMES
         if str(about["format"]) != _FORMAT and not former:
@@ -86,7 +86,7 @@ def _entries(archive: zipfile.ZipFile, size: int) -> dict[str, zipfile.ZipInfo]:
     """The entries of an archive by name; ValueError if they take more memory than the file."""
     entries = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
     if len(entries) < len(archive.infolist()):
-        raise ValueError("two entries have one name")
+        raise ValueError("two entries have the same name")
     for name, info in entries.items():
         if info.compress_type != zipfile.ZIP_STORED or info.file_size != info.compress_size:
             raise ValueError(f"{name} must not be compressed")
@@ -96,11 +96,11 @@ def _entries(archive: zipfile.ZipFile, size: int) -> dict[str, zipfile.ZipInfo]:
 
 
 def _array(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> np.ndarray:
-    """The array of an entry; an error if its checksum or size is wrong."""
+    """Read the array of an entry; an error if its checksum or size is wrong."""
     content = archive.read(entry)
     stream = io.BytesIO(content)
     if np.lib.format.read_magic(stream) != (1, 0):
-        raise ValueError(f"{entry.filename} is no array of format 1.0")
+        raise ValueError(f"{entry.filename} is not an array of format 1.0")
     shape, is_fortran, dtype = np.lib.format.read_array_header_1_0(stream)
     array = np.frombuffer(content, dtype, offset=stream.tell())
     return array.reshape(shape, order="F" if is_fortran else "C")

@@ -1,4 +1,4 @@
-"""The parts of a run that go to an executor."""
+"""The parts of a run on an executor."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _run_part(
     first: int,
     members: int,
 ) -> tuple[Ensemble, float]:
-    """A part, and how long it took [s]; a function of the module, so that it pickles."""
+    """Run a part; return it and the time it took [s]. A module function, so that it pickles."""
     began = time.perf_counter()
     part = _core.run_ensemble(
         sliders,
@@ -38,15 +38,16 @@ def _run_part(
 
 
 class Parts:
-    """The members of a run, cut in parts that go to an executor, and merged as they come back.
+    """The members of a run, split into parts for an executor, which are merged as they arrive.
 
-    A part is 2^k blocks on a multiple of 2^k, which the sums merge to one set. Its size follows
-    from the time that those before it took, and falls towards the end, so that all end together.
+    A part is 2^k blocks that begin at a multiple of 2^k, which the sums merge to one set. Its size
+    follows from the time that earlier parts took, and decreases towards the end, so that all parts
+    end at about the same time.
     """
 
-    SECONDS = 1.0  # that a part is to take
-    MEMORY = 2**29  # bytes that results may take which have not been merged yet
-    MOST = 1024  # parts under way
+    SECONDS = 1.0  # target time of a part
+    MEMORY = 2**29  # maximum bytes of results that are not merged yet
+    MOST = 1024  # maximum number of submitted parts
 
     def __init__(
         self,
@@ -69,7 +70,7 @@ class Parts:
         self.todo = sum(map(len, self.gaps))
         self.flying: dict[Future[tuple[Ensemble, float]], range] = {}
         self.size = 1  # blocks in the next part
-        self.window = 8  # parts under way; opens with each that comes back
+        self.window = 8  # number of submitted parts; grows with each that arrives
         times = len(self.whole.time)
         sums = 12 + options["velocity_spectrum"] + 4 * options["ground_acceleration"]
         self.bytes_of_part = 8 * times * sums
@@ -92,7 +93,7 @@ class Parts:
         return self.whole
 
     def _gaps(self, first: int, past: int) -> list[range]:
-        """The members that are not there yet, the last first."""
+        """The members that are missing, the last first."""
         gaps, at = [], first
         for begin, end in self.whole.member_ranges:
             if at < min(begin, past):
@@ -103,8 +104,8 @@ class Parts:
         for gap in gaps:
             if gap.start % self.block:
                 raise ValueError(
-                    f"run_ensemble: what is to be gone on from ends at member {gap.start}, within"
-                    f" a block of {self.block}"
+                    f"run_ensemble: a resumed ensemble must end on a block boundary, ends at member"
+                    f" {gap.start}, within a block of {self.block}"
                 )
         return gaps[::-1]
 
@@ -116,7 +117,7 @@ class Parts:
         part = gap[: size * self.block]
         try:
             future = self.executor.submit(_run_part, *self.what, part.start, len(part))
-        except Exception as error:  # as of a pool whose processes are gone
+        except Exception as error:  # such as from a pool whose processes are gone
             raise self._failed(part, error) from error
         self.flying[future] = part
         if len(part) < len(gap):

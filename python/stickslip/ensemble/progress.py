@@ -1,4 +1,4 @@
-"""How far a run has come, on stderr."""
+"""Progress of a run on stderr."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def shown(
 
 
 def _bar(things: str) -> _Bar | _Tqdm:
-    """That of tqdm in a notebook, and in a terminal where there is tqdm; else our own."""
+    """The bar of tqdm in notebooks and terminals if tqdm is installed; otherwise our own."""
     if sys.stderr.isatty() or _in_notebook():
         try:
             return _Tqdm(things)
@@ -47,7 +47,7 @@ def _in_notebook() -> bool:
 
 
 class _Tqdm:
-    """The bar of tqdm, which also knows notebooks."""
+    """A progress bar of tqdm, which also works in notebooks."""
 
     def __init__(self, things: str) -> None:
         from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
@@ -57,7 +57,7 @@ class _Tqdm:
         self.bar: Any = None
 
     def __call__(self, done: int, total: int) -> None:
-        if self.bar is None:  # what a checkpoint had is no speed
+        if self.bar is None:  # members from a checkpoint do not count for the speed
             self.bar = self.tqdm(
                 total=total, initial=done, unit=self.unit, unit_scale=True, file=sys.stderr
             )
@@ -69,7 +69,7 @@ class _Tqdm:
 
 
 class _Bar:
-    """How far a run has come, in one line of stderr, or in lines where that is no terminal."""
+    """The progress in one line of stderr, or in several lines if that is not a terminal."""
 
     def __init__(self, things: str) -> None:
         self.things = things
@@ -81,7 +81,7 @@ class _Bar:
 
     def __call__(self, done: int, total: int) -> None:
         now = time.monotonic()
-        if self.began is None:  # what a checkpoint had is no speed
+        if self.began is None:  # members from a checkpoint do not count for the speed
             self.began = now, done
         seconds, fresh = now - self.began[0], done - self.began[1]
         line = f"{done:,} of {total:,} {self.things}"
@@ -108,7 +108,7 @@ class _Bar:
 
 
 def _round(speed: float) -> str:
-    """Two digits or so, as 210,000."""
+    """Round to two digits or so, such as 210,000."""
     step = 10 ** max(0, math.floor(math.log10(max(speed, 1))) - 1)
     return f"{round(speed / step) * step:,}" if speed >= 10 else f"{speed:.2g}"
 

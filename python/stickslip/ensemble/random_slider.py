@@ -17,25 +17,26 @@ Distribution: TypeAlias = Lognormal | Normal | Uniform | float
 class Random:
     """A slider for each member of an ensemble, made from random parameters.
 
-    Parameters are independent of each other and of the ground motions. (seed, member) fixes them,
-    and each keeps its value where the distribution of another is changed.
+    Parameters are independent of each other and of the ground motions. (seed, member) determines
+    them, and a parameter keeps its value if the distribution of another one changes.
 
     Parameters
     ----------
     kind : callable
-        What makes the slider or the law: a law as `Coulomb`, `Slider`, `ViscousSlider`, one of
-        their constructors, as `Caster.from_geometry`, or a function. To go to other processes it
-        must pickle, which classes and the functions of a module do.
+        Makes the slider or the law: a law such as `Coulomb`, `Slider`, `ViscousSlider`, one of
+        their constructors, such as `Caster.from_geometry`, or a function. For other processes it
+        must pickle, as classes and module functions do.
     **parameters
-        Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is drawn for each member; a
-        `Random` is made for each member, as the law of a slider; all else is passed on as it is.
+        Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is sampled for each member; a
+        `Random` makes an object for each member, such as the law of a slider; all other values are
+        passed on unchanged.
 
     Raises
     ------
     TypeError
         `kind` is not callable.
     Exception
-        What `kind` raises at the quartiles of all parameters, with which it is tried.
+        Whatever `kind` raises at the quartiles of all parameters: the constructor calls it there.
 
     Examples
     --------
@@ -47,19 +48,19 @@ class Random:
 
     Notes
     -----
-    Parameter j, counted in the order of the arguments that are numbers or distributions, takes the
-    quantile at the j-th of the member's own uniform random numbers (Philox), in C++ as in Python.
-    What the law refuses, as a negative mu, ends a run with a ValueError that names the member and
-    the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
+    Parameter j, counted in the order of the arguments that are numbers or distributions, is the
+    quantile at the j-th uniform random number of the member (Philox), in C++ as in Python. A value
+    that the law rejects, such as a negative mu, ends a run with a ValueError that names the member
+    and the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
     """
 
     def __init__(self, kind: Callable[..., AnySlider], /, **parameters: Any) -> None:
         if not callable(kind):
-            raise TypeError(f"Random: kind must be callable, as Coulomb, got {kind!r}")
+            raise TypeError(f"Random: kind must be callable, such as Coulomb, got {kind!r}")
         self._kind = kind
         self._parameters = parameters
         self._drawn = list(self._distributions())
-        # A function has no name that tells what it does: what it makes stands for it.
+        # The name of a function does not tell what it does: its results identify it.
         self._quartiles = [
             repr(self._make(_core.quantile(one, p) for one in self._drawn))
             for p in (0.25, 0.5, 0.75)
@@ -67,17 +68,17 @@ class Random:
 
     @property
     def kind(self) -> Callable[..., AnySlider]:
-        """What makes the slider or the law."""
+        """The callable that makes the slider or the law."""
         return self._kind
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """Its keyword arguments: distributions, and what is passed on as it is."""
+        """Its keyword arguments: distributions, and values passed on unchanged."""
         return dict(self._parameters)
 
     @property
     def configuration(self) -> dict[str, Any]:
-        """All that the sliders depend on, as JSON knows it."""
+        """Everything that determines the sliders, as JSON types."""
         parameters = {name: _description(value) for name, value in self._parameters.items()}
         return {"random": parameters, "quartiles": self._quartiles}
 
@@ -92,12 +93,12 @@ class Random:
         Returns
         -------
         Slider or friction law
-            What `kind` made.
+            The result of `kind`.
 
         Raises
         ------
         ValueError
-            Parameters that the law refuses; names the member and the value.
+            The law rejects the parameters; the message names the member and the value.
         """
         number = operator.index(member)
         values = _core.draw(self._drawn, seed=operator.index(seed), member=number)
@@ -107,7 +108,7 @@ class Random:
             raise ValueError(f"Random: member {number}: {error}") from error
 
     def _distributions(self) -> Iterator[Distribution]:
-        """Of all numbers that `kind` gets: one that is given is a distribution, too."""
+        """The distributions of all numbers that `kind` gets; a fixed number is one, too."""
         for value in self._parameters.values():
             if isinstance(value, Random):
                 yield from value._distributions()

@@ -35,94 +35,97 @@ def run_ensemble(
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
 ) -> Ensemble:
-    """Slides through many members and takes their statistics.
+    """Simulate many members and compute statistics of their responses.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), from rest at x = 0; thesis 4.4, 5.4. A member is a
-    slider and a ground motion n(t), made from its number; each is solved as by `integrate`.
+    slider and a ground motion n(t), determined by seed and member number; each is solved as by
+    `integrate`.
 
     Parameters
     ----------
     sliders : Slider, friction law, a list of these, Drawn, Random or SliderSource
-        What slides; a law alone is a slider without spring and damper. Of a list of m sliders
-        member i has the one at i modulo m, of `Drawn(list)` one drawn at random; `Random` has
-        random parameters. A source of your own: `stickslip.ensemble.SliderSource`.
+        A law alone is a slider without spring and damper. From a list of m sliders, member i takes
+        number i modulo m; from `Drawn(list)`, a random one. `Random` has random parameters. For
+        your own source see `stickslip.ensemble.SliderSource`.
     motions : GaussianExcitation, PoissonPulses, GroundMotion or list of it, Drawn or Excitation
-        What the ground does: a random source; or records, of different lengths and time steps, of
-        which member i has the one at i modulo n, or of `Drawn(list)` one drawn at random. A source
-        of your own: `stickslip.ensemble.Excitation`. Where durations differ, there are no
-        statistics by time: `Ensemble.time` is empty.
+        A random source; or records, which may differ in length and time step: from a list of n,
+        member i takes number i modulo n; from `Drawn(list)`, a random one. For your own source see
+        `stickslip.ensemble.Excitation`. If durations differ, there are no statistics by time:
+        `Ensemble.time` is empty.
     members : int
-        How many, at least 1; for standard errors at least 2.
+        Number of members, at least 1; at least 2 for standard errors.
     seed : int
         From 0 to 2^64 - 1.
     first_member : int, optional
-        Its number, a multiple of `Ensemble.block`, which is 64 unless the motions are long.
+        Number of the first member, a multiple of `Ensemble.block`, which is 64 unless the motions
+        are long. Default 0.
     threads : int, optional
-        At most so many, at least 1; as many as the machine has, if not given.
+        Maximum number of threads, at least 1; default: all cores.
     dt : float, optional
-        Between the times of the statistics [s], a multiple of the motions' own; that itself, if not
-        given, or 1/512 of the duration where they have none in common. ValueError where durations
-        differ.
+        Time step of the statistics [s], a multiple of the step of the motions. Default: that step,
+        or 1/512 of the duration if they have none in common. ValueError if durations differ.
     settle : bool, optional
-        Residuals and peaks after the slider has come to rest without ground acceleration, which
-        it never does without friction: ConvergenceError.
+        Continue each member under zero ground acceleration until the slider comes to rest, so that
+        peaks and residuals are final. A slider without friction never does: ConvergenceError.
     contact : 'flight' or 'clipped', optional
-        What sliders do where the ground falls away from under them; see `integrate`.
+        What sliders do when they lose contact with the ground; see `integrate`.
     velocity_spectrum : bool, optional
-        The velocity's spectral density too, at an FFT a member, where durations are the same.
+        Also estimate the spectral density of the velocity, if durations are equal: one FFT for each
+        member.
     ground_acceleration : bool, optional
-        Mean and variance of the ground acceleration by time too, where durations are the same: each
-        motion is made once more for it.
+        Also compute mean and variance of the ground acceleration by time, if durations are equal;
+        this makes each motion a second time.
     progress : bool or callable, optional
-        True: a bar on stderr (a line at each tenth where that is no terminal). A callable is called
-        with the members done and to do, ten times a second or so.
+        True: a bar on stderr (a line for each tenth if that is not a terminal). A callable gets the
+        numbers of members done and in total, about ten times a second.
     executor : concurrent.futures.Executor, optional
         Where to run, with one thread for each part: a ProcessPoolExecutor, Dask's
-        `Client.get_executor()`, mpi4py's MPIPoolExecutor. It is not shut down. Parts begin small
+        `Client.get_executor()`, mpi4py's MPIPoolExecutor. It is not shut down. Parts start small
         and grow until they take a second.
     checkpoint : path-like, optional
-        A file that keeps what is done: written every `checkpoint_every` seconds, at the end, and
-        where the run is broken off. If it is there already, the run resumes from it. If it cannot
-        be written during the run, as on a full disk, the run warns once (RuntimeWarning), continues
-        and retries.
+        A file that saves progress: written every `checkpoint_every` seconds, at the end, and when
+        the run is interrupted. If it exists, the run resumes from it. If it cannot be written
+        during the run, as on a full disk, the run warns once (RuntimeWarning), continues and
+        retries.
     checkpoint_every : float, optional
-        [s], at least 0.
+        Time between checkpoints [s], at least 0; default 30.
 
     Returns
     -------
     Ensemble
-        The same bits for any threads, executor and parts, and for a run that was gone on with.
+        Identical to the last bit for any threads, executor and parts, and for a resumed run.
 
     Raises
     ------
     ValueError
-        A value out of its range; parameters of `Random` that the law refuses (says which member and
-        value); an empty list; a checkpoint that is damaged, of another configuration (says what
-        differs), or that holds members not asked for.
+        A value out of range; parameters of `Random` that the law rejects (names the member and the
+        value); an empty list; a checkpoint that is damaged, of another configuration (names the
+        difference), or with members outside the run.
     TypeError
         An argument of the wrong type.
     OverflowError
         Displacements or velocities beyond 1e34 [m, m/s], whose statistics could leave the range of
-        doubles; says which member or block.
+        doubles; names the member or block.
     ConvergenceError
-        A member does not settle; says which.
+        A member does not settle; names it.
     EnsembleError
-        A part failed in the executor, and what had not begun is cancelled; or the checkpoint could
-        not be written when the run ended or was interrupted. `partial` has what was done.
+        A part failed in the executor, and parts that had not begun are cancelled; or the checkpoint
+        could not be written when the run ended or was interrupted. `partial` has the members that
+        are done.
     OSError
-        Before the run: the checkpoint cannot be read, or is not a regular file that may be written.
+        Before the run: the checkpoint cannot be read, or is not a writable regular file.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
     Notes
     -----
-    On one thread, the motions and the statistics included (2.5 GHz, AVX2): without a spring,
-    Coulomb friction takes 6 to 7 ns a sample, spring and damper without friction 9 and casters 70
-    under Gaussian excitation, Coulomb friction 10 ns a step under pulses, the velocity's spectrum 2
-    ns a sample; others, and lists and random sliders, take what `integrate` takes, and some 10 ns.
-    Memory: 16 bytes a member, and for each thread 1 kB a time; above 2^24 members peaks are counted
-    in bins. A call costs 0.1 ms, and copies a list of records; so does each part that goes to an
-    executor.
+    Times on one thread, including motions and statistics (2.5 GHz, AVX2). Under Gaussian
+    excitation: 6 to 7 ns per sample for Coulomb friction without a spring, 9 for spring and damper
+    without friction, 70 for casters. Under pulses: 10 ns per step for Coulomb friction. The
+    velocity spectrum: 2 ns per sample. Other sliders, lists and random sliders: as for `integrate`,
+    plus some 10 ns. Memory: 16 bytes per member, and 1 kB per thread and time of the statistics;
+    above 2^24 members, peaks are counted in bins. A call takes 0.1 ms and copies a list of records;
+    so does each part on an executor.
 
     References
     ----------

@@ -20,36 +20,36 @@ from .._core import (
 
 
 class Excitation(Protocol):
-    """A random source of ground motions of somebody's own, as `run_ensemble` takes it.
+    """A user-defined random source of ground motions for `run_ensemble`.
 
-    It may have `dt` as well [s]: between the times of the statistics, where its motions have
-    samples. It is asked by several threads, one at a time; to go to other processes it must pickle.
+    It may also have `dt` [s], the step of its motions, which is then the step of the statistics.
+    Several threads call it, one at a time; for other processes it must pickle.
     """
 
     @property
     def duration(self) -> float | None:
-        """Of each motion [s], positive; None where they differ: no statistics by time then."""
+        """Duration of each motion [s], positive; None if they differ: no statistics by time."""
 
     @property
     def configuration(self) -> Any:
-        """All that the motions depend on, as JSON knows it: only what has the same is merged."""
+        """Everything that determines the motions, as JSON types; must be equal to merge."""
 
     def sample(self, *, seed: int, member: int) -> GroundMotion:
-        """The motion of that name, the same for ever."""
+        """The motion of a member: the same for equal arguments, always."""
 
 
 class SliderSource(Protocol):
-    """A source of sliders of one's own, as `run_ensemble` takes it; `Random` is one.
+    """A user-defined source of sliders for `run_ensemble`; `Random` is one.
 
-    It is asked by several threads, one at a time; to go to other processes it must pickle.
+    Several threads call it, one at a time; for other processes it must pickle.
     """
 
     @property
     def configuration(self) -> Any:
-        """All that the sliders depend on, as JSON knows it: only what has the same is merged."""
+        """Everything that determines the sliders, as JSON types; must be equal to merge."""
 
     def sample(self, *, seed: int, member: int) -> AnySlider:
-        """The slider of that name, the same for ever."""
+        """The slider of a member: the same for equal arguments, always."""
 
 
 AnySlider: TypeAlias = "Slider | Coulomb | Caster | VelocityDependent | Stribeck | StaticKinetic"

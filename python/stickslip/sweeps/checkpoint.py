@@ -22,7 +22,7 @@ _FORMAT = "stickslip sweep 1"
 
 
 class Checkpoint:
-    """The file that keeps what is done, if there is to be one."""
+    """The file that saves the progress of a sweep; inactive if no file is given."""
 
     def __init__(
         self,
@@ -44,7 +44,7 @@ class Checkpoint:
             self.key = _key(sliders, motions, how)
 
     def load(self, table: SweepTable) -> None:
-        """Fill the table with what the file holds."""
+        """Fill the table from the file, if it exists."""
         if self.file is None or not self.file.exists():
             return
         try:
@@ -69,7 +69,7 @@ class Checkpoint:
         table.failures = tuple(SweepFailure(*one) for one in failures)
 
     def save_if_due(self, table: SweepTable) -> None:
-        """Save once every `every` seconds; a failure is retried after as long."""
+        """Save if `every` seconds have passed; after a failure, warn once and retry later."""
         if self.file is None or time.monotonic() - self.saved < self.every:
             return
         try:
@@ -86,7 +86,7 @@ class Checkpoint:
         self.saved = time.monotonic()
 
     def save(self, table: SweepTable) -> None:
-        """Save for the last time; an error carries the table."""
+        """Save the final state; an error carries the table."""
         if self.file is None:
             return
         try:
@@ -115,7 +115,7 @@ class Checkpoint:
 
 
 def _key(sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, Any]) -> str:
-    """What is the same for the same sweep only."""
+    """A digest that identifies a sweep."""
     digest = hashlib.blake2b(json.dumps([list(map(repr, sliders)), how]).encode())
     for motion in motions:
         digest.update(repr((len(motion), motion.dt, motion.interpolation)).encode())

@@ -1,4 +1,4 @@
-"""The error of a sweep that broke off."""
+"""The error of an interrupted sweep."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ class SweepError(RuntimeError):
     Attributes
     ----------
     records : range
-        Those of the part; none if it was the checkpoint.
+        The records of the part that failed; empty if the checkpoint failed.
     partial : SweepTable
-        What was done; NaN where nothing was.
+        The results so far; NaN where there are none.
     """
 
     def __init__(self, message: str, records: range, partial: SweepTable) -> None:

@@ -17,7 +17,7 @@ class Grid(list[AnySlider]):
     Attributes
     ----------
     parameters : dict of list
-        By name, the value of each slider: of those parameters that vary.
+        By name, for each parameter that varies, its values for all sliders.
     """
 
     def __init__(
@@ -31,26 +31,26 @@ class Grid(list[AnySlider]):
 
 
 def grid(kind: Callable[..., AnySlider], /, **parameters: Any) -> Grid:
-    """Sliders with each combination of parameters.
+    """Make sliders with every combination of parameters.
 
     Parameters
     ----------
     kind : callable
-        What makes a slider or a law from keyword arguments: `Coulomb`, `Slider`, or a function of
-        your own.
+        Makes a slider or a law from keyword arguments: `Coulomb`, `Slider`, or your own
+        function.
     **parameters
-        A list, tuple, range or array varies, anything else is the same for all; a `Grid` given for
-        a law varies too, and brings its own parameters. The last varies fastest.
+        A list, tuple, range or array varies; any other value is the same for all sliders. A `Grid`
+        of laws varies too, and adds its own parameters. The last parameter varies fastest.
 
     Returns
     -------
     Grid
-        A list of them.
+        A list of the sliders.
 
     Raises
     ------
     ValueError
-        A parameter without values; what `kind` refuses, with the values it was given.
+        A parameter without values; arguments that `kind` rejects (names their values).
 
     Examples
     --------
@@ -62,8 +62,8 @@ def grid(kind: Callable[..., AnySlider], /, **parameters: Any) -> Grid:
     [2, 3, 4, 2, 3, 4]
     """
     if not callable(kind):
-        raise TypeError(f"grid: kind must be callable, as Coulomb, got {kind!r}")
-    axes: list[list[tuple[dict[str, Any], dict[str, Any]]]] = []  # arguments, what to call them
+        raise TypeError(f"grid: kind must be callable, such as Coulomb, got {kind!r}")
+    axes: list[list[tuple[dict[str, Any], dict[str, Any]]]] = []  # arguments, parameters to record
     for name, value in parameters.items():
         if isinstance(value, Grid):
             columns = value.parameters

@@ -32,7 +32,7 @@ from .table import SweepTable, parameters_of
 Polarity = Literal["both", "as recorded", "flipped"]
 
 _SLIDERS = (Slider, Coulomb, Caster, VelocityDependent, Stribeck, StaticKinetic)
-_PARTS = 64  # that the records are cut in for an executor
+_PARTS = 64  # number of parts of the records for an executor
 
 
 def sweep(
@@ -48,55 +48,55 @@ def sweep(
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 30.0,
 ) -> SweepTable:
-    """Slides many sliders through many ground motions, from rest at x = 0.
+    """Integrate many sliders under many ground motions, from rest at x = 0.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2);
-    each combination as by `integrate`.
+    each combination is solved as by `integrate`.
 
     Parameters
     ----------
     sliders : Slider, friction law or list of these
-        What slides, of any laws; `grid` makes lists.
+        Sliders with any laws; `grid` makes lists.
     motions : GroundMotion, Suite or list of GroundMotion
-        Records of any lengths and time steps.
+        Records, which may differ in length and time step.
     polarity : {'both', 'as recorded', 'flipped'}
-        Under n(t), under -n(t), or one after the other.
+        Both n(t) and -n(t), n(t) only, or -n(t) only.
     settle : bool, optional
         Continue under zero ground acceleration after each record until the slider rests, so that
         residuals are final.
     contact : {'flight', 'clipped'}, optional
-        What a slider does where the ground falls away from under it; see `integrate`.
+        What a slider does when it loses contact with the ground; see `integrate`.
     threads : int, optional
-        At most so many, at least 1; as many as the machine has, if not given.
+        Maximum number of threads, at least 1; default: all cores.
     progress : bool or callable, optional
-        True: a bar on stderr. A callable is called with the combinations done and to do, ten times
-        a second or so.
+        True: a bar on stderr. A callable gets the numbers of combinations done and in total, about
+        ten times a second.
     executor : concurrent.futures.Executor, optional
         Where to run, with one thread for each part of the records: a ProcessPoolExecutor, Dask's
         `Client.get_executor()`, mpi4py's MPIPoolExecutor. It is not shut down.
     checkpoint : path-like, optional
-        A file that keeps what is done: written every `checkpoint_every` seconds, at the end, and
-        where the run is broken off. If it is there already, the run resumes from it.
+        A file that saves progress: written every `checkpoint_every` seconds, at the end, and when
+        the run is interrupted. If it exists, the run resumes from it.
     checkpoint_every : float, optional
-        [s], at least 0.
+        Time between checkpoints [s], at least 0; default 30.
 
     Returns
     -------
     SweepTable
-        Arrays over [slider, record, polarity]; the same bits for any threads, executor and parts,
-        and for a run that was resumed.
+        Arrays over [slider, record, polarity]; identical to the last bit for any threads, executor
+        and parts, and for a resumed run.
 
     Raises
     ------
     ValueError
-        An empty list; a value out of its range; a checkpoint that is damaged or of another sweep.
+        An empty list; a value out of range; a checkpoint that is damaged or of another sweep.
     TypeError
         An argument of the wrong type.
     SweepError
         A part failed in the executor; or the checkpoint could not be written at the end. `partial`
-        has what was done.
+        has the results so far.
     OSError
-        Before the run: the checkpoint cannot be read, or is not a regular file that may be written.
+        Before the run: the checkpoint cannot be read, or is not a writable regular file.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -104,16 +104,16 @@ def sweep(
     -----
     RuntimeWarning
         Combinations failed: a slider that does not come to rest, a motion beyond the range of
-        doubles. They are NaN, and `SweepTable.failures` says why: no combination ends the others.
+        doubles. They are NaN, and `SweepTable.failures` says why. Other combinations continue.
 
     Notes
     -----
-    Coulomb friction, also with static friction above it, without spring, damper and stops, under a
-    record of even steps: as many slip levels as a vector holds go through a record together, exact
-    to round-off, 1e-13 of the scale of x; 0.05 to 0.3 ns a sample and slider, where `integrate`
-    takes 12 to 40. Slopes and vertical motion cost half as much again. All else goes by
-    `integrate`, also a combination whose normal force is ever zero,
-    one by one on all threads. The interpreter is not held meanwhile.
+    For Coulomb friction, with or without a higher static friction, without spring, damper and
+    stops, under records with even steps, each vector lane integrates one slip level, exact to
+    round-off, 1e-13 of the scale of x; this takes 0.05 to 0.3 ns per sample and slider, where
+    `integrate` takes 12 to 40. Slopes and vertical motion take half as long again. All other
+    combinations use `integrate`, one by one on all threads, as do those in which the normal force
+    reaches zero. Releases the interpreter lock.
     """
     these = _sliders(sliders)
     those = [motions] if isinstance(motions, GroundMotion) else list(motions)
@@ -200,7 +200,7 @@ def _run_here(
     keeper: Checkpoint,
     show: Progress,
 ) -> None:
-    """Some records at a time, twice as many until they take half a second."""
+    """Process the records in parts, which double until one takes half a second."""
     size = 1
     todo = [i for i in range(len(motions)) if not table.done[i]]
     try:
@@ -227,7 +227,7 @@ def _combinations(table: SweepTable) -> int:
 def _run_part(
     sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, Any]
 ) -> dict[str, Any]:
-    """A part; a function of the module, so that it pickles."""
+    """Run a part. A module function, so that it pickles."""
     return _core.sweep(sliders, motions, threads=1, heartbeat=None, **how)
 
 
@@ -258,7 +258,7 @@ def _run_on(
             part = todo[k : k + size]
             try:
                 future = executor.submit(_run_part, sliders, [motions[i] for i in part], how)
-            except Exception as error:  # as of a pool whose processes are gone
+            except Exception as error:  # such as from a pool whose processes are gone
                 raise failed(part, error) from error
             flying[future] = part
         while flying:

@@ -24,7 +24,7 @@ def sliding_spectrum(
     settle: bool = True,
     threads: int | None = None,
 ) -> SweepTable:
-    """How far a block slides in one record, against friction, or friction and period.
+    """Displacements of a block in one record, against friction, or friction and period.
 
     Parameters
     ----------
@@ -32,22 +32,21 @@ def sliding_spectrum(
     mu : array_like
         Coefficients of friction, finite and at least 0 (positive where it settles).
     period : array_like, optional
-        Of centering springs [s], positive; infinite is none.
+        Periods with centering springs [s], positive; infinite means no spring.
     one_way : bool, optional
-        Newmark's block, which never slides backward; mu is then its yield acceleration [g].
+        Newmark's block, which never slides backward; mu is then the yield acceleration [g].
     polarity, settle, threads : optional
-        As `sweep` takes them.
+        As for `sweep`.
 
     Returns
     -------
     SweepTable
-        Of one record; its `parameters` are `mu`, and `period` if it was given, which varies
-        fastest.
+        For one record; its `parameters` are `mu`, and `period` if given, which varies fastest.
 
     Raises
     ------
     ValueError
-        A value out of its range.
+        A value out of range.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""The table that a sweep makes."""
+"""The table of results of a sweep."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ _FORMAT = "stickslip sweep table 1"
 QUANTITIES = {
     "peak": ("peak", "m", "largest displacement over all time"),
     "residual": ("residual", "m", "displacement at the end"),
-    "sliding_distance": ("sliding distance", "m", "length of the way slid"),
+    "sliding_distance": ("sliding distance", "m", "length of the path slid"),
     "events": ("events", "", "breakaways, reversals and arrests"),
 }
 
 
 class SweepFailure(NamedTuple):
-    """A combination that has no answer, and why."""
+    """A combination without a result, and why."""
 
     slider: int
     record: int
@@ -44,10 +44,10 @@ class SweepFailure(NamedTuple):
 
 
 class SweepTable:
-    """What comes of many sliders under many ground motions.
+    """Responses of many sliders to many ground motions, as `sweep` returns them.
 
-    `sweep` makes it. Arrays have the shape (sliders, records, polarities). NaN (0 of the events)
-    where a combination failed.
+    Arrays have the shape (sliders, records, polarities). Values are NaN (`events`: 0) where a
+    combination failed.
 
     Attributes
     ----------
@@ -56,23 +56,24 @@ class SweepTable:
     residual : ndarray
         x at the end [m]; final if the slider rests.
     sliding_distance : ndarray
-        Length of the way slid [m].
+        Length of the path slid [m].
     events : ndarray of int
         Breakaways, reversals and arrests.
     sliders : tuple of str
-        The sliders, as they are written.
+        The reprs of the sliders.
     parameters : dict of ndarray
-        By name, the parameters of each slider that `grid` varied; of a list of blocks alone `mu`.
+        By name, the parameters that `grid` varied, for each slider; for a list of Coulomb laws,
+        `mu`.
     records : tuple of str
         Names of the ground motions.
     metadata : dict of ndarray
-        Of the suite, a value for each record.
+        Columns of the suite, with a value for each record.
     polarity : tuple of str
         'as recorded' and 'flipped', or one of them.
     settle : bool
-        Whether it went on until the sliders rested.
+        Whether the sweep continued until the sliders came to rest.
     contact : {'flight', 'clipped'}
-        What the sliders did where the ground fell away from under them.
+        What sliders do when they lose contact with the ground.
     failures : tuple of SweepFailure
         Combinations that failed.
 
@@ -125,7 +126,7 @@ class SweepTable:
 
     @classmethod
     def empty(cls, **about: Any) -> SweepTable:
-        """A table of which nothing is done."""
+        """A table without results."""
         shape = tuple(len(about[name]) for name in ("sliders", "records", "polarity"))
         nothing = np.full(shape, np.nan)
         return cls(
@@ -137,7 +138,7 @@ class SweepTable:
         )
 
     def put(self, records: Sequence[int], result: Mapping[str, Any]) -> None:
-        """Take over what was found for some records."""
+        """Enter the results for some records."""
         places = list(records)
         for name in QUANTITIES:
             getattr(self, name)[:, places, :] = result[name]
@@ -163,7 +164,7 @@ class SweepTable:
     # ---- statistics over records and polarities
 
     def quantile(self, p: ArrayLike, quantity: str = "peak") -> NDArray[np.float64]:
-        """Quantiles of |quantity| over all records and polarities, of each slider.
+        """Quantiles of |quantity| over all records and polarities, for each slider.
 
         Parameters
         ----------
@@ -175,7 +176,7 @@ class SweepTable:
         Returns
         -------
         ndarray, shape (sliders,) or (probabilities, sliders)
-            [m]. Combinations that failed are left out; NaN where all failed.
+            Quantiles [m], without combinations that failed; NaN where all failed.
         """
         values = np.abs(getattr(self, _checked(quantity))).reshape(len(self.sliders), -1)
         found = [
@@ -230,7 +231,7 @@ class SweepTable:
         Raises
         ------
         OSError
-            It cannot be written.
+            The file cannot be written.
         """
         columns = self._columns()
         text = io.StringIO()
@@ -293,7 +294,7 @@ class SweepTable:
         ImportError
             h5py is missing: ``pip install stickslip[suites]``.
         OSError
-            It cannot be written.
+            The file cannot be written.
         """
         with creating(file, _FORMAT, "SweepTable.save") as h5:
             h5.attrs["settle"] = self.settle
@@ -310,7 +311,7 @@ class SweepTable:
 
     @classmethod
     def open(cls, file: str | os.PathLike[str]) -> SweepTable:
-        """Open a table that was saved.
+        """Open a saved table.
 
         Parameters
         ----------
@@ -328,7 +329,7 @@ class SweepTable:
         OSError
             The file is missing or cannot be read.
         ValueError
-            It is no table of a sweep, or damaged.
+            The file is not a table of a sweep, or is damaged.
         """
         with opening(file, _FORMAT, "SweepTable.open") as h5:
             return cls(
@@ -348,15 +349,15 @@ class SweepTable:
         ax: Axes | None = None,
         title: str | None = None,
     ) -> FigureBase:
-        """The median over records and polarities, 16 and 84 %, and each record thin.
+        """Plot the median, 16 and 84 % over records and polarities, and each record as a thin line.
 
         Parameters
         ----------
         quantity : {'peak', 'residual', 'sliding_distance'}
             The residual counts by its magnitude.
         against : str, optional
-            The parameter on the horizontal axis; the first one with numbers, if not given. Where
-            others vary too, each combination of them has its own median and band, six at most.
+            The parameter on the horizontal axis; default: the first one with numbers. If others
+            vary too, each combination of them has its own median and band, at most six.
         ax : matplotlib Axes, optional
             Where to draw; a new figure of 7 x 4.5 inches if not given.
         title : str, optional
@@ -377,22 +378,23 @@ class SweepTable:
         return plot_sweep(self, quantity, against=against, ax=ax, title=title)
 
     def curves(self, against: str | None = None) -> Iterator[tuple[str, str, NDArray[Any]]]:
-        """Sliders that differ in one parameter alone, in order of it.
+        """Groups of sliders that differ in one parameter only, sorted by it.
 
         Parameters
         ----------
         against : str, optional
-            The parameter; the first one with numbers, if not given.
+            The parameter; default: the first one with numbers.
 
         Yields
         ------
         name, others, places
-            The parameter's name; what the others are, as 'period = 2'; the places of the sliders.
+            The parameter's name; the values of the others, such as 'period = 2'; the indices of
+            the sliders.
         """
         numeric = [n for n, c in self.parameters.items() if c.dtype.kind in "biuf"]
         if against is None and not numeric:
             raise ValueError(
-                "SweepTable.curves: needs a parameter with numbers, as of sliders made by grid; the"
+                "SweepTable.curves: needs a parameter with numbers, as in sliders made by grid; the"
                 f" parameters are {', '.join(self.parameters) or 'none'}"
             )
         name = numeric[0] if against is None else against
@@ -417,7 +419,7 @@ class SweepTable:
 def parameters_of(
     sliders: Sequence[AnySlider], given: Mapping[str, Sequence[Any]]
 ) -> dict[str, Any]:
-    """What `grid` varied; of a list of Coulomb laws mu."""
+    """The parameters that `grid` varied; for a list of Coulomb laws, mu."""
     if given or not all(isinstance(one, Coulomb) for one in sliders):
         return dict(given)
     blocks = [one for one in sliders if isinstance(one, Coulomb)]
