@@ -36,10 +36,12 @@ def assert_shown(picture):
 def test_the_page_shows_the_code_and_the_pictures_of_the_examples():
     text = PAGE.read_text(encoding="utf-8")
     assert "literalinclude" not in text  # which a forge does not read
-    files = [*EXAMPLES.glob("[0-9]*.py"), *EXAMPLES.glob("[0-9]*.cpp")]
-    assert len(files) > 10
+    languages = {".py": "python", ".cpp": "cpp", ".c": "c", ".f90": "fortran"}
+    files = [file for file in EXAMPLES.glob("[0-9]*") if file.suffix in languages]
+    assert {file.suffix for file in files} == set(languages)
+    assert len(files) > 12
     for file in files:
-        language = {".py": "python", ".cpp": "cpp"}[file.suffix]
+        language = languages[file.suffix]
         code = file.read_text(encoding="utf-8").rstrip("\n")
         assert f"```{language}\n{code}\n```" in text, file.name
     for file in EXAMPLES.glob("[0-9]*.py"):

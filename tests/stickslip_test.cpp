@@ -1,0 +1,162 @@
+// The C interface: the same bits as `advance`, and errors as codes.
+#include "stickslip/stickslip.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/motions.hpp"
+
+using namespace stickslip;
+using namespace test;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+double up(int m) { return 4 * 2.5 * std::cos(0.5 * m + 0.2); }
+
+/// Both interfaces over record A, segment by segment; how often it flew.
+template <class Law>
+int check_same_bits(const stickslip_slider& c, const Slider<Law>& slider, bool vertical, Contact contact) {
+  const std::vector<double> n = record_a_samples();
+  stickslip_state state = {};
+  State expected;
+  int flights = 0;
+  for (int m = 0; m < 400; ++m) {
+    const auto i = static_cast<std::size_t>(m);
+    const stickslip_segment segment = {0.1, n[i], n[i + 1], vertical ? up(m) : 0, vertical ? up(m + 1) : 0};
+    REQUIRE(stickslip_advance(&c, &segment, &state) == STICKSLIP_OK);
+    const Segment horizontal{0.1, n[i], n[i + 1]};
+    if (vertical)
+      advance(slider, detail::load_segment(horizontal, slider.slope(), up(m), up(m + 1)), expected, NoObserver{},
+              contact);
+    else
+      advance(slider, horizontal, expected, NoObserver{}, contact);
+    REQUIRE(state.displacement == expected.displacement);
+    REQUIRE(state.velocity == expected.velocity);
+    REQUIRE(state.mode == static_cast<double>(expected.mode));
+    REQUIRE(state.in_flight == (expected.in_flight ? 1.0 : 0.0));
+    REQUIRE(state.gap == expected.gap);
+    REQUIRE(state.gap_velocity == expected.gap_velocity);
+    flights += expected.in_flight;
+  }
+  CHECK(state.displacement != 0);
+  return flights;
+}
+
+}  // namespace
+
+TEST_CASE("the C interface moves a slider to the same bits") {
+  SECTION("a block") { check_same_bits({.slip_level = 1}, Slider(Coulomb(1)), false, Contact::flight); }
+  SECTION("static friction") {
+    check_same_bits({.slip_level = 1, .static_level = 1.3}, Slider(StaticKinetic(Coulomb(1), 1.3)), false,
+                    Contact::flight);
+  }
+  SECTION("spring and damper") {
+    check_same_bits({.slip_level = 1, .natural_frequency = 2, .damping = 0.2}, Slider(Coulomb(1), 2, 0.2), false,
+                    Contact::flight);
+  }
+  SECTION("stops") {
+    check_same_bits({.slip_level = 0.5, .gap = 0.1, .backward_gap = 0.2, .restitution = 0.6},
+                    Slider(Coulomb(0.5), {.stops = Stops(0.1, 0.2, 0.6)}), false, Contact::flight);
+  }
+  SECTION("one stop") {
+    check_same_bits({.slip_level = 0.5, .gap = 0.1}, Slider(Coulomb(0.5), {.stops = Stops(0.1, infinity, 0)}), false,
+                    Contact::flight);
+  }
+  SECTION("a slope, one way") {
+    check_same_bits({.slip_level = 4, .slope_degrees = 20, .one_way = 1},
+                    Slider(Coulomb(4), {.slope_degrees = 20, .one_way = true}), false, Contact::flight);
+  }
+  SECTION("vertical motion") {
+    CHECK(check_same_bits({.slip_level = 1}, Slider(Coulomb(1)), true, Contact::flight) > 0);
+    CHECK(check_same_bits({.slip_level = 1, .clipped = 1}, Slider(Coulomb(1)), true, Contact::clipped) == 0);
+  }
+}
+
+TEST_CASE("errors of the C interface are codes with a message, and change nothing") {
+  struct Case {
+    std::function<void(stickslip_slider&, stickslip_segment&, stickslip_state&)> spoil;
+    std::string says;
+    int code = STICKSLIP_INVALID_ARGUMENT;
+  };
+  using Slip = stickslip_slider;
+  using Seg = stickslip_segment;
+  using St = stickslip_state;
+  const double nan = not_a_number;
+  const std::vector<Case> cases = {
+      {[](Slip& s, Seg&, St&) { s.slip_level = -1; }, "slip_level must be finite and at least 0, got -1 m/s^2"},
+      {[&](Slip& s, Seg&, St&) { s.slip_level = nan; }, "slip_level must be finite and at least 0, got nan"},
+      {[](Slip& s, Seg&, St&) { s.static_level = 0.5; }, "at least the kinetic one of 1 m/s^2, got 0.5"},
+      {[&](Slip& s, Seg&, St&) { s.static_level = nan; }, "got nan"},
+      {[](Slip& s, Seg&, St&) { s.natural_frequency = -2; }, "natural_frequency must be finite and at least 0, got -2"},
+      {[](Slip& s, Seg&, St&) { s.damping = -2; }, "damping must be finite and at least 0, got -2"},
+      {[](Slip& s, Seg&, St&) { s.slope_degrees = 90; }, "slope_degrees must be from 0 to less than 90, got 90"},
+      {[](Slip& s, Seg&, St&) { s.slope_degrees = 30; }, "slides under its own weight"},
+      {[](Slip& s, Seg&, St&) { s.gap = -0.1; }, "gap must be at least 0, got -0.1 m"},
+      {[&](Slip& s, Seg&, St&) { s.backward_gap = nan; }, "backward_gap must be at least 0, got nan m"},
+      {[](Slip& s, Seg&, St&) { s.restitution = 2; }, "restitution must be from 0 to 1, got 2"},
+      {[](Slip& s, Seg&, St&) { s.one_way = 7; }, "one_way must be 0 or 1, got 7"},
+      {[](Slip& s, Seg&, St&) { s.clipped = -1; }, "clipped must be 0 or 1, got -1"},
+      {[&](Slip&, Seg& s, St&) { s.duration = nan; }, "segment and state must be finite, got a duration of nan s"},
+      {[&](Slip&, Seg& s, St&) { s.end = nan; }, "end nan m/s^2"},
+      {[&](Slip&, Seg& s, St&) { s.vertical_start = nan; }, "normal force nan to"},
+      {[&](Slip&, Seg& s, St&) { s.vertical_end = infinity; }, "to inf m/s^2"},
+      {[&](Slip&, Seg&, St& s) { s.displacement = nan; }, "x = nan m"},
+      {[](Slip&, Seg&, St& s) { s.mode = 0.5; }, "mode must be 0, 1 or -1, got 0.5"},
+      {[&](Slip&, Seg&, St& s) { s.mode = nan; }, "mode must be 0, 1 or -1, got nan"},
+      {[](Slip&, Seg&, St& s) { s.velocity = -3; }, "mode must be the sign of the velocity, -3 m/s, got 0"},
+      {[](Slip&, Seg&, St& s) { s.in_flight = 2; }, "in_flight must be 0 or 1, got 2"},
+      {[](Slip&, Seg&, St& s) { s.gap = -1; }, "gap must be finite and at least 0, got -1 m"},
+      {[&](Slip&, Seg&, St& s) { s.gap_velocity = infinity; }, "gap_velocity must be finite, got inf m/s"},
+      {[](Slip& s, Seg&, St& st) { s.gap = 0.1, st.displacement = 1; }, "between the stops"},
+      {[](Slip&, Seg& s, St&) { s.duration = 1e300, s.start = s.end = 1e300; }, "leaves the range of doubles",
+       STICKSLIP_OVERFLOW},
+      {[](Slip& s, Seg& seg, St& st) {
+         s.natural_frequency = 1e17, seg = {10, 5, -3, 0, 0}, st.displacement = 1e-3;
+       },
+       "the spring is too stiff", STICKSLIP_NO_CONVERGENCE},
+  };
+  for (const Case& c : cases) {
+    stickslip_slider slider = {.slip_level = 1};
+    stickslip_segment segment = {.duration = 0.1, .start = 2, .end = 3};
+    stickslip_state state = {};
+    c.spoil(slider, segment, state);
+    const stickslip_state before = state;
+    INFO(c.says);
+    CHECK(stickslip_advance(&slider, &segment, &state) == c.code);
+    CHECK_THAT(std::string(stickslip_message()), ContainsSubstring(c.says));
+    CHECK(std::memcmp(&state, &before, sizeof state) == 0);
+  }
+}
+
+TEST_CASE("null pointers are named, and a slider can be checked alone") {
+  const stickslip_slider slider = {.slip_level = 1}, bad = {.slip_level = -1};
+  const stickslip_segment segment = {.duration = 0.1};
+  stickslip_state state = {};
+  CHECK(stickslip_advance(nullptr, &segment, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("slider must not be null"));
+  CHECK(stickslip_advance(&slider, nullptr, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("segment must not be null"));
+  CHECK(stickslip_advance(&slider, &segment, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("state must not be null"));
+  CHECK(stickslip_check(&slider) == STICKSLIP_OK);
+  CHECK(stickslip_check(&bad) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("got -1 m/s^2"));
+  CHECK(stickslip_check(nullptr) == STICKSLIP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("each thread has a message of its own") {
+  const stickslip_slider bad = {.slip_level = -1};
+  REQUIRE(stickslip_check(&bad) == STICKSLIP_INVALID_ARGUMENT);
+  std::string other = "unset";
+  std::thread([&] { other = stickslip_message(); }).join();
+  CHECK(other.empty());
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("got -1"));
+}
