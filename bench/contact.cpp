@@ -1,5 +1,5 @@
 // What a slider stands on: the cost of vertical motion, a slope, stops, static friction and friction that depends on
-// the speed, beside the same slider without.
+// the speed or the distance slid, beside the same slider without.
 //
 // contact [--check] [--json] [--rounds N]
 #include <cmath>
@@ -56,6 +56,8 @@ void check() {
   same("a vertical motion of none", integrate(law, still), integrate(law, horizontal));
   same("stops far away", integrate(on({.stops = {1e3, 0.5}}), horizontal), integrate(law, horizontal));
   same("equal levels", integrate(StaticKinetic(law, level), horizontal), integrate(law, horizontal));
+  same("a level that stays", integrate(Degrading({0, 1}, {level, level}), horizontal), integrate(law, horizontal));
+  closes("degrading, spring", Slider(Degrading({0, 0.5, 2}, {level, 0.5 * level, level}), frequency), shaken);
   same("equal speeds", integrate(VelocityDependent(level, level, 20), horizontal), integrate(law, horizontal));
 }
 
@@ -74,12 +76,16 @@ int main(int argc, char** argv) {
     });
   };
   const VelocityDependent liner(0.5 * level, level, 20);
+  const Degrading degrading({0, 0.5, 2}, {level, 0.5 * level, level});
   add("Coulomb", Slider(Coulomb(level)), horizontal);
   add("Coulomb, vertical motion", Slider(Coulomb(level)), shaken);
   add("Coulomb, stops far away", on({.stops = {1e3, 0.5}}), horizontal);
   add("static above kinetic", Slider(StaticKinetic(Coulomb(level), 1.3 * level)), horizontal);
   add("Coulomb, spring", on({.natural_frequency = frequency}), horizontal);
   add("Coulomb, spring, vertical motion", on({.natural_frequency = frequency}), shaken);
+  add("degrading", Slider(degrading), horizontal);
+  add("degrading, vertical motion", Slider(degrading), shaken);
+  add("degrading, spring", Slider(degrading, frequency), horizontal);
   add("velocity-dependent, spring", Slider(liner, frequency), horizontal);
   add("velocity-dependent, spring, vertical motion", Slider(liner, frequency), shaken);
   add("velocity-dependent, pendulum, vertical motion",

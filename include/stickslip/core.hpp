@@ -4,6 +4,7 @@
 #include "stickslip/error.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/degrading.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"

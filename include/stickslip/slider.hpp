@@ -62,7 +62,7 @@ class Slider {
     detail::require(degrees >= 0 && degrees < 90, "Slider: slope_degrees must be from 0 to less than 90", degrees,
                     "degrees");
     if (degrees > 0 && detail::equal(stiffness(), 0) && !std::isfinite(mounting_.stops.forward())) {
-      const double steepest = std::tan(slope()), holds = hold(law_, 0, Direction::forward);
+      const double steepest = std::tan(slope()), holds = hold(law_at(law_, State{}), 0, Direction::forward);
       detail::require(holds >= steepest * standard_gravity,
                       "Slider: on a slope of " + detail::shortest(degrees) +
                           " degrees it slides under its own weight unless mu is at least " + detail::shortest(steepest),
@@ -105,6 +105,12 @@ class Slider {
     return Slider(std::move(law), mounting);
   }
 
+  /// The same mounting under the law as it goes on from a state.
+  auto at(const State& state) const requires MemoryLaw<Law> {
+    using Now = Slider<decltype(law_.at(state))>;
+    return Now(law_.at(state), mounting_, typename Now::Unchecked{});
+  }
+
   const Law& law() const noexcept { return law_; }
   const Mounting& mounting() const noexcept { return mounting_; }
   double natural_frequency() const noexcept { return mounting_.natural_frequency; }
@@ -123,6 +129,11 @@ class Slider {
   bool plain() const noexcept { return plain_; }
 
  private:
+  template <FrictionLaw>
+  friend class Slider;
+  struct Unchecked {};
+  Slider(Law law, const Mounting& mounting, Unchecked) : law_(std::move(law)), mounting_(mounting) {}
+
   Law law_;
   Mounting mounting_;
   bool plain_ =

@@ -34,6 +34,9 @@ struct State {
   bool in_flight = false;   ///< whether the slider has left the ground
   double gap = 0;           ///< between slider and ground, in flight [m]
   double gap_velocity = 0;  ///< rate of the gap, in flight [m/s]
+  /// Slid so far, forward and backward alike [m], at least 0. Counted where the law depends on it (MemoryLaw), else
+  /// left as it is.
+  double sliding_distance = 0;
 
   /// At rest where `velocity` is 0, else sliding the way it points.
   static constexpr State at(double displacement, double velocity) noexcept {

@@ -20,11 +20,12 @@ namespace stickslip::python {
 
 /// A slider of any law that Python knows. A new law is added here and gets all that takes a slider.
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
-                               Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
-                               Slider<StaticKinetic<VelocityDependent>>>;
+                               Slider<Degrading>, Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
+                               Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
 
 /// The class of these in Python.
-using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>>;
+using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>,
+                                      StaticKinetic<Degrading>>;
 
 }  // namespace stickslip::python
 
@@ -39,6 +40,7 @@ void bind_coulomb(py::module_& m);
 void bind_caster(py::module_& m);
 void bind_velocity_dependent(py::module_& m);
 void bind_stribeck(py::module_& m);
+void bind_degrading(py::module_& m);
 void bind_static_kinetic(py::module_& m);
 void bind_stops(py::module_& m);
 void bind_slider(py::module_& m);
@@ -83,14 +85,14 @@ void bind_build_info(py::module_& m);
 /// Gives all functions and classes of the module signatures that Python can read, and errors in plain words.
 void make_plain(py::module_& m);
 
-/// What `work` gives with the slider in its own type; one whose law knows the speed, or holds more than what resists,
-/// is refused, as theories do.
+/// What `work` gives with the slider in its own type; one whose law knows the speed or the distance slid, or holds more
+/// than what resists, is refused, as theories do.
 template <class Work>
 auto with_position_law(const AnySlider& slider, const char* who, Work&& work) {
   return std::visit(
       [&]<class Law>(const Slider<Law>& one) -> decltype(work(std::get<0>(slider))) {
         if constexpr (!PositionLaw<Law>)
-          detail::refuse_speed_law(who);
+          detail::refuse_law<Law>(who);
         else if constexpr (LawWithHold<Law>)
           throw std::invalid_argument(std::string(who) + ": static friction beside kinetic is not covered");
         else

@@ -37,6 +37,7 @@ PYBIND11_MODULE(_core, m) {
   bind_caster(m);
   bind_velocity_dependent(m);
   bind_stribeck(m);
+  bind_degrading(m);
   bind_static_kinetic(m);
   bind_stops(m);
   bind_slider(m);

@@ -40,6 +40,8 @@ template <>
 inline constexpr auto parts<Stribeck> = std::tuple(&Stribeck::static_level, &Stribeck::kinetic_level,
                                                    &Stribeck::velocity, &Stribeck::exponent);
 template <>
+inline constexpr auto parts<Degrading> = std::tuple(&Degrading::distances, &Degrading::levels, &Degrading::backward);
+template <>
 inline constexpr auto parts<Stops> = std::tuple(&Stops::forward, &Stops::backward, &Stops::restitution);
 template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
@@ -47,7 +49,7 @@ inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplit
 
 template <>
 inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::velocity, &State::mode, &State::in_flight,
-                                                &State::gap, &State::gap_velocity);
+                                                &State::gap, &State::gap_velocity, &State::sliding_distance);
 template <>
 inline constexpr auto parts<Event> = std::tuple(&Event::time, &Event::displacement, &Event::velocity, &Event::kind);
 template <>

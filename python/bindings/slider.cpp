@@ -60,6 +60,14 @@ void convert_laws(const std::variant<Slider<Laws>...>*) {
   py::implicitly_convertible<AnyStaticKinetic, AnySlider>();
 }
 
+State slid_to(double displacement, double sliding_distance) {
+  detail::require(std::isfinite(sliding_distance) && sliding_distance >= 0,
+                  "Slider: sliding_distance must be finite and at least 0", sliding_distance, "m");
+  State state = State::at(displacement, 0);
+  state.sliding_distance = sliding_distance;
+  return state;
+}
+
 const Mounting& mounting_of(const AnySlider& slider) {
   return std::visit([](const auto& s) -> const Mounting& { return s.mounting(); }, slider);
 }
@@ -103,7 +111,7 @@ without vertical motion p = -n and N = g. At rest it stays while -hold_backward 
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck or StaticKinetic
+law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading or StaticKinetic
     What holds at rest and what resists sliding.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0, 0 is no spring.
@@ -166,7 +174,7 @@ A pendulum of the length of the bowl's radius less the wheel's: wn = sqrt(g / (c
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck or StaticKinetic
+law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading or StaticKinetic
 cup_radius : float
     Radius of curvature of the bowl [m], positive and finite.
 wheel_radius : float, optional
@@ -214,11 +222,14 @@ To first order in x / (cup_radius - wheel_radius); the next term is the third.)"
           "c / (2 wn); without a spring inf, or nan without a damper too.")
       .def(
           "hold",
-          [](const AnySlider& self, double displacement, bool backward) {
+          [](const AnySlider& self, double displacement, bool backward, double sliding_distance) {
             if (backward && mounting_of(self).one_way) return never;
-            return std::visit([&](const auto& s) { return hold(s.law(), displacement, direction_of(backward)); }, self);
+            const State state = slid_to(displacement, sliding_distance);
+            return std::visit(
+                [&](const auto& s) { return hold(law_at(s.law(), state), displacement, direction_of(backward)); },
+                self);
           },
-          py::arg("displacement") = 0.0, py::kw_only(), py::arg("backward") = false,
+          py::arg("displacement") = 0.0, py::kw_only(), py::arg("backward") = false, py::arg("sliding_distance") = 0.0,
           R"(What friction holds at rest.
 
 Parameters
@@ -227,6 +238,8 @@ displacement : float, optional
     x [m].
 backward : bool, optional
     Against backward instead of forward sliding.
+sliding_distance : float, optional
+    Slid so far [m], where the law depends on it; at least 0.
 
 Returns
 -------
@@ -234,13 +247,17 @@ float
     Friction force per unit mass [m/s^2].)")
       .def(
           "resist",
-          [](const AnySlider& self, double displacement, double speed, bool backward) {
+          [](const AnySlider& self, double displacement, double speed, bool backward, double sliding_distance) {
             if (backward && mounting_of(self).one_way) return never;
+            const State state = slid_to(displacement, sliding_distance);
             return std::visit(
-                [&](const auto& s) -> double { return resist(s.law(), displacement, direction_of(backward), speed); },
+                [&](const auto& s) -> double {
+                  return resist(law_at(s.law(), state), displacement, direction_of(backward), speed);
+                },
                 self);
           },
           py::arg("displacement") = 0.0, py::arg("speed") = 0.0, py::kw_only(), py::arg("backward") = false,
+          py::arg("sliding_distance") = 0.0,
           R"(What friction resists with while it slides.
 
 Parameters
@@ -251,6 +268,8 @@ speed : float, optional
     |x'| [m/s].
 backward : bool, optional
     Against backward instead of forward sliding.
+sliding_distance : float, optional
+    Slid so far [m], where the law depends on it; at least 0.
 
 Returns
 -------

@@ -180,10 +180,59 @@ class Stribeck(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float, float, int]: ...
     def __setstate__(self, state: tuple[float, float, float, int], /) -> None: ...
 
+class Degrading(metaclass=_Pybind11Type):
+    @overload
+    def __init__(
+        self,
+        *,
+        distance: _Samples,
+        mu: _Samples,
+        ky_g: None = None,
+        slip_level: None = None,
+        mu_backward: _Samples | None = None,
+        backward: _Samples | None = None,
+    ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        *,
+        distance: _Samples,
+        mu: None = None,
+        ky_g: _Samples,
+        slip_level: None = None,
+        mu_backward: _Samples | None = None,
+        backward: _Samples | None = None,
+    ) -> None: ...
+    @overload
+    def __init__(
+        self,
+        *,
+        distance: _Samples,
+        mu: None = None,
+        ky_g: None = None,
+        slip_level: _Samples,
+        mu_backward: _Samples | None = None,
+        backward: _Samples | None = None,
+    ) -> None: ...
+    @property
+    def distance(self) -> NDArray[np.float64]: ...
+    @property
+    def slip_level(self) -> NDArray[np.float64]: ...
+    @property
+    def backward(self) -> NDArray[np.float64]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __getstate__(
+        self,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
+    def __setstate__(
+        self, state: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], /
+    ) -> None: ...
+
 class StaticKinetic(metaclass=_Pybind11Type):
     def __init__(
         self,
-        sliding: Coulomb | Caster | VelocityDependent | None = None,
+        sliding: Coulomb | Caster | VelocityDependent | Degrading | None = None,
         *,
         mu_static: _Number | tuple[_Number, _Number] | None = None,
         mu_kinetic: _Number | tuple[_Number, _Number] | None = None,
@@ -191,16 +240,18 @@ class StaticKinetic(metaclass=_Pybind11Type):
         kinetic: _Number | tuple[_Number, _Number] | None = None,
     ) -> None: ...
     @property
-    def sliding(self) -> Coulomb | Caster | VelocityDependent: ...
+    def sliding(self) -> Coulomb | Caster | VelocityDependent | Degrading: ...
     @property
     def static(self) -> float: ...
     @property
     def static_backward(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getstate__(self) -> tuple[Coulomb | Caster | VelocityDependent, float, float]: ...
+    def __getstate__(
+        self,
+    ) -> tuple[Coulomb | Caster | VelocityDependent | Degrading, float, float]: ...
     def __setstate__(
-        self, state: tuple[Coulomb | Caster | VelocityDependent, float, float], /
+        self, state: tuple[Coulomb | Caster | VelocityDependent | Degrading, float, float], /
     ) -> None: ...
 
 class Stops(metaclass=_Pybind11Type):
@@ -218,7 +269,7 @@ class Stops(metaclass=_Pybind11Type):
     def __getstate__(self) -> tuple[float, float, float]: ...
     def __setstate__(self, state: tuple[float, float, float], /) -> None: ...
 
-_Law: TypeAlias = Coulomb | Caster | VelocityDependent | Stribeck | StaticKinetic
+_Law: TypeAlias = Coulomb | Caster | VelocityDependent | Stribeck | Degrading | StaticKinetic
 
 class Slider(metaclass=_Pybind11Type):
     def __init__(
@@ -260,9 +311,20 @@ class Slider(metaclass=_Pybind11Type):
     def stops(self) -> Stops | None: ...
     @property
     def pendulum(self) -> bool: ...
-    def hold(self, displacement: _Number = 0.0, *, backward: bool = False) -> float: ...
+    def hold(
+        self,
+        displacement: _Number = 0.0,
+        *,
+        backward: bool = False,
+        sliding_distance: _Number = 0.0,
+    ) -> float: ...
     def resist(
-        self, displacement: _Number = 0.0, speed: _Number = 0.0, *, backward: bool = False
+        self,
+        displacement: _Number = 0.0,
+        speed: _Number = 0.0,
+        *,
+        backward: bool = False,
+        sliding_distance: _Number = 0.0,
     ) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -1613,10 +1675,16 @@ def integrate(
     velocity: _Number = 0.0,
     settle: bool = False,
     contact: Literal["flight", "clipped"] = "flight",
+    sliding_distance: _Number = 0.0,
 ) -> Response: ...
 
 class State(metaclass=_Pybind11Type):
-    def __init__(self, displacement: _Number = 0.0, velocity: _Number = 0.0) -> None: ...
+    def __init__(
+        self,
+        displacement: _Number = 0.0,
+        velocity: _Number = 0.0,
+        sliding_distance: _Number = 0.0,
+    ) -> None: ...
     @property
     def displacement(self) -> float: ...
     @property
@@ -1629,10 +1697,14 @@ class State(metaclass=_Pybind11Type):
     def gap(self) -> float: ...
     @property
     def gap_velocity(self) -> float: ...
+    @property
+    def sliding_distance(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __getstate__(self) -> tuple[float, float, int, bool, float, float]: ...
-    def __setstate__(self, state: tuple[float, float, int, bool, float, float], /) -> None: ...
+    def __getstate__(self) -> tuple[float, float, int, bool, float, float, float]: ...
+    def __setstate__(
+        self, state: tuple[float, float, int, bool, float, float, float], /
+    ) -> None: ...
 
 def advance(
     slider: _AnySlider,

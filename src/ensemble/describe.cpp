@@ -26,6 +26,11 @@ std::string parameters(const Stribeck& law) {
          ", \"exponent\": " + std::to_string(law.exponent());
 }
 
+std::string parameters(const Degrading& law) {
+  return "\"law\": \"Degrading\", \"distances\": " + json(law.distances()) + ", \"levels\": " + json(law.levels()) +
+         ", \"backward\": " + json(law.backward());
+}
+
 std::string parameters_of_static(const std::string& sliding, double forward, double backward) {
   return "\"static\": " + json(std::array{forward, backward}) + ", " + sliding;
 }

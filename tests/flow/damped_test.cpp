@@ -104,6 +104,37 @@ TEST_CASE("the functions of a damped motion obey its equation, damped little, cr
       }
 }
 
+TEST_CASE("a spring that pushes away makes a damped motion grow", "[damped]") {
+  for (const double c : {0.0, 1e-9, 0.1, 2.0, 40.0, 1e4})
+    for (const double wn : {1e-6, 1.0, 3.0, 20.0})
+      for (const double t : {1e-7, 0.01, 0.3, 5.0}) {
+        CAPTURE(c, wn, t);
+        const DampedBasis b(c, -wn, t);
+        // As above with k = -wn^2; what grows has as many roundings as it has radians.
+        const double e = (30 + wn * t) * std::numeric_limits<double>::epsilon(), k = -wn * wn;
+        CHECK(std::abs(b.decay + c * b.impulse + k * b.step - 1) <= e * (1 + c * b.impulse - k * b.step));
+        CHECK(std::abs(b.impulse + c * b.step + k * b.ramp - t) <= e * (t + c * b.step - k * b.ramp));
+        CHECK(std::abs(b.step + c * b.ramp + k * b.curve - t * t / 2) <= e * (t * t + c * b.ramp - k * b.curve));
+        if (c == 0) {
+          CHECK(std::abs(b.decay - std::cosh(wn * t)) <= e * b.decay);
+          CHECK(std::abs(b.impulse - std::sinh(wn * t) / wn) <= e * b.impulse);
+        }
+        DampedBasis twice = b;
+        twice.double_time(k);
+        const DampedBasis there(c, -wn, 2 * t);
+        CHECK(std::abs(twice.impulse - there.impulse) <= 40 * e * there.impulse);
+        CHECK(std::abs(twice.curve - there.curve) <= 40 * e * there.curve);
+        // The integral of v^2 of a unit speed, by its two rates where they are apart.
+        const double apart = std::sqrt(c * c - 4 * k), fast = (c + apart) / 2, slow = -wn * wn / fast;
+        if (apart * t < 0.1) continue;
+        const auto integral = [&](double rate) { return -std::expm1(-rate * t) / rate; };
+        const double square = (fast * fast * integral(2 * fast) + slow * slow * integral(2 * slow) -
+                               2 * fast * slow * integral(fast + slow + (c == 0 ? 1e-30 : 0))) /
+                              (apart * apart);
+        CHECK(std::abs(DampedSquare(c, -wn, t).of(1, 0, 0) - square) <= 1e-11 * square);
+      }
+}
+
 TEST_CASE("slips on a damper that last for ages stop where they must", "[damped]") {
   // From 2 m/s against friction and a damper, without ground motion: u exp(-c t) = a (1 - exp(-c t)) / c.
   for (const double c : {1e-6, 0.3, 50.0, 1e6}) {

@@ -191,6 +191,8 @@ SLIDERS = [
     ss.Slider(ss.StaticKinetic(static=(2, 3), kinetic=1)),
     ss.Slider(ss.Stribeck(mu_static=0.13, mu_kinetic=0.08, velocity=0.1, exponent=2)),
     ss.FrictionPendulum(radius=2, mu=0.05, stops=ss.Stops(gap=0.4, restitution=0.2)),
+    ss.Slider(ss.Degrading(distance=[0, 0.5], mu=[0.3, 0.1]), slope_degrees=5, one_way=True),
+    ss.Slider(ss.StaticKinetic(ss.Degrading(distance=[0, 1], mu=[0.1, 0.05]), mu_static=0.2), 2),
 ]
 
 

@@ -18,6 +18,11 @@ LAWS = [
     ss.Stribeck(mu_static=0.13, mu_kinetic=0.08, velocity=0.1, exponent=2),
     ss.StaticKinetic(mu_static=0.3, mu_kinetic=0.2),
     ss.StaticKinetic(ss.Caster(slip_level=1.0, reach=0.5), static=(1.5, 2.0)),
+    ss.Degrading(distance=[0, 0.1], mu=[0.3, 0.2]),
+    ss.Degrading(
+        distance=[0.05, 1 / 3, 2], slip_level=[1, 1 / 7, 0.5], mu_backward=[0.1, 0, 1 / 3]
+    ),
+    ss.StaticKinetic(ss.Degrading(distance=[1], mu=[0.2]), mu_static=0.3),
     ss.Caster(slip_level=1.0, reach=0.5),
     ss.Caster(mu=1 / 7, reach=INF),
     ss.Caster.from_geometry(mu=0.2, trail=0.03, wheel_width=0.02),
@@ -266,6 +271,8 @@ def test_repr_evaluates_back_to_the_same_law(law):
         "Coulomb(slip_level=1)",
         "Coulomb(slip_level=1.5, mu_backward=0.2)",
         "Coulomb(slip_level=0)",
+        "Degrading(distance=[0, 0.1], mu=[0.3, 0.2])",
+        "Degrading(distance=[0.5, 1], slip_level=[1, 0], mu_backward=[0.1, 0])",
         "Caster(mu=0.2, reach=0.5)",
         "Caster(mu=0.2, reach=float('inf'), rolling=0.1)",
         "Caster(slip_level=1, reach=0.5)",

@@ -32,9 +32,10 @@ def test_each_combination_is_what_integrate_says():
         ss.Coulomb(mu=0.1, backward=math.inf),
         ss.Slider(ss.Coulomb(mu=0.05), period=2),
         ss.VelocityDependent(mu_slow=0.05, mu_fast=0.1, rate=50),
+        ss.Degrading(distance=[0, 0.2], mu=[0.1, 0.05]),
     ]
     table = ss.sweep(sliders, QUAKES, settle=True)
-    assert table.peak.shape == (4, 6, 2)
+    assert table.peak.shape == (5, 6, 2)
     for s, slider in enumerate(sliders):
         for r, motion in enumerate(QUAKES):
             for p, sign in enumerate((1, -1)):

@@ -56,10 +56,17 @@ EXAMPLES = {
         ss.Stribeck(static=2, kinetic=1, velocity=0.1, exponent=2),
         ss.Stribeck(static=2, kinetic=1, velocity=0.2, exponent=1),
     ],
+    ss.Degrading: [
+        ss.Degrading(distance=[0, 0.1], mu=[0.3, 0.2]),
+        ss.Degrading(distance=[0, 0.2], mu=[0.3, 0.2]),
+        ss.Degrading(distance=[0, 0.1], mu=[0.3, 0.2], mu_backward=[0.4, 0.2]),
+        ss.Degrading(distance=[0.1], slip_level=[1]),
+    ],
     ss.StaticKinetic: [
         ss.StaticKinetic(static=2, kinetic=1),
         ss.StaticKinetic(static=(2, 3), kinetic=1),
         ss.StaticKinetic(WHEEL, static=2),
+        ss.StaticKinetic(ss.Degrading(distance=[0, 0.1], mu=[0.3, 0.2]), mu_static=0.4),
     ],
     ss.Stops: [
         ss.Stops(gap=0.2, restitution=0.5),
@@ -69,6 +76,7 @@ EXAMPLES = {
     ss.State: [
         ss.State(),
         ss.State(1.0, 0.5),
+        ss.State(1.0, 0.5, 2.0),
         ss.advance(BLOCK, ss.State(), 0.1, 9, vertical_start=-20),
     ],
     ss.Slider: [

@@ -38,7 +38,7 @@ struct WithinSegment {
 };
 
 /// A law as it is at one place.
-template <FrictionLaw Law>
+template <MemorylessLaw Law>
 struct AtPlace {
   const Law* law;
   double displacement;
@@ -51,7 +51,7 @@ struct AtPlace {
 
 /// The speed that friction's impulse of `impulse` [m/s] of normal force leaves of `speed`: d|v|/dJ = -mu(|v|), which is
 /// a slide of J / g under the weight g and no load.
-template <FrictionLaw Law>
+template <MemorylessLaw Law>
 double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
   if constexpr (SpeedLaw<Law>) {
     const Slider<AtPlace<Law>> slider({&law, displacement});
@@ -119,7 +119,7 @@ void advance(const Law& law, const Flows& flows, LoadSegment segment, const Boun
       if (state.mode == Mode::stuck) continue;
       const Direction direction = direction_of(state.mode);
       const double before = std::abs(state.velocity);
-      const double after = after_impulse(law, state.displacement, direction, before, impulse);
+      const double after = after_impulse(law_at(law, state), state.displacement, direction, before, impulse);
       if constexpr (requires { observer.dissipate(0.0); }) observer.dissipate((before * before - after * after) / 2);
       state.velocity = sign(direction) * after;
       if (after > 0) continue;

@@ -107,6 +107,10 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   // Since an impact the way from that stop is known to all digits.
   Direction struck = Direction::forward;
   double from_stop = -1;
+  const auto law_now = [&]() -> decltype(auto) { return law_at(law, state); };
+  const auto slid = [&](double distance) {
+    if constexpr (MemoryLaw<Law>) state.sliding_distance += distance;
+  };
   const auto room_ahead = [&](Direction direction) {
     return from_stop >= 0 && direction == struck ? from_stop : within.room(direction, state.displacement);
   };
@@ -114,14 +118,15 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   // where that held it until the load grew to it.
   const auto acceleration = [&](Direction direction) {
     const double speed = std::abs(state.velocity);
-    return sign(direction) * load - weigh(left, resist(law, state.displacement, direction, speed)) - flows.drag(speed);
+    return sign(direction) * load - weigh(left, resist(law_now(), state.displacement, direction, speed)) -
+           flows.drag(speed);
   };
 
   for (;;) {
     if (state.mode == Mode::stuck) {
       // It slips when the load outgrows what holds it: at once, or later in this segment. At the level itself it holds.
       const auto holds = [&](Direction direction) {
-        return within.bound(direction, state.displacement, hold(law, state.displacement, direction));
+        return within.bound(direction, state.displacement, hold(law_now(), state.displacement, direction));
       };
       const double holds_forward = holds(Direction::forward), holds_backward = holds(Direction::backward);
       const double forward = weigh(left, holds_forward), backward = weigh(left, holds_backward);
@@ -150,7 +155,8 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
       const bool sticks = state.mode == Mode::stuck || delay > 0;
       if (sticks && stopped != Mode::stuck)
-        observer.event(EventKind::arrest, segment.duration - left, State{state.displacement, 0, Mode::stuck});
+        observer.event(EventKind::arrest, segment.duration - left,
+                       State{.displacement = state.displacement, .sliding_distance = state.sliding_distance});
       if (state.mode == Mode::stuck) return;
       left -= delay;
       if (sticks || stopped == Mode::stuck)
@@ -168,11 +174,16 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       const double speed = std::abs(state.velocity);
       if constexpr (loaded)
         return segment.slip(s, speed, acceleration(direction), ground_load, left,
-                            resist(law, state.displacement, direction, speed));
+                            resist(law_now(), state.displacement, direction, speed));
       else
         return segment.slip(s, speed, acceleration(direction), ground_load, left);
     }();
-    const auto flow = flows.flow(direction, state.displacement, start, left);
+    const auto flow = [&] {
+      if constexpr (MemoryLaw<Law>)
+        return flows.flow(direction, state, start, left);
+      else
+        return flows.flow(direction, state.displacement, start, left);
+    }();
     const double stop = flow.first_stop();
     const auto show = [&](double taken, const Progress& end, double gain) {
       if constexpr (requires { observer.follow(flow, taken); }) observer.follow(flow, taken);
@@ -185,9 +196,13 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       observer.slide(Slip{direction, state.displacement, end.distance, taken,
                           start.work(flow, s * ground_load, gain, taken, end)});
     };
-    if constexpr (bounded) {
-      // Without a zero of velocity x runs one way: it passes a stop where it ends beyond it.
-      const double room = room_ahead(direction), most = stop < never ? stop : flow.horizon();
+    if constexpr (bounded || MemoryLaw<Law>) {
+      // Without a zero of velocity x runs one way: it passes a stop, or where the law changes, where it ends beyond it.
+      const double to_stop = room_ahead(direction), to_change = [&]() -> double {
+        if constexpr (MemoryLaw<Law>) return law.until(state) - state.sliding_distance;
+        return never;
+      }();
+      const double room = std::min(to_stop, to_change), most = stop < never ? stop : flow.horizon();
       const double way = (stop < never ? flow.at(stop) : flow.at_horizon()).distance;
       const double beyond = way - room;
       if (beyond > 0) {
@@ -199,34 +214,47 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
         show(taken, end, start.gain_within(taken, left));
         count_step(taken);
         left -= taken;
-        state.displacement = within.wall(direction);
-        struck = direction;
-        from_stop = 0;
         state.velocity = s * end.speed;
-        observer.event(EventKind::impact, segment.duration - left, state);
         const auto load_now = [&] { return ground_load + s * start.gain_within(flow_left - left, flow_left) - pull(); };
-        load = load_now();
-        const Direction back = opposite(direction);
-        double speed = within.bound(back, state.displacement, 0) < never ? within.stops.restitution() * end.speed : 0;
-        // Infinitely many bounces are over at once where all of them go no way that matters, under a load that stays as
-        // it is meanwhile.
-        const double q = s * load, a = weigh(left, resist(law, state.displacement, direction, speed));
-        if (speed > 0 && q > a && left > 0) {
-          const Bounces bounces(speed, q, a, within.stops.restitution());
-          const double changes = std::abs(start.gain_within(flow_left, flow_left)) / flow_left;
-          if (bounces.distance <= 0x1p-52 * std::abs(state.displacement) && changes * bounces.time <= (q - a) / 1024) {
-            left -= std::min(bounces.time, left);
+        if constexpr (MemoryLaw<Law>)
+          if (to_change < to_stop) {
+            state.displacement += s * room;
+            state.sliding_distance = law.until(state);
+            if (from_stop >= 0) from_stop += direction == struck ? -room : room;
+            if (left <= 0) return;
             load = load_now();
-            speed = 0;
+            continue;
           }
+        if constexpr (bounded) {
+          slid(room);
+          state.displacement = within.wall(direction);
+          struck = direction;
+          from_stop = 0;
+          observer.event(EventKind::impact, segment.duration - left, state);
+          load = load_now();
+          const Direction back = opposite(direction);
+          double speed = within.bound(back, state.displacement, 0) < never ? within.stops.restitution() * end.speed : 0;
+          // Infinitely many bounces are over at once where all of them go no way that matters, under a load that stays
+          // as it is meanwhile.
+          const double q = s * load, a = weigh(left, resist(law_now(), state.displacement, direction, speed));
+          if (speed > 0 && q > a && left > 0) {
+            const Bounces bounces(speed, q, a, within.stops.restitution());
+            const double changes = std::abs(start.gain_within(flow_left, flow_left)) / flow_left;
+            if (bounces.distance <= 0x1p-52 * std::abs(state.displacement) &&
+                changes * bounces.time <= (q - a) / 1024) {
+              left -= std::min(bounces.time, left);
+              load = load_now();
+              speed = 0;
+            }
+          }
+          if constexpr (requires { observer.lose(0.0); }) observer.lose((end.speed * end.speed - speed * speed) / 2);
+          state.velocity = -s * speed;
+          state.mode = speed > 0 ? mode_of(back) : Mode::stuck;
+          stopped = speed > 0 ? Mode::stuck : mode_of(direction);
+          instant = false;
+          if (left <= 0 && speed > 0) return;
+          continue;
         }
-        if constexpr (requires { observer.lose(0.0); }) observer.lose((end.speed * end.speed - speed * speed) / 2);
-        state.velocity = -s * speed;
-        state.mode = speed > 0 ? mode_of(back) : Mode::stuck;
-        stopped = speed > 0 ? Mode::stuck : mode_of(direction);
-        instant = false;
-        if (left <= 0 && speed > 0) return;
-        continue;
       }
       if (from_stop >= 0) from_stop += direction == struck ? -way : way;
     }
@@ -238,6 +266,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       const double gain = start.gain_within(taken, left);
       show(taken, end, gain);
       state.displacement += s * end.distance;
+      slid(end.distance);
       state.velocity = s * std::max(end.speed, 0.0);
       if (whole) return;
       count_step(taken);
@@ -254,6 +283,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       const double gain = start.gain_within(stop, left);
       show(stop, end, gain);
       state.displacement += s * end.distance;
+      slid(end.distance);
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
       instant = !(left - stop < left);

@@ -69,11 +69,11 @@ class Recorder {
     if (heartbeat_) heartbeat_();
   }
 
-  /// Work that only a flow knows: on a damper, and against friction that depends on the speed.
+  /// Work that only a flow knows: on a damper, and against friction that depends on more than the place.
   template <class Flow>
-  requires(SpeedLaw<Law> || FlowWithDamper<Flow>) void follow(const Flow& flow, double taken) {
+  requires(!PositionLaw<Law> || FlowWithDamper<Flow>) void follow(const Flow& flow, double taken) {
     if constexpr (FlowWithDamper<Flow>) damped_ += flow.damped_work(taken);
-    if constexpr (SpeedLaw<Law> && !loaded) dissipated_ += flow.friction_work(taken);
+    if constexpr (!PositionLaw<Law> && !loaded) dissipated_ += flow.friction_work(taken);
     if constexpr (requires { flow.pendulum_work(taken); }) input_ += flow.pendulum_work(taken);
   }
 

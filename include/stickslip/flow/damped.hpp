@@ -17,27 +17,43 @@
 
 namespace stickslip {
 
+namespace detail {
+
+/// wn^2 [1/s^2]; below 0 where wn is: a spring that pushes away.
+inline double stiffness_of(double natural_frequency) noexcept {
+  return natural_frequency * std::abs(natural_frequency);
+}
+
+/// (c/2)^2 - wn^2 [1/s^2].
+inline double excess_damping(double half, double natural_frequency) noexcept {
+  if (natural_frequency < 0) return half * half + natural_frequency * natural_frequency;
+  return (half - natural_frequency) * (half + natural_frequency);
+}
+
+}  // namespace detail
+
 /// What a mass on a damper c and a spring wn has come to after a time. From rest under a load of one its velocity is
 /// `impulse`, the solution of y'' + c y' + wn^2 y = 0 that starts at 0 with the slope 1; `decay` is its derivative, the
 /// velocity that is left of one. `step`, `ramp` and `curve` are each the integral of the one before. Under a load that
 /// runs straight, q + s t net of spring and friction at the start,
 ///     v(t) = u decay + q impulse + s step,    d(t) = u impulse + q step + s ramp.
 /// All five are entire functions of c t and (wn t)^2: under-, over- and critically damped alike, with or without a
-/// spring, to round-off; a time of many radians costs as many roundings more.
+/// spring, to round-off; a time of many radians costs as many roundings more. Where wn is negative the spring pushes
+/// away, with the stiffness -wn^2.
 struct DampedBasis {
   double duration;  ///< [s]
   double decay = 1, impulse = 0, step = 0, ramp = 0, curve = 0;
 
   /// @param damping            c [1/s], at least 0
-  /// @param natural_frequency  wn [rad/s], at least 0
+  /// @param natural_frequency  wn [rad/s]
   DampedBasis(double damping, double natural_frequency, double time) noexcept : duration(time) {
-    const double wn = natural_frequency, half = damping / 2, stiffness = wn * wn;
-    const double apart = half > wn ? 2 * std::sqrt((half - wn) * (half + wn)) : 0;  // of the two rates of decay
+    const double wn = natural_frequency, half = damping / 2, stiffness = detail::stiffness_of(wn);
+    const double apart = half > wn ? 2 * std::sqrt(detail::excess_damping(half, wn)) : 0;  // of the two rates of decay
     if (apart * time > 1) {
       from_rates(half + apart / 2, stiffness / (half + apart / 2), apart);
       return;
     }
-    const double size = (damping + wn) * time;
+    const double size = (damping + std::abs(wn)) * time;
     const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
     duration = std::ldexp(time, -doublings);
     from_series(damping, stiffness);
@@ -70,7 +86,7 @@ struct DampedBasis {
     const double u = duration;
     const auto remainders = [](double y) {
       std::array<double, 3> r{};  // the sums of (-y)^k / (k + n)!, n = 1, 2, 3
-      if (y < 1) {
+      if (std::abs(y) < 1) {
         double term = 1.0 / 6, sum = 0;
         for (int k = 4; std::abs(term) > 1e-18; term *= -y / k++) sum += term;
         r[2] = sum;
@@ -105,7 +121,7 @@ struct DampedBasis {
       decay += k * (k - 1) * (k - 2) * (k - 3) * term;
       const double next = -(y * term + q * before / k) / (k + 1);
       before = std::exchange(term, next);
-      if (k * k * k * k * (std::abs(term) + std::abs(before) * q) < 1e-18) break;
+      if (k * k * k * k * (std::abs(term) + std::abs(before * q)) < 1e-18) break;
     }
     impulse *= u;
     step *= u * u;
@@ -120,8 +136,8 @@ class DampedSquare {
   /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
   DampedSquare(double damping, double natural_frequency, double duration) noexcept {
     if (detail::equal(duration, 0)) return;
-    const double stiffness = natural_frequency * natural_frequency;
-    const double size = (damping + natural_frequency) * duration;
+    const double stiffness = detail::stiffness_of(natural_frequency);
+    const double size = (damping + std::abs(natural_frequency)) * duration;
     const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
     const double part = std::ldexp(duration, -doublings);
     numerics::gauss_points<8>(0, part, [&](double time, double weight) {
@@ -165,17 +181,17 @@ class DampedFlow;
 /// A damper, and a spring if wn > 0: makes the flows of constant friction.
 class Damped {
  public:
-  /// @param damping            c [1/s], positive
-  /// @param natural_frequency  wn [rad/s], at least 0
+  /// @param damping            c [1/s], at least 0
+  /// @param natural_frequency  wn [rad/s]; below 0 the spring pushes away, as in `DampedBasis`
   /// @param usual_duration     a time whose basis is kept [s], as records have segments of one length
   Damped(double damping, double natural_frequency,
          double usual_duration = std::numeric_limits<double>::quiet_NaN()) noexcept
       : damping_(damping),
         natural_frequency_(natural_frequency),
-        stiffness_(natural_frequency * natural_frequency),
+        stiffness_(detail::stiffness_of(natural_frequency)),
         usual_duration_(usual_duration),
         swings_(natural_frequency > damping / 2),
-        rate_(std::sqrt(std::abs((natural_frequency - damping / 2) * (natural_frequency + damping / 2)))),
+        rate_(std::sqrt(std::abs(detail::excess_damping(damping / 2, natural_frequency)))),
         usual_basis_(compute(usual_duration > 0 ? usual_duration : 0)),
         usual_square_(damping, natural_frequency, usual_duration > 0 ? usual_duration : 0) {}
 
@@ -194,7 +210,7 @@ class Damped {
   }
 
   /// Whether so little changes within t that a power series is fastest.
-  bool soon(double t) const noexcept { return (damping_ + natural_frequency_) * t <= 1; }
+  bool soon(double t) const noexcept { return (damping_ + std::abs(natural_frequency_)) * t <= 1; }
 
   /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` where there is
   /// none. With the half rate c/2 taken out it is a cosine and a sine, or their hyperbolic like.

@@ -415,9 +415,10 @@ class TaylorFlow {
       fastest_ = std::max(fastest_, term);
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
       end_series(k + 2);
-      // On breaking away x is a cubic, and two of three coefficients of the level are zero.
+      // On breaking away x is a cubic, and two of three coefficients of the level are zero. A linear level is as good
+      // as the speed.
       const double recent_level =
-          std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
+          LinearLaw<Law> ? 0 : std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
       // From rest, or nearly so, x may also come back to its start at the horizon, where nothing would then be noticed.
       const bool fast = start_.speed > fastest_ / 16;
       if (recent_level <= largest_level && (fast || balanced(0.6)) && balanced(1)) return 1;

@@ -39,7 +39,39 @@ concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, doub
 };
 
 template <class Law>
-concept FrictionLaw = PositionLaw<Law> || SpeedLaw<Law>;
+concept MemorylessLaw = PositionLaw<Law> || SpeedLaw<Law>;
+
+/// A law with memory, whose level depends on how far it has slid, State::sliding_distance. It answers both questions
+/// through another law:
+///
+///     at(state)       // the law as it goes on from a state, in x and the speed, for as long as it slides one way
+///     until(state)    // the sliding distance to which that holds [m], above the state's; infinite: for good
+///
+/// At `until` the level must not jump. A law `at` that is linear in x says its rate, `slope(direction)`, the derivative
+/// of what resists by the distance slid that way [1/s^2]: its motion is then known in closed form.
+template <class Law>
+concept MemoryLaw = std::copy_constructible<Law> && requires(const Law& law, const State& state) {
+  { law.at(state) } -> MemorylessLaw;
+  { law.until(state) } -> std::convertible_to<double>;
+};
+
+template <class Law>
+concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
+
+/// The law as it goes on from a state: itself, unless it has a memory.
+template <FrictionLaw Law>
+decltype(auto) law_at(const Law& law, const State& state) {
+  if constexpr (MemoryLaw<Law>)
+    return law.at(state);
+  else
+    return law;
+}
+
+/// A law that is linear in x while it slides one way.
+template <class Law>
+concept LinearLaw = PositionLaw<Law> && requires(const Law& law, Direction direction) {
+  { law.slope(direction) } -> std::convertible_to<double>;
+};
 
 /// A law that holds more at rest than what resists at no speed.
 template <class Law>
@@ -47,8 +79,8 @@ concept LawWithHold = FrictionLaw<Law> && requires(const Law& law, double x, Dir
   { law.hold(x, direction) } -> std::convertible_to<double>;
 };
 
-/// What resists sliding, by any law, of numbers or of power series [m/s^2].
-template <class Law, class X, class Speed>
+/// What resists sliding, by any law without memory, of numbers or of power series [m/s^2].
+template <MemorylessLaw Law, class X, class Speed>
 auto resist(const Law& law, const X& x, Direction direction, const Speed& speed) {
   if constexpr (SpeedLaw<Law>)
     return law.resist(x, direction, speed);
@@ -56,9 +88,9 @@ auto resist(const Law& law, const X& x, Direction direction, const Speed& speed)
     return law.resist(x, direction);
 }
 
-/// What any law holds at rest [m/s^2]; at least what resists at no speed, for a slip that it could not begin would end
-/// where it begins.
-template <FrictionLaw Law>
+/// What any law without memory holds at rest [m/s^2]; at least what resists at no speed, for a slip that it could not
+/// begin would end where it begins.
+template <MemorylessLaw Law>
 double hold(const Law& law, double x, Direction direction) {
   const double resists = resist(law, x, direction, 0.0);
   if constexpr (LawWithHold<Law>)

@@ -19,7 +19,9 @@ namespace stickslip {
 /// The response is not a continuous function of the input: where a slip all but stops, or a load all but reaches the
 /// static level, the least change decides whether it sticks.
 ///
-/// @tparam Law  of sliding; a sliding law that holds more itself goes on to
+/// @tparam Law  of sliding; a sliding law that holds more itself goes on to. Of one with a memory the static level
+/// stays,
+///              and must be at least its level at the start
 template <FrictionLaw Law = Coulomb>
 class StaticKinetic {
  public:
@@ -35,7 +37,8 @@ class StaticKinetic {
   StaticKinetic(Law sliding, double static_level, double backward)
       : sliding_(std::move(sliding)), forward_(static_level), backward_(backward) {
     for (const Direction direction : {Direction::forward, Direction::backward}) {
-      const double level = static_level_of(direction), kinetic = stickslip::hold(sliding_, 0, direction);
+      const double level = static_level_of(direction),
+                   kinetic = stickslip::hold(law_at(sliding_, State{}), 0, direction);
       detail::require((std::isfinite(level) || detail::equal(level, kinetic)) && level >= kinetic,
                       "StaticKinetic: the static level " +
                           std::string(direction == Direction::forward ? "forward" : "backward") +
@@ -62,7 +65,20 @@ class StaticKinetic {
     return sliding_.work(from, distance, direction);
   }
 
+  auto at(const State& state) const requires MemoryLaw<Law> {
+    using Now = decltype(sliding_.at(state));
+    return StaticKinetic<Now>(sliding_.at(state), forward_, backward_, typename StaticKinetic<Now>::Unchecked{});
+  }
+  double until(const State& state) const requires MemoryLaw<Law> { return sliding_.until(state); }
+  double slope(Direction direction) const noexcept requires LinearLaw<Law> { return sliding_.slope(direction); }
+
  private:
+  template <FrictionLaw>
+  friend class StaticKinetic;
+  struct Unchecked {};
+  StaticKinetic(Law sliding, double forward, double backward, Unchecked)
+      : sliding_(std::move(sliding)), forward_(forward), backward_(backward) {}
+
   double static_level_of(Direction direction) const noexcept {
     return direction == Direction::forward ? forward_ : backward_;
   }

@@ -463,7 +463,7 @@ auto with_finder(const Slider<Law>& slider, double load, double omega, Work&& wo
 
 template <FrictionLaw Law>
 void check_orbit_arguments(const Slider<Law>& slider, double load, double omega, const std::string& who) {
-  static_assert(PositionLaw<Law>, "orbits: a resistance that depends on the speed is not covered");
+  static_assert(PositionLaw<Law>, "orbits: a resistance that depends on the speed or the distance slid is not covered");
   require_plain_mounting(slider, who);
   require(equal(slider.damping(), 0), who + ": a slider with a damper is not covered, damping must be 0",
           slider.damping(), "1/s");

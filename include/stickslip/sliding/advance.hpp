@@ -15,6 +15,7 @@
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/polynomial.hpp"
+#include "stickslip/flow/remembering.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
@@ -26,8 +27,8 @@
 namespace stickslip {
 namespace detail {
 
-/// What `work` gives with the flows that fit the slider: closed forms where what resists is constant, else Taylor
-/// series.
+/// What `work` gives with the flows that fit the slider: closed forms where what resists is constant or linear in the
+/// distance slid, else Taylor series.
 template <FrictionLaw Law, class Work>
 auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
@@ -37,6 +38,8 @@ auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
       return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
     if (slider.stiffness() > 0) return work(Harmonic{slider.natural_frequency(), usual_duration});
     return work(Polynomial{});
+  } else if constexpr (MemoryLaw<Law>) {
+    return work(Remembering<Law>{slider});
   } else {
     return work(Taylor<Law>{slider});
   }
@@ -48,7 +51,10 @@ auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
   if constexpr (ConstantLevelLaw<Law>) {
     if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0)) return work(Sinusoidal{omega, usual_duration});
   }
-  return work(Taylor<Law>{slider});
+  if constexpr (MemoryLaw<Law>)
+    return work(Remembering<Law>{slider});
+  else
+    return work(Taylor<Law>{slider});
 }
 
 /// The state after a segment.
@@ -119,11 +125,20 @@ template <FrictionLaw Law, MotionObserver Observer>
   return state;
 }
 
+/// Refuses what no state of a law with memory can be.
+template <FrictionLaw Law>
+void check_memory(const State& state) {
+  if constexpr (MemoryLaw<Law>)
+    require(std::isfinite(state.sliding_distance) && state.sliding_distance >= 0,
+            "advance: sliding_distance must be finite and at least 0", state.sliding_distance, "m");
+}
+
 /// `advance` of a plain slider on the ground.
 template <FrictionLaw Law, MotionObserver Observer>
 void advance_plain(const Slider<Law>& slider, const Segment& segment, State& state, Observer& observer) {
   if (!finite(segment, state)) [[unlikely]]
     refuse(segment, state);
+  check_memory<Law>(state);
   const State moved = with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
     return advanced(slider.law(), flows, segment, state, observer);
   });
@@ -164,6 +179,7 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
   detail::check_start(slider, state, "advance");
+  detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
   const State moved = detail::advanced(slider, segment, contact, unusual, state, observer);
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
@@ -186,8 +202,8 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
 /// @throws ConvergenceError      events follow each other faster than the time within the segment can be resolved (a
 ///         spring of far more than 1e15 cycles a segment); a law has no finite power series where it is needed (Caster
 ///         only under extreme accelerations or stiffness)
-/// Constant friction is exact to round-off (with a damper to 1e-12 of the scale), other laws to near round-off. Takes
-/// 12 to 30 ns without spring and damper, some 0.2 us with a damper.
+/// Constant friction is exact to round-off (with a damper, or linear in the distance slid, to 1e-12 of the scale),
+/// other laws to near round-off. Takes 12 to 30 ns without spring and damper, some 0.2 us with a damper.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {},
              Contact contact = Contact::flight) {
@@ -203,6 +219,7 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
   detail::require_plain_mounting(slider, "advance over a HarmonicSegment");
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
+  detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
   const State moved = detail::with_harmonic_flows(slider, segment.omega, unusual, [&](const auto& flows) {
     return detail::advanced(slider.law(), flows, segment, state, observer);

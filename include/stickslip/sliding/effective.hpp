@@ -116,6 +116,8 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
   const Event& from = events[turn];
   const Direction direction = s < 0 ? Direction::backward : Direction::forward;
   State state{from.displacement, from.velocity, from.kind == EventKind::arrest ? Mode::stuck : mode_of(direction)};
+  state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  for (std::size_t k = 1; k <= turn; ++k) state.sliding_distance += std::abs(way(k));
   const double end = events[peak].time;
   const std::function<void()> none;
   detail::Recorder<Law, true> recorder(slider.law(), from.displacement, events.size() + detail::max_events(0), none,
@@ -127,7 +129,7 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
 
   const double x = events[peak].displacement;
   const double work = (swing.energy.dissipated + swing.energy.damped) / swing.sliding_distance;
-  return {response.peak, slider.stiffness() * response.peak + resist(slider.law(), x, direction, 0.0),
+  return {response.peak, slider.stiffness() * response.peak + resist(law_at(slider.law(), state), x, direction, 0.0),
           4 * response.peak * work};
 }
 

@@ -16,6 +16,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 
@@ -42,8 +43,15 @@ template <FrictionLaw Law, Motion M>
 class FloorPiece {
  public:
   FloorPiece(const Slider<Law>& slider, const M& motion, std::size_t step, double duration, const Event& from,
-             const Event& to, bool stuck)
-      : slider_(slider), motion_(motion), step_(step), duration_(duration), from_(from), to_(to), stuck_(stuck) {
+             const Event& to, bool stuck, double slid)
+      : slider_(slider),
+        motion_(motion),
+        step_(step),
+        duration_(duration),
+        from_(from),
+        to_(to),
+        stuck_(stuck),
+        slid_(slid) {
     const Segment s = ground_step(motion, step);
     begin_ = motion.time(step);
     whole_ = s.duration;
@@ -109,7 +117,9 @@ class FloorPiece {
   }
 
   double absolute(double x, double v) const {
-    const double force = sign(direction_) * resist(slider_.law(), x, direction_, std::abs(v));
+    const double way = slid_ + std::abs(x - from_.displacement);
+    const auto& law = law_at(slider_.law(), State{.displacement = x, .sliding_distance = way});
+    const double force = sign(direction_) * resist(law, x, direction_, std::abs(v));
     return -(force + slider_.damping() * v + slider_.stiffness() * x);
   }
 
@@ -119,6 +129,7 @@ class FloorPiece {
   double duration_;
   Event from_, to_;
   bool stuck_;
+  double slid_;  // up to its beginning [m]
   Direction direction_ = Direction::forward;
   double begin_ = 0, whole_ = 0;
   double n_[2] = {}, a_[2] = {};  // ground acceleration and x'' at both ends
@@ -163,6 +174,7 @@ std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, co
   pieces.reserve(samples + response.events.size());
   const std::vector<Event>& events = response.events;
   std::size_t next = 0;  // the first event that is still to come, or the end
+  detail::SlidAlong slid(response);
   const auto sample = [&](std::size_t i) {
     return Event{motion.time(i), response.displacement[i], response.velocity[i], EventKind::end};
   };
@@ -175,7 +187,8 @@ std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, co
       const bool stuck = next == 0 || events[next - 1].kind == EventKind::arrest;
       const double duration =
           detail::equal(from.time, motion.time(i)) && detail::equal(to.time, last.time) ? whole : to.time - from.time;
-      if (duration > 0) pieces.emplace_back(slider, motion, i, duration, from, to, stuck);
+      const double way = slid.to(from.displacement).sliding_distance;
+      if (duration > 0) pieces.emplace_back(slider, motion, i, duration, from, to, stuck, way);
       from = to;
     };
     while (at_hand(from.time)) ++next;

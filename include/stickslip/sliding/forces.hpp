@@ -40,6 +40,25 @@ struct Forces {
 
 namespace detail {
 
+/// The way along a response, from one of its samples or events to the next: how far the slider has slid.
+class SlidAlong {
+ public:
+  explicit SlidAlong(const Response& response) {
+    if (!response.displacement.empty()) state_.displacement = response.displacement.front();
+    state_.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  }
+
+  /// Between samples and events x runs one way.
+  const State& to(double displacement) noexcept {
+    state_.sliding_distance += std::abs(displacement - state_.displacement);
+    state_.displacement = displacement;
+    return state_;
+  }
+
+ private:
+  State state_;
+};
+
 /// Ground acceleration just after each of the first `samples` samples [m/s^2], of a component of a motion: at the end
 /// of the motion the value just before it, then 0.
 inline std::vector<double> acting(const GroundMotion& motion, std::span<const double> component, std::size_t samples) {
@@ -95,6 +114,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
   bool sticks = true, flies = false;
   const std::vector<Event>& events = response.events;
   std::size_t next = 0;  // the first event after the sample, or the end
+  detail::SlidAlong slid(response);
   for (std::size_t i = 0; i < samples; ++i) {
     const double time = motion.time(i), x = response.displacement[i], v = response.velocity[i];
     for (; events[next].kind != EventKind::end && events[next].time <= time; ++next) {
@@ -102,6 +122,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
       if (kind == EventKind::breakaway || kind == EventKind::reversal) sticks = false;
       if (kind == EventKind::arrest) sticks = true;
       if (kind == EventKind::liftoff || kind == EventKind::landing) flies = kind == EventKind::liftoff;
+      slid.to(events[next].displacement);
     }
     const LoadSegment here = detail::load_segment(Segment{0, ground[i], ground[i]}, slider.slope(), up[i], up[i]);
     const double load = here.load_start, normal = flies ? 0 : std::max(here.normal_start, 0.0);
@@ -117,7 +138,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
       const double gone = events[next].displacement - events[next - 1].displacement;
       const double way = !detail::equal(v, 0) ? v : !detail::equal(gone, 0) ? gone : load - result.spring[i];
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;
-      const double level = resist(slider.law(), x, direction, std::abs(v));
+      const double level = resist(law_at(slider.law(), slid.to(x)), x, direction, std::abs(v));
       result.friction[i] = sign(direction) * detail::WeighedSegment::weigh(weight, level) + 0.0;  // no minus zero
     }
   }

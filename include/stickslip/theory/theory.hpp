@@ -66,17 +66,20 @@ theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   }
 }
 
-[[noreturn]] inline void refuse_speed_law(const std::string& theory) {
-  throw std::invalid_argument(theory + ": a resistance that depends on the speed is not covered");
+/// Refuses a law that is none of position alone.
+template <FrictionLaw Law>
+[[noreturn]] void refuse_law(const std::string& theory) {
+  throw std::invalid_argument(theory + ": a resistance that depends on the " +
+                              (MemoryLaw<Law> ? "distance slid" : "speed") + " is not covered");
 }
 
-/// Refuses what no theory covers: slopes, stops and pendulums, a resistance that depends on the speed, and static
-/// friction that differs from kinetic.
+/// Refuses what no theory covers: slopes, stops and pendulums, a resistance that depends on the speed or the distance
+/// slid, and static friction that differs from kinetic.
 template <FrictionLaw Law>
 void require_one_level(const Slider<Law>& slider, const std::string& theory) {
   require_plain_mounting(slider, theory);
   if constexpr (!PositionLaw<Law>) {
-    refuse_speed_law(theory);
+    refuse_law<Law>(theory);
   } else if constexpr (LawWithHold<Law>) {
     for (const Direction direction : {Direction::forward, Direction::backward}) {
       const double kinetic = slider.law().resist(0.0, direction);

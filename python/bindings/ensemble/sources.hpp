@@ -135,7 +135,7 @@ auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&&
   if (const auto one = slider_of(sliders))  // the usual laws in their own types, for which there are vector lanes
     return std::visit(
         [&]<class Law>(const Slider<Law>& slider) {
-          if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck>)
+          if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck> || MemoryLaw<Law>)
             return f(*one);
           else
             return f(slider);

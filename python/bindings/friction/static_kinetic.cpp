@@ -45,8 +45,10 @@ AnyStaticKinetic make_static_kinetic(const py::object& sliding, const std::optio
   if (py::isinstance<Coulomb>(sliding)) return with(sliding.cast<Coulomb>());
   if (py::isinstance<Caster>(sliding)) return with(sliding.cast<Caster>());
   if (py::isinstance<VelocityDependent>(sliding)) return with(sliding.cast<VelocityDependent>());
-  throw py::type_error("StaticKinetic: the sliding law must be a Coulomb, Caster or VelocityDependent, got " +
-                       py::type::of(sliding).attr("__name__").cast<std::string>());
+  if (py::isinstance<Degrading>(sliding)) return with(sliding.cast<Degrading>());
+  throw py::type_error(
+      "StaticKinetic: the sliding law must be a Coulomb, Caster, VelocityDependent or Degrading, got " +
+      py::type::of(sliding).attr("__name__").cast<std::string>());
 }
 
 py::object sliding_of(const AnyStaticKinetic& law) {
@@ -71,7 +73,7 @@ Objects compare by content; they can be hashed, copied and pickled.
 
 Parameters
 ----------
-sliding : Coulomb, Caster or VelocityDependent, optional
+sliding : Coulomb, Caster, VelocityDependent or Degrading, optional
     What resists sliding, instead of mu_kinetic or kinetic.
 mu_static : float or (float, float), optional
     Static coefficient of friction, or those against forward and backward sliding. Give mu_static or static.

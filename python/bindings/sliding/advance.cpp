@@ -40,9 +40,15 @@ Parameters
 displacement : float, optional
     x relative to the ground [m].
 velocity : float, optional
-    x' relative to the ground [m/s]; at 0 it is at rest.)")
-      .def(py::init([](double displacement, double velocity) { return State::at(displacement, velocity); }),
-           py::arg("displacement") = 0.0, py::arg("velocity") = 0.0)
+    x' relative to the ground [m/s]; at 0 it is at rest.
+sliding_distance : float, optional
+    Slid so far, forward and backward alike [m], at least 0; for laws that depend on it, as `Degrading`.)")
+      .def(py::init([](double displacement, double velocity, double sliding_distance) {
+             State state = State::at(displacement, velocity);
+             state.sliding_distance = sliding_distance;
+             return state;
+           }),
+           py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("sliding_distance") = 0.0)
       .def_readonly("displacement", &State::displacement, "x [m].")
       .def_readonly("velocity", &State::velocity, "x' [m/s].")
       .def_property_readonly(
@@ -50,6 +56,8 @@ velocity : float, optional
       .def_readonly("in_flight", &State::in_flight, "Whether it has left the ground.")
       .def_readonly("gap", &State::gap, "Between slider and ground, in flight [m].")
       .def_readonly("gap_velocity", &State::gap_velocity, "Rate of the gap, in flight [m/s].")
+      .def_readonly("sliding_distance", &State::sliding_distance,
+                    "Slid so far [m]; counted where the law depends on it, else as it was given.")
       .def("__repr__", [](const State& state) {
         return "<State: x " + detail::shortest(state.displacement) + " m, x' " + detail::shortest(state.velocity) +
                " m/s, " +
@@ -57,7 +65,7 @@ velocity : float, optional
                 : state.mode == Mode::stuck   ? std::string("stuck")
                 : state.mode == Mode::forward ? std::string("sliding forward")
                                               : std::string("sliding backward")) +
-               ">";
+               (state.sliding_distance > 0 ? ", slid " + detail::shortest(state.sliding_distance) + " m" : "") + ">";
       });
   m.def("advance", &advanced, py::arg("slider"), py::arg("state"), py::arg("dt"), py::arg("start"),
         py::arg("end") = py::none(), py::kw_only(), py::arg("vertical_start") = 0.0,

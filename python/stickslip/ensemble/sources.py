@@ -8,6 +8,7 @@ from typing import Any, Protocol, TypeAlias
 from .._core import (
     Caster,
     Coulomb,
+    Degrading,
     Drawn,
     GaussianExcitation,
     GroundMotion,
@@ -52,7 +53,9 @@ class SliderSource(Protocol):
         """The slider of a member: the same for equal arguments, always."""
 
 
-AnySlider: TypeAlias = "Slider | Coulomb | Caster | VelocityDependent | Stribeck | StaticKinetic"
+AnySlider: TypeAlias = (
+    "Slider | Coulomb | Caster | VelocityDependent | Stribeck | Degrading | StaticKinetic"
+)
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
 AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | Excitation | Records"

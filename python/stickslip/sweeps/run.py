@@ -15,6 +15,7 @@ from .. import _core
 from .._core import (
     Caster,
     Coulomb,
+    Degrading,
     GroundMotion,
     Slider,
     StaticKinetic,
@@ -31,7 +32,7 @@ from .table import SweepTable, parameters_of
 
 Polarity = Literal["both", "as recorded", "flipped"]
 
-_SLIDERS = (Slider, Coulomb, Caster, VelocityDependent, Stribeck, StaticKinetic)
+_SLIDERS = (Slider, Coulomb, Caster, VelocityDependent, Stribeck, Degrading, StaticKinetic)
 _PARTS = 64  # number of parts of the records for an executor
 
 

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <typeinfo>
 #include <variant>
 #include <vector>
 
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/degrading.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"
@@ -24,6 +26,7 @@ std::string parameters(const Coulomb& law);
 std::string parameters(const Caster& law);
 std::string parameters(const VelocityDependent& law);
 std::string parameters(const Stribeck& law);
+std::string parameters(const Degrading& law);
 template <FrictionLaw Law>
 std::string parameters(const StaticKinetic<Law>& law);
 std::string parameters_of_static(const std::string& sliding, double forward, double backward);
@@ -32,13 +35,19 @@ std::string parameters(const char* type, std::span<const double> levels);
 template <FrictionLaw Law>
 std::string parameters(const Law& law) {
   std::vector<double> levels;
-  for (const Direction direction : {Direction::forward, Direction::backward})
-    for (const double x : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
-      levels.push_back(resist(law, x, direction, 0.0));
-      if constexpr (SpeedLaw<Law>)
-        for (double speed = 1e-6; speed < 20; speed *= 10) levels.push_back(resist(law, x, direction, speed));
-      if constexpr (LawWithHold<Law>) levels.push_back(hold(law, x, direction));
-    }
+  const auto add = [&](const auto& now) {
+    using Now = std::remove_cvref_t<decltype(now)>;
+    for (const Direction direction : {Direction::forward, Direction::backward})
+      for (const double x : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
+        levels.push_back(resist(now, x, direction, 0.0));
+        if constexpr (SpeedLaw<Now>)
+          for (double speed = 1e-6; speed < 20; speed *= 10) levels.push_back(resist(now, x, direction, speed));
+        if constexpr (LawWithHold<Now>) levels.push_back(hold(now, x, direction));
+      }
+  };
+  add(law_at(law, State{}));
+  if constexpr (MemoryLaw<Law>)
+    for (double slid = 1e-6; slid < 20; slid *= 10) add(law.at(State{.sliding_distance = slid}));
   return parameters(typeid(Law).name(), levels);
 }
 

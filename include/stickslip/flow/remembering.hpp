@@ -1,0 +1,92 @@
+// Friction that changes with the distance slid.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/damped.hpp"
+#include "stickslip/flow/sinusoidal.hpp"
+#include "stickslip/flow/taylor.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// Friction that is linear in the distance slid, in closed form: a level that rises by k a meter is constant friction
+/// with a spring that is stiffer by k,
+///     d'' = a + g(t) - (wn^2 + k) d - c (d' - u),
+/// and where wn^2 + k is negative one that pushes away.
+class LinearLevelFlow {
+ public:
+  /// @param level  what resists at the start [m/s^2]
+  /// @param slope  k [1/s^2]
+  LinearLevelFlow(double damping, double stiffness, double level, double slope, const Start& start, double duration)
+      : level_(level),
+        slope_(slope),
+        damped_(damping, std::copysign(std::sqrt(std::abs(stiffness + slope)), stiffness + slope)),
+        flow_(damped_, part_of(start, duration, stiffness + slope), reach(duration, stiffness + slope)) {}
+  LinearLevelFlow(const LinearLevelFlow&) = delete;
+  LinearLevelFlow& operator=(const LinearLevelFlow&) = delete;
+
+  double horizon() const noexcept { return flow_.horizon(); }
+  double first_stop() const noexcept { return flow_.first_stop(); }
+  Progress at(double t) const noexcept { return flow_.at(t); }
+  Progress at_horizon() const noexcept { return flow_.at_horizon(); }
+
+  /// Work on the damper within t [m^2/s^2].
+  double damped_work(double t) const noexcept { return damped_.damping() > 0 ? flow_.damped_work(t) : 0; }
+  /// Work against friction within t [m^2/s^2].
+  double friction_work(double t) const noexcept {
+    const double way = t < horizon() ? at(t).distance : at_horizon().distance;
+    return way * (level_ + slope_ / 2 * way);
+  }
+
+ private:
+  // What grows by more than e^16 could leave the range of doubles long before the level's piece is over.
+  static double reach(double duration, double stiffness) noexcept {
+    return stiffness < 0 ? std::min(duration, 16 / std::sqrt(-stiffness)) : duration;
+  }
+  static Start part_of(const Start& start, double duration, double stiffness) noexcept {
+    return {start.speed, start.acceleration, start.gain_within(reach(duration, stiffness), duration)};
+  }
+
+  double level_, slope_;
+  Damped damped_;
+  DampedFlow flow_;
+};
+
+/// Makes the flows of a slider whose law has a memory, from the law as it goes on from each state: where it is linear
+/// and the load is, too, in closed form, else in Taylor series.
+template <MemoryLaw Law>
+class Remembering {
+ public:
+  explicit Remembering(const Slider<Law>& slider) : slider_(slider) {}
+
+  double pull(double displacement) const noexcept { return slider_.stiffness() * displacement; }
+  double drag(double speed) const noexcept { return slider_.damping() * speed; }
+  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
+
+  /// A flow ends its life before the next is made.
+  template <class SlipStart>
+  auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
+    if constexpr (std::same_as<SlipStart, Start> && LinearLaw<Now>) {
+      const Now law = slider_.law().at(state);
+      return LinearLevelFlow(slider_.damping(), slider_.stiffness(), law.resist(state.displacement, direction),
+                             law.slope(direction), start, duration);
+    } else {
+      now_.emplace(slider_.at(state));
+      return TaylorFlow<Now, SlipStart>(*now_, direction, state.displacement, start, duration);
+    }
+  }
+
+ private:
+  using Now = std::remove_cvref_t<decltype(std::declval<const Law&>().at(State{}))>;
+
+  const Slider<Law>& slider_;
+  mutable std::optional<Slider<Now>> now_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,123 @@
+// Friction that degrades, or wears in, with the distance slid.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stickslip/detail/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// Friction whose slip level depends on how far the slider has slid, forward and backward alike: a(s), linear between
+/// knots (s_i, a_i) and constant before the first and after the last. s is State::sliding_distance [m]. At rest it
+/// holds the level that it has come to.
+///
+/// Between two knots, in a slip one way, x'' = p(t) - sgn(x') (a + k (s - s_0)) with k = (a_(i+1) - a_i) / (s_(i+1) -
+/// s_i): the motion of constant friction with a spring k, which pushes away where the level falls. It grows or decays
+/// exponentially then, with the rate sqrt(-k), and swings with sqrt(k) where the level rises.
+class Degrading {
+ public:
+  /// The law within a piece, for a slip one way from a place.
+  class Piece {
+   public:
+    template <class T>
+    auto resist(const T& x, Direction direction) const {
+      const Line& line = direction == Direction::forward ? forward_ : backward_;
+      return line.level + (sign(direction) * line.slope) * (x - from_);
+    }
+    /// The derivative of the level by the distance slid [1/s^2].
+    double slope(Direction direction) const noexcept {
+      return (direction == Direction::forward ? forward_ : backward_).slope;
+    }
+
+   private:
+    friend class Degrading;
+    struct Line {
+      double level, slope;
+    };
+    Piece(Line forward, Line backward, double from) : forward_(forward), backward_(backward), from_(from) {}
+
+    Line forward_, backward_;
+    double from_;
+  };
+
+  /// @param distances  s_i, at the knots [m]: at least one, finite, at least 0 and increasing
+  /// @param levels     a_i [m/s^2], one for each, finite and at least 0
+  /// @throws std::invalid_argument naming the value
+  Degrading(std::vector<double> distances, std::vector<double> levels)
+      : Degrading(std::move(distances), levels, levels) {}
+
+  /// @param levels    against forward sliding [m/s^2]
+  /// @param backward  against backward sliding [m/s^2], likewise
+  Degrading(std::vector<double> distances, std::vector<double> levels, std::vector<double> backward)
+      : distances_(std::move(distances)), forward_(std::move(levels)), backward_(std::move(backward)) {
+    detail::require(!distances_.empty(), "Degrading: distances must hold at least one", 0);
+    check_count("levels", forward_);
+    check_count("backward", backward_);
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      detail::require(std::isfinite(distances_[i]) && distances_[i] >= 0,
+                      at_index("distances", i) + " must be finite and at least 0", distances_[i], "m");
+      if (i > 0)
+        detail::require(
+            distances_[i] > distances_[i - 1],
+            at_index("distances", i) + " must be above the one before, " + detail::shortest(distances_[i - 1]) + " m",
+            distances_[i], "m");
+      check_level("levels", i, forward_[i]);
+      check_level("backward", i, backward_[i]);
+    }
+  }
+
+  const std::vector<double>& distances() const noexcept { return distances_; }
+  const std::vector<double>& levels() const noexcept { return forward_; }
+  const std::vector<double>& backward() const noexcept { return backward_; }
+
+  /// The law as it goes on from a state.
+  Piece at(const State& state) const noexcept {
+    const std::size_t next = next_knot(state.sliding_distance);
+    return {line(forward_, next, state.sliding_distance), line(backward_, next, state.sliding_distance),
+            state.displacement};
+  }
+  /// The sliding distance of the next knot [m].
+  double until(const State& state) const noexcept {
+    const std::size_t next = next_knot(state.sliding_distance);
+    return next < distances_.size() ? distances_[next] : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  std::size_t next_knot(double slid) const noexcept {
+    return static_cast<std::size_t>(std::upper_bound(distances_.begin(), distances_.end(), slid) - distances_.begin());
+  }
+
+  Piece::Line line(const std::vector<double>& levels, std::size_t next, double slid) const noexcept {
+    if (next == 0) return {levels.front(), 0};
+    if (next == levels.size()) return {levels.back(), 0};
+    const double slope = (levels[next] - levels[next - 1]) / (distances_[next] - distances_[next - 1]);
+    return {std::max(levels[next - 1] + slope * (slid - distances_[next - 1]), 0.0), slope};
+  }
+
+  static std::string at_index(const char* name, std::size_t i) {
+    return std::string("Degrading: ") + name + "[" + std::to_string(i) + "]";
+  }
+  void check_count(const char* name, const std::vector<double>& levels) const {
+    detail::require(
+        levels.size() == distances_.size(),
+        std::string("Degrading: ") + name + " must be as many as distances, " + std::to_string(distances_.size()),
+        static_cast<double>(levels.size()));
+  }
+  static void check_level(const char* name, std::size_t i, double level) {
+    detail::require(std::isfinite(level) && level >= 0, at_index(name, i) + " must be finite and at least 0", level,
+                    "m/s^2");
+  }
+
+  std::vector<double> distances_, forward_, backward_;
+};
+
+}  // namespace stickslip
