@@ -42,7 +42,7 @@ decay_rate : float
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 
 References
 ----------

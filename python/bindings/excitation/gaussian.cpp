@@ -121,7 +121,7 @@ envelope : Envelope, optional
 Raises
 ------
 ValueError
-    A value out of its range; a band beyond the Nyquist frequency (the message says which dt would do); a band in which
+    A value out of range; a band beyond the Nyquist frequency (the message says which dt would do); a band in which
     no line lies (which period would do).
 
 Warns

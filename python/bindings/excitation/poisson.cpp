@@ -106,7 +106,7 @@ envelope : Envelope, optional
 Raises
 ------
 ValueError
-    A value out of its range; more than 3e8 steps in a motion (rate x duration x the times of the shape); a quantile
+    A value out of range; more than 3e8 steps in a motion (rate x duration x the times of the shape); a quantile
     function that is not finite or whose mean square is not 1.
 
 Notes
@@ -191,7 +191,7 @@ stationary_start, shape, quantile, envelope
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
       .def_static(
           "from_spectrum",
           [](const Spectrum& spectrum, double rate, double duration, double dt, double tolerance, bool stationary_start,
@@ -235,7 +235,7 @@ stationary_start, quantile, envelope
 Raises
 ------
 ValueError
-    A value out of its range; a spectrum that ends below pi / dt, or is zero over a band, with the frequency; one that half
+    A value out of range; a spectrum that ends below pi / dt, or is zero over a band, with the frequency; one that half
     a million pieces do not hold.
 
 Notes

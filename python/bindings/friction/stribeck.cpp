@@ -28,7 +28,7 @@ exponent : int
 Raises
 ------
 ValueError
-    A value out of its range; both or neither of a coefficient and its level.
+    A value out of range; both or neither of a coefficient and its level.
 
 Notes
 -----

@@ -25,7 +25,7 @@ rate : float
 Raises
 ------
 ValueError
-    A value out of its range; both or neither of a coefficient and its level.
+    A value out of range; both or neither of a coefficient and its level.
 
 Notes
 -----

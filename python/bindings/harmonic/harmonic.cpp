@@ -214,7 +214,7 @@ list of Orbit
 Raises
 ------
 ValueError
-    A value out of its range; levels that differ by direction without a spring (the slider drifts).
+    A value out of range; levels that differ by direction without a spring (the slider drifts).
 ConvergenceError
     A caster under accelerations beyond all measure.
 
@@ -259,7 +259,7 @@ OrbitBranch
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 
 Notes
 -----

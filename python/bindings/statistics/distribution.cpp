@@ -72,7 +72,7 @@ beta : float
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
   lognormal.def(py::init<double, double>(), py::arg("median"), py::arg("beta"))
       .def_property_readonly("median", &Lognormal::median, "Median.")
       .def_property_readonly("beta", &Lognormal::beta, "Standard deviation of the logarithm.")
@@ -96,7 +96,7 @@ low, high : float, optional
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
   normal
       .def(py::init<double, double, double, double>(), py::arg("mean"), py::arg("std"), py::arg("low") = -infinity,
            py::arg("high") = infinity)
@@ -122,7 +122,7 @@ low, high : float
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
   uniform.def(py::init<double, double>(), py::arg("low"), py::arg("high"))
       .def_property_readonly("low", &Uniform::low, "Lower bound.")
       .def_property_readonly("high", &Uniform::high, "Upper bound.")

@@ -87,7 +87,7 @@ float or ndarray
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
       .def("characteristic",
            py::vectorize([](const DisplacementDistribution* self, double u) { return self->characteristic(u); }),
            py::arg("u"),

@@ -235,7 +235,7 @@ tuple of float
 Raises
 ------
 ValueError
-    A value out of its range, levels that differ.)")
+    A value out of range, levels that differ.)")
           .def("__repr__", [](const EquivalentLinearization& self) {
             const theory::ShapingFilter::Fit fit = self.options().filter;
             const std::string filter =

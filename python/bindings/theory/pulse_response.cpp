@@ -81,7 +81,7 @@ PulseResponse
 Raises
 ------
 ValueError
-    A value out of its range; a slider with a spring.
+    A value out of range; a slider with a spring.
 
 Notes
 -----
@@ -117,7 +117,7 @@ PulseResponse
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
 
   m.def("viscous_damping_for", &theory::viscous_damping_for, py::arg("velocity_square"), py::arg("b"), py::arg("dt"),
         py::kw_only(), py::arg("window") = std::numeric_limits<double>::infinity(),
@@ -144,7 +144,7 @@ float
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
 }
 
 }  // namespace stickslip::python

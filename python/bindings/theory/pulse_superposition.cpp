@@ -236,7 +236,7 @@ float
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 
 References
 ----------

@@ -58,7 +58,7 @@ sections : sequence of (b2, b1, b0, d1, d0), optional
 Raises
 ------
 ValueError
-    A value out of its range, with its section; an unstable section.
+    A value out of range, with its section; an unstable section.
 
 Examples
 --------

@@ -210,7 +210,7 @@ list of HarmonicSolution
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 OverflowError
     Amplitudes beyond the range of doubles.
 
@@ -243,7 +243,7 @@ lower, upper : float or ndarray
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
           .def(
               "stability_boundary",
               [](const SlowlyVaryingParameters& self, const py::object& amplitude) {
@@ -341,7 +341,7 @@ amplitude, phase : ndarray, shape (T,)
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 ConvergenceError
     After a million steps, with the time reached.
 
@@ -374,7 +374,7 @@ HarmonicSolution
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 ConvergenceError
     Not decided after a hundred thousand turns: within round-off of the boundary between two solutions.
 
@@ -410,7 +410,7 @@ Moments
 Raises
 ------
 ValueError
-    A value out of its range; unlike levels forward and backward.
+    A value out of range; unlike levels forward and backward.
 ConvergenceError
     After a million steps, with the time reached.)")
           .def("__repr__", [](const SlowlyVaryingParameters& self) {

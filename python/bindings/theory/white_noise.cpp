@@ -127,7 +127,7 @@ float or numpy.ndarray
 Raises
 ------
 ValueError
-    A value out of its range; or unequal levels, for which no closed form is known.)")
+    A value out of range; or unequal levels, for which no closed form is known.)")
           .def(
               "velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
               R"(Two-sided spectral density of the stationary velocity; its variance is the integral over the whole line.
@@ -173,7 +173,7 @@ float or numpy.ndarray
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
           .def(
               "predict",
               [](const WhiteNoise& self, const py::object& times) {
