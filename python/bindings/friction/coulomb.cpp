@@ -44,8 +44,8 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
           "on_slope",
           [](const py::args&, const py::kwargs&) {
             throw py::type_error(
-                "Coulomb.on_slope was removed: use Slider(Coulomb(mu=...), slope_degrees=...), whose ground acceleration "
-                "is horizontal and whose normal force follows it");
+                "Coulomb.on_slope was removed: use Slider(Coulomb(mu=...), slope_degrees=...), whose ground "
+                "acceleration is horizontal and whose normal force follows it");
           },
           "Removed: use Slider(Coulomb(mu=...), slope_degrees=...).")
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
