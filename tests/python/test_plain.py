@@ -181,7 +181,10 @@ SAID = {
         lambda: theory.WhiteNoise(3),
         "WhiteNoise: takes WhiteNoise() or WhiteNoise(slider, s0), got WhiteNoise(3)",
     ),
-    "not made by a call": (ss.Response, "Response: cannot be constructed directly; other functions"),
+    "not made by a call": (
+        ss.Response,
+        "Response: cannot be constructed directly; other functions return it",
+    ),
     "spectrum": (
         lambda: ss.response_spectrum(3, [1]),
         "response_spectrum: motion must be a GroundMotion or a Response, got 3",
