@@ -226,8 +226,7 @@ inline py::object without_unit(const py::object& values, const std::string& name
     return pint ? values.attr("to")(unit).attr("magnitude") : values.attr("to_value")(unit);
   } catch (const py::error_already_set&) {
     const std::string wanted = *unit == 0 ? "without a dimension" : std::string("in ") + unit;
-    throw std::invalid_argument(name + " must be a quantity " + wanted + " or in a convertible unit, got " +
-                                its_unit);
+    throw std::invalid_argument(name + " must be a quantity " + wanted + " or in a convertible unit, got " + its_unit);
   }
 }
 

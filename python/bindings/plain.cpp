@@ -224,8 +224,8 @@ void make_plain(py::module_& m) {
       options.disable_function_signatures();
       thing.attr("__init__") = py::cpp_function(
           [name](const py::object&, const py::args&, const py::kwargs&) {
-            throw py::type_error(
-                name + ": cannot be constructed directly; other functions return it, see help(" + name + ")");
+            throw py::type_error(name + ": cannot be constructed directly; other functions return it, see help(" +
+                                 name + ")");
           },
           py::name("__init__"), py::is_method(thing), "__init__(self, *args, **kwargs)\n--\n\nCannot be called.");
     }

@@ -168,9 +168,8 @@ In the thesis's four events, with mu from 0.05 to 0.7 and sigma / a from 0.2 to 
 the peaks of 40,000 blocks is 0.99 to 1.10 for the 95 % peak, 0.99 to 1.11 for the 99 % peak, and 0.97 to 1.04 for the
 median unless fewer than two slips are expected. These are for equal levels. Takes 60 to 350 ms, with `refined` up to 10
 s.)")
-          .def(
-              "final_rms", &chain_rms, py::arg("slider"), py::arg("pulses"),
-              R"(Predict the rms displacement (E[x^2(t_d)])^(1/2) at t_d = pulses.duration; thesis figure 5.7.
+          .def("final_rms", &chain_rms, py::arg("slider"), py::arg("pulses"),
+               R"(Predict the rms displacement (E[x^2(t_d)])^(1/2) at t_d = pulses.duration; thesis figure 5.7.
 
 Parameters
 ----------

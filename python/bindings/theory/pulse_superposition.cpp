@@ -159,9 +159,8 @@ Notes
 Overlapping responses are added: exact for lambda dt -> 0 at every time, and without friction with 'none'. Integrals
 over time are in closed form, those over the amplitudes accurate to 1e-5. Takes 0.1 to 1 ms, plus some 10 us for each
 time.)")
-          .def(
-              "final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
-              R"(Predict the rms displacement (E[x^2(t_d)])^(1/2) at t_d = pulses.duration; thesis 5.6 and figure 5.7.
+          .def("final_rms", &superposition_rms, py::arg("slider"), py::arg("pulses"),
+               R"(Predict the rms displacement (E[x^2(t_d)])^(1/2) at t_d = pulses.duration; thesis 5.6 and figure 5.7.
 
 Parameters
 ----------

@@ -150,9 +150,8 @@ Raises
 ------
 ValueError
     An amplitude out of range.)")
-          .def(
-              "in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
-              R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): the part in phase with x.
+          .def("in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
+               R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): the part in phase with x.
 
 Parameters
 ----------
@@ -270,9 +269,8 @@ Raises
 ------
 ValueError
     An amplitude out of range.)")
-          .def(
-              "least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
-              R"(Minimum amplitude over all frequencies: -S(A) = B, thesis (2.36), (2.37), by bracketing.
+          .def("least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
+               R"(Minimum amplitude over all frequencies: -S(A) = B, thesis (2.36), (2.37), by bracketing.
 
 Parameters
 ----------

@@ -130,9 +130,8 @@ Raises
 ------
 ValueError
     A value out of range; unequal levels, for which no closed form is known.)")
-          .def(
-              "velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
-              R"(Two-sided spectral density of the stationary velocity, whose integral over the line is the variance.
+          .def("velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
+               R"(Two-sided spectral density of the stationary velocity, whose integral over the line is the variance.
 
 S(w) = D^3 / (pi a^4) Re[(2 k^2 + 2 k + 1) / k^4], 2 k = 1 + sqrt(1 + 4 i w D / a^2).
 
