@@ -1,4 +1,4 @@
-// What the binding files share: one `bind_` function for each noun, and the sliders of all laws as one type.
+// Shared by the binding files: one `bind_` function for each noun, and a type for sliders of any law.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -18,18 +18,18 @@ namespace py = pybind11;
 
 namespace stickslip::python {
 
-/// A slider of any law that Python knows. A new law is added here and gets all that takes a slider.
+/// A slider of any law that Python knows. Every function that accepts a slider accepts a law added here.
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
                                Slider<Degrading>, Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
                                Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
 
-/// The class of these in Python.
+/// The Python class StaticKinetic.
 using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>,
                                       StaticKinetic<Degrading>>;
 
 }  // namespace stickslip::python
 
-// Not what pybind11/stl.h makes of a variant: Slider is a class.
+// These variants are classes in Python, not converted as by pybind11/stl.h.
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnySlider)
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnyStaticKinetic)
 
@@ -82,11 +82,11 @@ void bind_pulse_chain(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
 
-/// Gives all functions and classes of the module signatures that Python can read, and errors in plain words.
+/// Gives all functions and classes of the module signatures that Python can read, and plain-language errors.
 void make_plain(py::module_& m);
 
-/// What `work` gives with the slider in its own type; one whose law knows the speed or the distance slid, or holds more
-/// than what resists, is refused, as theories do.
+/// Calls `work` with the slider in its static type. Rejects, as theories do, laws that depend on the speed or on the
+/// sliding distance, and laws that hold more at rest than while sliding.
 template <class Work>
 auto with_position_law(const AnySlider& slider, const char* who, Work&& work) {
   return std::visit(
@@ -94,7 +94,7 @@ auto with_position_law(const AnySlider& slider, const char* who, Work&& work) {
         if constexpr (!PositionLaw<Law>)
           detail::refuse_law<Law>(who);
         else if constexpr (LawWithHold<Law>)
-          throw std::invalid_argument(std::string(who) + ": static friction beside kinetic is not covered");
+          throw std::invalid_argument(std::string(who) + ": does not cover static friction above kinetic");
         else
           return work(one);
       },
@@ -111,8 +111,8 @@ py::object law_object(const StaticKinetic<Law>& law) {
   return py::cast(AnyStaticKinetic(law));
 }
 
-/// The slider without spring that a law makes; nothing if the object is no law. (Implicit conversions would need the
-/// frame of a bound function, which threads do not have.)
+/// The slider without spring of a law; nullopt if the object is not a law. (Implicit conversions would need the frame
+/// of a bound function, which threads do not have.)
 template <class... Laws>
 std::optional<AnySlider> slider_of_law(const py::handle& object, const std::variant<Slider<Laws>...>*) {
   std::optional<AnySlider> slider;
@@ -128,7 +128,7 @@ inline std::optional<AnySlider> slider_of_law(const py::handle& object) {
   return slider_of_law(object, static_cast<const AnySlider*>(nullptr));
 }
 
-/// The slider that an object is, or that it makes as a law; nothing if it is none.
+/// The slider that an object is, or that it defines as a law; nullopt if it is neither.
 inline std::optional<AnySlider> slider_of(const py::handle& object) {
   if (py::isinstance<AnySlider>(object)) return object.cast<const AnySlider&>();
   return slider_of_law(object);
@@ -141,7 +141,7 @@ inline Contact contact_of(const std::string& name, const std::string& owner) {
   throw std::invalid_argument(owner + ": contact must be 'flight' or 'clipped', got '" + name + "'");
 }
 
-/// A Python function that may be copied and dropped without the interpreter's lock; to call it the lock is taken.
+/// A Python function that may be copied and destroyed without the interpreter lock; calls need the lock.
 class HeldFunction {
  public:
   explicit HeldFunction(py::function function)
@@ -157,20 +157,20 @@ class HeldFunction {
   std::shared_ptr<py::function> function_;
 };
 
-/// Lets Ctrl-C through while the interpreter is not held.
+/// Handles Ctrl-C while the interpreter lock is released.
 inline void check_for_interrupt() {
   const py::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-/// A read-only array over `values`, which live as long as `owner`.
+/// A read-only array over `values`, which `owner` keeps alive.
 inline py::array_t<double> view(std::span<const double> values, py::handle owner) {
   py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }
 
-/// A read-only array that takes the values over.
+/// A read-only array that takes ownership of the values.
 template <class T>
 py::array_t<T> array_of(std::vector<T> values) {
   auto* const kept = new std::vector<T>(std::move(values));
@@ -180,15 +180,15 @@ py::array_t<T> array_of(std::vector<T> values) {
   return array;
 }
 
-/// An array of its own with a copy of the values.
+/// A new array with a copy of the values.
 inline py::array_t<double> to_array(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// An array of doubles in a row.
+/// A contiguous array of doubles.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Each object's value as a float; what has none is refused with its index.
+/// The float value of each object; an object without one is an error that names its index.
 inline Numbers values_of(const py::array& objects, const std::string& name) {
   Numbers numbers(std::vector<py::ssize_t>(objects.shape(), objects.shape() + objects.ndim()));
   double* to = numbers.mutable_data();
@@ -208,12 +208,12 @@ inline Numbers values_of(const py::array& objects, const std::string& name) {
   return numbers;
 }
 
-/// The numbers of a quantity that carries its unit, as Pint's and Astropy's do, converted to `unit`; else `values`.
-/// @param unit  the SI unit that is wanted, "" of a pure number; where it is null, units are refused
+/// The numbers of a quantity that carries a unit (Pint, Astropy), converted to `unit`; otherwise `values` unchanged.
+/// @param unit  the SI unit to convert to, "" for a pure number; if it is null, quantities with units are rejected
 inline py::object without_unit(const py::object& values, const std::string& name, const char* unit) {
   const bool pint = py::hasattr(values, "magnitude") && py::hasattr(values, "dimensionality");
   if (!pint && !(py::hasattr(values, "unit") && py::hasattr(values, "to_value"))) {
-    // xarray around Pint: NumPy would drop the unit
+    // xarray over Pint: NumPy would drop the unit
     if (!py::hasattr(values, "dims") || !py::hasattr(values, "data")) return values;
     const py::object inside = values.attr("data"), numbers = without_unit(inside, name, unit);
     return numbers.is(inside) ? values : numbers;
@@ -228,16 +228,15 @@ inline py::object without_unit(const py::object& values, const std::string& name
     return pint ? values.attr("to")(unit).attr("magnitude") : values.attr("to_value")(unit);
   } catch (const py::error_already_set&) {
     const std::string wanted = *unit == 0 ? "without a dimension" : std::string("in ") + unit;
-    throw std::invalid_argument(name + " must be a quantity " + wanted + " or of a unit that can be converted, got " +
-                                its_unit);
+    throw std::invalid_argument(name + " must be a quantity " + wanted + " or in a convertible unit, got " + its_unit);
   }
 }
 
-/// Real numbers in an array of any shape: those of a list, of NumPy, of pandas, of xarray, of Pint. `name` is for the
-/// message where they are none; `unit` is that of a quantity, as `without_unit` takes it.
+/// Real numbers in an array of any shape, from a list, NumPy, pandas, xarray or Pint. `name` is for error messages;
+/// `unit` is as for `without_unit`.
 inline Numbers to_numbers(const py::object& given, const std::string& name, const char* unit = nullptr) {
   const py::object values = without_unit(given, name, unit);
-  if (py::hasattr(values, "mask")) {  // as pandas has, too
+  if (py::hasattr(values, "mask")) {  // pandas has one, too
     const py::module_ ma = py::module_::import("numpy.ma");
     if (py::isinstance(values, ma.attr("MaskedArray"))) {
       const py::object mask = ma.attr("getmaskarray")(values);
@@ -247,7 +246,7 @@ inline Numbers to_numbers(const py::object& given, const std::string& name, cons
                                     "; fill the gaps first");
     }
   }
-  const py::array array = py::module_::import("numpy").attr("asarray")(values);  // whose own errors say what is wrong
+  const py::array array = py::module_::import("numpy").attr("asarray")(values);  // its errors say what is wrong
   if (array.dtype().kind() == 'O') return values_of(array, name);
   if (std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
     throw std::invalid_argument(name + " must hold real numbers, got " + py::str(array.dtype()).cast<std::string>());
@@ -289,7 +288,7 @@ inline auto plot_in(const char* function, const char* where) {
   };
 }
 
-/// A function of each of the numbers: a float of one, an array of their shape of an array.
+/// A function of each number: returns a float for a number, an array of the same shape for an array.
 template <class F>
 py::object of_each(const py::object& values, const std::string& name, F&& f, const char* unit = nullptr) {
   return py::vectorize(std::forward<F>(f))(to_numbers(values, name, unit));
@@ -305,7 +304,7 @@ inline const char* name_of(Interpolation interpolation) {
   return interpolation == Interpolation::linear ? "linear" : "constant";
 }
 
-/// The slip level that was given, either itself or as a coefficient of friction.
+/// The slip level, given as such or as a coefficient of friction.
 inline double slip_level_of(std::optional<double> mu, std::optional<double> slip_level, const std::string& law,
                             const std::string& mu_name = "mu", const std::string& level_name = "slip_level") {
   if (mu.has_value() == slip_level.has_value())

@@ -17,7 +17,7 @@ void bind_build_info(py::module_& m) {
         result["sundials"] = info.sundials;
         return result;
       },
-      R"(What this build is made of: version, commit, compiler, and the libraries it contains.
+      R"(Version, commit and compiler of this build, and the libraries that it contains.
 
 FFTW and GSL are under the GPL: a binary that contains them is distributed under GPL-3.0-or-later.
 

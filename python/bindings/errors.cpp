@@ -4,7 +4,7 @@ namespace stickslip::python {
 
 void bind_errors(py::module_& m) {
   py::register_exception<ConvergenceError>(m, "ConvergenceError", PyExc_RuntimeError).doc() =
-      "A computation that could not reach what was asked of it; the message says how far it came and what to change.";
+      "A computation did not converge; the message says how far it came and what to change.";
 }
 
 }  // namespace stickslip::python

@@ -6,15 +6,15 @@
 
 namespace {
 
-/// Two ways in which pybind11 lets Python code crash the interpreter are closed.
+/// Closes two ways in which pybind11 lets Python code crash the interpreter.
 void make_safe(py::type type) {
   auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(type.ptr()));
   if (info == nullptr) return;
-  // An object made by `__new__` alone would be given uninitialized memory when it is first used.
+  // An object made only by `__new__` would get uninitialized memory at its first use.
   info->operator_new = [](std::size_t) -> void* {
     throw py::type_error("an object was used whose __init__ was never called");
   };
-  // Protocols 0 and 1 of pickle call the common base class of all objects, which ends the program.
+  // Pickle protocols 0 and 1 call the common base class of all objects, which ends the program.
   type.attr("__reduce_ex__") = py::cpp_function(
       [](const py::object& self, int protocol) {
         return py::handle(reinterpret_cast<PyObject*>(&PyBaseObject_Type))
@@ -28,7 +28,7 @@ void make_safe(py::type type) {
 PYBIND11_MODULE(_core, m) {
   using namespace stickslip::python;
   m.attr("STANDARD_GRAVITY") = stickslip::standard_gravity;
-  // Classes know the module in which users find them.
+  // Classes report the module in which users find them.
   const auto in = [&m](const char* module) { m.attr("__name__") = module; };
   const std::string compiled = py::str(m.attr("__name__"));
   in("stickslip");
@@ -84,7 +84,7 @@ PYBIND11_MODULE(_core, m) {
   m.def(
       "to_vector", [](const py::object& values, const std::string& name) { return to_array(to_vector(values, name)); },
       py::arg("values"), py::arg("name"),
-      "Real numbers in a row, as all functions take them; `name` is for the message where they are none.");
+      "Convert to a one-dimensional array of real numbers, as all functions do; `name` is for error messages.");
   for (const auto& [name, thing] : m.attr("__dict__").cast<py::dict>())
     if (py::isinstance<py::type>(thing)) make_safe(py::reinterpret_borrow<py::type>(thing));
   make_plain(m);

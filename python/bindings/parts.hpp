@@ -1,4 +1,4 @@
-// Pickling, copies, comparison and hash of a class, from one list of what its objects are made of.
+// Pickling, copying, comparison and hash of a class, from one list of its parts.
 #pragma once
 
 #include <pybind11/complex.h>
@@ -19,7 +19,7 @@
 
 namespace stickslip::python {
 
-/// Data members or getters, in the order in which T{...} takes them. A class that has them gets all below:
+/// Data members or getters, in the order in which T{...} takes them. A class with this list gets all of the above:
 ///     template <> inline constexpr auto parts<Interval> = std::tuple(&Interval::value, &Interval::low, ...);
 template <class T>
 inline constexpr auto parts = nullptr;
@@ -27,7 +27,7 @@ inline constexpr auto parts = nullptr;
 template <class T>
 concept MadeOfParts = !std::same_as<std::remove_cvref_t<decltype(parts<T>)>, std::nullptr_t>;
 
-// All in one place: a class within another must be known to be made of parts wherever either is.
+// All in one place: wherever a class is used, the parts of its members must be known too.
 
 template <>
 inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::backward);
@@ -173,7 +173,7 @@ template <class T>
 concept Sequence = std::ranges::random_access_range<T> && !std::convertible_to<T, std::string_view> &&
                    !std::derived_from<T, py::handle>;
 
-/// Plain Python objects to pickle.
+/// Converts a value to plain Python objects, for pickling.
 template <class T>
 py::object pack(const T& value) {
   if constexpr (MadeOfParts<T>) {
@@ -224,7 +224,7 @@ T unpack(const py::object& packed) {
   }
 }
 
-/// Whether both hold the same. A NaN is the same as another.
+/// Whether both have the same content. All NaNs are equal.
 template <class T>
 bool same(const T& a, const T& b) {
   if constexpr (MadeOfParts<T>)
@@ -240,7 +240,7 @@ bool same(const T& a, const T& b) {
     return pack(a).equal(pack(b));
 }
 
-/// The same for what is the same.
+/// A hash that is equal for objects with the same content.
 template <class T>
 std::size_t hash_of(const T& value) {
   const auto join = [](std::size_t hash, std::size_t next) { return hash * 1'000'003 ^ next; };
@@ -259,7 +259,7 @@ std::size_t hash_of(const T& value) {
   return hash;
 }
 
-/// A class of objects that do not change: they compare by content, and can be hashed, copied and pickled.
+/// A class of immutable objects, which compare by content and can be hashed, copied and pickled.
 template <MadeOfParts T>
 py::class_<T> value_class(py::module_& m, const char* name, std::string doc) {
   doc.insert(std::min(doc.find("\n\n"), doc.size()),
@@ -267,7 +267,7 @@ py::class_<T> value_class(py::module_& m, const char* name, std::string doc) {
   py::class_<T> type(m, name, doc.c_str());
   type.def(
           "__eq__",
-          [](const T& self, const py::object& other) -> py::object {  // `const T&` would convert, a law to a slider
+          [](const T& self, const py::object& other) -> py::object {  // `const T&` would convert a law to a slider
             if (!py::isinstance<T>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
             return py::bool_(same(self, other.cast<const T&>()));
           },

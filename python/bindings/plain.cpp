@@ -1,5 +1,5 @@
-// Signatures and errors of the module as a reader of Python expects them: signatures that `inspect` and `help` can
-// read, and messages without the words of the binding library.
+// Signatures and errors of the module in plain Python terms: signatures that `inspect` and `help` can read, and
+// messages without the vocabulary of the binding library.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -13,7 +13,7 @@
 namespace stickslip::python {
 namespace {
 
-/// The end of what stands at `begin`, a bracket or a quote that closes where it ends.
+/// The end of the bracketed or quoted text that starts at `begin`.
 std::size_t end_of(std::string_view text, std::size_t begin) {
   const char open = text[begin];
   if (open == '\'' || open == '"') {
@@ -27,7 +27,7 @@ std::size_t end_of(std::string_view text, std::size_t begin) {
   return i + 1;
 }
 
-/// The place of `what` outside of brackets and quotes, or the end.
+/// The position of `what` outside brackets and quotes, or the end.
 std::size_t find_outside(std::string_view text, std::string_view what) {
   for (std::size_t i = 0; i < text.size();) {
     if (text.substr(i).starts_with(what)) return i;
@@ -37,22 +37,22 @@ std::size_t find_outside(std::string_view text, std::string_view what) {
 }
 
 struct Parameter {
-  std::string name, value;  // a default value or nothing
+  std::string name, value;  // value: the default, or empty
 };
 
-/// One that has no name in C++ cannot be given by name.
+/// A parameter without a name in C++ cannot be passed by name.
 bool nameless(std::string_view name) {
   return name.starts_with("arg") && name.find_first_not_of("0123456789", 3) == std::string_view::npos;
 }
 
-/// Parameters as "self: Slider, x: float = 0.0, *, backward: bool = False" lists them.
+/// The parameters of a list such as "self: Slider, x: float = 0.0, *, backward: bool = False".
 std::vector<Parameter> parameters_of(std::string_view text) {
   std::vector<Parameter> found;
   while (!text.empty()) {
     const std::size_t end = find_outside(text, ", ");
     const std::string_view one = text.substr(0, end), named = one.substr(0, find_outside(one, " = "));
     std::string value(one.substr(std::min(named.size() + 3, one.size())));
-    // What is no literal cannot be read back.
+    // A default that is not a literal cannot be parsed.
     if (!value.empty() && value != "[]" && value != "()" && value != "None" && value != "True" && value != "False" &&
         std::string_view("0123456789'\"").find(value[value[0] == '-' ? 1 : 0]) == std::string_view::npos)
       value = "...";
@@ -70,14 +70,14 @@ std::string text_of(const std::vector<Parameter>& parameters) {
   return text;
 }
 
-/// As a user writes the call, without the object of a method.
+/// The call as a user writes it, without the object of a method.
 std::string call_of(const std::string& name, std::vector<Parameter> form) {
   if (!form.empty() && form[0].name == "self") form.erase(form.begin());
   return name + "(" + text_of(form) + ")";
 }
 
-/// One signature for all overloads: the longest, in which what others lack has a default value. Where no such signature
-/// says what a call takes, it takes anything, and the text begins with the forms.
+/// One signature for all overloads: the longest one, with defaults for parameters that other overloads lack. If no such
+/// signature exists, the result accepts anything, and the text begins with a list of the overloads.
 std::string signature_of(const std::string& name, const std::vector<std::vector<Parameter>>& forms, std::string& text) {
   std::vector<Parameter> longest;
   for (const auto& form : forms)
@@ -103,7 +103,7 @@ std::string signature_of(const std::string& name, const std::vector<std::vector<
   return "self, *args, **kwargs";
 }
 
-/// The documentation that pybind11 wrote, with one signature that CPython understands in place of all typed ones.
+/// The documentation by pybind11, with one signature that CPython understands in place of all typed ones.
 std::string plain(const std::string& name, const std::string& doc) {
   const auto parameters_at = [&](std::size_t begin) {
     return parameters_of(std::string_view(doc).substr(begin + 1, end_of(doc, begin) - begin - 2));
@@ -132,13 +132,13 @@ std::string plain(const std::string& name, const std::string& doc) {
   return name + "(" + signature + ")\n--\n\n" + text.substr(std::min(text.find_first_not_of('\n'), text.size()));
 }
 
-/// Full names of functions, by the object that CPython hands to them.
+/// Full names of functions, by the object that CPython passes to them.
 std::unordered_map<PyObject*, std::string>& names() {
   static auto* const names = new std::unordered_map<PyObject*, std::string>;
   return *names;
 }
 
-/// Says in plain words why a call was refused, if the reason was written by pybind11.
+/// Replaces a pybind11 message about rejected arguments by a plain-language one.
 void explain(PyObject* function, const py::tuple& args, const py::dict& kwargs) {
   if (PyErr_ExceptionMatches(PyExc_TypeError) == 0) return;
   py::error_already_set error;
@@ -156,7 +156,7 @@ void explain(PyObject* function, const py::tuple& args, const py::dict& kwargs) 
   }
 }
 
-// pybind11 has one way to call its functions; which of both depends on its version.
+// pybind11 calls all its functions in one of two ways, which depends on its version.
 using FastCall = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 FastCall fast = nullptr;
 PyCFunctionWithKeywords slow = nullptr;
@@ -195,7 +195,7 @@ void make_function_plain(py::handle object, const std::string& owner) {
   const std::string name = definition->ml_name, doc = definition->ml_doc == nullptr ? "" : definition->ml_doc;
   if (self == nullptr || names().contains(self) || !doc.starts_with(name + "(")) return;
   names()[self] = owner + name;
-  std::free(const_cast<char*>(definition->ml_doc));  // pybind11's, which frees the next one, too
+  std::free(const_cast<char*>(definition->ml_doc));  // allocated by pybind11, which also frees the new one
   definition->ml_doc = ::strdup(plain(name, doc).c_str());
   if ((definition->ml_flags & METH_FASTCALL) != 0) {
     const auto call = reinterpret_cast<FastCall>(reinterpret_cast<void (*)()>(definition->ml_meth));
@@ -219,15 +219,15 @@ void make_plain(py::module_& m) {
     const auto name = py::str(key).cast<std::string>();
     if (py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(thing.ptr())) == nullptr) continue;  // an exception
     const auto members = py::dict(thing.attr("__dict__"));
-    if (PyInstanceMethod_Check(py::object(members["__init__"]).ptr()) == 0) {  // none is bound
+    if (PyInstanceMethod_Check(py::object(members["__init__"]).ptr()) == 0) {  // no constructor is bound
       py::options options;
       options.disable_function_signatures();
       thing.attr("__init__") = py::cpp_function(
           [name](const py::object&, const py::args&, const py::kwargs&) {
-            throw py::type_error(
-                name + ": made by the functions and methods that return one, not by a call; see help(" + name + ")");
+            throw py::type_error(name + ": cannot be constructed directly; other functions return it, see help(" +
+                                 name + ")");
           },
-          py::name("__init__"), py::is_method(thing), "__init__(self, *args, **kwargs)\n--\n\nNot to be called.");
+          py::name("__init__"), py::is_method(thing), "__init__(self, *args, **kwargs)\n--\n\nCannot be called.");
     }
     for (const auto& [member, value] : members) make_function_plain(value, name + ".");
   }

@@ -27,7 +27,7 @@ double natural_frequency_from(std::optional<double> natural_frequency, std::opti
   return 2 * std::numbers::pi / *period;
 }
 
-// c [1/s], given as such or as a part of critical damping.
+// c [1/s], given as such or as a fraction of critical damping.
 double damping_from(std::optional<double> damping, std::optional<double> ratio, double natural_frequency) {
   if (damping && ratio)
     throw std::invalid_argument("Slider: give damping or damping_ratio, got both (" +
@@ -38,10 +38,10 @@ double damping_from(std::optional<double> damping, std::optional<double> ratio, 
   return 2 * natural_frequency * *ratio;
 }
 
-// The law of a slider that is nothing else; refuses what is none.
+// The slider of a law without anything else; rejects objects that are not laws.
 AnySlider alone(const py::object& law) {
   if (auto slider = slider_of_law(law)) return *std::move(slider);
-  throw py::type_error("Slider: law must be a friction law, as Coulomb(mu=0.3), got " +
+  throw py::type_error("Slider: law must be a friction law, such as Coulomb(mu=0.3), got " +
                        py::type::of(law).attr("__name__").cast<std::string>());
 }
 
@@ -72,7 +72,7 @@ const Mounting& mounting_of(const AnySlider& slider) {
   return std::visit([](const auto& s) -> const Mounting& { return s.mounting(); }, slider);
 }
 
-// What is not as it usually is, as arguments.
+// The values that differ from the defaults, as arguments.
 std::string described(const Mounting& mounting) {
   const auto number = [](const char* name, double value) {
     return value != 0 ? std::string(", ") + name + "=" + detail::shortest(value) : std::string();
@@ -102,49 +102,50 @@ Direction direction_of(bool backward) { return backward ? Direction::backward : 
 void bind_slider(py::module_& m) {
   py::class_<AnySlider> slider(
       m, "Slider",
-      R"(The system that moves: a friction law, with a spring, a damper, a slope and stops where there are any.
+      R"(A mass that slides: a friction law, and optionally a spring, a damper, a slope and stops.
 
-x'' + resist N+/g sgn(x') + c x' + wn^2 x = p, thesis (2.27), (2.50), (4.2): x the displacement relative to the ground
-[m], along the slope and positive downhill. p = (g + a_z) sin(slope) - n cos(slope) and N = (g + a_z) cos(slope) +
-n sin(slope), N+ = max(N, 0), n and a_z being the horizontal and the upward ground acceleration [m/s^2]; on level ground
-without vertical motion p = -n and N = g. At rest it stays while -hold_backward N+/g <= p - wn^2 x <= hold_forward N+/g.
+x'' + resist N+/g sgn(x') + c x' + wn^2 x = p, thesis (2.27), (2.50), (4.2): x is the displacement relative to the
+ground [m], along the slope and positive downhill. p = (g + a_z) sin(slope) - n cos(slope),
+N = (g + a_z) cos(slope) + n sin(slope) and N+ = max(N, 0), where n and a_z are the horizontal and the upward ground
+acceleration [m/s^2]; on level ground without vertical motion p = -n and N = g. A slider at rest stays at rest while
+-hold_backward N+/g <= p - wn^2 x <= hold_forward N+/g.
 
 Parameters
 ----------
 law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading or StaticKinetic
-    What holds at rest and what resists sliding.
+    The friction at rest and while sliding.
 natural_frequency : float, optional
-    wn of the mass on its spring, without friction [rad/s]; finite and at least 0, 0 is no spring.
+    wn of the mass on its spring, without friction [rad/s]; finite and at least 0; 0 means no spring.
 damping : float, optional
-    c of the damper per unit mass [1/s]; finite and at least 0, 0 is none.
+    c of the damper per unit mass [1/s]; finite and at least 0; 0 means no damper.
 period : float, optional
     2 pi / wn [s], instead of natural_frequency; positive and finite.
 damping_ratio : float, optional
-    c / (2 wn), the part of critical damping, instead of damping; finite and at least 0. Needs a spring.
+    c / (2 wn), the fraction of critical damping, instead of damping; finite and at least 0. Needs a spring.
 slope_degrees : float, optional
-    Slope of the ground [degrees], from 0 to less than 90; forward is downhill. n is horizontal, positive toward the
-    downhill side.
+    Slope of the ground [degrees], at least 0 and less than 90; forward is downhill. n is horizontal, positive toward
+    the downhill side.
 one_way : bool, optional
-    Never slides backward, as Newmark's block.
+    Never slides backward, like Newmark's block.
 stops : Stops, optional
-    That end its way.
+    Stops that limit the displacement; default: none.
 pendulum : bool, optional
-    The spring is a friction pendulum's, which pulls with wn^2 x N+/g; see `FrictionPendulum`.
+    The spring is that of a friction pendulum, with the force wn^2 x N+/g; see `FrictionPendulum`.
 
 Raises
 ------
 ValueError
-    A value out of its range; natural_frequency and period, or damping and damping_ratio, both given; a damping_ratio or a
-    pendulum without a spring; a slope on which it slides under its own weight with neither spring nor stop in its way.
+    A value out of range; natural_frequency and period, or damping and damping_ratio, both given; a damping_ratio or
+    a pendulum without a spring; a slope on which the mass slides under its own weight without a spring or a stop.
 
 Notes
 -----
-Wherever a slider is asked for, a law alone will do: a slider on level ground without spring and damper.)");
+Functions that take a slider also take a law: a slider on level ground without spring and damper.)");
   slider.def(py::init([](const py::object& law, std::optional<double> natural_frequency, std::optional<double> damping,
                          std::optional<double> period, std::optional<double> damping_ratio, const py::object& slope,
                          bool one_way, const Stops* stops, bool pendulum) {
                const double wn = natural_frequency_from(natural_frequency, period);
-               // A quantity in degrees would count as a number of radians; a number needs no NumPy to be one.
+               // A quantity in degrees would count as a number of radians. A plain float does not need NumPy.
                const double degrees = PyFloat_CheckExact(slope.ptr())
                                           ? PyFloat_AsDouble(slope.ptr())
                                           : to_number(slope, "Slider: slope_degrees", "degree");
@@ -168,18 +169,18 @@ Wherever a slider is asked for, a law alone will do: a slider on level ground wi
                 law);
           },
           py::arg("law"), py::kw_only(), py::arg("cup_radius"), py::arg("wheel_radius") = 0.0, py::arg("damping") = 0.0,
-          R"(A slider whose wheels stand in cups and climb their sides, thesis (2.49) as corrected.
+          R"(A slider whose wheels stand in cups and climb their sides, thesis (2.49), corrected.
 
-A pendulum of the length of the bowl's radius less the wheel's: wn = sqrt(g / (cup_radius - wheel_radius)).
+A pendulum whose length is the radius of the cup minus that of the wheel: wn = sqrt(g / (cup_radius - wheel_radius)).
 
 Parameters
 ----------
 law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading or StaticKinetic
 cup_radius : float
-    Radius of curvature of the bowl [m], positive and finite.
+    Radius of curvature of the cup [m], positive and finite.
 wheel_radius : float, optional
-    Radius of the wheel that rolls in it [m], at least 0 and less than cup_radius; 0, a point that slides, is the
-    thesis's form.
+    Radius of the wheel that rolls in it [m], at least 0 and less than cup_radius; 0, a sliding point, is the form in
+    the thesis.
 damping : float, optional
     c of a damper per unit mass [1/s]; finite and at least 0.
 
@@ -190,11 +191,11 @@ Slider
 Raises
 ------
 ValueError
-    A value out of its range; a slider that has a spring or damper already.
+    A value out of range; a slider that already has a spring or damper.
 
 Notes
 -----
-To first order in x / (cup_radius - wheel_radius); the next term is the third.)")
+Holds to first order in x / (cup_radius - wheel_radius); the next term is of third order.)")
       .def_property_readonly("law", &law_of, "The friction law.")
       .def_property_readonly("natural_frequency", &natural_frequency_of, "wn [rad/s]; 0 without a spring.")
       .def_property_readonly("damping", &damping_of, "c [1/s]; 0 without a damper.")
@@ -203,23 +204,23 @@ To first order in x / (cup_radius - wheel_radius); the next term is the third.)"
           "Slope of the ground [degrees].")
       .def_property_readonly(
           "one_way", [](const AnySlider& self) { return mounting_of(self).one_way; },
-          "Whether it never slides backward.")
+          "Whether the slider never slides backward.")
       .def_property_readonly(
           "stops",
           [](const AnySlider& self) {
             const Stops& stops = mounting_of(self).stops;
             return stops ? std::optional(stops) : std::nullopt;
           },
-          "The stops; None where there are none.")
+          "The stops; None if there are none.")
       .def_property_readonly(
           "pendulum", [](const AnySlider& self) { return mounting_of(self).pendulum; },
-          "Whether the spring is a friction pendulum's.")
+          "Whether the spring is that of a friction pendulum.")
       .def_property_readonly(
           "period", [](const AnySlider& self) { return 2 * std::numbers::pi / natural_frequency_of(self); },
           "2 pi / wn [s]; inf without a spring.")
       .def_property_readonly(
           "damping_ratio", [](const AnySlider& self) { return damping_of(self) / (2 * natural_frequency_of(self)); },
-          "c / (2 wn); without a spring inf, or nan without a damper too.")
+          "c / (2 wn); without a spring, inf, or nan if there is no damper either.")
       .def(
           "hold",
           [](const AnySlider& self, double displacement, bool backward, double sliding_distance) {
@@ -230,7 +231,7 @@ To first order in x / (cup_radius - wheel_radius); the next term is the third.)"
                 self);
           },
           py::arg("displacement") = 0.0, py::kw_only(), py::arg("backward") = false, py::arg("sliding_distance") = 0.0,
-          R"(What friction holds at rest.
+          R"(Largest load that friction resists at rest.
 
 Parameters
 ----------
@@ -258,7 +259,7 @@ float
           },
           py::arg("displacement") = 0.0, py::arg("speed") = 0.0, py::kw_only(), py::arg("backward") = false,
           py::arg("sliding_distance") = 0.0,
-          R"(What friction resists with while it slides.
+          R"(Friction while sliding.
 
 Parameters
 ----------
@@ -282,7 +283,7 @@ float
       .def(
           "__eq__",
           [](const AnySlider& a, const py::object& other) {
-            if (!py::isinstance<AnySlider>(other)) return false;  // a law is no slider here
+            if (!py::isinstance<AnySlider>(other)) return false;  // a law is not a slider here
             const auto& b = other.cast<const AnySlider&>();
             return law_of(a).equal(law_of(b)) && mounting_of(a) == mounting_of(b);
           },
@@ -328,20 +329,20 @@ float
       py::arg("stops") = py::none(), py::arg("damping") = 0.0,
       R"(A slider on a spherical dish: a friction pendulum bearing.
 
-Its restoring force is N+ x / radius, N the normal force per unit mass: a spring of natural frequency sqrt(g / radius) whose
-pull follows the vertical motion. Linear in x: for |x| up to 0.2 radius, where the next term is 2 % of it; `Response.remark`
-says where a motion goes beyond.
+The restoring force is N+ x / radius, where N is the normal force per unit mass: a spring of natural frequency
+sqrt(g / radius) whose force follows the vertical motion. Linear in x, for |x| up to 0.2 radius, where the next term is
+2 % of the force; `Response.remark` reports motions beyond that.
 
 Parameters
 ----------
 radius : float
     Effective radius of curvature of the dish [m], positive and finite.
 mu : float, optional
-    Coefficient of friction, the same at all speeds.
+    Coefficient of friction, equal at all speeds.
 mu_slow, mu_fast, rate : float, optional
-    Those of `VelocityDependent`; rate in s/m.
+    As for `VelocityDependent`; rate in s/m.
 law : friction law, optional
-    Any other.
+    Any other friction law.
 stops : Stops, optional
     The rim of the dish.
 damping : float, optional
@@ -354,12 +355,12 @@ Slider
 Raises
 ------
 ValueError
-    A value out of its range; other than one of mu, of mu_slow with mu_fast and rate, and of law.
+    A value out of range; not exactly one of mu, (mu_slow, mu_fast, rate) and law.
 
 Notes
 -----
-Under a ground motion without vertical component it is a slider on a constant spring. The motion is a Taylor series in
-time, near round-off.)");
+Under a ground motion without vertical component it is a slider with a constant spring. The motion is integrated by
+Taylor series in time, nearly to round-off.)");
 }
 
 }  // namespace stickslip::python

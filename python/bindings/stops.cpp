@@ -9,31 +9,32 @@
 namespace stickslip::python {
 
 void bind_stops(py::module_& m) {
-  value_class<Stops>(m, "Stops", R"(Stops that end the way of a slider, at x = gap and x = -backward.
+  value_class<Stops>(m, "Stops", R"(Stops that limit the displacement of a slider, at x = gap and x = -backward.
 
-A slider that comes to a stop at speed v leaves it at speed restitution * v. A load toward a stop is held, however large.
-Infinitely many bounces in a finite time are followed to their end.
+A slider that hits a stop at speed v leaves it at speed restitution * v. A slider at a stop withstands any load toward
+it. An infinite sequence of bounces in a finite time is followed to its end.
 
 Parameters
 ----------
 gap : float
-    Distance from x = 0 to the stop ahead [m], and to that behind unless `backward` is given; positive, inf for none.
+    Distance from x = 0 to the forward stop [m], and to the backward one unless `backward` is given; positive, inf for
+    none.
 restitution : float
-    Of the speed, from 0 (it stays) to 1 (nothing is lost).
+    Coefficient of restitution, from 0 (the slider stays at the stop) to 1 (no loss of speed).
 backward : float, optional
-    Distance from x = 0 to the stop behind [m]; positive, inf for none.
+    Distance from x = 0 to the backward stop [m]; positive, inf for none.
 
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
       .def(py::init([](double gap, double restitution, std::optional<double> backward) {
              return Stops(gap, backward.value_or(gap), restitution);
            }),
            py::kw_only(), py::arg("gap"), py::arg("restitution"), py::arg("backward") = py::none())
-      .def_property_readonly("gap", &Stops::forward, "Distance from x = 0 to the stop ahead [m].")
-      .def_property_readonly("backward", &Stops::backward, "Distance from x = 0 to the stop behind [m].")
-      .def_property_readonly("restitution", &Stops::restitution, "Speed after an impact over that before.")
+      .def_property_readonly("gap", &Stops::forward, "Distance from x = 0 to the forward stop [m].")
+      .def_property_readonly("backward", &Stops::backward, "Distance from x = 0 to the backward stop [m].")
+      .def_property_readonly("restitution", &Stops::restitution, "Speed after an impact divided by that before.")
       .def("__repr__", [](const Stops& stops) {
         const auto text = [](double value) { return std::isinf(value) ? "float('inf')" : detail::shortest(value); };
         return "Stops(gap=" + text(stops.forward()) + ", restitution=" + text(stops.restitution()) +

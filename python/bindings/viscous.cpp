@@ -11,18 +11,17 @@ void bind_viscous(py::module_& m) {
         return AnySlider(Slider<Coulomb>(ViscousSlider(damping, natural_frequency)));
       },
       py::arg("damping"), py::arg("natural_frequency") = 0.0,
-      R"(A slider on a damper without friction: the linear system that stands in for a slider on friction.
+      R"(A slider with a damper and no friction: the linear system that approximates a slider with friction.
 
-x'' + c x' + wn^2 x = -n(t), thesis (4.2), (5.2), which writes zeta for c: x the displacement relative to the ground [m],
-n the ground acceleration [m/s^2]. It is stuck only at rest under zero load,
-and never comes to rest.
+x'' + c x' + wn^2 x = -n(t), thesis (4.2), (5.2), which writes zeta for c: x is the displacement relative to the ground
+[m], n the ground acceleration [m/s^2]. The slider is stuck only while at rest under zero load, and never comes to rest.
 
 Parameters
 ----------
 damping : float
     c [1/s], finite and at least 0; 2 wn times the damping ratio.
 natural_frequency : float, optional
-    wn [rad/s], finite and at least 0; 0 is no spring.
+    wn [rad/s], finite and at least 0; 0 means no spring.
 
 Returns
 -------
@@ -32,7 +31,7 @@ Slider
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
 }
 
 }  // namespace stickslip::python

@@ -1458,7 +1458,7 @@ class Thesis(metaclass=_Pybind11Type):
         members: SupportsIndex = 100000,
         seed: SupportsIndex = 1,
         threads: SupportsIndex | None = None,
-        heartbeat: Callable[[str, float], object] | None = None,
+        progress: Callable[[str, float], object] | None = None,
     ) -> None: ...
     def figure(self, number: str) -> ThesisFigure: ...
 

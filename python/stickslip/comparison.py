@@ -167,9 +167,9 @@ class Comparison:
         Parameters
         ----------
         figure : matplotlib Figure or SubFigure, optional
-            Where to draw; a new figure of 9 x 4.4 inches if not given.
+            Where to draw; default: a new figure of 9 x 4.4 inches.
         title : str, optional
-            Instead of the number of members and the slider.
+            Default: the number of members, and the slider.
 
         Returns
         -------

@@ -1,8 +1,8 @@
-"""Pictures, in one house style; needs matplotlib (``pip install stickslip[plot]``).
+"""Pictures in a common style; needs matplotlib (``pip install stickslip[plot]``).
 
-Every function returns a matplotlib Figure: a notebook shows it, `save` writes it. Where pyplot was
-imported and has windows, plt.show() shows it too; else pyplot is left alone. Colours are Okabe and
-Ito's, told apart by colour-blind eyes and in grey print.
+Every function returns a matplotlib Figure: a notebook shows it, `save` writes it. If pyplot was
+imported and has windows, plt.show() shows it too; otherwise pyplot is not touched. The colors are
+those of Okabe and Ito, which color-blind readers can distinguish, also in grayscale print.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ SUFFIXES = (".png", ".pdf", ".svg")
 
 
 def style() -> Any:
-    """The look of the library's pictures, as a context: ``with style(): ...``."""
+    """The style of the library's pictures, as a context: ``with style(): ...``."""
     return matplotlib.rc_context(
         {
             "font.size": 9,
@@ -91,7 +91,7 @@ def style() -> Any:
     )
 
 
-# Backends in which plt.show() shows nothing, or, in a notebook, what is shown as it is returned.
+# Backends in which plt.show() shows nothing, or repeats what a notebook shows anyway.
 _WITHOUT_WINDOWS = (
     *("agg", "cairo", "pdf", "pgf", "ps", "svg", "template", "inline"),
     "module://matplotlib_inline.backend_inline",
@@ -99,22 +99,22 @@ _WITHOUT_WINDOWS = (
 
 
 class _Picture(Figure):
-    """A figure that a notebook shows even where pyplot was never imported."""
+    """A figure that a notebook shows even if pyplot was never imported."""
 
     def _repr_png_(self) -> bytes:
         return _render(self, "png")
 
 
 def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
-    """Writes a figure, whole or not at all.
+    """Write a figure to a file, whole or not at all.
 
-    A symbolic link is followed; a file that is there already keeps its mode.
+    Symbolic links are followed; an existing file keeps its mode.
 
     Parameters
     ----------
     figure : matplotlib.figure.Figure
     file : path-like
-        Where to; the suffix, .png, .pdf or .svg, tells the format.
+        The suffix, .png, .pdf or .svg, determines the format.
 
     Returns
     -------
@@ -123,9 +123,9 @@ def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
     Raises
     ------
     ValueError
-        Another suffix.
+        An unknown suffix.
     OSError
-        The folder is missing or cannot be written; the file is read-only, or no regular file.
+        The folder is missing or cannot be written; the file is read-only or not a regular file.
     """
     path = Path(file)
     content = _render(figure, check_suffix(path))
@@ -135,14 +135,14 @@ def save(figure: Figure, file: str | os.PathLike[str]) -> Path:
 
 
 def check_suffix(file: Path) -> str:
-    """The format told by a file's suffix, 'png', 'pdf' or 'svg'; ValueError for another."""
+    """The format 'png', 'pdf' or 'svg' from a file's suffix; ValueError for other suffixes."""
     if file.suffix.lower() not in SUFFIXES:
         raise ValueError(f"plot: the file must end in {', '.join(SUFFIXES)}, got '{file}'")
     return file.suffix.lower()[1:]
 
 
 def sticks(response: Response) -> np.ndarray:
-    """When the slider stuck.
+    """The intervals in which the slider stuck.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def sticks(response: Response) -> np.ndarray:
     Returns
     -------
     ndarray, shape (S, 2)
-        Begin and end of each stick [s], in order of time; the last may end with the response.
+        Begin and end of each stick [s], sorted by time; the last may end with the response.
     """
     events = response.events
     kinds, times = events["kind"], events["time"]
@@ -164,26 +164,27 @@ def sticks(response: Response) -> np.ndarray:
 def plot_response(
     response: Response, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
-    """Ground acceleration, velocity and displacement of one response, one above the other.
+    """Plot ground acceleration, velocity and displacement of a response, one above the other.
 
-    The first panel shows what friction can hold as a band: a slider at rest stays while the ground
-    acceleration is within -level_forward - wn^2 x and level_backward - wn^2 x, at the displacement
-    x of the moment. The second shades the sticks; the third marks peak and residual. Where the
-    slider settled after the last sample, that tail is drawn too.
+    The first panel shows the accelerations that friction can resist as a band: a slider at rest
+    stays at rest while the ground acceleration is between -level_forward - wn^2 x and
+    level_backward - wn^2 x, where x is the current displacement. The second panel shades the
+    sticks; the third marks peak and residual. If the slider settled after the last sample, the
+    picture shows that tail too.
 
     Parameters
     ----------
     response : Response
-        What `integrate` returned.
+        The result of `integrate`.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; a new figure of 7 x 6 inches if not given.
+        Where to draw; default: a new figure of 7 x 6 inches.
     title : str, optional
-        The name of the motion if not given.
+        Default: the name of the ground motion.
 
     Returns
     -------
     matplotlib Figure or SubFigure
-        Its axes: ground acceleration [g], relative velocity, relative displacement.
+        With three axes: ground acceleration [g], relative velocity, relative displacement.
     """
     with style():
         figure = figure or new_figure(7, 6)
@@ -235,40 +236,40 @@ def plot_responses(
     labels: Sequence[str] | None = None,
     figure: FigureBase | None = None,
 ) -> FigureBase:
-    """Displacements of several sliders under the same ground motion, laid over each other.
+    """Plot the displacements of several sliders under the same ground motion in one panel.
 
     Parameters
     ----------
     responses : sequence of Response
-        At least one, all of the same ground motion.
+        At least one, all to the same ground motion.
     labels : sequence of str, optional
-        A name for each; the slider's slip level if not given.
+        A label for each response; default: the slip level of its slider.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; a new figure of 7 x 5 inches if not given.
+        Where to draw; default: a new figure of 7 x 5 inches.
 
     Returns
     -------
     matplotlib Figure or SubFigure
-        Its axes: ground acceleration [g], relative displacement.
+        With two axes: ground acceleration [g], relative displacement.
 
     Raises
     ------
     ValueError
-        No response, another ground motion, or another number of labels.
+        No response, different ground motions, or the wrong number of labels.
     """
     if not responses:
-        raise ValueError("plot_responses: at least one response is needed, got none")
+        raise ValueError("plot_responses: needs at least one response, got none")
     if any(
         not np.array_equal(r.motion.acceleration, responses[0].motion.acceleration)
         or not np.array_equal(r.motion.time, responses[0].motion.time)
         for r in responses[1:]
     ):
-        raise ValueError("plot_responses: all responses must be of the same ground motion")
+        raise ValueError("plot_responses: all responses must be to the same ground motion")
     if labels is None:
         labels = [_describe(r.slider) for r in responses]
     if len(labels) != len(responses):
         raise ValueError(
-            f"plot_responses: a label for each of {len(responses)} responses, got {len(labels)}"
+            f"plot_responses: needs {len(responses)} labels, one per response, got {len(labels)}"
         )
     with style():
         figure = figure or new_figure(7, 5)
@@ -305,15 +306,15 @@ def plot_responses(
 def plot_ground_motion(
     motion: GroundMotion, ax: Axes | None = None, title: str | None = None
 ) -> FigureBase:
-    """Ground acceleration over time, with its peak.
+    """Plot the ground acceleration over time, and mark its peak.
 
     Parameters
     ----------
     motion : GroundMotion
     ax : matplotlib Axes, optional
-        Where to draw; those of a new figure of 7 x 2.5 inches if not given.
+        Where to draw; default: a new figure of 7 x 2.5 inches.
     title : str, optional
-        The name of the motion if not given.
+        Default: the name of the ground motion.
 
     Returns
     -------
@@ -352,7 +353,7 @@ _SPECTRUM_LABELS = {
 def plot_response_spectrum(
     spectrum: ResponseSpectrum, ax: Axes | None = None, title: str | None = None
 ) -> FigureBase:
-    """The values of a response spectrum over the period, a line for each damping ratio.
+    """Plot a response spectrum over the period, with a line for each damping ratio.
 
     Accelerations are drawn in g. Periods are drawn in increasing order.
 
@@ -360,9 +361,9 @@ def plot_response_spectrum(
     ----------
     spectrum : ResponseSpectrum
     ax : matplotlib Axes, optional
-        Where to draw; those of a new figure of 6 x 4 inches if not given.
+        Where to draw; default: a new figure of 6 x 4 inches.
     title : str, optional
-        No title if not given.
+        Default: no title.
 
     Returns
     -------
@@ -410,27 +411,27 @@ def plot_hysteresis(
     *,
     ax: Axes | None = None,
 ) -> FigureBase | Axes:
-    """Force between the mass and the ground against displacement.
+    """Plot the force between the mass and the ground over the displacement.
 
-    The force is friction + damper + spring over the weight: per unit mass, in g. On a spring, the
-    secant of the loop with the largest displacement is drawn, with its `Response.effective_period`
-    and `effective_damping`.
+    The force is friction + damper + spring over the weight: per unit mass, in g. If there is a
+    spring, the picture shows the secant of the loop with the largest displacement, with
+    `Response.effective_period` and `effective_damping`.
 
     Parameters
     ----------
     response : Response
-        What `integrate` returned.
+        The result of `integrate`.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; a new figure of 6 x 4.5 inches if not given.
+        Where to draw; default: a new figure of 6 x 4.5 inches.
     title : str, optional
-        The name of the motion if not given.
+        Default: the name of the ground motion.
     ax : matplotlib Axes, optional
         Where to draw, instead of `figure`.
 
     Returns
     -------
     matplotlib Figure, SubFigure or Axes
-        The axes if they were given, else the figure.
+        The axes if they were given, otherwise the figure.
 
     Raises
     ------
@@ -450,7 +451,7 @@ def plot_hysteresis(
         try:
             period, damping = response.effective_period, response.effective_damping
         except ValueError:
-            pass  # there is no such loop
+            pass  # there is no loop
         else:
             reach = np.array([-response.peak, response.peak])
             secant = (2 * np.pi / period) ** 2 * reach / STANDARD_GRAVITY
@@ -470,13 +471,13 @@ def plot_sweep(
     ax: Axes | None = None,
     title: str | None = None,
 ) -> FigureBase:
-    """The table of a sweep, as `SweepTable.plot`.
+    """Plot the table of a sweep, as `SweepTable.plot` does.
 
     Parameters
     ----------
     table : SweepTable
     quantity, against, ax, title : optional
-        As `SweepTable.plot` takes them.
+        As for `SweepTable.plot`.
 
     Returns
     -------
@@ -490,7 +491,7 @@ def plot_sweep(
     curves = list(table.curves(against))
     if len(curves) > len(COLOURS):
         raise ValueError(
-            f"plot_sweep: draws {len(COLOURS)} combinations of the other parameters at most, got"
+            f"plot_sweep: draws at most {len(COLOURS)} combinations of the other parameters, got"
             f" {len(curves)}; fix some of them"
         )
     heading = quantity.replace("_", " ")
@@ -502,7 +503,7 @@ def plot_sweep(
         figure, axes = _one_panel("plot_sweep", None, ax, 7, 4.5)
         for (name, label, places), colour in zip(curves, COLOURS):
             x = table.parameters[name][places]
-            if len(table.records) == 1:  # no statistics of one record: its two polarities
+            if len(table.records) == 1:  # both polarities of one record, without statistics
                 for p, polarity in enumerate(table.polarity):
                     shown = ", ".join(part for part in (label, polarity) if part)
                     style_of = {"linestyle": "--" if p else "-", "linewidth": 1.5}
@@ -531,7 +532,7 @@ def plot_sweep(
             axes.minorticks_off()
         shown_values = quantiles[np.isfinite(quantiles) & (quantiles > 0.01)]
         if shown_values.size and shown_values.max() > 10 * shown_values.min():
-            axes.set_yscale("log")  # to a tenth of a millimetre, which is no displacement
+            axes.set_yscale("log")  # down to 0.1 mm, which is no displacement
             top = np.nanmax(values) if len(table.records) == 1 or len(curves) == 1 else None
             axes.set_ylim(shown_values.min() / 2, 2 * (top or shown_values.max()))
             axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -575,32 +576,32 @@ def plot_friction_sweep(
     *,
     ax: Axes | None = None,
 ) -> FigureBase | Axes:
-    """Displacement against the coefficient of friction for many records, on log axes.
+    """Plot displacements over the coefficient of friction for many records, on log axes.
 
     Parameters
     ----------
     mu : array_like, shape (M,)
         Coefficients of friction, positive and increasing.
     displacement : array_like, shape (R, M)
-        Peak displacements [m]; 0, which a log axis cannot show, ends a line.
+        Peak displacements [m]; a line ends at 0, which a log axis cannot show.
     names : sequence of str, length R
         The records.
     highlight : sequence of str, optional
-        Names to draw in colour and to label, six at most.
+        Names of the records to draw in color and to label, at most six.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; a new figure of 7 x 5 inches if not given.
+        Where to draw; default: a new figure of 7 x 5 inches.
     ax : matplotlib Axes, optional
         Where to draw, instead of `figure`.
 
     Returns
     -------
     matplotlib Figure, SubFigure or Axes
-        The axes if they were given, else the figure.
+        The axes if they were given, otherwise the figure.
 
     Raises
     ------
     ValueError
-        Shapes that do not fit; both figure and ax.
+        Shapes that do not match; both figure and ax.
     """
     mu, displacement = np.asarray(mu, float), np.asarray(displacement, float)
     if displacement.shape != (len(names), len(mu)):
@@ -608,8 +609,8 @@ def plot_friction_sweep(
             f"plot_friction_sweep: displacement must have shape ({len(names)}, {len(mu)}), "
             f"got {displacement.shape}"
         )
-    floor = 0.01  # [cm]; a tenth of a millimetre is no displacement to an engineer
-    lines = np.maximum(100 * displacement, 1e-9)  # what does not slip drops out of sight
+    floor = 0.01  # [cm]; to an engineer, 0.1 mm is no displacement
+    lines = np.maximum(100 * displacement, 1e-9)  # blocks that do not slip are below the axis
     lifted = sorted(
         (i for i, name in enumerate(names) if name in set(highlight)), key=lambda i: -lines[i, 0]
     )
@@ -633,12 +634,12 @@ def plot_friction_sweep(
         axes.set_ylabel("peak relative displacement [cm]")
         axes.set_title(f"How far a block slides in {len(names)} earthquake records")
         for text in axes.legend(loc="lower left", fontsize=8).get_texts():
-            text.set_parse_math(False)  # a dollar in the name of a file is one
+            text.set_parse_math(False)  # a dollar sign in a file name is literal
     return figure if ax is None else ax
 
 
 class _Comparison(Protocol):
-    """What is drawn of a `Comparison`, which draws itself by this module."""
+    """The attributes of a `Comparison` that are plotted."""
 
     time: np.ndarray
     ensemble: Ensemble
@@ -648,23 +649,23 @@ class _Comparison(Protocol):
 def plot_comparison(
     comparison: _Comparison, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
-    """Variances by time: the ensemble with its errors, and every theory as a line of its own.
+    """Plot the variances over time: the ensemble with its errors, and each theory as a line.
 
-    Bands are two standard errors either way.
+    Bands are plus and minus two standard errors.
 
     Parameters
     ----------
     comparison : Comparison
-        What `compare` returned.
+        The result of `compare`.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; a new figure of 9 x 4.4 inches if not given.
+        Where to draw; default: a new figure of 9 x 4.4 inches.
     title : str, optional
-        Instead of what slid and how many members there are.
+        Default: the number of members, and the slider.
 
     Returns
     -------
     matplotlib Figure or SubFigure
-        Its axes: variance of x, variance of x'.
+        With two axes: variance of x, variance of x'.
     """
     e = comparison.ensemble
     with style():
@@ -704,25 +705,25 @@ def plot_comparison(
 def plot_ensemble(
     ensemble: Ensemble, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
-    """Variances by time, the distribution of the peaks, and the velocity's spectrum.
+    """Plot the variances over time, the distribution of the peaks, and the velocity spectrum.
 
-    Bands are two standard errors either way; about the distribution, 95 % confidence bounds. Where
-    ground motions differ in duration, the peaks alone.
+    Bands are plus and minus two standard errors; for the distribution, 95 % confidence bounds. If
+    the durations of the ground motions differ, only the peaks are plotted.
 
     Parameters
     ----------
     ensemble : Ensemble
-        At least two members; what `run_ensemble` returned.
+        The result of `run_ensemble`, with at least two members.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; a new figure of 9 x 6 inches if not given.
+        Where to draw; default: a new figure of 9 x 6 inches.
     title : str, optional
-        Instead of what slid and how many members there are.
+        Default: the number of members, and the slider.
 
     Returns
     -------
     matplotlib Figure or SubFigure
-        Its axes: variance of x, probability that a peak is exceeded, variance of x', and, where it
-        was asked for, spectral density of x'.
+        With axes for the variance of x, the probability of exceedance of the peak, the variance of
+        x', and the spectral density of x' if the ensemble has it.
 
     Raises
     ------
@@ -789,9 +790,9 @@ _AT_RIGHT = {
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of a size in inches.
+    """An empty figure of a given size [inches].
 
-    Where pyplot has windows, it is one of those that plt.show() shows; else it belongs to none.
+    If pyplot has windows, plt.show() shows the figure; otherwise pyplot does not know it.
     """
     options: dict[str, Any] = {"figsize": (width, height), "layout": "constrained", "dpi": 100}
     pyplot = sys.modules.get("matplotlib.pyplot")
@@ -805,7 +806,7 @@ def new_figure(width: float, height: float) -> Figure:
 def _one_panel(
     who: str, figure: FigureBase | None, ax: Axes | None, width: float, height: float
 ) -> tuple[FigureBase, Axes]:
-    """Where a picture of one panel is drawn: in the axes or the figure given, or in a new one."""
+    """The figure and axes of a one-panel picture: those given, or new ones."""
     if ax is not None:
         if figure is not None:
             raise ValueError(f"{who}: give figure or ax, got both")
@@ -825,8 +826,8 @@ def _render(figure: Figure, kind: str) -> bytes:
 def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times [s], displacements [m] and velocities [m/s] to draw: samples, events and the tail.
 
-    Between the events of the tail a cubic through x and x' is drawn; without spring and damper it
-    is exact.
+    Between the events of the tail they follow a cubic through x and x', which is exact without
+    spring and damper.
     """
     events, last = response.events, response.time[-1]
     t = np.concatenate([response.time, events["time"]])
@@ -854,10 +855,10 @@ def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
-    """Displacements [m] and forces [m/s^2] to draw: at the samples, and on both sides of events."""
+    """Displacements [m] and forces [m/s^2] to draw: at samples, and on both sides of events."""
     slider, events = response.slider, response.events
     t, x, v = (events[name] for name in ("time", "displacement", "velocity"))
-    ways = np.sign(np.diff(x))  # of the slips between events, 0 of sticks
+    ways = np.sign(np.diff(x))  # of slips between events; 0 for sticks
 
     def force(k: np.ndarray, way: np.ndarray) -> np.ndarray:
         at, speed = x[k], v[k]
@@ -884,7 +885,7 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _at(response: Response, t: np.ndarray, component: str) -> np.ndarray:
-    """A component of the ground acceleration at given times [m/s^2]; 0 after the motion."""
+    """A component of the ground acceleration at given times [m/s^2]; 0 after its end."""
     motion = response.motion
     samples = getattr(motion, component, None)
     if samples is None:
@@ -908,10 +909,10 @@ def _normal(response: Response, t: np.ndarray) -> np.ndarray:
 
 
 def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Bounds [g] of the ground acceleration that friction holds at rest, at displacements x [m].
+    """Bounds [g] of the ground acceleration that friction resists at rest, at displacements x [m].
 
-    On a slope, of its horizontal part, which changes the normal force. Infinite, which draws
-    nothing, where there is none.
+    On a slope, bounds of its horizontal part, which changes the normal force. Without friction the
+    bounds are infinite, so that nothing is drawn.
     """
     slider = response.slider
     if not _has_friction(slider):
@@ -928,7 +929,7 @@ def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray,
         for back in (False, True)
     )
     lower = (heavy * (sin - forward * cos) - spring) / (cos + forward * sin)
-    # Uphill friction may hold, however hard the ground pulls.
+    # Uphill, friction may resist any ground acceleration.
     gives = np.isfinite(backward) & (np.where(np.isfinite(backward), backward, 0) * sin < cos)
     level = np.where(gives, backward, 0)
     upper = np.where(gives, (heavy * (sin + level * cos) - spring) / (cos - level * sin), np.inf)
@@ -950,7 +951,7 @@ def _draw_ground(axes: Axes, response: Response) -> None:
 
 
 def _note_levels(axes: Axes, response: Response) -> None:
-    """Names the slip levels at the right edge, at the height where they end."""
+    """Label the slip levels at the right edge, at the height where they end."""
     slider, x = response.slider, response.residual
     if not _has_friction(slider):
         return
@@ -1011,14 +1012,14 @@ def _mark_residual(axes: Axes, response: Response, length: float, unit: str) -> 
 
 
 def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
-    """A dot on the right edge, wherever the time axis is made to end."""
+    """Draw a dot on the right edge, wherever the time axis ends."""
     edge = axes.get_yaxis_transform()
     axes.plot(1, x, "o", color=colour, markersize=5, clip_on=False, zorder=4, transform=edge)
 
 
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
     name = title or printable(motion.name) or "ground motion"
-    # Math in a caller's title is meant, a dollar in the name of a file is one.
+    # A caller's title may contain math; a dollar sign in a file name is literal.
     axes.set_title(textwrap.fill(name, 75), pad=18 if below else None, parse_math=bool(title))
     axes.annotate(
         below,
@@ -1035,7 +1036,7 @@ def _has_friction(slider: Any) -> bool:
 
 
 def _describe(slider: Any) -> str:
-    """A slider in a few words, as 'slip level 0.06 g, period 3 s'."""
+    """A short description of a slider, such as 'slip level 0.06 g, period 3 s'."""
     wn = slider.natural_frequency
     words = []
     if slider.damping > 0:
@@ -1066,20 +1067,20 @@ def _by_speed(slow: float, fast: float) -> str:
 
 
 def _band(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, colour: str) -> None:
-    """A line in a band of two standard errors either way."""
+    """Draw a line in a band of plus and minus two standard errors."""
     axes.fill_between(x, y - 2 * error, y + 2 * error, color=colour, alpha=0.25, linewidth=0)
     axes.plot(x, y, color=colour)
 
 
 def _note(axes: Axes, text: str, band: str = "band: two standard errors") -> None:
-    """A line of text above the panel, in the colour of what it is about, and what its band is."""
+    """Write a line of text and an explanation of the band above the panel."""
     above = {"xycoords": "axes fraction", "textcoords": "offset points", "fontsize": 8}
     axes.annotate(text, (0, 1), xytext=(0, 4), color=VERMILION, **above)
     axes.annotate(band, (1, 1), xytext=(0, 4), color=GREY, ha="right", **above)
 
 
 def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
-    """The share of members that exceed a peak, on a log axis, with quantiles marked."""
+    """Draw the fraction of members that exceed a peak, on a log axis, and mark quantiles."""
     e, n = ensemble, ensemble.members
     marks = [p for p in (0.5, 0.9, 0.99, 0.999, 0.9999) if n * (1 - p) >= 5]
     quantiles = [e.quantile(p) for p in marks]
@@ -1117,7 +1118,7 @@ def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
 
 
 def _draw_spectrum(axes: Axes, ensemble: Ensemble, fast: float, fast_unit: str) -> None:
-    """The velocity's spectrum up to where all but 0.5 % of it is."""
+    """Draw the velocity spectrum up to the frequency below which 99.5 % of it lies."""
     s = ensemble.velocity_spectrum
     _band(axes, s.omega, s.density * fast**2, s.error * fast**2, BLUE)
     whole = np.cumsum(s.density)
@@ -1132,7 +1133,7 @@ def _draw_spectrum(axes: Axes, ensemble: Ensemble, fast: float, fast_unit: str) 
 
 
 def _with_error(estimate: Estimate, factor: float) -> str:
-    """As '12.34 ± 0.21': the error to two digits, the value as far."""
+    """'12.34 ± 0.21': the error to two digits, the value to the same decimal place."""
     value, error = factor * estimate.value, factor * estimate.error
     if not error > 0:
         return _digits(value)
@@ -1147,10 +1148,10 @@ def _entitle_ensemble(figure: FigureBase, ensemble: Ensemble, title: str | None)
 
 
 def _describe_ensemble(ensemble: Ensemble) -> str:
-    """As '10,000 members of 60 s, slip level 0.2 g'."""
+    """A title such as '10,000 members of 60 s, slip level 0.2 g'."""
     slider, times = ensemble.configuration["slider"], ensemble.time
     words = [f"{ensemble.members:,} members" + (f" of {times[-1]:.4g} s" if times.size else "")]
-    if not isinstance(slider, dict):  # the words of a source of somebody's own
+    if not isinstance(slider, dict):  # the configuration of a user-defined source
         return words[0]
     if "random" in slider:
         words.append("random sliders")
@@ -1181,7 +1182,7 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
 
 
 def _unit(largest: float) -> tuple[float, str]:
-    """How many of a unit make a metre, and the unit, for lengths up to `largest` [m]."""
+    """The number of units in a meter, and the unit, for lengths up to `largest` [m]."""
     return (1e3, "mm") if 0 < largest < 0.01 else (1e2, "cm") if largest < 10 else (1, "m")
 
 

@@ -164,7 +164,7 @@ def test_no_refusal_has_a_word_of_the_binding_library(name):
 
 
 SAID = {
-    "law": (lambda: ss.Slider(0.2), "Slider: law must be a friction law, as Coulomb"),
+    "law": (lambda: ss.Slider(0.2), "Slider: law must be a friction law, such as Coulomb"),
     "slider": (lambda: ss.integrate(0.2, QUAKE), "integrate: slider must be a Slider, a Coulomb"),
     "motion": (lambda: ss.integrate(BLOCK, [1, 2]), "integrate: motion must be a GroundMotion or"),
     "missing": (lambda: ss.integrate(BLOCK), "integrate: needs motion, got none"),
@@ -181,7 +181,10 @@ SAID = {
         lambda: theory.WhiteNoise(3),
         "WhiteNoise: takes WhiteNoise() or WhiteNoise(slider, s0), got WhiteNoise(3)",
     ),
-    "not made by a call": (ss.Response, "Response: made by the functions and methods that return"),
+    "not made by a call": (
+        ss.Response,
+        "Response: cannot be constructed directly; other functions return it",
+    ),
     "spectrum": (
         lambda: ss.response_spectrum(3, [1]),
         "response_spectrum: motion must be a GroundMotion or a Response, got 3",

@@ -36,13 +36,13 @@ def test_an_unknown_figure_is_refused():
         Thesis().figure("1.1")
 
 
-def test_what_the_heartbeat_raises_ends_the_work():
-    def heartbeat(what, share):
-        assert 0 <= share <= 1
-        raise RuntimeError(what)
+def test_what_the_progress_callback_raises_ends_the_work():
+    def progress(task, fraction):
+        assert 0 <= fraction <= 1
+        raise RuntimeError(task)
 
     with pytest.raises(RuntimeError, match=r"4\.4"):
-        Thesis(members=500, heartbeat=heartbeat).figure("4.4")
+        Thesis(members=500, progress=progress).figure("4.4")
 
 
 def test_a_page_shows_every_statement():

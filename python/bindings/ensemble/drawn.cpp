@@ -9,10 +9,11 @@ template <>
 inline constexpr auto parts<Drawn> = std::tuple(&Drawn::items);
 
 void bind_drawn(py::module_& m) {
-  value_class<Drawn>(m, "Drawn", R"(A list of which each member of an ensemble draws one item, with equal probability.
+  value_class<Drawn>(m, "Drawn",
+                     R"(A list from which each member of an ensemble takes a random item, with equal probability.
 
-`run_ensemble` takes it for ground motions and for sliders. (seed, member) fixes the item; sliders and motions are drawn
-independently of each other.
+`run_ensemble` accepts it for ground motions and for sliders. (seed, member) determines the item; sliders and motions
+are drawn independently of each other.
 
 Parameters
 ----------
@@ -31,7 +32,7 @@ ValueError
            }),
            py::arg("items"))
       .def_property_readonly(
-          "items", [](const Drawn& self) { return self.items; }, "What is drawn from, as a tuple.")
+          "items", [](const Drawn& self) { return self.items; }, "The items, as a tuple.")
       .def(
           "sample",
           [](const Drawn& self, std::uint64_t seed, std::uint64_t member) -> py::object {

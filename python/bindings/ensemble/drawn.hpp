@@ -1,4 +1,4 @@
-// A list of sliders or ground motions, of which each member draws one.
+// A list of sliders or ground motions, from which each member draws one.
 #pragma once
 
 #include "bindings.hpp"
@@ -9,7 +9,7 @@ struct Drawn {
   py::tuple items;
 };
 
-/// Whether a list is of ground motions; else it is one of sliders.
+/// Whether a list holds ground motions; otherwise it holds sliders.
 inline bool is_of_motions(const py::sequence& items) {
   return items.size() > 0 && py::isinstance<GroundMotion>(items[0]);
 }

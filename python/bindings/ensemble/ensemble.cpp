@@ -17,7 +17,7 @@ py::array_t<double> statistic_by_time(const Ensemble& ensemble) {
   return array_of(std::move((ensemble.*figure)().*part));
 }
 
-/// Each entry is JSON, but for the text of a source of somebody's own, which may be anything.
+/// Each entry is JSON, except the text of a user-defined source, which may be anything.
 py::dict configuration_of(const Ensemble& ensemble) {
   const py::module_ json = py::module_::import("json");
   py::dict result;
@@ -32,7 +32,7 @@ py::dict configuration_of(const Ensemble& ensemble) {
   return result;
 }
 
-/// First member and the one past the last of each unbroken row of members.
+/// First member and one past the last of each contiguous range of members.
 std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges_of(const Ensemble& ensemble) {
   const Ensemble::Parts& parts = ensemble.parts();
   const std::uint64_t size = Ensemble::block(parts.times.count);
@@ -70,84 +70,85 @@ std::string repr_of_ensemble(const Ensemble& ensemble) {
 }  // namespace
 
 void bind_ensemble(py::module_& m) {
-  py::class_<Ensemble>(m, "Ensemble", R"(Statistics over the members of an ensemble; what `run_ensemble` returns.
+  py::class_<Ensemble>(m, "Ensemble", R"(Statistics over the members of an ensemble, as `run_ensemble` returns them.
 
-Every figure comes with its standard error, from the scatter between members. All sums are taken in one pass, about
-means (Pebay 2008), and merge in an order that the members' numbers fix: the same members give the same bits on any
-number of threads and in any parts that end on whole blocks.
+Every statistic has a standard error, from the scatter between members. All sums are computed in one pass, about means
+(Pebay 2008), and merge in an order that the member numbers determine: the same members give identical bits on any
+number of threads and in any parts that end on block boundaries.
 
-Where ground motions differ in duration, `time` is empty, and statistics by time, stationary averages and the velocity's
-spectrum are ValueErrors; peaks, residuals, quantiles and exceedances are always there.
+If ground motions differ in duration, `time` is empty, and statistics by time, stationary averages and the velocity
+spectrum raise ValueError; peaks, residuals, quantiles and exceedances are always available.
 
-Times are shape (T,), members shape (members,). Arrays are read-only and made when asked for. Ensembles with the same
-members and figures are equal; they can be copied and pickled, but not hashed, for `merge` changes them.)")
-      .def_property_readonly("members", &Ensemble::members, "How many members it holds.")
+Statistics by time have shape (T,), those by member shape (members,). Arrays are read-only and computed on access.
+Ensembles with the same members and statistics are equal; they can be copied and pickled, but not hashed, because
+`merge` changes them.)")
+      .def_property_readonly("members", &Ensemble::members, "Number of members.")
       .def_property_readonly("member_ranges", &ranges_of,
-                             "Which members: (first, one past the last) of each unbroken row of them.")
+                             "The members: (first, one past the last) of each contiguous range.")
       .def_property_readonly(
           "block", [](const Ensemble& e) { return Ensemble::block(e.parts().times.count); },
-          "Members are simulated and summed in blocks of this many: a part begins on a multiple of it.")
+          "Number of members in a block. Blocks are simulated and summed as a unit; parts begin at multiples of it.")
       .def_property_readonly(
           "configuration", &configuration_of,
-          "What the members depend on, as a dict: slider, excitation, seed, times of the statistics.")
+          "Everything that determines the members, as a dict: slider, excitation, seed, times of the statistics.")
       .def_property_readonly(
           "time", [](const Ensemble& e) { return array_of(e.time()); },
-          "Times of the statistics [s], from 0 on; empty where ground motions differ in duration.")
+          "Times of the statistics [s], from 0; empty if ground motions differ in duration.")
       .def_property_readonly("displacement_mean", &statistic_by_time<&Ensemble::displacement_mean, &Estimates::value>,
                              "Mean of x by time [m].")
       .def_property_readonly("displacement_mean_error",
-                             &statistic_by_time<&Ensemble::displacement_mean, &Estimates::error>,
-                             "Its standard error [m].")
+                             &statistic_by_time<&Ensemble::displacement_mean, &Estimates::error>, "Standard error [m].")
       .def_property_readonly("displacement_variance",
                              &statistic_by_time<&Ensemble::displacement_variance, &Estimates::value>,
                              "Variance of x about its mean by time, with the divisor members - 1 [m^2].")
       .def_property_readonly("displacement_variance_error",
                              &statistic_by_time<&Ensemble::displacement_variance, &Estimates::error>,
-                             "Its standard error [m^2], from the fourth moment.")
+                             "Standard error [m^2], from the fourth moment.")
       .def_property_readonly("covariance", &statistic_by_time<&Ensemble::covariance, &Estimates::value>,
                              "Covariance of x and x' by time, with the divisor members - 1 [m^2/s].")
       .def_property_readonly("covariance_error", &statistic_by_time<&Ensemble::covariance, &Estimates::error>,
-                             "Its standard error [m^2/s], from the fourth moments.")
+                             "Standard error [m^2/s], from the fourth moments.")
       .def_property_readonly("velocity_mean", &statistic_by_time<&Ensemble::velocity_mean, &Estimates::value>,
                              "Mean of x' by time [m/s].")
       .def_property_readonly("velocity_mean_error", &statistic_by_time<&Ensemble::velocity_mean, &Estimates::error>,
-                             "Its standard error [m/s].")
+                             "Standard error [m/s].")
       .def_property_readonly("velocity_variance", &statistic_by_time<&Ensemble::velocity_variance, &Estimates::value>,
                              "Variance of x' about its mean by time, with the divisor members - 1 [m^2/s^2].")
       .def_property_readonly("velocity_variance_error",
                              &statistic_by_time<&Ensemble::velocity_variance, &Estimates::error>,
-                             "Its standard error [m^2/s^2], from the fourth moment.")
-      .def_property_readonly("ground_acceleration_mean",
-                             &statistic_by_time<&Ensemble::ground_acceleration_mean, &Estimates::value>,
-                             "Mean of the ground acceleration by time [m/s^2]; ValueError where it was not asked for.")
+                             "Standard error [m^2/s^2], from the fourth moment.")
+      .def_property_readonly(
+          "ground_acceleration_mean", &statistic_by_time<&Ensemble::ground_acceleration_mean, &Estimates::value>,
+          "Mean of the ground acceleration by time [m/s^2]; ValueError if the run did not request it.")
       .def_property_readonly("ground_acceleration_mean_error",
                              &statistic_by_time<&Ensemble::ground_acceleration_mean, &Estimates::error>,
-                             "Its standard error [m/s^2].")
+                             "Standard error [m/s^2].")
       .def_property_readonly(
           "ground_acceleration_variance",
           &statistic_by_time<&Ensemble::ground_acceleration_variance, &Estimates::value>,
           R"(Variance of the ground acceleration about its mean by time, with the divisor members - 1 [m^2/s^4].
 
-Where the acceleration jumps, of what it is from then on. ValueError where it was not asked for.)")
+Where the acceleration jumps, the variance after the jump. ValueError if the run did not request it.)")
       .def_property_readonly("ground_acceleration_variance_error",
                              &statistic_by_time<&Ensemble::ground_acceleration_variance, &Estimates::error>,
-                             "Its standard error [m^2/s^4], from the fourth moment.")
+                             "Standard error [m^2/s^4], from the fourth moment.")
       .def_property_readonly(
           "peak", [](const Ensemble& e) { return array_of(e.peak()); },
-          R"(Largest |x| of each member, between samples too, in the order of the members [m].
+          R"(Largest |x| of each member, also between samples, ordered by member [m].
 
-ValueError where there are more than 2^24 = 16,777,216 members: their peaks are counted in bins 0.1 % wide instead, from
-which `quantile` and `exceedance` come.)")
+ValueError above 2^24 = 16,777,216 members: their peaks are counted in bins 0.1 % wide, which `quantile` and
+`exceedance` use.)")
       .def_property_readonly(
           "residual", [](const Ensemble& e) { return array_of(e.residual()); },
           "Last x of each member [m]; ValueError as for `peak`.")
       .def_property_readonly(
           "moments", &Ensemble::moments,
-          "Means, variances and covariance by time and the growth rate, as Moments: what theories give.")
+          "Means, variances and covariance by time and the growth rate, as Moments, like those of theories.")
       .def_property_readonly("stationary", &Ensemble::stationary,
                              "Averages over the central half of the motions, as Stationary.")
-      .def_property_readonly("velocity_spectrum", &Ensemble::velocity_spectrum,
-                             "As VelocitySpectrum; ValueError where it was not asked for, or without times.")
+      .def_property_readonly(
+          "velocity_spectrum", &Ensemble::velocity_spectrum,
+          "Spectrum of the velocity, as VelocitySpectrum; ValueError if the run did not request it, or without times.")
       .def(
           "quantile",
           [](const Ensemble& self, const py::object& probability, double confidence) -> py::object {
@@ -159,43 +160,44 @@ which `quantile` and `exceedance` come.)")
             return intervals;
           },
           py::arg("probability"), py::arg("confidence") = 0.95,
-          R"(The peak that a share of the members does not exceed.
+          R"(Quantile of the peaks: the value that a fraction of the members does not exceed.
 
 Parameters
 ----------
 probability : float or array_like, shape (P,)
-    The share, in (0, 1).
+    The fraction, in (0, 1).
 confidence : float, optional
-    That the true quantile lies between the bounds, in (0, 1).
+    Probability that the true quantile lies between the bounds, in (0, 1).
 
 Returns
 -------
 Interval or list of Interval
-    [m]; one for each probability. The bounds are order statistics, by the binomial law; 0 and infinity where the members are too few.
+    Quantiles [m], one for each probability. The bounds are order statistics, by the binomial law; 0 and infinity if
+    there are too few members.
 
 Raises
 ------
 ValueError
-    Another share or confidence; fewer than two members.)")
+    A probability or confidence out of range; fewer than two members.)")
       .def("exceedance", &Ensemble::exceedance, py::arg("level"), py::arg("confidence") = 0.95,
-           R"(The share of members whose peak exceeds a level.
+           R"(Fraction of members whose peak exceeds a level.
 
 Parameters
 ----------
 level : float
-    [m], finite and at least 0.
+    Displacement [m], finite and at least 0.
 confidence : float, optional
-    That the true probability lies between the bounds, in (0, 1).
+    Probability that the true value lies between the bounds, in (0, 1).
 
 Returns
 -------
 Interval
-    From 0 to 1; bounds of Clopper and Pearson (1934), which hold for any number of members.
+    From 0 to 1, with the bounds of Clopper and Pearson (1934), which hold for any number of members.
 
 Raises
 ------
 ValueError
-    Another level or confidence; fewer than two members.)")
+    A level or confidence out of range; fewer than two members.)")
       .def(
           "merge",
           [](Ensemble& self, const Ensemble& other) {
@@ -203,48 +205,48 @@ ValueError
             self.merge(other);
           },
           py::arg("other"),
-          R"(Takes in the members of another part of the same ensemble, in place.
+          R"(Merge the members of another part of the same ensemble into this one.
 
 Parameters
 ----------
 other : Ensemble
-    Of the same configuration, with other members; it stays as it was.
+    Part with the same configuration and other members; does not change.
 
 Raises
 ------
 ValueError
-    Another configuration (says what differs), or members that are here already; nothing has changed then.
+    Different configurations (names the difference), or common members; nothing changes then.
 
 Notes
 -----
-Parts that begin on a multiple of `block` may be merged in any order: the bits are those of one run of all members.)")
+Parts that begin at multiples of `block` can be merged in any order; the result has the same bits as a single run.)")
       .def(
           "save",
           [](const py::object& self, const py::object& file) {
             py::module_::import("stickslip.ensemble.files").attr("save")(self, file);
           },
           py::arg("file"),
-          R"(Writes all that it holds to a file, whole or not at all.
+          R"(Save the ensemble to a file, whole or not at all.
 
 Parameters
 ----------
 file : path-like
-    A NumPy archive (.npz), without pickled objects; the name is taken as it is. A symbolic link is followed; a file
-    that is there already keeps its mode, and its owner where that is permitted.
+    A NumPy archive (.npz) without pickled objects; no suffix is added. Symbolic links are followed; an existing file
+    keeps its mode, and its owner where permitted.
 
 Raises
 ------
 OSError
-    The folder is missing or cannot be written; the file is read-only (which does not stop root), or is no regular file.
+    The folder is missing or cannot be written; the file is read-only (except for root) or not a regular file.
 
 Notes
 -----
-Some 100 bytes for each time and 16 for each member.)")
+Files take some 100 bytes for each time and 16 for each member.)")
       .def_static(
           "load",
           [](const py::object& file) { return py::module_::import("stickslip.ensemble.files").attr("load")(file); },
           py::arg("file"),
-          R"(Reads what `save` wrote, to the bit.
+          R"(Load a saved ensemble, identical to the last bit.
 
 Parameters
 ----------
@@ -257,13 +259,13 @@ Ensemble
 Raises
 ------
 ValueError
-    The file is truncated or damaged (every byte of it is checked by CRC-32), or is something else; it holds what no
-    members can have left, as a negative peak. Takes no more memory than a few times the file's size.
+    The file is truncated or damaged (CRC-32 protects every byte), is not an ensemble, or holds impossible values, such
+    as a negative peak. Loading takes at most a few times the memory of the file.
 OSError
-    There is no such file, it cannot be read, or is no regular file.)")
+    The file does not exist, cannot be read, or is not a regular file.)")
       .def("plot", plot_in("plot_ensemble", "figure"), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(),
-           R"(Draws the variances of displacement and velocity, the distribution of the peaks, the velocity's spectrum.
+           R"(Plot the variances of displacement and velocity, the distribution of the peaks, and the velocity spectrum.
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def("_repr_html_",

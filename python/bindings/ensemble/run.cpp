@@ -18,12 +18,12 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
   std::atomic<bool> ended = false;
   options.heartbeat = [&](const EnsembleProgress& progress) {
     const py::gil_scoped_acquire held;
-    // What is there so far is copied only for who asks, and only while it stands still.
+    // The partial ensemble is copied only on request, and only while it does not change.
     const auto place = std::make_shared<const Ensemble*>(&progress.so_far);
     const std::unique_ptr<const Ensemble*, void (*)(const Ensemble**)> shut(place.get(),
                                                                             [](const Ensemble** p) { *p = nullptr; });
     const py::cpp_function so_far([place] {
-      if (!*place) throw std::runtime_error("run_ensemble: so_far() is to be called within the heartbeat");
+      if (!*place) throw std::runtime_error("run_ensemble: so_far() must be called within the progress callback");
       return **place;
     });
     try {
@@ -43,12 +43,12 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
   });
 }
 
-/// An ensemble of no members yet, for the parts of a run to be merged into.
+/// An ensemble without members, into which to merge the parts of a run.
 Ensemble run_nothing(const py::object& sliders, const py::object& motions, std::uint64_t first_member,
                      std::uint64_t seed, double dt, bool settle, const std::string& contact, bool velocity_spectrum,
                      bool ground_acceleration) {
   const py::none nobody;
-  const Ensemble one =  // which tells whether all is as it must be
+  const Ensemble one =  // checks the arguments
       run(sliders, motions, 1, first_member, seed, 1, dt, settle, contact, velocity_spectrum, ground_acceleration,
           nullptr, nobody, nobody);
   const auto& parts = one.parts();
@@ -63,14 +63,14 @@ void bind_run_ensemble(py::module_& m) {
         py::arg("first_member"), py::arg("seed"), py::arg("threads"), py::arg("dt"), py::arg("settle"),
         py::arg("contact"), py::arg("velocity_spectrum"), py::arg("ground_acceleration"), py::arg("start"),
         py::arg("heartbeat"), py::arg("interrupted"),
-        R"(What `stickslip.run_ensemble` calls, which see.
+        R"(Implementation of `stickslip.run_ensemble` (see there).
 
-`heartbeat(done, members, so_far)` is called ten times a second with the interpreter held; `interrupted(so_far)` where
-that raised, or Ctrl-C was pressed. `so_far()` copies what is there.)");
+Calls `heartbeat(done, members, so_far)` ten times a second with the interpreter lock held, and `interrupted(so_far)` if
+that raised or Ctrl-C was pressed. `so_far()` copies the partial ensemble.)");
   m.def("run_nothing", &run_nothing, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("first_member"),
         py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("contact"), py::arg("velocity_spectrum"),
         py::arg("ground_acceleration"),
-        "The ensemble of a run that has no members yet; simulates one to see that all is as it must be.");
+        "The ensemble of a run without members; simulates one member to check the arguments.");
 }
 
 }  // namespace stickslip::python

@@ -1,4 +1,4 @@
-// Where the members of an ensemble come from, as Python has it.
+// Sources of the members of an ensemble, given in Python.
 #pragma once
 
 #include <atomic>
@@ -23,11 +23,11 @@ inline std::string type_of(const py::handle& object) {
   return py::type::of(object).attr("__name__").cast<std::string>();
 }
 
-/// A source that is written in Python; called by threads that do not hold the interpreter, one at a time. Once the run
-/// has `ended` it is not asked any more.
+/// A source written in Python. Threads without the interpreter lock call it, one at a time; after the run has `ended`
+/// nobody calls it.
 class PythonSource {
  public:
-  /// @param expected  what it must be, for the message if it has no `sample` or `configuration`
+  /// @param expected  the expected type, for the message if it has no `sample` or `configuration`
   PythonSource(const py::object& object, const std::atomic<bool>& ended, std::string expected)
       : expected_(std::move(expected)), sample_(attribute(object, "sample")), ended_(ended) {
     const py::object configuration = attribute(object, "configuration");
@@ -46,10 +46,10 @@ class PythonSource {
     return object.attr(name);
   }
 
-  /// What `take` makes of the sample of a member, while the interpreter is held.
+  /// Calls `take` with the sample of a member, with the interpreter lock held.
   template <class Take>
   auto ask(std::uint64_t seed, std::uint64_t member, Take&& take) const {
-    const std::scoped_lock turn(one_at_a_time_);  // before the interpreter's, which whoever is within may let go of
+    const std::scoped_lock turn(one_at_a_time_);  // before the interpreter lock, which the holder may release
     if (ended_) throw detail::Block::Stopped{};
     const py::gil_scoped_acquire held;
     return take(sample_(py::arg("seed") = seed, py::arg("member") = member));
@@ -103,7 +103,7 @@ class PythonSliders : public PythonSource {
   PythonSliders(const py::object& object, const std::atomic<bool>& ended)
       : PythonSource(object, ended,
                      "sliders must be a Slider, a friction law, a list of these, or an object with "
-                     "sample(*, seed, member) and configuration, as Random") {}
+                     "sample(*, seed, member) and configuration, such as Random") {}
 
   AnySlider sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
@@ -114,7 +114,7 @@ class PythonSliders : public PythonSource {
   }
 };
 
-/// A list that each member has one of, and whether it is drawn; nothing if the object is neither a list nor Drawn.
+/// The list of a list or a Drawn object, and whether members draw from it; nullopt for other objects.
 inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& object, const char* name) {
   if (py::isinstance<Drawn>(object)) return std::pair(py::sequence(object.cast<const Drawn&>().items), Order::drawn);
   if (!py::isinstance<py::sequence>(object) || py::isinstance<py::str>(object) || py::hasattr(object, "sample"))
@@ -129,10 +129,10 @@ inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& o
                        ", got " + type_of(item));
 }
 
-/// Calls with the sliders as what they are.
+/// Calls `f` with the sliders in their static type.
 template <class F>
 auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f) {
-  if (const auto one = slider_of(sliders))  // the usual laws in their own types, for which there are vector lanes
+  if (const auto one = slider_of(sliders))  // the laws with vector lanes, in their static types
     return std::visit(
         [&]<class Law>(const Slider<Law>& slider) {
           if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck> || MemoryLaw<Law>)
@@ -153,7 +153,7 @@ auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&&
   return f(PythonSliders(sliders, ended));
 }
 
-/// Calls with the ground motions as what they are.
+/// Calls `f` with the ground motions in their static type.
 template <class F>
 auto with_motions(const py::object& motions, const std::atomic<bool>& ended, F&& f) {
   if (py::isinstance<GaussianExcitation>(motions)) return f(motions.cast<const GaussianExcitation&>());

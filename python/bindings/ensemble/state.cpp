@@ -9,7 +9,7 @@
 namespace stickslip::python {
 namespace {
 
-/// What is of another type is refused: converted, it would not be what was saved.
+/// Rejects arrays of other types: a conversion would change what was saved.
 template <class T>
 py::array_t<T, py::array::c_style> table(const py::dict& state, const char* name, py::ssize_t dimensions) {
   const py::object value = state[name];
@@ -98,12 +98,12 @@ Ensemble ensemble_of(const py::dict& state) {
   const auto rows = static_cast<std::size_t>(sums.shape(0)), width = static_cast<std::size_t>(sums.shape(1));
   expect(level.size() == rows && number.size() == rows && count.size() == rows,
          "level, number, count and sums must go together");
-  // Before any room is made for them.
+  // Checked before memory is allocated.
   expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies, parts.ground_acceleration),
          "sums must have one column for each sum");
   for (std::size_t i = 0; i < rows; ++i) {
-    constexpr unsigned most = 61;  // blocks have eight members at least
-    expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "a part is at no possible place");
+    constexpr unsigned most = 61;  // a block has at least eight members
+    expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "invalid position of a part");
     const detail::TallyTree::Place place{static_cast<unsigned>(level[i]), number[i]};
     detail::Tally tally(parts.times.count, frequencies, parts.ground_acceleration);
     expect(!parts.tallies.overlaps(place), "two parts hold the same members");

@@ -1,4 +1,4 @@
-// All that an ensemble holds, as arrays.
+// The content of an ensemble as arrays.
 #pragma once
 
 #include "bindings.hpp"
@@ -7,7 +7,7 @@ namespace stickslip::python {
 
 py::dict state_of(const Ensemble& ensemble);
 
-/// @throws std::invalid_argument  arrays that do not fit together
+/// @throws std::invalid_argument  inconsistent arrays
 Ensemble ensemble_of(const py::dict& state);
 
 }  // namespace stickslip::python

@@ -20,10 +20,11 @@ void bind_velocity_spectrum(py::module_& m) {
 Kaiser-Bessel window, thesis (4.62), beta = 8, with a mean square of one; dt / (2 pi M) |DFT|^2 of the M windowed
 samples. The integral over the whole line is the mean square velocity.)")
       .def_property_readonly("omega", &by_frequency<&VelocitySpectrum::omega>,
-                             "From 0 to the Nyquist frequency [rad/s], shape (F,).")
+                             "Angular frequencies from 0 to the Nyquist frequency [rad/s], shape (F,).")
       .def_property_readonly("density", &by_frequency<&VelocitySpectrum::density>,
-                             "[m^2/s]: (m/s)^2 for each rad/s, shape (F,).")
-      .def_property_readonly("error", &by_frequency<&VelocitySpectrum::error>, "Its standard error, shape (F,).")
+                             "Density [m^2/s]: (m/s)^2 per rad/s, shape (F,).")
+      .def_property_readonly("error", &by_frequency<&VelocitySpectrum::error>,
+                             "Standard error of the density, shape (F,).")
       .def("__repr__", [](const VelocitySpectrum& s) {
         return "<VelocitySpectrum: " + std::to_string(s.omega.size()) + " frequencies to " +
                digits(s.omega.empty() ? 0 : s.omega.back()) + " rad/s>";

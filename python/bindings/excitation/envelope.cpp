@@ -22,9 +22,9 @@ std::string number(double value) { return std::isinf(value) ? "float('inf')" : d
 }  // namespace
 
 void bind_envelope(py::module_& m) {
-  py::class_<Envelope>(m, "Envelope", R"(What a stationary acceleration is multiplied by to become an earthquake.
+  py::class_<Envelope>(m, "Envelope", R"(A function of time that modulates a stationary acceleration like an earthquake.
 
-It builds up, stays strong, decays::
+It builds up, stays constant, and decays::
 
     e(t) = (t / build_up)^2                            for 0 <= t < build_up
     e(t) = 1                                           for build_up <= t <= build_up + strong
@@ -33,16 +33,16 @@ It builds up, stays strong, decays::
 Parameters
 ----------
 build_up : float
-    [s], finite and at least 0; 0 starts at full strength.
+    Duration of the build-up [s], finite and at least 0; with 0 the motion starts at full strength.
 strong : float
     Duration of the strong phase [s], at least 0, may be inf.
 decay_rate : float
-    [1/s], finite and at least 0.
+    Rate of the decay [1/s], finite and at least 0.
 
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 
 References
 ----------
@@ -55,45 +55,47 @@ P. C. Jennings, G. W. Housner, N. C. Tsai, Simulated earthquake motions, Caltech
             return Envelope::from_table(to_vector(time, "Envelope: time", "s"),
                                         to_vector(factor, "Envelope: factor", ""));
           },
-          py::arg("time"), py::arg("factor"), R"(Straight lines between the points given, zero outside.
+          py::arg("time"), py::arg("factor"), R"(Interpolate linearly between given points; zero outside.
 
 Parameters
 ----------
 time : array_like, shape (N,)
-    [s], at least two, finite and increasing.
+    Times [s], at least two, finite and increasing.
 factor : array_like, shape (N,)
-    Finite and at least 0.
+    Factors, finite and at least 0.
 
 Raises
 ------
 ValueError
-    Naming the value refused and its index.)")
+    An invalid value; the message names it and its index.)")
       .def(
           "__call__",
           [](const Envelope& self, const py::object& t) {
             return of_each(t, "Envelope: t", [&self](double at) { return self(at); });
           },
-          py::arg("t"), R"(The factor at a time, at least 0.
+          py::arg("t"), R"(Evaluate the envelope.
 
 Parameters
 ----------
 t : float or array_like
-    [s].
+    Times [s].
 
 Returns
 -------
 float or ndarray
-    Of the same shape.)")
-      .def_property_readonly("build_up", &unless_table<&Envelope::build_up>, "[s]; None for a table.")
+    Factors, at least 0, of the same shape.)")
+      .def_property_readonly("build_up", &unless_table<&Envelope::build_up>,
+                             "Duration of the build-up [s]; None for a table.")
       .def_property_readonly("strong", &unless_table<&Envelope::strong>,
                              "Duration of the strong phase [s]; None for a table.")
-      .def_property_readonly("decay_rate", &unless_table<&Envelope::decay_rate>, "[1/s]; None for a table.")
+      .def_property_readonly("decay_rate", &unless_table<&Envelope::decay_rate>,
+                             "Rate of the decay [1/s]; None for a table.")
       .def_property_readonly(
           "table",
           [](const py::object& self) {
             return is_table(self.cast<const Envelope&>()) ? py::object(table_of(self)) : py::object(py::none());
           },
-          "Times [s] and factors of a table, read-only; None where there is none.")
+          "Times [s] and factors of a table, read-only; None without a table.")
       .def("__repr__",
            [](const Envelope& e) {
              if (is_table(e))

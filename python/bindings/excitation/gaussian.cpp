@@ -15,7 +15,7 @@ std::string rounded(double value) {
   return text;
 }
 
-/// ERRATA (4.47): what counts is the number of lines that carry the band, not that of samples.
+/// ERRATA (4.47): the number of lines that carry the band matters, not that of samples.
 void warn_of_few_lines(const GaussianExcitation& excitation) {
   const double effective = excitation.effective_lines();
   if (effective >= enough_lines) return;
@@ -45,7 +45,7 @@ GaussianOptions options_of(const std::string& interpolation, bool correct_interp
   return options;
 }
 
-/// What makes it again: as it was before it was refined, and how often that was.
+/// State for pickling: the excitation before refinement, and the refinement.
 py::tuple state(const GaussianExcitation& e) {
   const GaussianOptions& o = e.options();
   return py::make_tuple(e.spectrum(), e.coarse_dt(), (e.samples() - 1) / e.refinement() + 1, name_of(o.interpolation),
@@ -83,56 +83,56 @@ void bind_gaussian(py::module_& m) {
   py::class_<GaussianExcitation>(m, "GaussianExcitation",
                                  R"(A stationary Gaussian ground acceleration with a given spectrum.
 
-A sum of cosines with random phases, by one inverse FFT a motion, thesis (4.49)::
+A sum of cosines with random phases, by one inverse FFT per motion, thesis (4.49)::
 
     n(m dt) = sum_k 2 sqrt(S(k domega) domega) cos(k domega m dt + phi_k),    k = 1 .. period / 2
     domega = 2 pi / (period dt)
 
-(At the Nyquist frequency a line and its mirror image are one, of variance S domega and not 2 S domega.)
+(At the Nyquist frequency a line coincides with its mirror image; its variance is S domega instead of 2 S domega.)
 
 Parameters
 ----------
 spectrum : Spectrum
-    Two-sided, of the motion. One with an upper edge must have it at or below the Nyquist frequency pi / dt; one without
-    is cut there, see `lost_variance`.
+    Two-sided spectrum of the motion. An upper edge must be at or below the Nyquist frequency pi / dt; a spectrum
+    without an upper edge is truncated there, see `lost_variance`.
 dt : float
-    Between samples [s], positive and finite.
+    Time between samples [s], positive and finite.
 samples : int
-    Of one motion, at least 2.
+    Number of samples of a motion, at least 2.
 interpolation : {'linear', 'constant'}, optional
-    What the ground does between samples.
+    Interpolation of the acceleration between samples.
 correct_interpolation : bool, optional
-    Samples joined by lines lack high frequencies: the Fourier amplitude at omega is multiplied by sinc^2(omega dt / 2),
-    by sinc where values are held. The correction gives the samples the reciprocal, so that the motion that acts has the
-    spectrum that was asked for, exactly at every line (thesis 4.58, with the errata: 1/sinc^4 in density).
+    Interpolation attenuates high frequencies: it multiplies the Fourier amplitude at omega by sinc^2(omega dt / 2) if
+    linear, by sinc if constant. The correction multiplies the samples by the reciprocal, so that the interpolated
+    motion has the given spectrum, exactly at every line (thesis 4.58, with the errata: 1/sinc^4 in density).
 random_amplitudes : bool, optional
-    Rayleigh amplitudes: each motion is truly Gaussian whatever the number of lines, but its own variance differs from
-    member to member. Otherwise, as in the thesis, only phases are random.
+    Use Rayleigh amplitudes: the motions are exactly Gaussian for any number of lines, but the variance differs between
+    members. Otherwise, as in the thesis, only phases are random.
 zero_frequency : bool, optional
-    The line at zero frequency too, with variance S(0) domega: a random constant for each member. Without it a motion of
-    one whole period has no mean, and a spectrum that reaches down to zero loses the band |omega| < domega / 2.
+    Include the line at zero frequency, with variance S(0) domega: a random constant for each member. Without it a
+    motion of one whole period has zero mean, and a spectrum that extends to zero loses the band |omega| < domega / 2.
 period : int, optional
-    Samples after which the motion would repeat itself; as many as there are, or more. A longer one puts the lines
-    closer together, the end of a motion no longer joins its beginning, and a motion may have a mean: the remedy for
-    periodicity, and for bands that reach zero or are narrow. Cost grows with it.
+    Number of samples after which the motion would repeat, at least `samples`, which is the default. With a longer
+    period the lines are closer together, the end of a motion does not join its beginning, and a motion may have a mean.
+    Use it against periodicity, and for bands that extend to zero or are narrow. The cost is proportional.
 envelope : Envelope, optional
-    Multiplies the samples.
+    Envelope that multiplies the samples.
 
 Raises
 ------
 ValueError
-    A value out of its range; a band beyond the Nyquist frequency (the message says which dt would do); a band in which
-    no line lies (which period would do).
+    A value out of range; a band beyond the Nyquist frequency (the message suggests dt); a band without a line (the
+    message suggests a period).
 
 Warns
 -----
 UserWarning
-    Where the band is carried by fewer than 30 effective lines; the message says which period would give as many.
+    Fewer than 30 effective lines carry the band; the message suggests a period.
 
 Notes
 -----
-With fixed amplitudes the kurtosis is 3 - 1.5 / effective_lines: it takes many lines in the band to be Gaussian, not
-many samples.
+With fixed amplitudes the kurtosis is 3 - 1.5 / effective_lines: a nearly Gaussian motion needs many lines in the band,
+not many samples.
 
 References
 ----------
@@ -152,22 +152,21 @@ thesis 4.4.)")
            py::arg("zero_frequency") = false, py::arg("period") = py::none(), py::arg("envelope") = py::none())
       .def("sample", py::overload_cast<std::uint64_t, std::uint64_t>(&GaussianExcitation::sample, py::const_),
            py::kw_only(), py::arg("seed"), py::arg("member"), py::call_guard<py::gil_scoped_release>(),
-           R"(One motion, from time 0 to `duration`.
+           R"(Generate the motion of a member, from time 0 to `duration`.
 
 Parameters
 ----------
 seed, member : int
-    From 0 to 2^64 - 1. The same two give the same motion for ever: to the bit on processors of the same instruction set
-    with the same FFTW, elsewhere to round-off.
+    From 0 to 2^64 - 1. They determine the motion: to the last bit on processors with the same instruction set and with
+    the same FFTW, otherwise to round-off.
 
 Returns
 -------
 GroundMotion)")
-      .def("refined", &GaussianExcitation::refined, py::arg("factor"), R"(The same motions sampled finer.
+      .def("refined", &GaussianExcitation::refined, py::arg("factor"), R"(Sample the same motions with a finer step.
 
-The same lines with the same phases and amplitudes, the same duration. Lines or steps between finer samples are nearer to
-the sum of cosines, so that the error of the interpolation, which falls as dt^2 (linear) or dt (constant), can be seen
-to vanish.
+Lines, phases, amplitudes and duration do not change. With finer samples the interpolation is closer to the sum of
+cosines: use this to verify that its error, which falls as dt^2 (linear) or dt (constant), is negligible.
 
 Parameters
 ----------
@@ -181,17 +180,17 @@ GaussianExcitation
 Raises
 ------
 ValueError
-    For 0, and for more than 2147483647 samples in a period.)")
-      .def_property_readonly("spectrum", &GaussianExcitation::spectrum, "What was asked for.")
-      .def_property_readonly("dt", &GaussianExcitation::dt, "Between samples [s].")
-      .def_property_readonly("samples", &GaussianExcitation::samples, "Of one motion.")
-      .def_property_readonly("duration", &GaussianExcitation::duration, "Of one motion [s]: (samples - 1) dt.")
+    A factor of 0; more than 2147483647 samples in a period.)")
+      .def_property_readonly("spectrum", &GaussianExcitation::spectrum, "The given spectrum.")
+      .def_property_readonly("dt", &GaussianExcitation::dt, "Time between samples [s].")
+      .def_property_readonly("samples", &GaussianExcitation::samples, "Number of samples of a motion.")
+      .def_property_readonly("duration", &GaussianExcitation::duration, "Duration of a motion [s]: (samples - 1) dt.")
       .def_property_readonly(
           "interpolation", [](const GaussianExcitation& e) { return name_of(e.interpolation()); },
           "'linear' or 'constant'.")
       .def_property_readonly(
           "correct_interpolation", [](const GaussianExcitation& e) { return e.options().correct_interpolation; },
-          "Whether the motion that acts has the spectrum, rather than the samples.")
+          "Whether the interpolated motion, rather than the samples, has the spectrum.")
       .def_property_readonly(
           "random_amplitudes", [](const GaussianExcitation& e) { return e.options().random_amplitudes; },
           "Whether amplitudes are random, not only phases.")
@@ -200,22 +199,24 @@ ValueError
           "Whether there is a line at zero frequency.")
       .def_property_readonly(
           "period", [](const GaussianExcitation& e) { return e.options().period; },
-          "Samples after which a motion would repeat itself.")
+          "Number of samples after which a motion would repeat.")
       .def_property_readonly(
-          "envelope", [](const GaussianExcitation& e) { return e.options().envelope; }, "Of the samples, or None.")
-      .def_property_readonly("refinement", &GaussianExcitation::refinement, "How many times finer than it was made.")
+          "envelope", [](const GaussianExcitation& e) { return e.options().envelope; },
+          "Envelope of the samples, or None.")
+      .def_property_readonly("refinement", &GaussianExcitation::refinement,
+                             "Factor by which the excitation was refined.")
       .def_property_readonly("line_spacing", &GaussianExcitation::line_spacing, "domega [rad/s].")
       .def_property_readonly("lines", &GaussianExcitation::lines, "Number of lines with an amplitude.")
       .def_property_readonly("effective_lines", &GaussianExcitation::effective_lines,
                              "(sum p)^2 / sum p^2 over the variances p that the lines give the samples.")
       .def_property_readonly("variance", &GaussianExcitation::variance,
-                             "Expected variance of the samples [m^2/s^4], correction included, envelope not.")
+                             "Expected variance of the samples [m^2/s^4], with the correction, without the envelope.")
       .def_property_readonly("lost_variance", &GaussianExcitation::lost_variance,
-                             R"(Share of the spectrum's variance beyond the Nyquist frequency, from 0 to 1.
+                             R"(Fraction of the variance of the spectrum beyond the Nyquist frequency, from 0 to 1.
 
 1 for white noise, whose variance is infinite.)")
       .def_property_readonly("configuration", &GaussianExcitation::configuration,
-                             "All that the motions depend on, as one JSON object.")
+                             "Everything that determines the motions, as a JSON object.")
       .def("__repr__", &repr_of_gaussian)
       .def(
           "__eq__", [](const GaussianExcitation& a, const GaussianExcitation& b) { return a == b; }, py::is_operator())

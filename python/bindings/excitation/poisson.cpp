@@ -10,7 +10,7 @@ namespace {
 
 using Shape = std::pair<py::object, py::object>;
 
-/// A Python function as the quantile function.
+/// A quantile function in Python.
 class PythonQuantile : public HeldFunction {
  public:
   using HeldFunction::HeldFunction;
@@ -74,8 +74,8 @@ void bind_poisson(py::module_& m) {
 
 n(t) = sum_k b_k w(t - t_k), thesis (5.16), (5.29), (5.30). The t_k arrive as a Poisson process of rate lambda; the b_k
 are independent, by default Gaussian with mean zero and standard deviation sigma; the pulse w is +1 for the half width
-Dt, then -1 for Dt, so that it moves the ground by b Dt^2 and leaves it without velocity. A motion is cut at its
-duration, where pulses may still act.
+Dt, then -1 for Dt, so that it displaces the ground by b Dt^2 and leaves no velocity. A motion is truncated at its
+duration, when pulses may still act.
 
 Parameters
 ----------
@@ -86,33 +86,33 @@ half_width : float
 sigma : float
     Rms amplitude of the pulses [m/s^2], positive and finite.
 duration : float
-    Of a motion [s], positive and finite.
+    Duration of a motion [s], positive and finite.
 stationary_start : bool, optional
-    Pulses arrive from one pulse length before time zero on: the whole motion is a portion of a stationary one.
-    Otherwise, as thesis 5.4 starts up, no pulse begins before time zero, and the variance rises from 0 to its
-    stationary value within one pulse length, 2 Dt.
+    Let pulses arrive from one pulse length before time zero, so that the whole motion is stationary. Otherwise, as in
+    thesis 5.4, no pulse begins before time zero, and the variance rises from 0 to its stationary value within one pulse
+    length, 2 Dt.
 shape : (array_like, array_like), optional
-    Another pulse w, piecewise constant: the times where its pieces begin and end, in units of half_width, from 0 and
-    increasing, and their values, one fewer. The default is ([0, 1, 2], [1, -1]).
+    Another piecewise constant pulse w: the times at which its steps begin and end, in units of half_width, increasing
+    from 0, and their values, one fewer. The default is ([0, 1, 2], [1, -1]).
 quantile : callable, optional
     Another distribution of the amplitudes, b = sigma * quantile(u): takes an array of uniform numbers in (0, 1) and
-    returns as many values, each computed from its own number alone. Its mean square must be 1, for sigma is the rms
-    amplitude: what is off by a quarter is refused. It runs under Python's global lock, so that threads wait for each
-    other; to be pickled it must be a function of a module.
+    returns as many values, each computed from its own number alone. Its mean square must be 1, because sigma is the rms
+    amplitude; a deviation by a quarter is an error. It runs under Python's global lock, so that threads wait for each
+    other; to pickle the excitation it must be a function of a module.
 envelope : Envelope, optional
-    Multiplies the amplitude of each pulse by its value where the pulse arrives (at time zero, where it arrives before).
-    Not the acceleration: so each pulse still leaves no net velocity, and the motion stays exact.
+    Envelope whose value at the arrival of a pulse multiplies its amplitude (at time zero for earlier pulses). It does
+    not multiply the acceleration; each pulse therefore still leaves no net velocity, and the motion stays exact.
 
 Raises
 ------
 ValueError
-    A value out of its range; more than 3e8 steps in a motion (rate x duration x the times of the shape); a quantile
+    A value out of range; more than 3e8 steps in a motion (rate x duration x the times of the shape); a quantile
     function that is not finite or whose mean square is not 1.
 
 Notes
 -----
-The closed forms (`variance` to `ground_displacement_variance`) are of the stationary process without envelope. With the
-thesis's start-up they hold from one pulse length, 2 Dt, on.
+The closed forms (`variance` to `ground_displacement_variance`) are for the stationary process without envelope. Without
+`stationary_start` they hold after one pulse length, 2 Dt.
 
 References
 ----------
@@ -135,7 +135,7 @@ Thesis 5.3, 5.4, 5.6 with the errata to (5.6); Y. K. Lin, Probabilistic Theory o
           },
           py::arg("name"), py::kw_only(), py::arg("stationary_start") = false, py::arg("shape") = py::none(),
           py::arg("quantile") = py::none(), py::arg("envelope") = py::none(),
-          R"(One of the four events of thesis, Table 5.1, with lambda Dt = 0.5.
+          R"(One of the four scenario earthquakes of the thesis, Table 5.1, with lambda Dt = 0.5.
 
 ========================  ===============  ========  ============
 name                      sigma_n [m/s^2]  f_c [Hz]  duration [s]
@@ -151,9 +151,9 @@ Very near field: within 20 km of the fault; near field: 20 to 50 km.
 Parameters
 ----------
 name : str
-    As in the table, or of `events()`.
+    A name from the table, or from `events()`.
 stationary_start, shape, quantile, envelope
-    As of PoissonPulses; sigma follows from sigma_n for any shape.
+    As for PoissonPulses; sigma follows from sigma_n for any shape.
 
 Raises
 ------
@@ -171,7 +171,7 @@ ValueError
           py::kw_only(), py::arg("rms_acceleration"), py::arg("centre_frequency_hz"), py::arg("duration"),
           py::arg("overlap") = 0.5, py::arg("stationary_start") = false, py::arg("shape") = py::none(),
           py::arg("quantile") = py::none(), py::arg("envelope") = py::none(),
-          R"(Pulses like the strong motion of an earthquake, thesis 5.6.
+          R"(Pulses equivalent to the strong motion of an earthquake, thesis 5.6.
 
 Dt = pi / omega_c = 1 / (2 f_c), (5.60); sigma = sigma_n / sqrt(2 lambda Dt), (5.61).
 
@@ -180,18 +180,18 @@ Parameters
 rms_acceleration : float
     sigma_n [m/s^2], positive and finite.
 centre_frequency_hz : float
-    f_c [Hz], positive and finite. It is a definition, not the peak of the spectrum, which is at 0.742 f_c.
+    f_c [Hz], positive and finite, as defined by (5.60); the peak of the spectrum is at 0.742 f_c.
 duration : float
-    Of the strong motion [s], positive and finite.
+    Duration of the strong motion [s], positive and finite.
 overlap : float, optional
-    lambda Dt, positive and finite; 0.5 leaves few gaps, and a peak of 3 to 4 sigma_n.
+    lambda Dt, positive and finite; with 0.5 there are few gaps, and the peak is 3 to 4 sigma_n.
 stationary_start, shape, quantile, envelope
     As of PoissonPulses.
 
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
       .def_static(
           "from_spectrum",
           [](const Spectrum& spectrum, double rate, double duration, double dt, double tolerance, bool stationary_start,
@@ -203,44 +203,45 @@ ValueError
           py::arg("spectrum"), py::kw_only(), py::arg("rate"), py::arg("duration"), py::arg("dt"),
           py::arg("tolerance") = 1e-3, py::arg("stationary_start") = false, py::arg("quantile") = py::none(),
           py::arg("envelope") = py::none(),
-          R"(Pulses of minimum phase whose spectral density is a given one.
+          R"(Minimum-phase pulses with a given spectral density.
 
-The spectrum gives the amplitude of the pulse's Fourier transform, by (5.20). That it is zero before it begins gives the
-phase, the Hilbert transform of the amplitude's logarithm (thesis 5.3): of all causal pulses with this amplitude it is the
-one of minimum phase, which has its energy earliest. It is found by FFT on the cepstrum, in pieces of length dt, for whose
-steps the amplitude is corrected. A spectrum that is zero at omega = 0 gets a shape that leaves no velocity, exactly but
-for rounding, and one that falls as omega^4 no displacement either.
+The spectrum determines the amplitude of the pulse's Fourier transform, by (5.20). Causality determines the phase, the
+Hilbert transform of the amplitude's logarithm (thesis 5.3): of all causal pulses with this amplitude, the result is the
+minimum-phase one, whose energy comes earliest. It is computed by FFT on the cepstrum, in steps of length dt, with the
+amplitude corrected for the steps. If the spectrum is zero at omega = 0, the pulse leaves no velocity, exactly except
+for rounding; if it falls as omega^4, no displacement either.
 
-The half width is 1 s, so that the times of `shape` are seconds, and the largest value of the shape is 1: sigma is the rms
-of the largest acceleration of a pulse. Rate and sigma share lambda sigma^2. Many pulses at a time, a large rate times the
-length of the pulse, make a process that is nearly Gaussian.
+The half width is 1 s, so that the times of `shape` are in seconds, and the largest value of the shape is 1: sigma is
+the rms peak acceleration of a pulse. Rate and sigma determine lambda sigma^2 together. Many simultaneous pulses, that
+is, a large rate times the length of the pulse, make a nearly Gaussian process.
 
 Parameters
 ----------
 spectrum : Spectrum
-    Of the ground acceleration: positive from 0 to pi / dt but for single frequencies, where it may be zero. Of other
-    spectra no pulse that begins at a time exists (Paley and Wiener); that of a record or a band can be given a floor.
+    Spectrum of the ground acceleration, positive from 0 to pi / dt except at single frequencies, where it may be zero.
+    For other spectra no causal pulse exists (Paley and Wiener); add a floor to that of a record or a band.
 rate : float
     lambda, pulses per second, positive and finite.
 duration : float
-    Of a motion [s], positive and finite.
+    Duration of a motion [s], positive and finite.
 dt : float
-    Length of a piece [s], positive and finite. The spectrum is had below pi / dt; beyond, steps leave an image of it.
+    Length of a step of the pulse [s], positive and finite. The spectrum holds below pi / dt; the steps cause an image
+    of it above.
 tolerance : float, optional
-    The integral of abs(density - S) over that of S, from 0 to pi / dt; from 1e-6 to 0.1. The shape is cut where that
-    allows it: a tighter one takes more pieces.
+    The integral of abs(density - S) over that of S, from 0 to pi / dt; from 1e-6 to 0.1. It determines where the shape
+    is truncated: a smaller tolerance needs more steps.
 stationary_start, quantile, envelope
     As of PoissonPulses.
 
 Raises
 ------
 ValueError
-    A value out of its range; a spectrum that ends below pi / dt, or is zero over a band, with the frequency; one that half
-    a million pieces do not hold.
+    A value out of range; a spectrum that ends below pi / dt, or is zero over a band (names the frequency); one that
+    needs more than half a million steps.
 
 Notes
 -----
-1 to 20 ms.
+Takes 1 to 20 ms.
 
 References
 ----------
@@ -251,24 +252,24 @@ Thesis 5.3; A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing (198
             const auto names = PoissonPulses::events();
             return std::vector<std::string>(names.begin(), names.end());
           },
-          "The names that `event` knows.")
+          "The names that `event` accepts.")
       .def("sample", &PoissonPulses::sample, py::kw_only(), py::arg("seed"), py::arg("member"),
            py::call_guard<py::gil_scoped_release>(),
-           R"(One motion, from 0 to `duration`: values held between uneven times, exact.
+           R"(Generate the motion of a member, from 0 to `duration`: exact, with constant interpolation at uneven times.
 
 Parameters
 ----------
 seed, member : int
-    From 0 to 2^64 - 1. The same two give the same motion for ever.
+    From 0 to 2^64 - 1. They determine the motion.
 
 Returns
 -------
 GroundMotion
-    Where no pulse acts its acceleration is exactly zero, elsewhere the sum of the acting pulses to about one rounding.
+    The acceleration is exactly zero where no pulse acts, otherwise the sum of the acting pulses to about one rounding.
 
 Notes
 -----
-About three steps for each pulse, and 20 ns for each step.)")
+A motion has about three steps for each pulse; it takes 20 ns for each step.)")
       .def(
           "pulses",
           [](const PoissonPulses& self, std::uint64_t seed, std::uint64_t member) {
@@ -279,7 +280,7 @@ About three steps for each pulse, and 20 ns for each step.)")
             }
             return py::make_tuple(to_array(arrivals), to_array(amplitudes));
           },
-          py::kw_only(), py::arg("seed"), py::arg("member"), R"(The pulses that a motion is the sum of.
+          py::kw_only(), py::arg("seed"), py::arg("member"), R"(Generate the pulses of a member's motion.
 
 Parameters
 ----------
@@ -289,24 +290,25 @@ seed, member : int
 Returns
 -------
 arrivals : ndarray, shape (K,)
-    Times t_k [s], ascending, below `duration`; K differs from member to member.
+    Times t_k [s], ascending, below `duration`; K differs between members.
 amplitudes : ndarray, shape (K,)
     b_k [m/s^2].)")
       .def_property_readonly("rate", &PoissonPulses::rate, "lambda, pulses per second.")
       .def_property_readonly("half_width", &PoissonPulses::half_width, "Dt [s].")
       .def_property_readonly("sigma", &PoissonPulses::sigma, "Rms amplitude of the pulses [m/s^2].")
-      .def_property_readonly("duration", &PoissonPulses::duration, "Of a motion [s].")
+      .def_property_readonly("duration", &PoissonPulses::duration, "Duration of a motion [s].")
       .def_property_readonly(
           "stationary_start", [](const PoissonPulses& p) { return p.options().stationary_start; },
-          "Whether the motion is stationary from time zero on.")
+          "Whether the motion is stationary from time zero.")
       .def_property_readonly("shape", &shape_of,
-                             "Times of the pulse's pieces, in units of half_width, and their values; read-only.")
-      .def_property_readonly("quantile", &quantile_of, "Of b / sigma; None where the amplitudes are Gaussian.")
+                             "Times of the steps of the pulse, in units of half_width, and their values; read-only.")
+      .def_property_readonly("quantile", &quantile_of, "Quantile function of b / sigma; None for Gaussian amplitudes.")
       .def_property_readonly(
-          "envelope", [](const PoissonPulses& p) { return p.options().envelope; }, "Of the amplitudes, or None.")
+          "envelope", [](const PoissonPulses& p) { return p.options().envelope; },
+          "Envelope of the amplitudes, or None.")
       .def_property_readonly(
           "variance", &PoissonPulses::variance,
-          "Of the acceleration [m^2/s^4]: lambda sigma^2 int w^2, thesis (5.19); 2 lambda Dt sigma^2, (5.61).")
+          "Variance of the acceleration [m^2/s^4]: lambda sigma^2 int w^2, thesis (5.19); 2 lambda Dt sigma^2, (5.61).")
       .def(
           "density",
           [](const PoissonPulses& self, const py::object& omega) {
@@ -321,17 +323,17 @@ amplitudes : ndarray, shape (K,)
 Parameters
 ----------
 omega : float or array_like
-    [rad/s], of either sign.
+    Angular frequency [rad/s], of either sign.
 
 Returns
 -------
 float or ndarray
-    Of the same shape [m^2/s^3].)")
+    Density [m^2/s^3], of the same shape.)")
       .def_property_readonly(
           "ground_velocity_variance", &PoissonPulses::ground_velocity_variance,
-          R"(Stationary, of the ground velocity [m^2/s^2]: thesis (5.44), (5.46), 2 lambda Dt^3 sigma^2 / 3.
+          R"(Stationary variance of the ground velocity [m^2/s^2]: thesis (5.44), (5.46), 2 lambda Dt^3 sigma^2 / 3.
 
-Exact. Infinite for a shape that leaves a net velocity: there is no stationary one.)")
+Exact. Infinite for a shape that leaves a net velocity, whose ground velocity is not stationary.)")
       .def(
           "ground_displacement_variance",
           [](const PoissonPulses& self, const py::object& t) {
@@ -339,20 +341,21 @@ Exact. Infinite for a shape that leaves a net velocity: there is no stationary o
           },
           py::arg("t"), R"(Variance of the ground displacement at large times: thesis (5.49), lambda Dt^4 sigma^2 t.
 
-From the thesis's start-up the exact value beyond 2 Dt has t - 37/30 Dt instead of t. Infinite for a shape that leaves a
-net velocity: the displacement then grows faster than any line.
+Without `stationary_start` the exact value after 2 Dt has t - 37/30 Dt instead of t. Infinite for a shape that leaves a
+net velocity, with which the displacement variance grows faster than linearly.
 
 Parameters
 ----------
 t : float or array_like
-    [s], finite and at least 0.
+    Times [s], finite and at least 0.
 
 Returns
 -------
 float or ndarray
-    Of the same shape [m^2].)")
-      .def_property_readonly("configuration", &PoissonPulses::configuration,
-                             "All that the motions depend on, as one JSON object; a quantile function by a hash.")
+    Variance [m^2], of the same shape.)")
+      .def_property_readonly(
+          "configuration", &PoissonPulses::configuration,
+          "Everything that determines the motions, as a JSON object; a hash stands for a quantile function.")
       .def("__repr__", &repr_of_pulses)
       .def(
           "__eq__", [](const PoissonPulses& a, const PoissonPulses& b) { return a == b; }, py::is_operator())

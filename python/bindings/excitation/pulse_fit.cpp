@@ -5,13 +5,12 @@
 namespace stickslip::python {
 
 void bind_pulse_fit(py::module_& m) {
-  value_class<PulseFit>(m, "PulseFit",
-                        "Pulses whose spectrum is the nearest to one that is given; what `fit_pulses` returns.")
+  value_class<PulseFit>(m, "PulseFit", "Pulses fitted to a spectrum, as `fit_pulses` returns them.")
       .def_readonly("half_width", &PulseFit::half_width, "Dt [s].")
       .def_readonly("half_width_error", &PulseFit::half_width_error,
-                    "Its standard error [s]; 0 where a spectrum was given, which is not estimated.")
+                    "Standard error of the half width [s]; 0 for a fit to a given spectrum.")
       .def_readonly("intensity", &PulseFit::intensity,
-                    "lambda sigma^2 [m^2/s^5], which alone counts: a spectrum does not tell the two apart.")
+                    "lambda sigma^2 [m^2/s^5]; a spectrum determines only this product.")
       .def_readonly("rms_acceleration", &PulseFit::rms_acceleration, "sigma_n of the pulses [m/s^2], thesis (5.61).")
       .def_readonly("centre_frequency_hz", &PulseFit::centre_frequency_hz, "f_c = 1 / (2 Dt) [Hz], thesis (5.60).")
       .def_readonly("misfit", &PulseFit::misfit, "The integral of abs(S - S of the pulses) over that of S, below 1.")
@@ -39,7 +38,7 @@ Least squares over all frequencies, in Dt and lambda sigma^2, of the corrected (
 
     S(omega) = 8 lambda sigma^2 sin^4(omega Dt / 2) / (pi omega^2)
 
-The result makes pulses like the record::
+Use the result to define pulses like the record::
 
     fit = fit_pulses(record)
     PoissonPulses.from_earthquake(
@@ -51,8 +50,8 @@ The result makes pulses like the record::
 Parameters
 ----------
 source : GroundMotion or Spectrum
-    A record, lines or steps, whose strong motion is taken, between 5 % and 95 % of the Arias intensity, as if it were a
-    portion of a stationary process. Or a spectrum of finite variance.
+    A record, of which the fit takes the strong motion, between 5 % and 95 % of the Arias intensity, as a portion of a
+    stationary process. Or a spectrum of finite variance.
 
 Returns
 -------
@@ -61,46 +60,46 @@ PulseFit
 Raises
 ------
 ValueError
-    Nothing fits: the half width of the nearest pulses is above an eighth of the strong part or below a time step, or the
-    misfit is 1 or more, as much as without any pulses. A motion without acceleration; a spectrum of infinite variance.
+    No fit: the half width of the best pulses is above an eighth of the strong part or below a time step, or the misfit
+    is 1 or more, as without any pulses. A motion of zeros; a spectrum of infinite variance.
 
 Notes
 -----
-Least squares need no smoothing: the periodogram itself is fitted. For the misfit, and for the standard error, which holds
-for records that are not made of pulses too, its average over a third of f_c is taken; of a record that is made of pulses
-the scatter of that alone leaves a misfit of some 1.4 / sqrt(f_c x duration). Strong frequencies count for most in a fit of
-this kind, and low ones, which move a slider most, not for more than others: `strong_motion` goes by the ground velocity
-instead. Where the two frequencies differ much the record's spectrum has another form than the pulses'.
+The fit is to the periodogram, without smoothing. The misfit and the standard error (which also holds for records that
+are not made of pulses) use its average over a third of f_c. For a record made of pulses, the scatter of this average
+causes a misfit of some 1.4 / sqrt(f_c x duration). Strong frequencies dominate such a fit; low ones, which move a
+slider most, have no extra weight. `strong_motion` uses the ground velocity instead; if the two frequencies differ much,
+the spectrum of the record has a different shape from that of the pulses.
 
-3 ms for a record of 4,000 samples.
+Takes 3 ms for a record of 4,000 samples.
 
 References
 ----------
 Thesis 5.2 and 5.6 with the errata to (5.6).)");
   m.def("estimate_spectrum", &estimate_spectrum, py::arg("motion"), py::arg("bandwidth"),
         py::call_guard<py::gil_scoped_release>(),
-        R"(Estimate the power spectrum of a record's strong motion, as if that were a portion of a stationary process.
+        R"(Estimate the power spectrum of a record's strong motion, as a portion of a stationary process.
 
-The periodogram of the part between 5 % and 95 % of the Arias intensity, without its mean, averaged over a band about each
-frequency (Daniell).
+It is the periodogram of the part between 5 % and 95 % of the Arias intensity, without its mean, averaged over a band
+about each frequency (Daniell).
 
 Parameters
 ----------
 motion : GroundMotion
-    A record, lines or steps, which count as they are between samples too.
+    A record; its interpolation between samples is included.
 bandwidth : float
-    Of the average [Hz], finite and at least 1 / duration of the strong part. The standard error of a value is
-    1 / sqrt(bandwidth x duration) of it.
+    Bandwidth of the average [Hz], finite and at least 1 / duration of the strong part. The relative standard error of a
+    value is 1 / sqrt(bandwidth x duration).
 
 Returns
 -------
 Spectrum
-    A table, up to twice the sampling rate of the record or more.
+    A table, at least up to twice the sampling rate of the record.
 
 Raises
 ------
 ValueError
-    A bandwidth out of its range; a motion without acceleration, see `strong_motion`.
+    A bandwidth out of its range; a motion of zeros, see `strong_motion`.
 
 References
 ----------

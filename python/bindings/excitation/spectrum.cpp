@@ -9,7 +9,7 @@
 namespace stickslip::python {
 namespace {
 
-/// A Python function as a density.
+/// A density in Python.
 class PythonDensity : public HeldFunction {
  public:
   using HeldFunction::HeldFunction;
@@ -28,7 +28,7 @@ struct Described {
   py::dict parameters;
 };
 
-/// The function that made a spectrum, and what it was given.
+/// The constructor of a spectrum and its arguments.
 struct Describe {
   Described operator()(const Spectrum::White& s) const {
     using namespace py::literals;
@@ -103,11 +103,11 @@ std::string repr_of_spectrum(const Spectrum& spectrum) {
 void bind_spectrum(py::module_& m) {
   py::class_<Spectrum>(m, "Spectrum", R"(The two-sided spectral density of a stationary ground acceleration.
 
-S(omega) [m^2/s^3], omega in rad/s. Its integral over the whole line is the variance; S(-omega) = S(omega); white noise
+S(omega) [m^2/s^3], omega in rad/s. The integral over the whole line is the variance; S(-omega) = S(omega); white noise
 has R(t) = 2 pi S0 delta(t). A one-sided density G(omega) is 2 S(omega); one over hertz, G(f), is 4 pi S(2 pi f).
 
-Made by `white`, `band_pass`, `kanai_tajimi`, `clough_penzien`, `from_table` and `from_function`, each of which raises
-ValueError where a value is out of its range. Spectra do not change; a call gives the density::
+The constructors are `white`, `band_pass`, `kanai_tajimi`, `clough_penzien`, `from_table` and `from_function`; each
+raises ValueError for a value out of range. Spectra are immutable; a call returns the density::
 
     s = Spectrum.band_pass(s0=1.0, low=2.0, high=4.0)
     s([1.0, 3.0])  # 0 and 1
@@ -128,10 +128,10 @@ s0 : float
 low, high : float
     [rad/s], 0 <= low < high, finite.)")
       .def_static("kanai_tajimi", &Spectrum::kanai_tajimi, py::kw_only(), py::arg("s0"), py::arg("frequency"),
-                  py::arg("damping"), R"(White noise through a layer of soil of one mode, seen at the surface.
+                  py::arg("damping"), R"(White noise filtered by a soil layer with one mode, at the surface.
 
-S = s0 (wg^4 + 4 z^2 wg^2 omega^2) / ((wg^2 - omega^2)^2 + 4 z^2 wg^2 omega^2). It keeps S(0) = s0, so that ground
-velocity and displacement grow without bound; see `clough_penzien`.
+S = s0 (wg^4 + 4 z^2 wg^2 omega^2) / ((wg^2 - omega^2)^2 + 4 z^2 wg^2 omega^2). S(0) = s0, so that ground velocity
+and displacement grow without bound; see `clough_penzien`.
 
 Parameters
 ----------
@@ -140,21 +140,21 @@ s0 : float
 frequency : float
     wg [rad/s], positive and finite.
 damping : float
-    z, share of critical, positive and finite.
+    z, fraction of critical damping, positive and finite.
 
 References
 ----------
 K. Kanai, Bull. Earthq. Res. Inst. 35 (1957), 309-325; H. Tajimi, 2nd WCEE (1960), 781-797.)")
       .def_static("clough_penzien", &Spectrum::clough_penzien, py::kw_only(), py::arg("s0"), py::arg("frequency"),
                   py::arg("damping"), py::arg("filter_frequency"), py::arg("filter_damping"),
-                  R"(Kanai-Tajimi through a second filter, which takes the low frequencies out.
+                  R"(Kanai-Tajimi spectrum with a second filter that removes low frequencies.
 
 S = S_KT omega^4 / ((wf^2 - omega^2)^2 + 4 zf^2 wf^2 omega^2).
 
 Parameters
 ----------
 s0, frequency, damping : float
-    As of `kanai_tajimi`.
+    As for `kanai_tajimi`.
 filter_frequency : float
     wf [rad/s], positive and finite.
 filter_damping : float
@@ -164,59 +164,60 @@ References
 ----------
 R. W. Clough, J. Penzien, Dynamics of Structures (1975), 26-2.)")
       .def_static("from_table", &from_table, py::arg("omega"), py::arg("density"),
-                  R"(Straight lines between the points given, zero outside.
+                  R"(Interpolate linearly between given points; zero outside.
 
 Parameters
 ----------
 omega : array_like, shape (N,)
-    [rad/s], at least two, the first at least 0, increasing, finite.
+    Angular frequencies [rad/s], at least two, the first at least 0, increasing, finite.
 density : array_like, shape (N,)
     S [m^2/s^3], at least 0, finite, not all zero.)")
       .def_static("from_function", &from_function, py::arg("density"), py::kw_only(), py::arg("low") = 0.0,
                   py::arg("high") = std::numeric_limits<double>::infinity(),
-                  R"(Any function of omega >= 0, zero outside [low, high].
+                  R"(Use any function of omega >= 0; zero outside [low, high].
 
 Parameters
 ----------
 density : callable
     S(omega) [m^2/s^3] at one omega [rad/s], finite and at least 0. Called some thousand times here, and once for each
-    line where motions are made; not while they are. To be pickled it must be a function of a module.
+    line by an excitation, but not while motions are generated. To pickle the spectrum it must be a function of a
+    module.
 low, high : float, optional
     [rad/s], 0 <= low < high; high may be inf.
 
 Raises
 ------
 ValueError
-    Where the function is negative or NaN (at which omega), or not integrable.)")
+    The function is negative or NaN (names omega), or not integrable.)")
       .def(
           "__call__",
           [](const Spectrum& self, const py::object& omega) {
             return of_each(omega, "Spectrum: omega", [&self](double w) { return self(w); });
           },
-          py::arg("omega"), R"(The density.
+          py::arg("omega"), R"(Evaluate the density.
 
 Parameters
 ----------
 omega : float or array_like
-    [rad/s], of either sign.
+    Angular frequency [rad/s], of either sign.
 
 Returns
 -------
 float or ndarray
-    S of the same shape [m^2/s^3].)")
+    S [m^2/s^3], of the same shape.)")
       .def_property_readonly(
-          "kind", [](const Spectrum& s) { return described(s).kind; }, "Name of the function that made it.")
+          "kind", [](const Spectrum& s) { return described(s).kind; }, "Name of the constructor.")
       .def_property_readonly(
-          "parameters", [](const Spectrum& s) { return described(s).parameters; }, "What that function was given.")
+          "parameters", [](const Spectrum& s) { return described(s).parameters; }, "Arguments of the constructor.")
       .def_property_readonly("low", &Spectrum::low, "Lower edge of the band [rad/s]: S is zero below.")
       .def_property_readonly("high", &Spectrum::high, "Upper edge of the band [rad/s]: S is zero above; may be inf.")
       .def_property_readonly("variance", py::overload_cast<>(&Spectrum::variance, py::const_),
                              R"(Integral over the whole line [m^2/s^4]; inf for white noise.
 
-Closed forms, and quadrature to 1e-10 for Clough-Penzien and functions.)")
+In closed form; by quadrature to 1e-10 for Clough-Penzien and functions.)")
       .def("band_variance", py::overload_cast<double, double>(&Spectrum::variance, py::const_), py::kw_only(),
            py::arg("low") = 0.0, py::arg("high") = std::numeric_limits<double>::infinity(),
-           R"(Variance that a band carries, on both sides of the line.
+           R"(Variance in a band, from positive and negative frequencies.
 
 Parameters
 ----------
@@ -231,9 +232,9 @@ float
 Raises
 ------
 ValueError
-    Other limits.)")
+    Limits out of range.)")
       .def_property_readonly("configuration", &Spectrum::configuration,
-                             "All of it as one JSON object; a function by a hash of 1024 of its values.")
+                             "The spectrum as a JSON object; a hash of 1024 values stands for a function.")
       .def("__repr__", &repr_of_spectrum)
       .def(
           "__eq__", [](const Spectrum& a, const Spectrum& b) { return a == b; }, py::is_operator())

@@ -1,4 +1,4 @@
-// How the laws take their levels and coefficients of friction by name, and how they are written.
+// Levels and coefficients of friction as named arguments of the laws, and in their reprs.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace stickslip::python {
 
-/// A level [m/s^2] as the argument that gives it back to the bit: "mu=0.2" where a coefficient of friction of six
-/// digits at most does, and is shorter than "slip_level=1.9613300000000001".
+/// A level [m/s^2] as an argument that reproduces it to the last bit: "mu=0.2" if a coefficient of friction of at most
+/// six digits does so and is shorter than "slip_level=1.9613300000000001".
 inline std::string level_argument(double level, const std::string& mu_name = "mu",
                                   const std::string& level_name = "slip_level") {
   if (std::isinf(level)) return level_name + "=float('inf')";
@@ -26,8 +26,8 @@ inline std::string level_argument(double level, const std::string& mu_name = "mu
   return level_name + "=" + itself;
 }
 
-/// Says what a law's constructor takes where the arguments are others, as a number without a name.
-/// @param rule  as "Coulomb: give mu= or slip_level= [m/s^2]"
+/// Makes a law's constructor explain its arguments if a call has others, such as a number without a name.
+/// @param rule  such as "Coulomb: give mu= or slip_level= [m/s^2]"
 template <class Law>
 void explain_constructor(py::class_<Law>& type, const char* rule) {
   const py::object take = type.attr("__init__");

@@ -10,26 +10,27 @@ void bind_caster(py::module_& m) {
       value_class<Caster>(m, "Caster",
                           R"(A rigid mass on casters, thesis (2.27): the slip level is a sech(x / reach) + rolling.
 
-The thesis writes 3l for the reach and has no rolling resistance, which acts along the wheel, on the part
-|tanh(x / reach)| of the way that it rolls. The law takes it as the same everywhere: too much by up to `rolling` where the
-wheel stands across the motion and scrubs. The law holds while the wheels are neither in line with the motion nor flipped
-round: |x| up to about the reach is sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
+The thesis writes 3l for the reach and has no rolling resistance. That acts along the wheel, on the fraction
+|tanh(x / reach)| of the path on which it rolls; this law applies it everywhere, which is too much by up to `rolling`
+while the wheel is across the motion and scrubs. The law holds while the wheels are neither aligned with the motion nor
+turned around: it is reliable for |x| up to about the reach (thesis A.2); beyond that a real wheel is sensitive to small
+disturbances.
 
 Parameters
 ----------
 mu : float, optional
     Coefficient of friction, finite and at least 0: slip_level = mu * STANDARD_GRAVITY. Give mu or slip_level.
 slip_level : float, optional
-    a, friction force per unit mass at x = 0, the wheels across the motion [m/s^2]; finite and at least 0.
+    a, friction force per unit mass at x = 0, where the wheels are across the motion [m/s^2]; finite and at least 0.
 reach : float
-    Distance over which the level falls off [m]; positive, inf is Coulomb friction.
+    Distance over which the level falls off [m]; positive; inf is Coulomb friction.
 rolling : float, optional
-    Rolling resistance and that of the bearings, per unit mass [m/s^2]; finite and at least 0.
+    Resistance of rolling and of the bearings, per unit mass [m/s^2]; finite and at least 0.
 
 Raises
 ------
 ValueError
-    A value out of its range, both or neither of mu and slip_level.)");
+    A value out of range; both or neither of mu and slip_level.)");
   type.def(py::init([](std::optional<double> mu, std::optional<double> slip_level, double reach, double rolling) {
              return Caster(slip_level_of(mu, slip_level, "Caster"), reach, rolling);
            }),
@@ -43,11 +44,11 @@ ValueError
           },
           py::kw_only(), py::arg("mu"), py::arg("trail"), py::arg("wheel_width"), py::arg("rolling_mu") = 0.0,
           py::arg("thesis") = false,
-          R"(A caster from the mechanics of a rigid wheel pivoted ahead of its contact line (thesis appendix A, corrected).
+          R"(A caster from the mechanics of a rigid wheel pivoted ahead of its contact line, thesis A, corrected.
 
-Balance of the moments about the pivot gives B = |2 v_n / (w theta')| of the contact's midpoint,
-(B^2 + 4 (l/w) B) asinh(1/B) = sqrt(1 + B^2), and with it the slip level mu g s, s = B asinh(1/B), and the reach
-l + w B / 2. The thesis drops a term in (A.12), which makes B = 4 l/w and the reach 3 l.
+The balance of moments about the pivot, (B^2 + 4 (l/w) B) asinh(1/B) = sqrt(1 + B^2), determines
+B = |2 v_n / (w theta')| at the midpoint of the contact, and with it the slip level mu g s, s = B asinh(1/B), and the
+reach l + w B / 2. The thesis drops a term in (A.12), which leads to B = 4 l/w and the reach 3 l.
 
 Parameters
 ----------
@@ -59,9 +60,9 @@ wheel_width : float
     w, length of the line of contact [m], positive and finite.
 rolling_mu : float, optional
     Coefficient of rolling resistance, finite and at least 0: rolling = rolling_mu * STANDARD_GRAVITY. It acts along the
-    wheel, through the pivot's axis, and leaves the balance as it is.
+    wheel, through the axis of the pivot, and does not affect the balance.
 thesis : bool, optional
-    True for the thesis's own (A.15), (A.16), (A.20) and (A.27), signs put right, to compare.
+    Use (A.15), (A.16), (A.20) and (A.27) of the thesis, with corrected signs, for comparison.
 
 Returns
 -------
@@ -70,11 +71,11 @@ Caster
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 
 Notes
 -----
-Accurate to a few units of the last digit for every l/w > 0; about 2.5 us.)")
+Accurate to a few units in the last place for every l/w > 0; takes about 2.5 us.)")
       .def_property_readonly("slip_level", &Caster::slip_level, "Level at x = 0 [m/s^2].")
       .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
       .def_property_readonly("rolling", &Caster::rolling, "Rolling resistance [m/s^2].")

@@ -6,18 +6,18 @@
 namespace stickslip::python {
 
 void bind_coulomb(py::module_& m) {
-  auto type = value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: the same slip level everywhere, thesis (2.20).
+  auto type = value_class<Coulomb>(m, "Coulomb", R"(Coulomb friction: a constant slip level, thesis (2.20).
 
-f = a sgn(x'), a = mu g the slip level: friction force per unit mass where the normal force is g. The two directions may
-differ; with an infinite level one way the block is Newmark's, which slides the other way only. (A slope is the slider's:
-`Slider(Coulomb(mu=0.5), slope_degrees=20)`.)
+f = a sgn(x'), where a = mu g is the slip level: the friction force per unit mass if the normal force is g. The levels
+of the two directions may differ; with an infinite level in one direction the block is Newmark's, which slides only in
+the other. (A slope belongs to the slider: `Slider(Coulomb(mu=0.5), slope_degrees=20)`.)
 
 Parameters
 ----------
 mu : float, optional
     Coefficient of friction, finite and at least 0: slip_level = mu * STANDARD_GRAVITY. Give mu or slip_level.
 slip_level : float, optional
-    a against forward sliding (x' > 0), and against backward sliding too unless `backward` is given [m/s^2]; finite and
+    a against forward sliding (x' > 0), and also against backward sliding unless `backward` is given [m/s^2]; finite and
     at least 0.
 backward : float, optional
     Level against backward sliding (x' < 0) [m/s^2]; at least 0, may be inf.
@@ -27,7 +27,7 @@ mu_backward : float, optional
 Raises
 ------
 ValueError
-    A value out of its range; both or neither of mu and slip_level; both of backward and mu_backward.
+    A value out of range; both or neither of mu and slip_level; both backward and mu_backward.
 
 References
 ----------
@@ -44,11 +44,10 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
           "on_slope",
           [](const py::args&, const py::kwargs&) {
             throw py::type_error(
-                "Coulomb.on_slope is gone: write Slider(Coulomb(mu=...), slope_degrees=...), whose ground acceleration "
-                "is "
-                "horizontal and whose normal force follows it");
+                "Coulomb.on_slope was removed: use Slider(Coulomb(mu=...), slope_degrees=...), whose ground "
+                "acceleration is horizontal and whose normal force follows it");
           },
-          "Gone: write Slider(Coulomb(mu=...), slope_degrees=...).")
+          "Removed: use Slider(Coulomb(mu=...), slope_degrees=...).")
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
       .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
       .def("__repr__", [](const Coulomb& law) {

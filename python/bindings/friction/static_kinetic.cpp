@@ -66,21 +66,21 @@ double backward_of(const AnyStaticKinetic& law) {
 void bind_static_kinetic(py::module_& m) {
   py::class_<AnyStaticKinetic> type(m, "StaticKinetic", R"(Static friction above kinetic.
 
-At rest it holds a static level, |load| <= a_static; then it slides by another law. A slip that stops sticks where |load| <=
-a_static. On breaking away the acceleration jumps to a_static less what resists sliding.
+A slider at rest withstands |load| <= a_static; another law resists sliding. A slip that stops sticks if
+|load| <= a_static. At breakaway the acceleration jumps to a_static minus the resistance to sliding.
 
 Objects compare by content; they can be hashed, copied and pickled.
 
 Parameters
 ----------
 sliding : Coulomb, Caster, VelocityDependent or Degrading, optional
-    What resists sliding, instead of mu_kinetic or kinetic.
+    The law of sliding, instead of mu_kinetic or kinetic.
 mu_static : float or (float, float), optional
     Static coefficient of friction, or those against forward and backward sliding. Give mu_static or static.
 static : float or (float, float), optional
-    The same as levels a_static = mu_static * STANDARD_GRAVITY [m/s^2]; at least what the sliding law holds at x = 0.
+    The same as levels a_static = mu_static * STANDARD_GRAVITY [m/s^2]; at least the level of the sliding law at x = 0.
 mu_kinetic, kinetic : float or (float, float), optional
-    Coefficient of kinetic friction, or its level [m/s^2], the same at all places and speeds.
+    Coefficient of kinetic friction, or its level [m/s^2], independent of position and speed.
 
 Raises
 ------
@@ -89,14 +89,14 @@ ValueError
 
 Notes
 -----
-As exact as the sliding law. The response is not a continuous function of its input: where a slip all but stops, or a
-load all but reaches the static level, the least change decides.)");
+As exact as the sliding law. The response is not a continuous function of its input: where a slip almost stops, or a
+load almost reaches the static level, an arbitrarily small change decides.)");
   type.def(py::init(&make_static_kinetic), py::arg("sliding") = py::none(), py::kw_only(),
            py::arg("mu_static") = py::none(), py::arg("mu_kinetic") = py::none(), py::arg("static") = py::none(),
            py::arg("kinetic") = py::none())
       .def_property_readonly("sliding", &sliding_of, "The law of sliding.")
-      .def_property_readonly("static", &forward_of, "Level that holds against forward sliding [m/s^2].")
-      .def_property_readonly("static_backward", &backward_of, "Level that holds against backward sliding [m/s^2].")
+      .def_property_readonly("static", &forward_of, "Static level against forward sliding [m/s^2].")
+      .def_property_readonly("static_backward", &backward_of, "Static level against backward sliding [m/s^2].")
       .def("__repr__",
            [](const AnyStaticKinetic& law) {
              const double forward = forward_of(law), backward = backward_of(law);

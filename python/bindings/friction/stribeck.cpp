@@ -8,10 +8,10 @@ namespace stickslip::python {
 void bind_stribeck(py::module_& m) {
   auto type = value_class<Stribeck>(
       m, "Stribeck",
-      R"(Friction that falls from a static to a kinetic level as sliding gets faster: the Stribeck law.
+      R"(Friction that falls from a static to a kinetic level with increasing speed: the Stribeck law.
 
-a(|x'|) = a_kinetic + (a_static - a_kinetic) exp(-(|x'| / velocity)^exponent), a = mu g: friction force per unit mass. At
-rest it holds a_static; it breaks away without a jump.
+a(|x'|) = a_kinetic + (a_static - a_kinetic) exp(-(|x'| / velocity)^exponent), a = mu g: friction force per unit mass. A
+slider at rest withstands loads up to a_static; the acceleration does not jump at breakaway.
 
 Parameters
 ----------
@@ -21,18 +21,18 @@ mu_static, mu_kinetic : float, optional
 static, kinetic : float, optional
     The levels [m/s^2].
 velocity : float
-    At which 63 % of the fall is done [m/s], positive.
+    Speed at which 63 % of the decrease is complete [m/s], positive.
 exponent : int
     A whole number from 1 to 31.
 
 Raises
 ------
 ValueError
-    A value out of its range; both or neither of a coefficient and its level.
+    A value out of range; both or neither of a coefficient and its level.
 
 Notes
 -----
-The motion is a Taylor series in time, near round-off.
+The motion is integrated by Taylor series in time, nearly to round-off.
 
 References
 ----------
@@ -48,8 +48,8 @@ control of machines with friction, Automatica 30 (1994), 1083-1138.)");
            py::arg("static") = py::none(), py::arg("kinetic") = py::none(), py::arg("velocity"), py::arg("exponent"))
       .def_property_readonly("static", &Stribeck::static_level, "Level at rest [m/s^2].")
       .def_property_readonly("kinetic", &Stribeck::kinetic_level, "Level at high speed [m/s^2].")
-      .def_property_readonly("velocity", &Stribeck::velocity, "At which 63 % of the fall is done [m/s].")
-      .def_property_readonly("exponent", &Stribeck::exponent, "Of the speed.")
+      .def_property_readonly("velocity", &Stribeck::velocity, "Speed at which 63 % of the decrease is complete [m/s].")
+      .def_property_readonly("exponent", &Stribeck::exponent, "Exponent of the speed.")
       .def("__repr__", [](const Stribeck& law) {
         return "Stribeck(" + level_argument(law.static_level(), "mu_static", "static") + ", " +
                level_argument(law.kinetic_level(), "mu_kinetic", "kinetic") +

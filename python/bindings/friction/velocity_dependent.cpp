@@ -8,10 +8,11 @@ namespace stickslip::python {
 void bind_velocity_dependent(py::module_& m) {
   auto type = value_class<VelocityDependent>(
       m, "VelocityDependent",
-      R"(Friction that changes with the speed, as that of PTFE and other liners of sliding isolators.
+      R"(Friction that depends on the speed, such as that of PTFE and other liners of sliding isolators.
 
 a(|x'|) = a_fast - (a_fast - a_slow) exp(-rate |x'|), a_slow = mu_slow g, a_fast = mu_fast g: friction force per unit
-mass. At rest it holds a_slow. A liner has mu_slow < mu_fast; with mu_slow > mu_fast friction weakens with speed.
+mass. A slider at rest withstands loads up to a_slow. A liner has mu_slow < mu_fast; with mu_slow > mu_fast friction
+weakens with speed.
 
 Parameters
 ----------
@@ -20,17 +21,18 @@ mu_slow, mu_fast : float, optional
 slow, fast : float, optional
     a_slow and a_fast [m/s^2], finite and at least 0.
 rate : float
-    [s/m], finite and at least 0. At a speed of 1 / rate 63 % of the change is done; 0 is always slow.
+    [s/m], finite and at least 0. At the speed 1 / rate 63 % of the change is complete; with 0 the level is always slow.
 
 Raises
 ------
 ValueError
-    A value out of its range; both or neither of a coefficient and its level.
+    A value out of range; both or neither of a coefficient and its level.
 
 Notes
 -----
-The motion is a Taylor series in time, near round-off. A sample of the Kobe record (dt = 0.01 s) on a spring takes 0.25 us;
-one of random accelerations 0.1 s apart, twice the fast level, 2.8 us, with a spring or without.
+The motion is integrated by Taylor series in time, nearly to round-off. With a spring, a sample of the Kobe record
+(dt = 0.01 s) takes 0.25 us; one of random accelerations 0.1 s apart, twice the fast level, takes 2.8 us with or without
+a spring.
 
 References
 ----------
@@ -45,7 +47,7 @@ Engineering 116 (1990), 455-474.)");
            py::arg("slow") = py::none(), py::arg("fast") = py::none(), py::arg("rate"))
       .def_property_readonly("slow", &VelocityDependent::slow, "Level at rest [m/s^2].")
       .def_property_readonly("fast", &VelocityDependent::fast, "Level at high speed [m/s^2].")
-      .def_property_readonly("rate", &VelocityDependent::rate, "How fast the level changes with the speed [s/m].")
+      .def_property_readonly("rate", &VelocityDependent::rate, "Rate at which the level changes with the speed [s/m].")
       .def("__repr__", [](const VelocityDependent& law) {
         return "VelocityDependent(" + level_argument(law.slow(), "mu_slow", "slow") + ", " +
                level_argument(law.fast(), "mu_fast", "fast") + ", rate=" + detail::shortest(law.rate()) + ")";

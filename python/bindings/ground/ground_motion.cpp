@@ -66,7 +66,7 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
   if (!py::hasattr(trace, "data") || !py::hasattr(trace, "stats")) {
     const auto type = py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>();
     throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " + type +
-                         (type == "Stream" ? "; select one of its traces, as stream[0]" : ""));
+                         (type == "Stream" ? "; select one of its traces, such as stream[0]" : ""));
   }
   GroundMotion motion =
       make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt, "linear",
@@ -84,13 +84,14 @@ std::optional<double> dt_of(const GroundMotion& motion) {
 void bind_ground_motion(py::module_& m) {
   py::class_<GroundMotion> type(m, "GroundMotion", R"(The acceleration history n(t) of the ground.
 
-`acceleration` is along the axis of the slider. The other horizontal component and the vertical one may be given beside
-it; peaks, integrals and intensity measures are those of the axis, and `component` gives the others.
+`acceleration` is the component along the axis of the slider. A motion may also have the other horizontal component and
+the vertical one. Peaks, integrals and intensity measures are those along the axis; `component` selects another
+component.
 
-Motions with the same samples, dt or times, interpolation, name and orientation are equal; they can be hashed, copied and
-pickled.
+Motions with the same samples, dt or times, interpolation, name and orientation are equal; they can be hashed, copied
+and pickled.
 
-N samples make N - 1 pieces; the motion lasts from the first time to the last.
+N samples make N - 1 segments; the motion lasts from the first time to the last.
 
 Parameters
 ----------
@@ -99,99 +100,100 @@ acceleration : array_like, shape (N,)
 dt : float, optional
     Time between samples [s], positive: the times are 0, dt, 2 dt, ... Give dt or times.
 times : array_like, shape (N,), optional
-    Times of the samples [s], finite and increasing. Values that are held may share a time.
+    Times of the samples [s], finite and increasing. With 'constant', successive times may be equal.
 interpolation : {'linear', 'constant'}, optional
-    A straight line between samples (thesis 4.56), or each value held until the next time; the last value then closes
-    the motion without acting.
+    A straight line between samples (thesis 4.56), or a constant value until the next time; the last value then marks
+    the end and does not act.
 name : str, optional
-    Where the motion comes from; shown in plots.
+    Name of the motion, shown in plots.
 units : str, optional
-    Unit of all accelerations: 'm/s^2', 'g', 'cm/s^2', 'gal', 'mm/s^2', 'ft/s^2', 'in/s^2'. The motion holds m/s^2.
+    Unit of the given accelerations: 'm/s^2', 'g', 'cm/s^2', 'gal', 'mm/s^2', 'ft/s^2', 'in/s^2'. The motion stores
+    m/s^2.
 transverse : array_like, shape (N,), optional
-    The horizontal component across the axis, on the same times. No slider on one axis feels it.
+    The horizontal component across the axis, at the same times. It does not act on sliders.
 vertical : array_like, shape (N,), optional
-    The vertical component, positive upward. `integrate` refuses a motion that has one: take `component('axis')`.
+    The vertical component, positive upward, at the same times. `integrate` includes it in the normal force; use
+    `component('axis')` to exclude it.
 orientation : str, optional
-    Where the axis points: an azimuth in degrees clockwise from north, as 'N28W' or '332', or 'up'. The transverse
+    Direction of the axis: an azimuth in degrees clockwise from north, such as 'N28W' or '332', or 'up'. The transverse
     component then points 90 degrees clockwise from it. Not checked.
 
 Raises
 ------
 ValueError
-    Naming the value refused and its index.
+    An invalid value; the message names it and its index.
 
 Notes
 -----
-`2 * motion`, `motion / 2` and `-motion` are motions, too: `scaled` by the factor. What makes a motion of this one does
-the same to all components.)");
-  type.attr("__array_ufunc__") = py::none();  // a factor of NumPy then asks the motion
+`2 * motion`, `motion / 2` and `-motion` return motions `scaled` by the factor. Methods that return a motion treat all
+components alike.)");
+  type.attr("__array_ufunc__") = py::none();  // NumPy factors then use the operators of the motion
   type.def(py::init(&make), py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(),
            py::arg("times") = py::none(), py::arg("interpolation") = "linear", py::arg("name") = "",
            py::arg("units") = "m/s^2", py::arg("transverse") = py::none(), py::arg("vertical") = py::none(),
            py::arg("orientation") = "")
       .def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
                   py::arg("name") = py::none(),
-                  R"(The ground motion in a trace of ObsPy.
+                  R"(Convert an ObsPy trace to a ground motion.
 
 Parameters
 ----------
 trace : obspy.Trace
-    One component of acceleration: with the response of the instrument removed, as by
-    `trace.remove_response(output="ACC")`, not in counts. The samples are copied, and must have no gaps.
+    One component of acceleration, not in counts: remove the response of the instrument first, as with
+    `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps.
 units : str, optional
-    Unit of the samples, as the constructor takes it. ObsPy does not state it; `remove_response` gives m/s^2.
+    Unit of the samples, as for the constructor. ObsPy does not state it; `remove_response` returns m/s^2.
 name : str, optional
-    The trace's id if not given.
+    Default: the id of the trace.
 
 Returns
 -------
 GroundMotion
-    Linear between samples; times begin at 0.
+    Linear between samples; times start at 0.
 
 Raises
 ------
 TypeError
-    No trace.
+    An object that is not a trace.
 ValueError
     A masked sample (a gap), or one that is not finite.
 
 Warns
 -----
 PlausibilityWarning
-    As `read_record` does.)")
+    As for `read_record`.)")
       .def_property_readonly(
           "acceleration",
           [](const py::object& self) { return view(self.cast<const GroundMotion&>().acceleration(), self); },
           "Ground acceleration along the axis at the samples [m/s^2], shape (N,); read-only, not copied.")
-      .def_property_readonly("transverse", &samples_of<&GroundMotion::transverse>,
-                             "The horizontal component across the axis [m/s^2], shape (N,), read-only; None without.")
+      .def_property_readonly(
+          "transverse", &samples_of<&GroundMotion::transverse>,
+          "The horizontal component across the axis [m/s^2], shape (N,), read-only; None if missing.")
       .def_property_readonly("vertical", &samples_of<&GroundMotion::vertical>,
-                             "The vertical component, positive upward [m/s^2], shape (N,), read-only; None without.")
+                             "The vertical component, positive upward [m/s^2], shape (N,), read-only; None if missing.")
       .def(
           "component", [](const GroundMotion& g, const std::string& which) { return g.component(component_of(which)); },
           py::arg("which"),
-          R"(One component alone, as a motion along the axis.
+          R"(Extract one component as a motion along the axis.
 
 Parameters
 ----------
 which : {'axis', 'transverse', 'vertical'}
     A component that the motion has.)")
       .def_property_readonly("time", &times_of, "Times of the samples [s], shape (N,).")
-      .def_property_readonly("dt", &dt_of, "Time between samples [s]; None where the times are uneven.")
-      .def_property_readonly("duration", &GroundMotion::duration, "From the first sample to the last [s].")
+      .def_property_readonly("dt", &dt_of, "Time between samples [s]; None if the times are uneven.")
+      .def_property_readonly("duration", &GroundMotion::duration, "Time from the first sample to the last [s].")
       .def_property_readonly("peak_acceleration", &GroundMotion::peak_acceleration,
                              "Largest magnitude of the ground acceleration along the axis [m/s^2], the PGA.")
       .def_property_readonly(
           "interpolation", [](const GroundMotion& g) { return name_of(g.interpolation()); }, "'linear' or 'constant'.")
-      .def_property_readonly("name", &GroundMotion::name, "Where the motion comes from.")
-      .def_property_readonly(
-          "orientation", &GroundMotion::orientation,
-          "Where the axis points, as 'N28W', '332' (an azimuth) or 'up'; '' where that is not known.")
+      .def_property_readonly("name", &GroundMotion::name, "Name of the motion.")
+      .def_property_readonly("orientation", &GroundMotion::orientation,
+                             "Direction of the axis, such as 'N28W', '332' (an azimuth) or 'up'; '' if unknown.")
       .def("scaled", &GroundMotion::scaled, py::arg("factor"),
-           R"(The same motion with every acceleration multiplied by `factor` (finite).
+           R"(Multiply all accelerations by `factor` (finite).
 
-A negative factor turns the horizontal components around and never the vertical one, which is multiplied by the
-magnitude.)")
+A negative factor reverses the horizontal components but not the vertical one, which is multiplied by the magnitude.)")
       .def(
           "scaled_to",
           [](const GroundMotion& motion, std::optional<double> pga_g, std::optional<double> arias,
@@ -200,63 +202,64 @@ magnitude.)")
             return scaled_to(motion, {pga_g, arias, pgv});
           },
           py::kw_only(), py::arg("pga_g") = py::none(), py::arg("arias") = py::none(), py::arg("pgv") = py::none(),
-          R"(The motion times the positive factor that gives its axis a PGA, an Arias intensity or a PGV.
+          R"(Scale the motion by a positive factor, to a given PGA, Arias intensity or PGV along its axis.
 
 Parameters
 ----------
 pga_g : float, optional
-    Largest acceleration [g], positive. Give exactly one of the three.
+    Peak acceleration [g], positive. Give exactly one of the three.
 arias : float, optional
     Arias intensity [m/s], positive.
 pgv : float, optional
-    Largest ground velocity [m/s], positive: from rest at the first sample, the baseline as it is.
+    Peak ground velocity [m/s], positive; from rest at the first sample, without baseline correction.
 
 Raises
 ------
 ValueError
-    None or several of them; one that is not positive and finite; a motion of zeros.)")
+    No or several targets; one that is not positive and finite; a motion of zeros.)")
       .def("resampled", &resampled, py::arg("dt"),
-           R"(The motion read off at 0, dt, 2 dt, ... after its first sample.
+           R"(Resample the motion at 0, dt, 2 dt, ... after its first sample.
 
-Values are read off its straight lines, or are those that are held. Nothing is filtered: a shorter step adds nothing,
-and a longer step folds higher frequencies back. Where the duration is no multiple of dt, the rest at the end is left
-out. Times begin at 0.
+Values are interpolated as the motion is between samples. There is no filter: a shorter step adds no information, and a
+longer step aliases higher frequencies. If the duration is not a multiple of dt, the remainder at the end is dropped.
+Times start at 0.
 
 Parameters
 ----------
 dt : float
     Time between samples [s], positive, at most the duration.)")
       .def("cut", &cut, py::arg("begin"), py::arg("end"),
-           R"(The part of the motion from `begin` to `end`.
+           R"(Cut out the part of the motion from `begin` to `end`.
 
-At its ends it is read off where there is no sample. Times begin at 0; even times stay even where both ends are samples.
+If there is no sample at an end, the value is interpolated. Times start at 0; even times stay even if both ends are
+samples.
 
 Parameters
 ----------
 begin, end : float
     Times of the motion [s], begin < end.)")
       .def("rotated", &rotated, py::arg("degrees"),
-           R"(The motion with its horizontal axes turned.
+           R"(Rotate the horizontal axes.
 
-The new axis is `degrees` from the old one toward the transverse one: n' = n cos a + t sin a, t' = t cos a - n sin a,
-with n along the axis, t across it and a the angle. The vertical component stays as it is. Turns by multiples of 90 degrees
-are exact. An orientation with an azimuth becomes the new one; another is dropped.
+The new axis is at `degrees` from the old one toward the transverse one: n' = n cos a + t sin a, t' = t cos a - n sin a,
+where n is along the axis, t across it, and a is the angle. The vertical component does not change. Rotations by
+multiples of 90 degrees are exact. An orientation that is an azimuth rotates too; any other is dropped.
 
 Parameters
 ----------
 degrees : float
-    Finite.
+    Angle, finite.
 
 Raises
 ------
 ValueError
     A motion without a transverse component; an angle that is not finite.)")
       .def("detrended", &detrended, py::arg("order") = 0,
-           R"(The motion without its polynomial trend of least squares over time.
+           R"(Remove the polynomial trend fitted by least squares over time.
 
-Order 0 takes away the mean, after which the ground velocity ends at zero; 1 a straight line. The fit is exact for lines
-and for values that are held. Of a trend that is curved between samples, or inclined and taken from held values, a
-fraction (dt / duration)^2 or so is left.
+Order 0 removes the mean, after which the ground velocity ends at zero; order 1 a straight line. The fit is exact for
+linear and constant interpolation. A fraction of about (dt / duration)^2 remains of a trend that is curved between
+samples, or inclined with constant interpolation.
 
 Parameters
 ----------
@@ -264,16 +267,16 @@ order : int, optional
     From 0 to 10.)")
       .def_property_readonly(
           "velocity", [](const GroundMotion& g) { return array_of(ground_history(g).velocity); },
-          "Ground velocity along the axis [m/s], shape (N,): the exact integral, from rest; computed anew each time.")
+          "Ground velocity along the axis [m/s], shape (N,): the exact integral, from rest; recomputed on each access.")
       .def_property_readonly(
           "displacement", [](const GroundMotion& g) { return array_of(ground_history(g).displacement); },
-          "Ground displacement along the axis [m], shape (N,): the exact integral, from rest; computed anew each time.")
+          "Ground displacement along the axis [m], shape (N,): exact integral, from rest; recomputed on each access.")
       .def("plot", plot_in("plot_ground_motion", "ax"), py::kw_only(), py::arg("ax") = py::none(),
            py::arg("title") = py::none(),
-           R"(Draws the acceleration [g] over time.
+           R"(Plot the acceleration [g] over time.
 
 Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
-stands for the name. Returns the matplotlib Figure.)")
+replaces the name. Returns the matplotlib Figure.)")
       .def(
           "__mul__", [](const GroundMotion& g, double factor) { return g.scaled(factor); }, py::is_operator())
       .def(

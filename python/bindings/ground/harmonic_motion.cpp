@@ -9,7 +9,7 @@ HarmonicMotion make_harmonic_motion(double amplitude, double omega, double durat
   return dt ? HarmonicMotion(amplitude, omega, duration, *dt) : HarmonicMotion(amplitude, omega, duration);
 }
 
-// An array over the samples of `value(time)`.
+// An array of `value(time)` at the samples.
 template <class Value>
 py::array_t<double> over_samples(const HarmonicMotion& motion, Value&& value) {
   py::array_t<double> values(static_cast<py::ssize_t>(motion.samples()));
@@ -26,10 +26,10 @@ std::string arguments(const HarmonicMotion& m) {
 }  // namespace
 
 void bind_harmonic_motion(py::module_& m) {
-  value_class<HarmonicMotion>(m, "HarmonicMotion", R"(A ground acceleration of one frequency: -n(t) = B cos(omega t).
+  value_class<HarmonicMotion>(m, "HarmonicMotion", R"(Harmonic ground motion: -n(t) = B cos(omega t).
 
-Thesis (2.28), from t = 0 on. Nothing of it is sampled: a slider slides exactly under the cosine. Samples say only where
-the response is asked for: at 0, dt, 2 dt, ... and at the end.
+Thesis (2.28), from t = 0. The motion is not sampled: `integrate` solves the response to the cosine exactly. Samples
+only determine where the response is output: at 0, dt, 2 dt, ... and at the end.
 
 Parameters
 ----------
@@ -38,25 +38,25 @@ amplitude : float
 omega : float
     Angular frequency [rad/s], positive, with a finite square.
 duration : float
-    [s], positive and finite, at most 2^45 periods.
+    Duration [s], positive and finite, at most 2^45 periods.
 dt : float, optional
-    Time between samples of the response [s], positive and finite; a 64th of a period if not given. The last step may be
-    shorter; longer than the duration leaves its two ends. At most 2^40 samples.
+    Time between samples of the response [s], positive and finite; default: 1/64 of a period. The last step may be
+    shorter; a dt longer than the duration leaves only its two ends. At most 2^40 samples.
 
 Raises
 ------
 ValueError
-    Naming the value refused.
+    An invalid value; the message names it.
 
 Notes
 -----
-omega t is reduced to one cycle with 150 bits of pi: the phase is right to round-off after any number of cycles.)")
+omega t is reduced to one cycle with 150 bits of pi: the phase is accurate to round-off after any number of cycles.)")
       .def(py::init(&make_harmonic_motion), py::arg("amplitude"), py::arg("omega"), py::arg("duration"),
            py::arg("dt") = py::none())
       .def_property_readonly("amplitude", &HarmonicMotion::amplitude, "B [m/s^2].")
       .def_property_readonly("omega", &HarmonicMotion::omega, "Angular frequency [rad/s].")
       .def_property_readonly("period", &HarmonicMotion::period, "2 pi / omega [s].")
-      .def_property_readonly("duration", &HarmonicMotion::duration, "[s].")
+      .def_property_readonly("duration", &HarmonicMotion::duration, "Duration [s].")
       .def_property_readonly("dt", &HarmonicMotion::dt, "Time between samples [s]; the last step may be shorter.")
       .def_property_readonly(
           "time", [](const HarmonicMotion& h) { return over_samples(h, [](double t) { return t; }); },
@@ -69,19 +69,20 @@ omega t is reduced to one cycle with 150 bits of pi: the phase is right to round
                              "Largest magnitude of the ground acceleration [m/s^2]: B.")
       .def_property_readonly(
           "interpolation", [](const HarmonicMotion&) { return "linear"; },
-          "'linear': how its samples are best drawn; the motion itself is the cosine.")
+          "'linear': for drawing the samples; the motion itself is the cosine.")
       .def_property_readonly(
           "name",
           [](const HarmonicMotion& h) {
             return detail::shortest(h.amplitude()) + " m/s^2 at " + detail::shortest(h.omega()) + " rad/s";
           },
-          "What it is, as a plot calls it.")
-      .def("sampled", &HarmonicMotion::sampled, py::arg("dt"), R"(The same motion in samples, with lines between them.
+          "A name for plots, with amplitude and frequency.")
+      .def("sampled", &HarmonicMotion::sampled, py::arg("dt"),
+           R"(Sample the motion, with straight lines between samples.
 
 Parameters
 ----------
 dt : float
-    Time between samples [s], positive; the last may come after the end.
+    Time between samples [s], positive; the last sample may be after the end.
 
 Returns
 -------

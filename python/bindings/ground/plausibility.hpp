@@ -1,4 +1,4 @@
-// A warning about recorded ground motions that cannot be what they are taken for.
+// A warning about implausible recorded ground motions.
 #pragma once
 
 #include <cmath>
@@ -10,17 +10,17 @@
 
 namespace stickslip::python {
 
-/// Recorded peaks are within these; PGAs above 30 m/s^2 are in other units. (The largest ever is some 4 g.)
+/// Recorded peaks are between these; PGAs above 30 m/s^2 are in other units. (The largest ever recorded is some 4 g.)
 inline constexpr double least_plausible_peak = 0.01, most_plausible_peak = 30;  // [m/s^2]
-/// A mean above this fraction of the peak is an offset: of processed records it is below 2e-4, and 0.01 g in a record
+/// A mean above this fraction of the peak is an offset: in processed records it is below 2e-4, and 0.01 g in a record
 /// of 0.6 g is 1.6e-2.
 inline constexpr double most_plausible_mean = 0.005;
 
-/// Fewer samples are an example, not a record: they are not looked at.
+/// Motions with fewer samples are examples, not records, and are not checked.
 inline constexpr std::size_t fewest_samples = 100;
 
-/// Warns by Python's `warnings`; throws where they are made errors.
-/// @param depth  of the caller to be named: 1 is the Python function that called
+/// Warns through Python's `warnings`; throws if warnings are errors.
+/// @param depth  stack level that the warning names: 1 is the calling Python function
 inline void warn_if_implausible(const GroundMotion& motion, const std::string& who, int depth = 1) {
   if (motion.samples() < fewest_samples) return;
   const auto warn = [&](const std::string& what) {

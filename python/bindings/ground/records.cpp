@@ -6,7 +6,7 @@
 namespace stickslip::python {
 namespace {
 
-using Part = std::tuple<GroundMotion, std::string, std::string>;  // with name and start
+using Part = std::tuple<GroundMotion, std::string, std::string>;  // motion, name, start time
 
 RecordComponent component_of(const Part& part) { return {std::get<0>(part), std::get<1>(part), std::get<2>(part)}; }
 
@@ -55,15 +55,16 @@ py::object format_of(const py::bytes& content) {
 
 }  // namespace
 
-// What `stickslip.records` is made of, which has the documentation.
+// Functions for `stickslip.records`, which has the documentation.
 void bind_records(py::module_& m) {
   m.attr("PlausibilityWarning") = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "stickslip.PlausibilityWarning",
-      "A record that is hardly what it is taken for: in other units, or with an error of the baseline.\n\n"
-      "`read_record` and `GroundMotion.from_obspy` warn where the largest acceleration is below 0.01 or above\n"
-      "30 m/s^2, and where the mean acceleration is above 0.5 % of the largest; fewer than 100 samples are not\n"
-      "looked at. Of processed records the mean is below 0.02 % of the largest; an offset of 0.01 g in a record of\n"
-      "0.6 g, 1.6 %, can double a displacement. Silence the warning by Python's own filter:\n"
+      "Warning about an implausible record, probably in other units or with a baseline error.\n\n"
+      "`read_record` and `GroundMotion.from_obspy` warn if the maximum acceleration is below 0.01 or above 30 m/s^2,\n"
+      "or if the mean acceleration is above 0.5 % of the maximum; they do not check motions of fewer than 100 "
+      "samples.\n"
+      "In processed records the mean is below 0.02 % of the maximum; an offset of 0.01 g in a record of 0.6 g, 1.6 %,\n"
+      "can double a displacement. Silence the warning with Python's filter:\n"
       "`warnings.simplefilter(\"ignore\", stickslip.PlausibilityWarning)`.",
       PyExc_UserWarning, nullptr));
 
@@ -76,17 +77,17 @@ void bind_records(py::module_& m) {
   m.def("_warn_if_implausible", &warn_if_implausible, py::arg("motion"), py::arg("who"), py::arg("depth") = 1);
 
   m.def("acceleration_unit", &acceleration_unit, py::arg("name"),
-        R"(How many m/s^2 one unit of acceleration is: `acceleration_unit("gal")` is 0.01.
+        R"(Value of a unit of acceleration in m/s^2: `acceleration_unit("gal")` is 0.01.
 
 Parameters
 ----------
 name : str
-    A unit as `read_record` takes it.
+    A unit, as for `read_record`.
 
 Raises
 ------
 ValueError
-    Unknown unit; lists the known ones.)");
+    Unknown unit; the message lists the known ones.)");
 }
 
 }  // namespace stickslip::python

@@ -41,9 +41,10 @@ py::array_t<double> rows_of(const py::object& self) {
 
 void bind_response_spectrum(py::module_& m) {
   value_class<ResponseSpectrum>(m, "ResponseSpectrum",
-                                "An elastic response spectrum; what `response_spectrum` returns.")
+                                "An elastic response spectrum, as `response_spectrum` returns it.")
       .def_property_readonly(
-          "kind", [](const ResponseSpectrum& s) { return name_of(s.kind); }, "What the values are.")
+          "kind", [](const ResponseSpectrum& s) { return name_of(s.kind); },
+          "Kind of the values, as for `response_spectrum`.")
       .def_property_readonly(
           "periods", [](const py::object& self) { return view(self.cast<const ResponseSpectrum&>().periods, self); },
           "Undamped natural periods [s], shape (P,); read-only.")
@@ -51,14 +52,14 @@ void bind_response_spectrum(py::module_& m) {
           "damping", [](const py::object& self) { return view(self.cast<const ResponseSpectrum&>().damping, self); },
           "Ratios of critical damping, shape (D,); read-only.")
       .def_property_readonly("values", &rows_of,
-                             "The largest response [m/s^2, m/s or m], shape (P,) for one damping ratio, (D, P) for "
+                             "The maximum response [m/s^2, m/s or m], shape (P,) for one damping ratio, (D, P) for "
                              "several; read-only.")
       .def("plot", plot_in("plot_response_spectrum", "ax"), py::kw_only(), py::arg("ax") = py::none(),
            py::arg("title") = py::none(),
-           R"(Draws the values over the period, a line for each damping ratio.
+           R"(Plot the values over the period, with a line for each damping ratio.
 
-Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
-is drawn above. Returns the matplotlib Figure.)")
+Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure, with an
+optional `title=`. Returns the matplotlib Figure.)")
       .def("__repr__", [](const ResponseSpectrum& s) {
         return "<ResponseSpectrum: " + name_of(s.kind) + ", " + std::to_string(s.periods.size()) +
                (s.periods.size() == 1 ? " period, " : " periods, ") +
@@ -92,18 +93,18 @@ is drawn above. Returns the matplotlib Figure.)")
       },
       py::arg("motion"), py::arg("periods"), py::arg("damping") = 0.05, py::kw_only(),
       py::arg("kind") = "pseudo_acceleration",
-      R"(Computes the elastic response spectrum of a ground motion, or of what stands on a slider: a floor spectrum.
+      R"(Compute the elastic response spectrum of a ground motion, or of the mass of a slider: a floor spectrum.
 
 Each linear oscillator x'' + 2 zeta wn x' + wn^2 x = -n(t), wn = 2 pi / T, is at rest when the motion begins. The value
-is the largest magnitude over all time, in continuous time and not at the samples. Between samples the response is
-exact, for straight lines and for values that are held, whatever the ratio of T to the time step. After the last sample
-n is zero: the free vibration that follows belongs to the maximum.
+is the largest magnitude over all time, in continuous time, not only at the samples. Between samples the response is
+exact, for linear and constant interpolation and any ratio of T to the time step. After the last sample n is zero; the
+maximum includes the free vibration that follows.
 
 Parameters
 ----------
 motion : GroundMotion or Response
-    A response shakes the oscillators with its absolute acceleration, that of the sliding mass. It jumps where a slip
-    begins, turns or stops, and is taken so. Settle the response, or the floor stops with the record.
+    A response excites the oscillators with the absolute acceleration of the sliding mass, including its jumps where a
+    slip begins, reverses or stops. Settle the response, otherwise the floor motion ends with the record.
 periods : float or array_like, shape (P,)
     Undamped natural periods T [s], in any order: each from 1e-6 to 1e6, or 0, a rigid oscillator, which gives the PGA
     as acceleration and 0 otherwise.
@@ -121,22 +122,22 @@ ResponseSpectrum
 Raises
 ------
 ValueError
-    A period, a damping ratio or a kind that is not allowed, with its index; a truncated response.
+    A period, a damping ratio or a kind that is not allowed (names its index); a truncated response.
 
 Notes
 -----
 Accurate to round-off: some 1e-15 times the square root of the number of samples, and times the radians in a time step
-where that is above 1. Under a record whose ground velocity does not end at zero the ground keeps this velocity, and
-oscillators of long period go on to the displacement x' / wn: correct the baseline first.
+if these exceed 1. If the ground velocity of a record does not end at zero, the ground keeps this velocity, and
+oscillators of long period continue to the displacement x' / wn: correct the baseline first.
 
-Under a response of a constant slip level without spring and damper that is so, too. Elsewhere its acceleration is cut
-into straight pieces, off by at most 1e-6 of its largest value e where the level is constant and the ground motion is
-sampled, which changes a pseudo-acceleration by at most 1e-6 e coth(pi zeta / (2 sqrt(1 - zeta^2))): 13e-6 e at 5 %. Under
-a Caster, VelocityDependent or a HarmonicMotion, the curve between two samples is a polynomial of the fifth degree first,
-whose own error falls with the sixth power of the time step.
+The same accuracy holds for a response with a constant slip level, without spring and damper. Other responses are
+approximated by straight segments of the acceleration. For a constant level and a sampled ground motion, their error is
+at most 1e-6 of its maximum e, which changes a pseudo-acceleration by at most 1e-6 e coth(pi zeta / (2 sqrt(1 -
+zeta^2))): 13e-6 e at 5 %. For a Caster, VelocityDependent or a HarmonicMotion, the curve between two samples is first
+approximated by a polynomial of the fifth degree, whose error falls with the sixth power of the time step.
 
-100 periods of 10,000 samples take some 2 ms with even times (AVX-512), and up to 15 ms of white noise at a critical
-damping. Uneven times cost some 0.3 us for each period, damping ratio and change of the time step.
+100 periods of 10,000 samples take some 2 ms with even times (AVX-512), and up to 15 ms for white noise at critical
+damping. Uneven times take some 0.3 us for each period, damping ratio and change of the time step.
 
 References
 ----------

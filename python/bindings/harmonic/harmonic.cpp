@@ -7,7 +7,7 @@
 namespace stickslip::python {
 namespace {
 
-/// An orbit and the slider that goes round it.
+/// An orbit with its slider.
 struct SlidersOrbit {
   Orbit orbit;
   AnySlider slider;
@@ -41,7 +41,7 @@ SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from,
   return {std::move(branch.orbits), std::move(branch.folds), slider};
 }
 
-// x and x' at any times.
+// x and x' at given times.
 py::tuple motion_of(const SlidersOrbit& self, const py::object& times) {
   const std::vector<double> t = to_vector(times, "Orbit.motion: times", "s");
   for (const double time : t) detail::require(std::isfinite(time), "Orbit.motion: times must be finite", time, "s");
@@ -96,55 +96,59 @@ inline constexpr auto parts<SlidersBranch> = std::tuple(&SlidersBranch::orbits, 
                                                         &SlidersBranch::slider);
 
 void bind_harmonic(py::module_& m) {
-  value_class<SlidersOrbit>(m, "Orbit", R"(A periodic motion under -n(t) = B cos(omega t), thesis (2.28).
+  value_class<SlidersOrbit>(
+      m, "Orbit", R"(A periodic response to -n(t) = B cos(omega t), thesis (2.28), as `harmonic.orbits` returns it.
 
-It is symmetric about a centre c, x(t + T/2) - c = c - x(t) with T = 2 pi / omega; what `harmonic.orbits` returns.)")
+It is symmetric about a center c, x(t + T/2) - c = c - x(t) with T = 2 pi / omega.)")
       .def_property_readonly(
-          "slider", [](const SlidersOrbit& self) { return py::cast(self.slider); }, "What goes round it.")
+          "slider", [](const SlidersOrbit& self) { return py::cast(self.slider); }, "The slider.")
       .def_property_readonly("B", of_orbit<&Orbit::load>(), "Amplitude of the load [m/s^2].")
       .def_property_readonly("omega", of_orbit<&Orbit::omega>(), "Angular frequency [rad/s].")
       .def_property_readonly(
           "period", [](const SlidersOrbit& self) { return self.orbit.period(); }, "T = 2 pi / omega [s].")
       .def_property_readonly("amplitude", of_orbit<&Orbit::amplitude>(),
-                             "Half the way from the lowest x to the highest [m]; 0 for the rest at the centre.")
+                             "Half the peak-to-peak displacement [m]; 0 for rest at the center.")
       .def_property_readonly("phase", of_orbit<&Orbit::phase>(),
-                             R"(Of x - centre = amplitude cos(omega t + phase), in (-pi, pi] [rad].
+                             R"(Phase in x - centre = amplitude cos(omega t + phase), in (-pi, pi] [rad].
 
--omega times the time at which x first comes to its highest value; nan at rest. Thesis (2.2), (2.17) as corrected.)")
-      .def_property_readonly("stops_per_cycle", of_orbit<&Orbit::stops_per_cycle>(), "Arrests: times it sticks.")
-      .def_property_readonly("reversals_per_cycle", of_orbit<&Orbit::reversals_per_cycle>(), "Turns without a stop.")
+It is -omega times the time of the first maximum of x; nan at rest. Thesis (2.2), (2.17), corrected.)")
+      .def_property_readonly("stops_per_cycle", of_orbit<&Orbit::stops_per_cycle>(), "Number of arrests in a cycle.")
+      .def_property_readonly("reversals_per_cycle", of_orbit<&Orbit::reversals_per_cycle>(),
+                             "Number of reversals without a stop in a cycle.")
       .def_property_readonly("multipliers", of_orbit<&Orbit::multipliers>(),
-                             R"(The two Floquet multipliers: by what a small change of the state grows in a period.
+                             R"(The two Floquet multipliers: growth factors of a small perturbation over a period.
 
-Complex, the larger one first; 0 is one where the slider stops.)")
+Complex, the larger one first; one of them is 0 if the slider stops.)")
       .def_property_readonly(
           "half_period_multipliers", of_orbit<&Orbit::half_period_multipliers>(),
-          "Those of the half-period map (x - c, x') -> -(x - c, x')(T/2 later), of which the others are the squares.")
-      .def_property_readonly("stable", of_orbit<&Orbit::stable>(), R"(Whether no small change grows.
+          "Multipliers of the half-period map (x - c, x') -> -(x - c, x')(T/2 later); `multipliers` are their squares.")
+      .def_property_readonly("stable", of_orbit<&Orbit::stable>(),
+                             R"(Whether the orbit is stable under small perturbations.
 
-No multiplier beyond the unit circle, by more than 1e-10. One on it is neutral: Coulomb friction without a spring cares
-for no mean position, and a rest stays where it is put.)")
+No multiplier is more than 1e-10 outside the unit circle. One on the circle is neutral: with Coulomb friction and no
+spring the mean position is arbitrary, and a slider at rest stays where it is.)")
       .def_property_readonly(
           "mean_arbitrary", of_orbit<&Orbit::mean_arbitrary>(),
-          "Whether the mean position is arbitrary (Coulomb friction without a spring); given is the orbit around 0.")
-      .def_property_readonly("centre", of_orbit<&Orbit::centre>(),
-                             "(backward - forward) / (2 wn^2) for unequal levels on a spring, else 0 [m].")
+          "Whether the mean position is arbitrary (Coulomb friction without a spring); this orbit is about 0.")
+      .def_property_readonly(
+          "centre", of_orbit<&Orbit::centre>(),
+          "Center c: (backward - forward) / (2 wn^2) for unequal levels with a spring, otherwise 0 [m].")
       .def_property_readonly(
           "displacement", [](const SlidersOrbit& self) { return self.orbit.state.displacement; },
-          "x at t = 0 [m]; `integrate` started from it and `velocity` stays on the orbit.")
+          "x at t = 0 [m]; `integrate` from it and `velocity` stays on the orbit.")
       .def_property_readonly(
           "velocity", [](const SlidersOrbit& self) { return self.orbit.state.velocity; }, "x' at t = 0 [m/s].")
       .def_property_readonly("dissipated", of_orbit<&Orbit::dissipated>(),
-                             "Work against friction in a period, as much as the ground's input [m^2/s^2].")
+                             "Work of friction in a period, equal to the input of the ground [m^2/s^2].")
       .def_property_readonly(
           "events", [](const SlidersOrbit& self) { return events_array(self.orbit.events); },
-          "Events of one period from t = 0, a structured array as `Response.events`, without an end.")
-      .def("motion", &motion_of, py::arg("times"), R"(Displacement and velocity at any times.
+          "Events of one period from t = 0, a structured array like `Response.events`, without 'end'.")
+      .def("motion", &motion_of, py::arg("times"), R"(Compute displacement and velocity at given times.
 
 Parameters
 ----------
 times : array_like, shape (N,)
-    [s], finite, in any order.
+    Times [s], finite, in any order.
 
 Returns
 -------
@@ -159,11 +163,14 @@ velocity : ndarray, shape (N,)
                (o.stable ? "stable>" : "unstable>");
       });
 
-  value_class<SlidersBranch>(m, "OrbitBranch", R"(Orbits that hang together along the response curve, in order.
+  value_class<SlidersBranch>(
+      m, "OrbitBranch",
+      R"(A branch of the response curve: connected orbits in order, as `harmonic.continuation` returns them.
 
-What `harmonic.continuation` returns. Arrays are over the orbits, read-only.)")
+Arrays are over the orbits, read-only.)")
       .def_property_readonly("omega", each<&Orbit::omega>(), "Angular frequency [rad/s], shape (N,).")
-      .def_property_readonly("amplitude", each<&Orbit::amplitude>(), "Half of peak to peak [m], shape (N,).")
+      .def_property_readonly("amplitude", each<&Orbit::amplitude>(),
+                             "Half the peak-to-peak displacement [m], shape (N,).")
       .def_property_readonly("phase", each<&Orbit::phase>(), "As `Orbit.phase` [rad], shape (N,).")
       .def_property_readonly("stable", each<&Orbit::stable>(), "As `Orbit.stable`, shape (N,).")
       .def_property_readonly("stops_per_cycle", each<&Orbit::stops_per_cycle>(), "Arrests, shape (N,).")
@@ -172,7 +179,7 @@ What `harmonic.continuation` returns. Arrays are over the orbits, read-only.)")
                              "As `Orbit.half_period_multipliers`, shape (N, 2).")
       .def_property_readonly(
           "folds", [](const SlidersBranch& b) { return b.folds; },
-          "Indices of the orbits at which the curve turns back in frequency.")
+          "Indices of the orbits at which the curve reverses in frequency.")
       .def("__len__", [](const SlidersBranch& b) { return b.orbits.size(); })
       .def("__getitem__",
            [](const SlidersBranch& b, py::ssize_t i) {
@@ -186,21 +193,21 @@ What `harmonic.continuation` returns. Arrays are over the orbits, read-only.)")
       });
 
   m.def("orbits", &orbits_of, py::arg("slider"), py::arg("B"), py::arg("omega"),
-        R"(The exact symmetric periodic motions of a slider under -n(t) = B cos(omega t).
+        R"(Find the exact symmetric periodic responses of a slider to -n(t) = B cos(omega t).
 
-x'' + resist(x) sgn(x') + wn^2 x = B cos(omega t), thesis (2.27), (2.28), (2.50), of which slowly varying parameters,
-(2.16), give an approximation.
+x'' + resist(x) sgn(x') + wn^2 x = B cos(omega t), thesis (2.27), (2.28), (2.50); slowly varying parameters, (2.16), are
+an approximation to it.
 
-Constant friction: one orbit if B > a. Without stops it is Den Hartog's, in closed form; without a spring that is
-A = sqrt(B^2 - (pi a/2)^2) / omega^2 for B/a >= sqrt(1 + pi^2/4), and below it stops twice a cycle. At resonance, wn =
-omega, there is none for B >= 4 a/pi: the amplitude grows without bound. Caster: all that a search of the turning points
-finds, stable or not. The rest at x = 0 is entered, with amplitude 0, where B is at most the slip level there. Orbits
-that are not symmetric are not looked for.
+Constant friction: there is one orbit if B > a. Without stops it is Den Hartog's, in closed form; without a spring it is
+A = sqrt(B^2 - (pi a/2)^2) / omega^2 for B/a >= sqrt(1 + pi^2/4), and below that the slider stops twice per cycle. At
+resonance, wn = omega, there is no orbit for B >= 4 a/pi: the amplitude grows without bound. Caster: all orbits that a
+search of the turning points finds, stable or not. Rest at x = 0 is included, with amplitude 0, if B is at most the slip
+level there. Asymmetric orbits are not searched.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    With equal levels both ways.
+    Without a spring, the levels of both directions must be equal.
 B : float
     Amplitude of the load [m/s^2], positive and at most 1e100.
 omega : float
@@ -209,20 +216,20 @@ omega : float
 Returns
 -------
 list of Orbit
-    In order of amplitude.
+    Sorted by amplitude.
 
 Raises
 ------
 ValueError
-    A value out of its range; levels that differ by direction without a spring (the slider drifts).
+    A value out of range; levels that differ by direction without a spring (the slider drifts).
 ConvergenceError
-    A caster under accelerations beyond all measure.
+    A caster under extreme accelerations.
 
 Notes
 -----
-Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us without a
-spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff spring swings
-many times a period. The interpreter is not held meanwhile.
+Orbits are accurate to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us
+without a spring, 20 us with one and 2 ms with stops; a caster 10 to 200 ms, proportionally longer if a stiff spring
+oscillates many times per period. Releases the interpreter lock.
 
 References
 ----------
@@ -231,39 +238,39 @@ J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous friction, 
   m.def("continuation", &continuation_of, py::arg("slider"), py::arg("orbit"), py::arg("low"), py::arg("high"),
         py::kw_only(), py::arg("largest_step") = 0.05,
         py::arg("largest_amplitude") = std::numeric_limits<double>::infinity(), py::arg("most_orbits") = 10'000,
-        R"(The orbits that hang together with one, along the response curve.
+        R"(Follow an orbit along the response curve as the frequency changes.
 
-By pseudo-arclength continuation over the frequency, which goes on round folds to the unstable orbits behind them.
+Uses pseudo-arclength continuation over the frequency, which passes folds to the unstable orbits beyond them.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    The one that `orbit` is an orbit of.
+    The slider of `orbit`.
 orbit : Orbit
-    Where to begin, not a rest.
+    Orbit to start from, not at rest.
 low, high : float
-    Frequencies to stay between [rad/s], positive; `orbit` lies between them.
+    Bounds of the frequency [rad/s], positive; `orbit` must lie between them.
 largest_step : float, optional
-    Part by which state and frequency may change from orbit to orbit, positive and at most 0.5.
+    Maximum relative change of state and frequency from orbit to orbit, positive and at most 0.5.
 largest_amplitude : float, optional
-    The branch is left beyond it [m]: near resonance it may go to infinity.
+    Amplitude at which to stop [m]: near resonance a branch may extend to infinity.
 most_orbits : int, optional
-    Each way.
+    Maximum number of orbits in each direction.
 
 Returns
 -------
 OrbitBranch
-    `orbit` and those on both sides of it, up to where the branch leaves the frequencies asked for, ends, or closes.
-    The folds are orbits of it.
+    `orbit` and those on both sides of it, up to where the branch leaves the bounds, ends, or closes. The folds are
+    among its orbits.
 
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 
 Notes
 -----
-Takes 20 to 40 us an orbit with constant friction, 1 to 4 ms for a caster. The interpreter is not held meanwhile.
+Takes 20 to 40 us per orbit with constant friction, 1 to 4 ms for a caster. Releases the interpreter lock.
 
 References
 ----------

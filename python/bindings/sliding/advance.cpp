@@ -33,16 +33,17 @@ State advanced(const py::object& what, State state, double dt, double start, std
 }  // namespace
 
 void bind_advance(py::module_& m) {
-  value_class<State>(m, "State", R"(All that the motion of a slider to come depends on.
+  value_class<State>(m, "State", R"(State of a slider, which determines its future motion.
 
 Parameters
 ----------
 displacement : float, optional
     x relative to the ground [m].
 velocity : float, optional
-    x' relative to the ground [m/s]; at 0 it is at rest.
+    x' relative to the ground [m/s]; 0 means at rest.
 sliding_distance : float, optional
-    Slid so far, forward and backward alike [m], at least 0; for laws that depend on it, as `Degrading`.)")
+    Sliding distance so far, forward and backward alike [m], at least 0; for laws that depend on it, such as
+    `Degrading`.)")
       .def(py::init([](double displacement, double velocity, double sliding_distance) {
              State state = State::at(displacement, velocity);
              state.sliding_distance = sliding_distance;
@@ -52,12 +53,12 @@ sliding_distance : float, optional
       .def_readonly("displacement", &State::displacement, "x [m].")
       .def_readonly("velocity", &State::velocity, "x' [m/s].")
       .def_property_readonly(
-          "stuck", [](const State& state) { return state.mode == Mode::stuck; }, "Whether it sticks.")
-      .def_readonly("in_flight", &State::in_flight, "Whether it has left the ground.")
-      .def_readonly("gap", &State::gap, "Between slider and ground, in flight [m].")
-      .def_readonly("gap_velocity", &State::gap_velocity, "Rate of the gap, in flight [m/s].")
+          "stuck", [](const State& state) { return state.mode == Mode::stuck; }, "Whether the slider sticks.")
+      .def_readonly("in_flight", &State::in_flight, "Whether the slider has left the ground.")
+      .def_readonly("gap", &State::gap, "Gap between slider and ground, in flight [m].")
+      .def_readonly("gap_velocity", &State::gap_velocity, "Rate of change of the gap, in flight [m/s].")
       .def_readonly("sliding_distance", &State::sliding_distance,
-                    "Slid so far [m]; counted where the law depends on it, else as it was given.")
+                    "Sliding distance so far [m]; updated if the law depends on it, otherwise the value given.")
       .def("__repr__", [](const State& state) {
         return "<State: x " + detail::shortest(state.displacement) + " m, x' " + detail::shortest(state.velocity) +
                " m/s, " +
@@ -70,7 +71,7 @@ sliding_distance : float, optional
   m.def("advance", &advanced, py::arg("slider"), py::arg("state"), py::arg("dt"), py::arg("start"),
         py::arg("end") = py::none(), py::kw_only(), py::arg("vertical_start") = 0.0,
         py::arg("vertical_end") = py::none(), py::arg("contact") = "flight",
-        R"(Moves a slider over one time step, for a time loop of your own.
+        R"(Advance a slider by one time step, for your own time loop.
 
 x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t), see `Slider`, with all events within the step.
 
@@ -78,11 +79,12 @@ Parameters
 ----------
 slider : Slider or friction law
 state : State
-    At the beginning.
+    The state at the beginning of the step.
 dt : float
     The time step [s], finite and at least 0.
 start, end : float
-    Horizontal ground acceleration n at its beginning and end [m/s^2], straight in between; without `end` it stays.
+    Horizontal ground acceleration n at the beginning and end of the step [m/s^2], linear in between; constant without
+    `end`.
 vertical_start, vertical_end : float, optional
     Upward ground acceleration [m/s^2], likewise.
 contact : 'flight' or 'clipped', optional
@@ -91,7 +93,7 @@ contact : 'flight' or 'clipped', optional
 Returns
 -------
 State
-    At the end.
+    The state at the end of the step.
 
 Raises
 ------
@@ -104,7 +106,7 @@ ConvergenceError
 
 Notes
 -----
-As accurate as `integrate`; about 1 us a call.)");
+As accurate as `integrate`; takes about 1 us per call.)");
 }
 
 }  // namespace stickslip::python

@@ -21,15 +21,15 @@ py::tuple histories_any(const AnySlider& slider, const py::object& motion) {
 
 void bind_histories(py::module_& m) {
   m.def("histories", &histories_any, py::arg("slider"), py::arg("motion"),
-        R"(Displacement and velocity at the samples and nothing else: faster than `integrate`.
+        R"(Compute displacement and velocity at the samples only: faster than `integrate`.
 
-x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), from rest at x = 0; without events,
-peak and energy.
+x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), from rest at x = 0; without
+events, peak and energy.
 
 Parameters
 ----------
 slider : Slider or friction law
-    What slides; a law alone is a slider without spring and damper.
+    A law alone is a slider without spring and damper.
 motion : GroundMotion
     The ground acceleration.
 
@@ -49,8 +49,8 @@ OverflowError
 
 Notes
 -----
-As accurate as `integrate`, of which the last bits may differ; a long record goes in pieces side by side where it does
-there. The interpreter is not held meanwhile.)");
+As accurate as `integrate`; the last bits may differ. Splits long records like `integrate`. Releases the interpreter
+lock.)");
 }
 
 }  // namespace stickslip::python

@@ -37,34 +37,34 @@ void bind_integrate(py::module_& m) {
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
         py::arg("sliding_distance") = 0.0,
-        R"(Slides through a whole motion of the ground.
+        R"(Integrate the response of a slider to a ground motion.
 
-x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); on level
-ground without vertical motion p = -n and N = g, otherwise see `Slider`. With all breakaways, reversals, arrests, impacts on
-stops, and where the slider leaves the ground and lands.
+x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); on
+level ground without vertical motion p = -n and N = g, otherwise see `Slider`. Finds all events: breakaways, reversals,
+arrests, impacts on stops, liftoffs and landings.
 
 Parameters
 ----------
 slider : Slider or friction law
-    What slides; a law alone is a slider without spring and damper.
+    A law alone is a slider without spring and damper.
 motion : GroundMotion or HarmonicMotion
-    The ground acceleration. A vertical component acts; a transverse one does not (see `Response.components`). Under a
-    HarmonicMotion no slope, stops or pendulum.
+    The ground acceleration. A vertical component acts; a transverse one does not (see `Response.components`). A
+    HarmonicMotion does not allow a slope, stops or a pendulum.
 displacement : float, optional
     x at the start [m], finite.
 velocity : float, optional
     x' at the start [m/s], finite.
 settle : bool, optional
-    Continue under zero ground acceleration after the last sample until the slider rests, so that the residual is
-    final. The samples of the response continue too, up to the first at or after rest (see `Response.truncated`).
+    Continue under zero ground acceleration after the last sample until the slider comes to rest, so that the residual
+    is final. The samples of the response continue too, up to the first at or after rest (see `Response.truncated`).
 contact : 'flight' or 'clipped', optional
-    What happens where the ground falls away from under the slider faster than it falls itself, N < 0. 'flight': it
-    flies, the gap y'' = -N, without friction; spring, damper and stops go on to act. It lands where y = 0: plastic, with
-    the impulse of friction -mu |y'| against x', which stops it at most. 'clipped': it stays on the ground, and friction
-    is zero while N < 0.
+    What happens when the ground accelerates downward faster than free fall, N < 0. 'flight': the slider leaves the
+    ground without friction, and its gap follows y'' = -N; spring, damper and stops continue to act. It lands where
+    y = 0, without rebound; the friction impulse -mu |y'| acts against x', and at most stops the slider. 'clipped': the
+    slider stays on the ground, and friction is zero while N < 0.
 sliding_distance : float, optional
-    Slid before the start [m], finite and at least 0, for laws that depend on it: `response.state.sliding_distance` of the
-    motion before.
+    Sliding distance before the start [m], finite and at least 0, for laws that depend on it:
+    `response.state.sliding_distance` of the response before.
 
 Returns
 -------
@@ -73,25 +73,28 @@ Response
 Raises
 ------
 ValueError
-    A start that is not finite, beyond a stop, or against an infinite slip level or one way. A vertical motion under
-    which the slider never lands. Under a HarmonicMotion a slope, stops or a pendulum.
+    An initial state that is not finite, beyond a stop, or moving against an infinite slip level or `one_way`. A
+    vertical motion under which the slider never lands. A slope, stops or a pendulum under a HarmonicMotion.
 OverflowError
     A displacement, velocity or energy beyond the range of doubles.
 ConvergenceError
-    Asked to settle, and the slider does not come to rest (no friction; a caster that has escaped). More than 1,000,000
-    events and eight a sample, or period of a harmonic motion (a spring that swings that often between samples).
+    With `settle`, the slider does not come to rest (no friction; a caster that has escaped). More than 1,000,000 events
+    and eight per sample, or per period of a harmonic motion (a spring that oscillates that often between samples).
 
 Notes
 -----
-Constant friction is solved in closed form between events: exact to round-off, 1e-13 of the scale of x; 13 to 25 ns a
-sample, 28 to 57 with a spring; with a damper 1e-12 and some 0.3 us. The caster by Taylor series, to near round-off; 200
-to 850 ns a sample. `Degrading` in closed form under horizontal motion, to 1e-12 of the scale; 0.13 us a sample. Under a harmonic motion nothing is sampled: the times of events are those of the cosine itself, in
-closed form without spring and damper, else by power series to round-off; 1.5 us a cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and each sample
-adds 0.1 to 0.2 us. The interpreter is not held meanwhile.
+Constant friction is solved in closed form between events, exact to round-off, 1e-13 of the scale of x; this takes 13 to
+25 ns per sample, 28 to 57 with a spring. With a damper the accuracy is 1e-12 and the time some 0.3 us. Casters are
+integrated by Taylor series, nearly to round-off; 200 to 850 ns per sample. `Degrading` is solved in closed form under
+horizontal motion, to 1e-12 of the scale; 0.13 us per sample. The response to a harmonic motion is not based on samples:
+the event times are exact for the cosine, in closed form without spring and damper, otherwise by power series to
+round-off. It takes 1.5 us per cycle with Coulomb friction, 6 us with a spring, 50 us for a caster, and 0.1 to 0.2 us
+for each sample. Releases the interpreter lock.
 
-A long record of even steps is cut in pieces which, with Coulomb friction and no spring, move side by side from rest, in
-vector lanes; each is then done again from where the one before has come to, until both are stuck and so move alike.
-Nothing is lost by it but the last bits, and what they decide: whether a velocity that only touches zero stops there.)");
+With Coulomb friction and no spring, a long record with even steps is split into parts that are integrated from rest in
+parallel, in vector lanes. Each part is then repeated from the end state of the one before, until both solutions are
+stuck and therefore continue alike. Only the last bits can change, and what depends on them: whether a velocity that
+just touches zero stops there.)");
 }
 
 }  // namespace stickslip::python

@@ -8,7 +8,7 @@
 namespace stickslip::python {
 namespace {
 
-// One row of `Response.events`: laid out as the NumPy type below says.
+// One row of `Response.events`, with the layout of the NumPy type below.
 struct EventRow {
   double time, displacement, velocity;
   char32_t kind[10];
@@ -56,7 +56,7 @@ py::array events_array(const std::vector<Event>& events) {
 
 namespace {
 
-// The array in `kept`, made by `make` when first asked for.
+// The array in `kept`, made by `make` on first access.
 template <class Make>
 py::object keep(py::object& kept, Make&& make) {
   if (!kept) {
@@ -91,7 +91,7 @@ const Forces& forces_of(Recording& recording) {
   return *recording.forces;
 }
 
-// A read-only array of what `value(forces, i)` gives at each sample.
+// A read-only array of `value(forces, i)` at each sample.
 template <class Value>
 auto at_samples(Value&& value) {
   return [value](Recording& recording) {
@@ -139,7 +139,7 @@ Loop loop_of(const Recording& recording) {
   });
 }
 
-// A function of Python that takes the response.
+// A Python function that takes the response.
 auto in_python(const char* module, const char* function) {
   return [=](const py::object& self) { return py::module_::import(module).attr(function)(self); };
 }
@@ -160,20 +160,21 @@ template <>
 inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recording::slider, &Recording::motion);
 
 void bind_response(py::module_& m) {
-  value_class<Energy>(m, "Energy", R"(Where the energy went, per unit mass [J/kg = m^2/s^2].
+  value_class<Energy>(m, "Energy", R"(Energy balance of a response, per unit mass [J/kg = m^2/s^2].
 
-initial + input = dissipated + damped + impact + kinetic + elastic, to round-off: the energy of the motion along x.)")
+initial + input = dissipated + damped + impact + kinetic + elastic, to round-off, for the motion along x.)")
       .def_readonly("initial", &Energy::initial, "Kinetic and elastic energy at the start.")
       .def_readonly("input", &Energy::input, R"(Work of the load, the integral of p x' dt; on level ground p = -n.
 
-Of a pendulum, also that of a normal force which is not g on its spring, the integral of wn^2 (1 - N+/g) x x' dt.)")
+For a pendulum, includes the work of the variation of the normal force on the spring, the integral of
+wn^2 (1 - N+/g) x x' dt.)")
       .def_readonly("dissipated", &Energy::dissipated,
-                    "Work against friction, the integral of resist N+/g |x'| dt, and of its impulses on landing.")
-      .def_readonly("damped", &Energy::damped, "Work on the damper, the integral of c x'^2 dt.")
+                    "Work of friction, the integral of resist N+/g |x'| dt, including its impulses on landing.")
+      .def_readonly("damped", &Energy::damped, "Work of the damper, the integral of c x'^2 dt.")
       .def_readonly("kinetic", &Energy::kinetic, "x'^2 / 2 at the end.")
       .def_readonly("elastic", &Energy::elastic, "wn^2 x^2 / 2 at the end.")
-      .def_readonly("impact", &Energy::impact, "Lost on stops, the sum of (1 - restitution^2) x'^2 / 2.")
-      .def_property_readonly("imbalance", &Energy::imbalance, "What does not add up: round-off.")
+      .def_readonly("impact", &Energy::impact, "Energy lost on stops, the sum of (1 - restitution^2) x'^2 / 2.")
+      .def_property_readonly("imbalance", &Energy::imbalance, "Residual of the energy balance (round-off).")
       .def("__repr__", [](const Energy& e) {
         return "Energy(initial=" + detail::shortest(e.initial) + ", input=" + detail::shortest(e.input) +
                ", dissipated=" + detail::shortest(e.dissipated) + ", damped=" + detail::shortest(e.damped) +
@@ -181,82 +182,85 @@ Of a pendulum, also that of a normal force which is not g on its spring, the int
                ", impact=" + detail::shortest(e.impact) + ")";
       });
 
-  value_class<Recording>(m, "Response", R"(The motion of a slider under one ground motion; what `integrate` returns.
+  value_class<Recording>(m, "Response", R"(The response of a slider to a ground motion, as `integrate` returns it.
 
 Displacement and velocity are relative to the ground. The arrays are read-only; displacement and velocity are not
 copied.)")
       .def_property_readonly(
-          "slider", [](const Recording& r) { return r.slider; }, "The slider that moved.")
+          "slider", [](const Recording& r) { return r.slider; }, "The slider.")
       .def_property_readonly(
           "motion", [](const Recording& r) { return r.motion; }, "The ground motion.")
       .def_property_readonly("time", &time_of, R"(Times of the samples [s], shape (N,).
 
-Those of the ground motion. With `settle=True`, where the slider still moves at the last of them, samples continue at
-the motion's last step up to the first at or after rest, so that `displacement[-1]` is `residual`; but see `truncated`.)")
+The times of the ground motion. With `settle=True`, if the slider still moves at the last of them, samples continue with
+the last step of the motion up to the first at or after rest, so that `displacement[-1]` is `residual`; but see
+`truncated`.)")
       .def_property_readonly("displacement", history<&Response::displacement>(), "x at `time` [m], shape (N,).")
       .def_property_readonly("velocity", history<&Response::velocity>(), "x' at `time` [m/s], shape (N,).")
       .def_property_readonly("acceleration",
                              at_samples([](const Forces& f, std::size_t i) { return f.acceleration(i); }),
                              R"(Absolute acceleration of the mass at `time` [m/s^2], shape (N,).
 
-On level ground x'' + n = -force, on a slope g sin(slope) - force; that of the ground where the slider sticks. At a sample where a slip begins, turns or stops, or where a
-held ground acceleration jumps, this and the forces are the values just after it. At the end of the ground motion they
-belong to its last value (of held values, the last that acts), and later to a ground at rest.)")
+On level ground x'' + n = -force, on a slope g sin(slope) - force; that of the ground while the slider sticks. At a
+sample where a slip begins, reverses or stops, or where a constant ground acceleration jumps, this and the forces are
+the values just after it. At the end of the ground motion they belong to its last acting value, and later to a ground at
+rest.)")
       .def_property_readonly("friction", force<&Forces::friction>(),
                              R"(Friction force per unit mass at `time` [m/s^2], shape (N,).
 
-resist N+/g sgn(x') during a slip; while the slider sticks what balances the other forces, p - spring, also where a stop
-holds it. Like the other forces it is positive where it pulls toward negative x: x'' + friction + damper + spring = p, on
-level ground p = -n.)")
+resist N+/g sgn(x') during a slip. While the slider sticks, it balances the other forces: p - spring, also at a stop.
+Like the other forces it is positive toward negative x: x'' + friction + damper + spring = p, on level ground p = -n.)")
       .def_property_readonly("normal_force", force<&Forces::normal>(),
                              R"(Normal force per unit mass at `time`, N+ [m/s^2], shape (N,).
 
-max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 while the slider flies.)")
+max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 in flight.)")
       .def_property_readonly("gap", &gap_of, R"(Gap between slider and ground at `time` [m], shape (N,).
 
-0 but while the slider flies, with contact='flight'.)")
+0 except in flight, with contact='flight'.)")
       .def_property_readonly("spring", force<&Forces::spring>(),
-                             "Force of the spring per unit mass at `time`, wn^2 x, of a pendulum times N+/g [m/s^2], "
+                             "Force of the spring per unit mass at `time`, wn^2 x, for a pendulum times N+/g [m/s^2], "
                              "shape (N,).")
       .def_property_readonly("damper", force<&Forces::damper>(),
                              "Force of the damper per unit mass at `time`, c x' [m/s^2], shape (N,).")
       .def_property_readonly("force", at_samples([](const Forces& f, std::size_t i) { return f.total(i); }),
                              R"(friction + damper + spring at `time` [m/s^2], shape (N,).
 
-The force per unit mass between the mass and the ground, as of an isolator, positive with the displacement.)")
+The force per unit mass between the mass and the ground, such as that of an isolator; positive for positive
+displacement.)")
       .def_property_readonly(
           "stuck", [](Recording& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
-          "Whether the slider sticks at `time` (bool), shape (N,); just after a sample where that changes.")
+          "Whether the slider sticks at `time` (bool), shape (N,); just after the sample if that changes there.")
       .def_property_readonly("truncated", number<&Response::truncated>(),
-                             R"(Whether the samples end before the slider rests (bool).
+                             R"(Whether the samples end before the slider comes to rest (bool).
 
-They end at ten times the number of samples of the ground motion. Peak, residual, events and energy are still those of
-the final rest.)")
+Samples end at ten times the number of samples of the ground motion. Peak, residual, events and energy still include the
+motion up to rest.)")
       .def_property_readonly("components", number<&Response::components>(),
-                             R"(The components of the ground motion that acted, joined by " + " (str).
+                             R"(Components of the ground motion that acted, joined by " + " (str).
 
 'axis': along the axis of the slider; 'axis + vertical'. A transverse component never acts.)")
       .def_property_readonly(
           "contact", [](const Recording& r) { return name_of(r.response.contact); },
-          "What was asked of a slider that the ground falls away from, 'flight' or 'clipped'; see `integrate`.")
+          "What happens at a loss of contact, 'flight' or 'clipped'; see `integrate`.")
       .def_property_readonly("remark", &remark_of,
-                             "What limits the answer, in a sentence; empty where nothing does. (str)")
+                             "A sentence about limits of the result; empty if there are none (str).")
       .def_property_readonly("impacts", &impacts_of,
-                             R"(Impacts on stops in order of time: a structured array, as `events`.
+                             R"(Impacts on stops, sorted by time: a structured array like `events`.
 
-The velocity is that of arrival [m/s].)")
+The velocity is that before the impact [m/s].)")
       .def_property_readonly("events", &events_of,
-                             R"(Changes of mode in order of time, and the end: a structured array.
+                             R"(Events sorted by time: a structured array.
 
 Fields: time [s], displacement [m], velocity [m/s], kind ('breakaway', 'reversal', 'arrest', 'impact', 'liftoff',
-'landing' or 'end'). A slip that is under way at the start is entered as a breakaway there. An impact has the velocity of
-arrival; a slider that a stop throws back goes on without a reversal.)")
+'landing' or 'end'). If the slider already slides at the start, the first event is a breakaway there. The velocity of
+an impact is that before it; a rebound from a stop is not a reversal.)")
       .def_property_readonly("peak", number<&Response::peak>(), "Largest |x| over all time, not only at samples [m].")
       .def_property_readonly("residual", number<&Response::residual>(), "x at the end [m]; final if the slider rests.")
       .def_property_readonly(
           "at_rest", [](const Recording& r) { return r.response.state.mode == Mode::stuck; },
-          "Whether the slider rests at the end.")
-      .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(), "Length of the way slid [m].")
+          "Whether the slider is at rest at the end.")
+      .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(),
+                             "Total sliding distance (path length) [m].")
       .def_property_readonly(
           "slips",
           [](const Recording& r) {
@@ -266,24 +270,24 @@ arrival; a slider that a stop throws back goes on without a reversal.)")
           },
           "Number of slips; a reversal ends one and begins another.")
       .def_property_readonly("time_sliding", number<&Response::time_sliding>(), "Time spent sliding [s].")
-      .def_property_readonly("energy", number<&Response::energy>(), "Where the energy went, per unit mass [m^2/s^2].")
+      .def_property_readonly("energy", number<&Response::energy>(), "Energy balance, per unit mass [m^2/s^2].")
       .def_property_readonly(
           "effective_period", [](const Recording& r) { return loop_of(r).period(); },
           R"(2 pi / sqrt(k_eff) of the hysteresis loop with the largest displacement [s].
 
-k_eff = F / D: D is `peak`, F the force of spring and friction there, before the slider turns or stops. With Coulomb
-friction k_eff = wn^2 + slip_level / D. ValueError without a spring, where no force draws the mass back; where it never
-slips; where |x| is largest at the start, or at the end of a slip that is not over.)")
+k_eff = F / D, where D is `peak` and F the force of spring and friction there, just before the slider reverses or stops.
+With Coulomb friction k_eff = wn^2 + slip_level / D. ValueError without a spring, because there is no restoring force;
+if the slider never slips; if |x| is largest at the start, or at the end of an unfinished slip.)")
       .def_property_readonly(
           "effective_damping", [](const Recording& r) { return loop_of(r).damping(); },
-          R"(E_d / (2 pi k_eff D^2) of the same loop, a part of critical damping.
+          R"(E_d / (2 pi k_eff D^2) of the same loop, a fraction of critical damping.
 
-An earthquake response closes no loop. E_d is therefore that of a cycle from D to -D and back: 4 D times the energy per
-meter that friction and damper took in the swing up to the peak. In a steady cycle about x = 0 that is the area of the
-loop; with Coulomb friction E_d = 4 slip_level D. ValueError as for `effective_period`.)")
+The loops of an earthquake response do not close. E_d is therefore defined for a cycle from D to -D and back: 4 D times
+the energy per meter that friction and damper dissipated in the swing up to the peak. In a steady cycle about x = 0 this
+is the area of the loop; with Coulomb friction E_d = 4 slip_level D. ValueError as for `effective_period`.)")
       .def("plot", plot_in("plot_response", "figure"), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(),
-           R"(Draws ground acceleration with the slip level, velocity with sticks shaded, and displacement.
+           R"(Plot ground acceleration with the slip level, velocity with shaded sticks, and displacement.
 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
 `title`. Returns the figure, see `stickslip.plotting.plot_response`.)")
@@ -294,33 +298,33 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
                 .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax);
           },
           py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("ax") = py::none(),
-          R"(Draws force against displacement.
+          R"(Plot force over displacement.
 
 Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, and `title`. Returns the
 axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
       .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),
-           R"(The histories as a pandas DataFrame.
+           R"(Convert the histories to a pandas DataFrame.
 
-Its index is 'time [s]'; the columns are named with their units: ground acceleration, displacement, velocity,
-acceleration, friction, spring, damper and force, and 'stuck' (bool). The ground acceleration is that of the samples, and
-0 after the motion. ImportError without pandas.)")
+The index is 'time [s]'; the names of the columns include units: ground acceleration, displacement, velocity,
+acceleration, friction, spring, damper and force, and 'stuck' (bool). The ground acceleration is 0 after the ground
+motion. ImportError without pandas.)")
       .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
-           R"(The histories as an xarray Dataset over the coordinate `time`.
+           R"(Convert the histories to an xarray Dataset over the coordinate `time`.
 
-The variables are those of `to_dataframe`, each with the attributes `units` and `long_name`. Attributes of the whole:
-slider, motion (its name), peak [m], residual [m]. ImportError without xarray.)")
+The variables are those of `to_dataframe`, each with the attributes `units` and `long_name`. Attributes of the
+Dataset: slider, motion (its name), peak [m], residual [m]. ImportError without xarray.)")
       .def(
           "to_csv",
           [](const py::object& self, const py::object& path) {
             return py::module_::import("stickslip._tables").attr("to_csv")(self, path);
           },
           py::arg("path"),
-          R"(Writes the histories to a file of comma-separated values, whole or not at all.
+          R"(Write the histories to a CSV file, whole or not at all.
 
 Parameters
 ----------
 path : path-like
-    A file there is replaced.
+    An existing file is replaced.
 
 Returns
 -------
@@ -329,11 +333,11 @@ Path
 Raises
 ------
 OSError
-    The folder is missing or cannot be written; the file is read-only, or no regular file.
+    The folder is missing or cannot be written; the file is read-only or not a regular file.
 
 Notes
 -----
-One line of names with units, then one line a sample; every number reads back to the same double.)")
+A line of names with units, then one line per sample; every number reads back as the same double.)")
       .def("_repr_html_", in_python("stickslip._tables", "response_html"))
       .def("__repr__", [](const Recording& r) {
         return "<Response: peak " + detail::shortest(r.response.peak) + " m, residual " +

@@ -1,4 +1,4 @@
-// A response together with what it came from.
+// A response together with its slider and ground motion.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace stickslip::python {
 
-/// Memory of responses that are gone, for those to come: to touch fresh memory takes as long as to slide through a
-/// record. Guarded by the interpreter lock.
+/// Reuses the memory of deleted responses for new ones: touching fresh memory takes as long as integrating a record.
+/// Guarded by the interpreter lock.
 class Storage {
  public:
   static Response take() {
@@ -36,15 +36,15 @@ class Storage {
   }
 };
 
-/// Events as the structured array that `Response.events` is.
+/// Events as a structured array, that of `Response.events`.
 py::array events_array(const std::vector<Event>& events);
 
 struct Recording {
   Response response;
   py::object slider;
   py::object motion;
-  py::object time{}, events{};     // arrays, made when first asked for
-  std::optional<Forces> forces{};  // and these
+  py::object time{}, events{};     // arrays, made on first access
+  std::optional<Forces> forces{};  // likewise
 
   Recording(Response&& answer, py::object what, py::object under)
       : response(std::move(answer)), slider(std::move(what)), motion(std::move(under)) {}
@@ -52,7 +52,7 @@ struct Recording {
   ~Recording() { Storage::give_back(std::move(response)); }
 };
 
-/// What `work` gives with the slider and the motion in their own types.
+/// Calls `work` with the slider and the motion in their static types.
 template <class Work>
 auto with_inputs(const Recording& recording, Work&& work) {
   return std::visit(

@@ -29,7 +29,7 @@ void add_quantile(py::class_<D>& type) {
         return of_each(probability, "probability", [&](double p) { return self.quantile(p); });
       },
       py::arg("probability"),
-      R"(The value that is not exceeded with a probability.
+      R"(Quantile: the value that is not exceeded with a given probability.
 
 Parameters
 ----------
@@ -44,10 +44,10 @@ float or ndarray
 Raises
 ------
 ValueError
-    Another probability.)");
+    A probability out of range.)");
 }
 
-/// The distribution that an object is; a real number is one, too.
+/// The distribution of an object; a real number is one, too.
 Distribution distribution_of(const py::handle& object) {
   if (py::isinstance<Lognormal>(object)) return object.cast<Lognormal>();
   if (py::isinstance<Normal>(object)) return object.cast<Normal>();
@@ -60,7 +60,7 @@ Distribution distribution_of(const py::handle& object) {
 void bind_distributions(py::module_& m) {
   auto lognormal = value_class<Lognormal>(m, "Lognormal", R"(A random parameter whose logarithm is normal.
 
-median * exp(beta Z), Z a standard normal number.
+median * exp(beta Z), where Z is a standard normal number.
 
 Parameters
 ----------
@@ -72,7 +72,7 @@ beta : float
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
   lognormal.def(py::init<double, double>(), py::arg("median"), py::arg("beta"))
       .def_property_readonly("median", &Lognormal::median, "Median.")
       .def_property_readonly("beta", &Lognormal::beta, "Standard deviation of the logarithm.")
@@ -82,21 +82,21 @@ ValueError
   add_quantile(lognormal);
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  auto normal = value_class<Normal>(m, "Normal", R"(A normal random parameter, cut off at bounds.
+  auto normal = value_class<Normal>(m, "Normal", R"(A normal random parameter, truncated at bounds.
 
-Values beyond the bounds do not occur; those between keep their proportions.
+Values beyond the bounds do not occur; the density between them keeps its shape.
 
 Parameters
 ----------
 mean, std : float
-    Of the distribution without bounds; finite, std at least 0. In the unit of the parameter.
+    Mean and standard deviation without bounds; finite, std at least 0. In the unit of the parameter.
 low, high : float, optional
-    Bounds, low < high, both or one within 37 std of the mean; none if not given.
+    Bounds, low < high, at least one of them within 37 std of the mean; default: none.
 
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
   normal
       .def(py::init<double, double, double, double>(), py::arg("mean"), py::arg("std"), py::arg("low") = -infinity,
            py::arg("high") = infinity)
@@ -112,17 +112,17 @@ ValueError
   add_quantile(normal);
 
   auto uniform =
-      value_class<Uniform>(m, "Uniform", R"(A random parameter that is equally likely anywhere between two bounds.
+      value_class<Uniform>(m, "Uniform", R"(A random parameter with a uniform distribution between two bounds.
 
 Parameters
 ----------
 low, high : float
-    Finite, low <= high. In the unit of the parameter.
+    Bounds, finite, low <= high. In the unit of the parameter.
 
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
   uniform.def(py::init<double, double>(), py::arg("low"), py::arg("high"))
       .def_property_readonly("low", &Uniform::low, "Lower bound.")
       .def_property_readonly("high", &Uniform::high, "Upper bound.")
@@ -141,10 +141,11 @@ ValueError
         return values;
       },
       py::arg("distributions"), py::kw_only(), py::arg("seed"), py::arg("member"),
-      "The parameters of a member of `stickslip.Random`; a number in place of a distribution is that number.");
+      "The parameters of a member of `stickslip.Random`; a number in place of a distribution is constant.");
   m.def(
       "quantile", [](const py::object& distribution, double p) { return quantile(distribution_of(distribution), p); },
-      py::arg("distribution"), py::arg("probability"), "The quantile of a distribution; a number is its own.");
+      py::arg("distribution"), py::arg("probability"),
+      "The quantile of a distribution; that of a number is the number.");
   m.def(
       "describe", [](const py::object& distribution) { return detail::describe(distribution_of(distribution)); },
       py::arg("distribution"), "A distribution as JSON.");

@@ -33,7 +33,8 @@ std::string with_error(const Estimate& estimate) {
 
 namespace {
 
-/// The value of an estimate, an interval or a number; none of anything else, as of an array, which compares elements.
+/// The value of an estimate, an interval or a number; nullopt for other objects, such as arrays, which compare
+/// elements.
 std::optional<double> value_of(const py::object& object) {
   if (py::isinstance<Estimate>(object)) return object.cast<const Estimate&>().value;
   if (py::isinstance<Interval>(object)) return object.cast<const Interval&>().value;
@@ -45,7 +46,7 @@ std::optional<double> value_of(const py::object& object) {
   return value;
 }
 
-/// What is the same for both: a value that stands for the whole.
+/// Common to both: comparisons by value.
 template <class T>
 void add_value(py::class_<T>& type) {
   const auto compare = [&](const char* name, auto holds) {
@@ -65,7 +66,7 @@ void add_value(py::class_<T>& type) {
   type.def("__float__", [](const T& self) { return self.value; });
 }
 
-/// By a format of Python's, as ".3f".
+/// Formats a value with a Python format such as ".3f".
 std::string formatted(double value, const py::str& specification) {
   return py::module_::import("builtins").attr("format")(value, specification).cast<std::string>();
 }
@@ -75,10 +76,10 @@ std::string formatted(double value, const py::str& specification) {
 void bind_estimates(py::module_& m) {
   auto estimate = value_class<Estimate>(m, "Estimate", R"(A value and its standard error, in the same unit.
 
-`value, error = estimate` unpacks it, `float(estimate)` is the value, and `f"{estimate:.3f}"` writes both. `<`, `<=`, `>`
-and `>=` compare the value, with numbers too; `==` compares both parts, with estimates alone.)");
+`value, error = estimate` unpacks it, `float(estimate)` is the value, and `f"{estimate:.3f}"` formats both. `<`, `<=`,
+`>` and `>=` compare the value, also with numbers; `==` compares both parts, only with other estimates.)");
   estimate.def_readonly("value", &Estimate::value, "The value.")
-      .def_readonly("error", &Estimate::error, "Its standard error, from the scatter between members.")
+      .def_readonly("error", &Estimate::error, "Standard error, from the scatter between members.")
       .def("__iter__", [](const Estimate& e) { return py::iter(py::make_tuple(e.value, e.error)); })
       .def(
           "__format__",
@@ -93,11 +94,11 @@ and `>=` compare the value, with numbers too; `==` compares both parts, with est
 
   auto interval = value_class<Interval>(m, "Interval", R"(A value between its confidence bounds, in the same unit.
 
-`value, low, high = interval` unpacks it, `float(interval)` is the value, and `f"{interval:.3f}"` writes all three. `<`,
-`<=`, `>` and `>=` compare the value, with numbers too; `==` compares all parts, with intervals alone.)");
+`value, low, high = interval` unpacks it, `float(interval)` is the value, and `f"{interval:.3f}"` formats all three.
+`<`, `<=`, `>` and `>=` compare the value, also with numbers; `==` compares all parts, only with other intervals.)");
   interval.def_readonly("value", &Interval::value, "The value.")
       .def_readonly("low", &Interval::low, "Lower bound.")
-      .def_readonly("high", &Interval::high, "Upper bound; infinite where the members are too few to bound it.")
+      .def_readonly("high", &Interval::high, "Upper bound; infinite if there are too few members.")
       .def("__iter__", [](const Interval& i) { return py::iter(py::make_tuple(i.value, i.low, i.high)); })
       .def(
           "__format__",

@@ -1,4 +1,4 @@
-// How figures with errors are written.
+// Formatting of numbers with errors.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace stickslip::python {
 /// A number to four significant digits.
 std::string digits(double value);
 
-/// As "0.59712 +- 0.00021": the error to two digits, the value as far.
+/// "0.59712 +- 0.00021": the error to two digits, the value to the same decimal place.
 std::string with_error(const Estimate& estimate);
 
 }  // namespace stickslip::python

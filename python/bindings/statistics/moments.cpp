@@ -11,7 +11,7 @@ py::array_t<double> by_time(const py::object& self) {
   return view(self.cast<const Moments&>().*figure.*part, self);
 }
 
-/// Those of a theory of the user's own.
+/// Moments of a user-defined theory.
 Moments of_theory(const py::object& time, const py::object& displacement_mean, const py::object& displacement_variance,
                   const py::object& covariance, const py::object& velocity_mean, const py::object& velocity_variance,
                   double growth_rate, std::string remark) {
@@ -41,26 +41,26 @@ Moments of_theory(const py::object& time, const py::object& displacement_mean, c
 void bind_moments(py::module_& m) {
   value_class<Moments>(m, "Moments", R"(Means and covariances of displacement and velocity by time.
 
-What each theory's `predict` answers, and `Ensemble.moments`. Arrays are of shape (T,) and read-only. The errors are
-standard errors of an ensemble; those of a theory are zero: it has no scatter, and is wrong by what it neglects.
+The result of each theory's `predict`, and of `Ensemble.moments`. Arrays have shape (T,) and are read-only. The errors
+are the standard errors of an ensemble; those of a theory are zero, because it has no scatter.
 
 Parameters
 ----------
 time : array_like, shape (T,)
-    [s].
+    Times [s].
 displacement_mean, velocity_mean : array_like, shape (T,), optional
-    [m] and [m/s]; zeros if not given.
+    Means [m] and [m/s]; default: zeros.
 displacement_variance, covariance, velocity_variance : array_like, shape (T,), optional
-    [m^2], [m^2/s] and [m^2/s^2]; NaN if not given: not predicted.
+    Second moments [m^2], [m^2/s] and [m^2/s^2]; default: NaN, not predicted.
 growth_rate : float, optional
-    Of the displacement variance once the velocity is stationary [m^2/s]; NaN if not given.
+    Growth rate of the displacement variance once the velocity is stationary [m^2/s]; default: NaN.
 remark : str, optional
-    What to know before trusting the figures.
+    A warning about the validity of the values.
 
 Raises
 ------
 ValueError
-    Another number of values than of times.)")
+    Different numbers of values and times.)")
       .def(py::init(&of_theory), py::arg("time"), py::kw_only(), py::arg("displacement_mean") = py::none(),
            py::arg("displacement_variance") = py::none(), py::arg("covariance") = py::none(),
            py::arg("velocity_mean") = py::none(), py::arg("velocity_variance") = py::none(),
@@ -70,27 +70,27 @@ ValueError
       .def_property_readonly("displacement_mean", &by_time<&Moments::displacement_mean, &Estimates::value>,
                              "Mean of x [m].")
       .def_property_readonly("displacement_mean_error", &by_time<&Moments::displacement_mean, &Estimates::error>,
-                             "Its standard error [m].")
+                             "Standard error [m].")
       .def_property_readonly("displacement_variance", &by_time<&Moments::displacement_variance, &Estimates::value>,
                              "Variance of x [m^2].")
       .def_property_readonly("displacement_variance_error",
-                             &by_time<&Moments::displacement_variance, &Estimates::error>, "Its standard error [m^2].")
+                             &by_time<&Moments::displacement_variance, &Estimates::error>, "Standard error [m^2].")
       .def_property_readonly("covariance", &by_time<&Moments::covariance, &Estimates::value>,
                              "Covariance of x and x' [m^2/s].")
       .def_property_readonly("covariance_error", &by_time<&Moments::covariance, &Estimates::error>,
-                             "Its standard error [m^2/s].")
+                             "Standard error [m^2/s].")
       .def_property_readonly("velocity_mean", &by_time<&Moments::velocity_mean, &Estimates::value>, "Mean of x' [m/s].")
       .def_property_readonly("velocity_mean_error", &by_time<&Moments::velocity_mean, &Estimates::error>,
-                             "Its standard error [m/s].")
+                             "Standard error [m/s].")
       .def_property_readonly("velocity_variance", &by_time<&Moments::velocity_variance, &Estimates::value>,
                              "Variance of x' [m^2/s^2].")
       .def_property_readonly("velocity_variance_error", &by_time<&Moments::velocity_variance, &Estimates::error>,
-                             "Its standard error [m^2/s^2].")
+                             "Standard error [m^2/s^2].")
       .def_readonly(
           "growth_rate", &Moments::growth_rate,
-          "Growth of the displacement variance once the velocity is stationary [m^2/s], as Estimate; NaN where "
-          "it never is, or is not known.")
-      .def_readonly("remark", &Moments::remark, "What to know before trusting the figures; '' where there is nothing.")
+          "Growth of the displacement variance once the velocity is stationary [m^2/s], as Estimate; NaN if it "
+          "never is, or if unknown.")
+      .def_readonly("remark", &Moments::remark, "A warning about the validity of the values; '' if there is none.")
       .def("__repr__", [](const Moments& moments) {
         return "<Moments at " + std::to_string(moments.time.size()) + " times" +
                (moments.remark.empty() ? "" : ": " + moments.remark) + ">";

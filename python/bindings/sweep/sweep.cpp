@@ -35,7 +35,7 @@ py::dict run(const py::sequence& sliders, const py::sequence& motions, const std
                            "] must be a Slider or friction law, got " + type_of(item));
     these.push_back(*std::move(slider));
   }
-  std::vector<py::object> kept;  // a sequence may make its items as it is asked
+  std::vector<py::object> kept;  // a sequence may create its items on access
   std::vector<const GroundMotion*> those;
   for (const py::handle item : motions) {
     if (!py::isinstance<GroundMotion>(item))
@@ -66,9 +66,9 @@ py::dict run(const py::sequence& sliders, const py::sequence& motions, const std
 void bind_sweep(py::module_& m) {
   m.def("sweep", &run, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("polarity"), py::arg("settle"),
         py::arg("contact"), py::arg("threads"), py::arg("heartbeat"),
-        R"(What `stickslip.sweep` calls, which see.
+        R"(Implementation of `stickslip.sweep` (see there).
 
-`heartbeat(done, combinations)` is called ten times a second with the interpreter held. Returns the arrays of the table
+Calls `heartbeat(done, combinations)` ten times a second with the interpreter lock held. Returns the arrays of the table
 by name, and its failures.)");
 }
 

@@ -15,51 +15,52 @@ inline constexpr auto parts<DisplacementDistribution> = std::tuple(&Displacement
 
 void bind_displacement_distribution(py::module_& m) {
   value_class<DisplacementDistribution>(m, "DisplacementDistribution",
-                                        R"(The distribution of a displacement that is the sum of slips.
+                                        R"(Distribution of a displacement that is a sum of slips.
 
-The slips d_k are independent, their number is Poisson's: a compound Poisson law. With nu(d) the expected number of slips
-per length, E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) dd), and the cumulants are int d^n nu(d) dd: thesis 5.3, (5.21) to
-(5.28). There is an atom at x = 0, the chance exp(-int nu) that nothing slips; the rest has a density, the Fourier
-transform of the characteristic function less the atom. `PulseSuperposition.distribution` makes it from what single
-pulses do; `PulseChain.distribution` fits slips of gamma-distributed lengths to four cumulants and the atom.
+The slips d_k are independent and their number has a Poisson distribution: a compound Poisson law. With nu(d) the
+expected number of slips per length, E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) dd), and the cumulants are int d^n nu(d)
+dd: thesis 5.3, (5.21) to (5.28). There is an atom at x = 0, the probability exp(-int nu) of no slip; the rest has a
+density, the Fourier transform of the characteristic function minus the atom. `PulseSuperposition.distribution` computes
+it from the response to single pulses; `PulseChain.distribution` fits slips of gamma-distributed lengths to four
+cumulants and the atom.
 
 Notes
 -----
-By FFT over 131072 points of a window beyond which x lies with a probability below 2e-13. Atom and cumulants are to 1e-12;
-the tabulated variance is up to 2e-4 too large for up to 1e5 slips expected, which moves probabilities by some 3e-5;
-quantiles are to that and to one step of the grid. Slips of vanishing
-length are frequent: near x = 0 the density may grow as x^-1/2, and there it is a mean over a step.
+Computed by FFT over 131072 points of a window that x leaves with a probability below 2e-13. Atom and cumulants are
+accurate to 1e-12. The tabulated variance is up to 2e-4 too large for up to 1e5 expected slips, which changes
+probabilities by some 3e-5; quantiles are accurate to that and to one step of the grid. Very short slips are frequent:
+near x = 0 the density may grow as x^-1/2, and is averaged over a step there.
 
 References
 ----------
 W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1971), XVII.2.)")
       .def_property_readonly("atom", &DisplacementDistribution::atom,
-                             "The chance that nothing slips, exp(-slips): the probability of exactly x = 0.")
+                             "Probability of no slip, exp(-slips), that is, of exactly x = 0.")
       .def_property_readonly("slips", &DisplacementDistribution::slips, "Expected number of slips.")
-      .def_property_readonly("mean", &DisplacementDistribution::mean, "[m]")
-      .def_property_readonly("variance", &DisplacementDistribution::variance, "[m^2]")
-      .def_property_readonly("skewness", &DisplacementDistribution::skewness, "NaN where nothing ever slips.")
+      .def_property_readonly("mean", &DisplacementDistribution::mean, "Mean [m].")
+      .def_property_readonly("variance", &DisplacementDistribution::variance, "Variance [m^2].")
+      .def_property_readonly("skewness", &DisplacementDistribution::skewness, "Skewness; NaN if nothing ever slips.")
       .def_property_readonly("kurtosis", &DisplacementDistribution::kurtosis,
-                             "3 of a Gaussian law; NaN where nothing ever slips.")
+                             "Kurtosis, 3 for a Gaussian law; NaN if nothing ever slips.")
       .def_property_readonly(
           "displacement",
           [](const py::object& self) {
             return view(self.cast<const DisplacementDistribution&>().displacement(), self);
           },
-          "Where the density is tabulated, ascending and even [m], shape (N,), read-only; empty where nothing ever "
-          "slips.")
+          "Displacements at which the density is tabulated, ascending and even [m], shape (N,), read-only; empty if "
+          "nothing ever slips.")
       .def_property_readonly(
           "density",
           [](const py::object& self) { return view(self.cast<const DisplacementDistribution&>().density(), self); },
-          "Of the part without the atom [1/m], shape (N,), read-only: its integral is 1 - `atom`.")
+          "Density without the atom [1/m], shape (N,), read-only; its integral is 1 - `atom`.")
       .def("cdf", py::vectorize([](const DisplacementDistribution* self, double x) { return self->cdf(x); }),
            py::arg("x"),
-           R"(The probability that the displacement is at most x.
+           R"(Probability that the displacement is at most x.
 
 Parameters
 ----------
 x : array_like
-    [m], any shape, no NaN.
+    Displacements [m], any shape, no NaN.
 
 Returns
 -------
@@ -72,36 +73,37 @@ ValueError
     NaN.)")
       .def("quantile", py::vectorize([](const DisplacementDistribution* self, double p) { return self->quantile(p); }),
            py::arg("probability"),
-           R"(The least displacement that is not exceeded with a probability; exactly 0 within the atom.
+           R"(Quantile: the smallest displacement not exceeded with a given probability; exactly 0 within the atom.
 
 Parameters
 ----------
 probability : array_like
-    At least 1e-9 and at most 1 - 1e-9, any shape.
+    From 1e-9 to 1 - 1e-9, any shape.
 
 Returns
 -------
 float or ndarray
-    [m], of the shape of `probability`.
+    Displacements [m], of the shape of `probability`.
 
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
       .def("characteristic",
            py::vectorize([](const DisplacementDistribution* self, double u) { return self->characteristic(u); }),
            py::arg("u"),
-           R"(The characteristic function E[exp(iux)], from the tabulated law.
+           R"(Characteristic function E[exp(iux)] of the tabulated law.
 
 Parameters
 ----------
 u : array_like
-    [1/m], finite, any shape.
+    Arguments [1/m], finite, any shape.
 
 Returns
 -------
 complex or ndarray
-    Of the shape of `u`; its logarithm is to a relative 2e-4 where u is of the order of 1 / std. Takes 2 ms each.
+    Of the shape of `u`; the relative error of its logarithm is 2e-4 where u is of the order of 1 / std. Takes 2 ms
+    each.
 
 Raises
 ------

@@ -1,4 +1,4 @@
-// A distribution of the displacement that knows what it was predicted from.
+// A distribution of the displacement, with the theory and inputs that predicted it.
 #pragma once
 
 #include <stdexcept>
@@ -9,7 +9,7 @@
 
 namespace stickslip::python {
 
-/// Predicts distributions.
+/// Theories that predict distributions.
 using DistributionTheory = std::variant<theory::PulseSuperposition, theory::PulseChain>;
 
 inline const Slider<Coulomb>& coulomb_of(const AnySlider& slider) {

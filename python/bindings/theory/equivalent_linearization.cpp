@@ -58,10 +58,10 @@ void bind_equivalent_linearization(py::module_& m) {
   auto type =
       value_class<EquivalentLinearization>(
           m, "EquivalentLinearization",
-          R"(Generalized equivalent linearization, thesis 3.3 and 3.4, also of excitation neither white nor stationary.
+          R"(Generalized equivalent linearization, thesis 3.3 and 3.4, also for colored or nonstationary excitation.
 
-At each time the friction is replaced by the linear force nearest to it in the mean square, a21 x + a22 x'. With the
-states of the filter that shapes the excitation, z = (x, x', filter), the covariance Q about the mean m follows::
+At each time the method replaces friction by the linear force a21 x + a22 x' with the smallest mean square error. With
+the states of the filter that shapes the excitation, z = (x, x', filter), the covariance Q about the mean m follows::
 
     Q' = A Q + (A Q)^T + 2 pi S0 b b^T                          (3.9)
     m_x' = m_v,  m_v' = -E F - c m_v - wn^2 m_x,  F = level sgn(x')
@@ -73,42 +73,42 @@ noise these are::
     q12' = (a21 - wn^2) q11 + a22 q12 + q22                     (3.33) corrected
     q22' = 2 (a21 - wn^2) q12 + 2 a22 q22 + 2 pi S0             (3.34) corrected
 
-with [a21 a22] = E[h x^T] Q^-1, h = -level(x) sgn(x'), (3.5) corrected. The thesis takes a21 for zero (3.24), which it
-is only where x and x' are uncorrelated, and simplifies a caster's level (3.28).
+with [a21 a22] = E[h x^T] Q^-1, h = -level(x) sgn(x'), (3.5) corrected. The thesis sets a21 to zero (3.24), which is
+right only if x and x' are uncorrelated, and simplifies the level of a caster (3.28).
 
 Parameters
 ----------
 force : {'gaussian', 'gaussian_a22', 'laplace', 'thesis'}, optional
-    'gaussian': Gaussian expectations of the law itself. 'gaussian_a22': the same, but a21 = 0, (3.24) as the thesis has
-    it. 'laplace': expectations by the density that white noise makes exactly, two exponentials; Coulomb friction only.
+    'gaussian': Gaussian expectations of the law itself. 'gaussian_a22': the same with a21 = 0, (3.24), as in the
+    thesis. 'laplace': expectations with the exact density under white noise, two exponentials; Coulomb friction only.
     'thesis': a level of a / (1 + (x / reach)^2), (3.28) to (3.30), and a21 = 0.
 start : {'rest', 'thesis'}, optional
     'rest': x = x' = 0. 'thesis': (3.38) to (3.40), a^6 q11 / S0^4 = 0.01, a^4 q12 / S0^3 = 5.4e-8, a^2 q22 / S0^2 =
     1.3e-5; for white noise without an envelope, equal levels and no damper.
 tolerance : float, optional
-    About the relative error of the answers; from 1e-12 to 1e-2.
+    Approximate relative error of the results; from 1e-12 to 1e-2.
 filter_order : int, optional
-    States of the filter fitted to a spectrum other than white, Kanai-Tajimi and Clough-Penzien, which have their own: 2,
-    4, ... 16.
+    Number of states of the filter fitted to a spectrum other than white, Kanai-Tajimi and Clough-Penzien, whose filters
+    are exact: 2, 4, ... 16.
 max_misfit : float, optional
-    Largest misfit of such a filter that is not refused, above 0; see `ShapingFilter`.
+    Maximum accepted misfit of such a filter, above 0; see `ShapingFilter`.
 
 Raises
 ------
 ValueError
-    Another name, a tolerance out of its range. (`predict` raises for an order or misfit out of range.)
+    An unknown name, a tolerance out of range. (`predict` raises for an order or misfit out of range.)
 
 Notes
 -----
-Covers Coulomb friction, also of unequal levels, which drifts, and casters; springs and dampers; white noise, any
+Covers Coulomb friction, also with unequal levels, which cause drift, and casters; springs and dampers; white noise, any
 spectrum through a `ShapingFilter`, Gaussian excitation with an envelope, and Poisson pulses by their second moments.
 
-The response is not Gaussian: for Coulomb friction under white noise the stationary velocity variance is 21 % low and the
-growth of the displacement variance 51 %, see `WhiteNoise` for what is exact; 'laplace' has the velocity variance exactly
-and 20 % too little growth. For casters of small gamma = S0^2 / (reach a^3) the displacement variance is low by a factor
-of three while they break loose. Where the rms acceleration is below sqrt(2/pi) times the slip level no motion is
-predicted at all, and where the excitation has no content at zero frequency the drift of a slider without a spring is
-missed. The page on linearization in time has a table of errors.
+The response is not Gaussian: for Coulomb friction under white noise the stationary velocity variance is 21 % low and
+the growth of the displacement variance 51 %; `WhiteNoise` has the exact values. With 'laplace' the velocity variance is
+exact and the growth 20 % low. For casters with small gamma = S0^2 / (reach a^3) the displacement variance is low by a
+factor of three while they break loose. If the rms acceleration is below sqrt(2/pi) times the slip level, the method
+predicts no motion at all; if the excitation has no content at zero frequency, it misses the drift of a slider without a
+spring. The page on linearization in time has a table of errors.
 
 References
 ----------
@@ -127,83 +127,83 @@ W. D. Iwan, A. B. Mason, Int. J. Non-Linear Mech. 15 (1980), 71-82; T. S. Atalik
                py::arg("max_misfit") = theory::ShapingFilter::Fit().max_misfit)
           .def_property_readonly(
               "force", [](const EquivalentLinearization& self) { return which_of(forces, self.options().force); },
-              "What stands for friction.")
+              "Linear force that replaces friction.")
           .def_property_readonly(
               "start", [](const EquivalentLinearization& self) { return which_of(starts, self.options().start); },
-              "Where the covariance starts.")
+              "Initial covariance.")
           .def_property_readonly(
               "tolerance", [](const EquivalentLinearization& self) { return self.options().tolerance; },
-              "About the relative error of the answers.")
+              "Approximate relative error of the results.")
           .def_property_readonly(
               "filter_order", [](const EquivalentLinearization& self) { return self.options().filter.order; },
-              "States of a filter that is fitted.")
+              "Number of states of a fitted filter.")
           .def_property_readonly(
               "max_misfit", [](const EquivalentLinearization& self) { return self.options().filter.max_misfit; },
-              "Largest misfit of a filter that is not refused.")
+              "Maximum accepted misfit of a fitted filter.")
           .def("predict", &predict, py::arg("slider"), py::arg("excitation"), py::arg("times"),
-               R"(Means and covariances by time, from rest.
+               R"(Predict means and covariances by time, from rest.
 
-Means are zero but for unequal levels. Under white noise, without envelope, unequal levels and damper, integrated over the
-logarithm of time, in variables that keep the covariance positive definite, so any scale will do; a slider without
-friction is answered in closed form there. Otherwise Q is integrated in time, its rows of x and x' alone where the filter's
-own covariance stays stationary: by backward differentiation where friction may hold the slider, by explicit steps
-elsewhere. A velocity of sqrt(tolerance) / 10 of that at the first time, or of the rms acceleration over the filter's mean
-rate, then counts as rest, which is about the relative error just after an abrupt start, and soon fades.
+Means are zero unless levels are unequal. Under white noise without envelope, unequal levels and damper, the integration
+is over the logarithm of time, in variables that keep the covariance positive definite on any scale; there is a closed
+form for a slider without friction. Otherwise Q is integrated in time (only its rows of x and x' if the covariance of
+the filter is stationary): by backward differentiation where friction may hold the slider, by explicit steps elsewhere.
+A velocity of sqrt(tolerance) / 10 of that at the first time, or of the rms acceleration over the filter's mean rate,
+then counts as rest. This is about the relative error just after an abrupt start; it soon decays.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    What slides; a law alone is a slider without spring and damper.
+    A law alone is a slider without spring and damper.
 excitation : float, Spectrum, ShapingFilter, GaussianExcitation or PoissonPulses
     White noise by its level S0, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite; other noise by its
     spectrum and envelope. Sampling and duration do not matter.
 times : array_like of shape (T,)
-    [s], finite, at least 0, increasing.
+    Times [s], finite, at least 0, increasing.
 
 Returns
 -------
 Moments
-    growth_rate is that of the stationary velocity: of Coulomb friction under white noise pi^5 S0^3 / (2 a^4), (3.47); 0
-    with a spring that holds the displacement (for a caster under white noise: a reach wn > pi S0); NaN where the velocity
-    never is stationary. The remark has the misfit of a filter that is not exact.
+    growth_rate is that with stationary velocity: for Coulomb friction under white noise pi^5 S0^3 / (2 a^4), (3.47); 0
+    with a spring that bounds the displacement (for a caster under white noise: a reach wn > pi S0); NaN if the velocity
+    never becomes stationary. The remark states the misfit of a filter that is not exact.
 
 Raises
 ------
 ValueError
-    Times out of range, a level that is infinite, a spectrum that no filter of the order asked for fits (with its
-    misfit), pulses whose amplitudes have a mean, a value beyond the range of doubles.
+    Times out of range, an infinite level, a spectrum that no filter of the given order fits (names the misfit), pulses
+    whose amplitudes have a mean, a value beyond the range of doubles.
 ConvergenceError
-    The tolerance is out of reach: with a spring, after 300,000 steps. The message has the time reached.
+    The tolerance cannot be reached: with a spring, after 300,000 steps. The message states the time reached.
 
 Notes
 -----
-Under white noise about 1 ms; with a spring that swings for long some 0.1 ms a period. Otherwise 1 to 200 ms, and the fit
-of a filter. The interpreter is not held meanwhile.)")
-          .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(The stationary moments.
+Takes about 1 ms under white noise, with a weakly damped spring some 0.1 ms per period; otherwise 1 to 200 ms, plus the
+fit of a filter. Releases the interpreter lock.)")
+          .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary moments.
 
-A Q + (A Q)^T + 2 pi S0 b b^T = 0, (3.9), with the A that Q asks for. Without a spring the velocity alone is stationary.
-Below the threshold of motion all is zero.
+Solves A Q + (A Q)^T + 2 pi S0 b b^T = 0, (3.9), where A depends on Q. Without a spring only the velocity is stationary.
+Below the threshold of motion all moments are zero.
 
 Parameters
 ----------
 slider, excitation
-    As of `predict`.
+    As for `predict`.
 
 Returns
 -------
 Moments
-    At one time, inf. Without a spring the displacement variance is inf where it grows, at growth_rate, and NaN where it
-    does not, for then it depends on the start; the displacement mean is infinite where levels differ.
+    At one time, inf. Without a spring the displacement variance is inf if it grows, at growth_rate, and NaN if it does
+    not, because it then depends on the start; the displacement mean is infinite if levels differ.
 
 Raises
 ------
 ValueError
-    There is none, with the reason: an envelope; no spring and a level that depends on the position; no friction and no
-    damper; friction that cannot hold what the noise gives. What `predict` refuses.
+    No stationary moments (the message gives the reason): an envelope; no spring and a level that depends on position;
+    no friction and no damper; friction that cannot dissipate the input of the noise. Also errors of `predict`.
 
 Notes
 -----
-Good to 1e-9. Takes 0.1 to 5 ms, and the fit of a filter.)")
+Accurate to 1e-9. Takes 0.1 to 5 ms, plus the fit of a filter.)")
           .def(
               "coefficients",
               [](const EquivalentLinearization& self, const AnySlider& slider, double q11, double q12, double q22) {
@@ -213,15 +213,15 @@ Good to 1e-9. Takes 0.1 to 5 ms, and the fit of a filter.)")
                 return std::pair(f.a21, f.a22);
               },
               py::arg("slider"), py::arg("q11"), py::arg("q12"), py::arg("q22"),
-              R"(The equivalent linear friction where displacement and velocity have the covariance given.
+              R"(Compute the equivalent linear friction for a given covariance of displacement and velocity.
 
-a21 = -E[level'(x) sgn(x')], (3.22), and a22 = -sqrt(2 / (pi q22)) E[level(x) | x' = 0], (3.25); 0 and (3.29) by the
-thesis's force. Good to 1e-12.
+a21 = -E[level'(x) sgn(x')], (3.22), and a22 = -sqrt(2 / (pi q22)) E[level(x) | x' = 0], (3.25); 0 and (3.29) for the
+force 'thesis'. Accurate to 1e-12.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    Whose law it is; the spring is apart.
+    Only its law matters, not its spring.
 q11, q22 : float
     Variances of x [m^2] and x' [m^2/s^2], positive and finite.
 q12 : float
@@ -235,7 +235,7 @@ tuple of float
 Raises
 ------
 ValueError
-    A value out of its range, levels that differ.)")
+    A value out of range, unequal levels.)")
           .def("__repr__", [](const EquivalentLinearization& self) {
             const theory::ShapingFilter::Fit fit = self.options().filter;
             const std::string filter =
@@ -247,24 +247,25 @@ ValueError
           });
   def_theory(type);
 
-  value_class<TransitionTime>(m, "TransitionTime", "When a caster under white noise breaks loose; see transition_time.")
+  value_class<TransitionTime>(m, "TransitionTime",
+                              "Time at which a caster under white noise breaks loose; see transition_time.")
       .def_readonly("thesis", &TransitionTime::thesis, "(3.51): S0 / a^2 (1 / (pi^5 gamma^2) + pi^2 / 4) [s].")
       .def_readonly("with_intercept", &TransitionTime::with_intercept,
-                    "Later by 47 pi^2 / 48 S0 / a^2, the delay of q11 behind (3.47), which (3.51) drops [s].")
+                    "With the delay 47 pi^2 / 48 S0 / a^2 of q11 behind (3.47), which (3.51) drops [s].")
       .def("__repr__", [](const TransitionTime& t) {
         return "<TransitionTime: " + detail::shortest(t.thesis) + " s by (3.51), " +
                detail::shortest(t.with_intercept) + " s with the intercept>";
       });
   m.def("transition_time", &transition, py::arg("slider"), py::arg("s0"),
-        R"(When a caster under white noise breaks loose, by equivalent linearization, thesis (3.51).
+        R"(Estimate when a caster under white noise breaks loose, by equivalent linearization, thesis (3.51).
 
-Its rms displacement has then come to the reach (z = 1 in (3.30)) and friction fades.
+Its rms displacement then equals the reach (z = 1 in (3.30)) and friction decreases.
 
 Parameters
 ----------
 slider : Slider or Caster
-    A caster without a spring, of some friction. gamma = S0^2 / (reach a^3); (3.51) counts on a stationary velocity, and
-    says little for gamma over 0.02. An infinite reach never breaks loose.
+    A caster with friction and without a spring. (3.51) assumes a stationary velocity and is not meaningful for
+    gamma = S0^2 / (reach a^3) above 0.02. With infinite reach a caster never breaks loose.
 s0 : float, Spectrum or GaussianExcitation
     Level of the white noise [m^2/s^3], positive and finite; or a white spectrum or excitation.
 
@@ -275,7 +276,7 @@ TransitionTime
 Raises
 ------
 ValueError
-    s0 out of its range, no friction, a spring.
+    s0 out of range, no friction, a spring.
 TypeError
     Another law.)");
 }

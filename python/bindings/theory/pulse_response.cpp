@@ -34,16 +34,18 @@ PulseResponse respond(const AnySlider& slider, double b, double dt,
 }  // namespace
 
 void bind_pulse_response(py::module_& m) {
-  value_class<PulseResponse>(m, "PulseResponse", R"(The motion that one pulse of ground acceleration causes.
+  value_class<PulseResponse>(m, "PulseResponse", R"(The response to one pulse of ground acceleration.
 
-Arrays are of shape (T,) and read-only.)")
-      .def_property_readonly("time", &array<&PulseResponse::time>, "From the arrival of the pulse on [s].")
-      .def_property_readonly("displacement", &array<&PulseResponse::displacement>, "x, less where it lay before [m].")
+Arrays have shape (T,) and are read-only.)")
+      .def_property_readonly("time", &array<&PulseResponse::time>, "Time since the arrival of the pulse [s].")
+      .def_property_readonly("displacement", &array<&PulseResponse::displacement>,
+                             "x relative to the initial position [m].")
       .def_property_readonly("velocity", &array<&PulseResponse::velocity>, "x' [m/s].")
       .def_readonly("offset", &PulseResponse::offset,
-                    "The last displacement [m], thesis (5.8); infinite where it never stops.")
+                    "Final displacement [m], thesis (5.8); infinite if the slider never stops.")
       .def_readonly("peak", &PulseResponse::peak, "Largest |displacement| over all time [m].")
-      .def_readonly("stop", &PulseResponse::stop, "When it has come to rest for good [s]; 0 if it never moves.")
+      .def_readonly("stop", &PulseResponse::stop,
+                    "Time at which the slider comes to rest finally [s]; 0 if it never moves.")
       .def_readonly("velocity_square", &PulseResponse::velocity_square,
                     "Integral of x'^2 over all time [m^2/s], thesis (5.32).")
       .def("__repr__", [](const PulseResponse& r) {
@@ -53,10 +55,10 @@ Arrays are of shape (T,) and read-only.)")
 
   m.def("pulse_response", &respond, py::arg("slider"), py::arg("b"), py::arg("dt"), py::kw_only(),
         py::arg("shape") = py::none(), py::arg("position") = 0.0, py::arg("times") = py::none(),
-        R"(What one pulse does to a slider at rest.
+        R"(Compute the response of a slider at rest to one pulse.
 
-x'' + level sgn x' = -b w(t / dt), thesis (5.7), (5.8), (5.32). Coulomb friction in closed form, any other law by the
-event loop: a pulse is a few held loads, and what it does is not random.
+x'' + level sgn x' = -b w(t / dt), thesis (5.7), (5.8), (5.32). Coulomb friction is solved in closed form, other
+laws by the event loop, because a pulse consists of a few constant loads.
 
 Parameters
 ----------
@@ -67,12 +69,12 @@ b : float
 dt : float
     Half width [s], positive and finite; the unit of the times of `shape`.
 shape : (array_like, array_like), optional
-    The pulse w, as PoissonPulses takes it; the default is +1 for dt, then -1 for dt.
+    The pulse w, as for PoissonPulses; the default is +1 for dt, then -1 for dt.
 position : float, optional
-    Where it lies before [m], finite: matters where the slip level depends on it.
+    Initial position [m], finite; matters if the slip level depends on position.
 times : array_like, optional
-    Where to answer [s], shape (T,), ascending, finite, at least 0. Without: at the edges of the pulse, stops and turns,
-    between which a Coulomb slider's velocity is straight.
+    Times of the result [s], shape (T,), ascending, finite, at least 0. Default: edges of the pulse, stops and
+    reversals, between which the velocity of a Coulomb slider is linear.
 
 Returns
 -------
@@ -81,11 +83,11 @@ PulseResponse
 Raises
 ------
 ValueError
-    A value out of its range; a slider with a spring.
+    A value out of range; a slider with a spring.
 
 Notes
 -----
-Coulomb to round-off, others to about 1e-10.)");
+Accurate to round-off for Coulomb friction, to about 1e-10 for other laws.)");
 
   m.def(
       "viscous_pulse_response",
@@ -93,10 +95,10 @@ Coulomb to round-off, others to about 1e-10.)");
         return theory::viscous_pulse_response(damping, b, dt, times_of(times, "viscous_pulse_response"));
       },
       py::arg("damping"), py::arg("b"), py::arg("dt"), py::kw_only(), py::arg("times") = py::none(),
-      R"(What the symmetric rectangular pulse does to a mass on a viscous damper.
+      R"(Compute the response of a mass with a viscous damper to the symmetric rectangular pulse.
 
-x'' + damping x' = -n(t), thesis (5.2), (5.14), corrected (5.15); in a form that does not cancel, down to no damping at
-all. It leaves no offset, whatever the damping above 0.
+x'' + damping x' = -n(t), thesis (5.2), (5.14), corrected (5.15); in a form without cancellation, down to zero
+damping. The pulse leaves no offset for any damping above 0.
 
 Parameters
 ----------
@@ -107,34 +109,35 @@ b : float
 dt : float
     Half width [s], positive and finite.
 times : array_like, optional
-    Where to answer [s], shape (T,), ascending, finite, at least 0. Without: 0, dt and 2 dt.
+    Times of the result [s], shape (T,), ascending, finite, at least 0. Default: 0, dt and 2 dt.
 
 Returns
 -------
 PulseResponse
-    `stop` is infinite (0 where b = 0).
+    `stop` is infinite (0 if b = 0).
 
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
 
   m.def("viscous_damping_for", &theory::viscous_damping_for, py::arg("velocity_square"), py::arg("b"), py::arg("dt"),
         py::kw_only(), py::arg("window") = std::numeric_limits<double>::infinity(),
-        R"(The viscous damping whose response to a pulse has the integral of x'^2 that is given.
+        R"(Find the viscous damping whose response to a pulse has a given integral of x'^2.
 
-Thesis figure 5.3, where both have the same rms velocity.
+Used in thesis figure 5.3, where both responses have the same rms velocity.
 
 Parameters
 ----------
 velocity_square : float
-    The integral [m^2/s], `PulseResponse.velocity_square`; positive, below the 2 b^2 dt^3 / 3 of no damping (5.43).
+    The integral [m^2/s], `PulseResponse.velocity_square`; positive, below 2 b^2 dt^3 / 3, the value without damping
+    (5.43).
 b : float
     Amplitude [m/s^2], finite, not 0.
 dt : float
     Half width [s], positive and finite.
 window : float, optional
-    From the arrival to when it is integrated [s], above 0.
+    Duration of the integral from the arrival of the pulse [s], above 0.
 
 Returns
 -------
@@ -144,7 +147,7 @@ float
 Raises
 ------
 ValueError
-    A value out of its range.)");
+    A value out of range.)");
 }
 
 }  // namespace stickslip::python

@@ -23,7 +23,7 @@ py::tuple rows(const ShapingFilter& filter) {
   return py::tuple(all);
 }
 
-// A variant begins with what has a default.
+// The first type of a variant must be default-constructible.
 ShapingFilter fitted(const std::variant<double, Spectrum, PoissonPulses>& source, int order, double max_misfit) {
   const ShapingFilter::Fit fit{order, max_misfit};
   return std::visit(
@@ -42,11 +42,11 @@ void bind_shaping_filter(py::module_& m) {
   value_class<ShapingFilter>(m, "ShapingFilter",
                              R"(White noise through a linear filter: a ground acceleration with a rational spectrum.
 
-The white noise of level s0, two-sided, passes sections of second order, one after the other::
+White noise of two-sided level s0 passes through second-order sections in series::
 
     n = H(d/dt) w,  H(s) = product of (b2 s^2 + b1 s + b0) / (s^2 + d1 s + d0),  S(omega) = s0 |H(i omega)|^2
 
-Without a section it is white noise.
+Without sections it is white noise.
 
 Parameters
 ----------
@@ -58,7 +58,7 @@ sections : sequence of (b2, b1, b0, d1, d0), optional
 Raises
 ------
 ValueError
-    A value out of its range, with its section; an unstable section.
+    A value out of range (names its section); an unstable section.
 
 Examples
 --------
@@ -68,20 +68,20 @@ Examples
 (2, 0.0))")
       .def(py::init(&from_rows), py::arg("s0"), py::arg("sections") = std::vector<Row>())
       .def_static("of", &fitted, py::arg("spectrum"), py::kw_only(), py::arg("order") = ShapingFilter::Fit().order,
-                  py::arg("max_misfit") = ShapingFilter::Fit().max_misfit, R"(The filter of a spectrum.
+                  py::arg("max_misfit") = ShapingFilter::Fit().max_misfit, R"(Find the filter for a spectrum.
 
-White noise, Kanai-Tajimi and Clough-Penzien have one, of 0, 2 and 4 states, exactly. To any other the best filter of
-the order asked for is fitted, with as many zeros at zero frequency as the spectrum has, up to four: it minimizes the
-integral of (sqrt(S) - sqrt(S_filter))^2 over the logarithm of omega.
+White noise, Kanai-Tajimi and Clough-Penzien spectra have an exact filter with 0, 2 and 4 states. For other spectra, the
+filter is the best one of the given order, with as many zeros at zero frequency as the spectrum has, up to four: it
+minimizes the integral of (sqrt(S) - sqrt(S_filter))^2 over the logarithm of omega.
 
 Parameters
 ----------
 spectrum : float, Spectrum or PoissonPulses
-    A number is the level S0 of white noise [m^2/s^3]. Of pulses the spectral density, `PoissonPulses.density`.
+    A number is the level S0 of white noise [m^2/s^3]. For pulses, the spectrum is `PoissonPulses.density`.
 order : int, optional
-    States of the filter at most, two a section: 2, 4, ... 16; it has fewer where the last ones do not help.
+    Maximum number of states, two per section: 2, 4, ... 16; the filter has fewer if the last ones do not improve it.
 max_misfit : float, optional
-    Largest `misfit` that is not refused, above 0.
+    Maximum accepted `misfit`, above 0.
 
 Returns
 -------
@@ -90,19 +90,18 @@ ShapingFilter
 Raises
 ------
 ValueError
-    An order or a misfit out of its range; a misfit that exceeds max_misfit, with the misfit found.
+    An order or a misfit out of range; a misfit above max_misfit (names the misfit).
 
 Notes
 -----
-1 us; a fit of order 8 takes some 50 to 200 ms. An ideal band-pass by order 8 has a misfit of 0.03 to 0.13, Poisson pulses
-0.09.)")
+Takes 1 us; a fit of order 8 takes some 50 to 200 ms. With order 8 an ideal band-pass has a misfit of 0.03 to 0.13,
+Poisson pulses 0.09.)")
       .def_property_readonly("s0", &ShapingFilter::s0, "Level of the white noise [m^2/s^3].")
       .def_property_readonly("sections", &rows, "Sections (b2, b1, b0, d1, d0).")
       .def_property_readonly("order", &ShapingFilter::order, "Number of states.")
       .def_property_readonly(
           "misfit", &ShapingFilter::misfit,
-          "By how much a fit misses its spectrum: the integral of abs(S - S_filter) over that of S; 0 "
-          "where it is exact.")
+          "Misfit of the filter: the integral of abs(S - S_filter) over that of S; 0 if the filter is exact.")
       .def(
           "__call__",
           [](const ShapingFilter& self, const py::object& omega) {

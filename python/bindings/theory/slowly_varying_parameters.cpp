@@ -11,7 +11,7 @@ namespace {
 using theory::Branches;
 using theory::HarmonicSolution;
 
-/// The theory, which also knows the slider it was made from.
+/// The theory together with its slider.
 struct SlowlyVaryingParameters : theory::SlowlyVaryingParameters {
   explicit SlowlyVaryingParameters(AnySlider any)
       : theory::SlowlyVaryingParameters(with_position_law(
@@ -23,7 +23,7 @@ struct SlowlyVaryingParameters : theory::SlowlyVaryingParameters {
 
 constexpr const char* amplitudes = "SlowlyVaryingParameters: amplitude";
 
-/// Two numbers by amplitude: a tuple of floats for a float, of arrays of the same shape for an array.
+/// Two values for each amplitude: a tuple of floats for a float, of arrays of the same shape for an array.
 template <class F>
 py::tuple branches(const py::object& given, const F& f) {
   const Numbers amplitude = to_numbers(given, amplitudes, "m");
@@ -61,8 +61,8 @@ void bind_slowly_varying_parameters(py::module_& m) {
   value_class<HarmonicSolution>(m, "HarmonicSolution",
                                 R"(A periodic motion x = amplitude cos(omega t + phase) under B cos(omega t).)")
       .def_readonly("amplitude", &HarmonicSolution::amplitude, "A [m].")
-      .def_readonly("phase", &HarmonicSolution::phase, "phi [rad], from -pi to pi; nan where the amplitude is 0.")
-      .def_readonly("stable", &HarmonicSolution::stable, "Whether it is come back to after a small disturbance.")
+      .def_readonly("phase", &HarmonicSolution::phase, "phi [rad], from -pi to pi; nan if the amplitude is 0.")
+      .def_readonly("stable", &HarmonicSolution::stable, "Whether the solution is stable under small perturbations.")
       .def("__repr__", [](const HarmonicSolution& s) {
         return "<HarmonicSolution: amplitude " + detail::shortest(s.amplitude) + " m, phase " +
                detail::shortest(s.phase) + " rad, " + (s.stable ? "stable" : "unstable") + ">";
@@ -73,34 +73,34 @@ void bind_slowly_varying_parameters(py::module_& m) {
           m, "SlowlyVaryingParameters",
           R"(Harmonic response by the method of slowly varying parameters, thesis 2.2 and 2.3.
 
-With the signs put right::
+With corrected signs::
 
     x'' + level(x) sgn(x') + wn^2 x = B cos(omega t),   x = A cos(omega t + phi)            (2.28), (2.50)
     -2 omega A' + S(A) = B sin(phi)                                                         (2.10) corrected
     -2 omega A phi' - omega^2 A + C(A) = B cos(phi)                                         (2.11)
 
-A and phi vary little within a cycle; so the motion is taken for a cosine about x = 0, which slides all the time. A cycle
-of amplitude A does the work W(A) against friction: S = -W / (pi A), which is -4 a / pi for Coulomb friction and
--(4 a / pi) gd(A / 3l) / (A / 3l) for the caster; C = wn^2 A.
+A and phi vary little within a cycle. The motion is therefore approximated by a cosine about x = 0, without sticking.
+With W(A) the work against friction in a cycle of amplitude A, S = -W / (pi A), which is -4 a / pi for Coulomb friction
+and -(4 a / pi) gd(A / 3l) / (A / 3l) for the caster; C = wn^2 A.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster, optional
-    What slides; a law alone is a slider without spring and damper. Coulomb friction of equal levels,
-    or of any finite levels on a spring: that of their mean about `centre`. A slip level of 1 m/s^2 without a spring if
-    not given.
+    A law alone is a slider without spring and damper. Coulomb friction with equal levels, or with any finite levels and
+    a spring, which is equivalent to their mean level about `centre`. Default: a slip level of 1 m/s^2 without a spring.
 
 Raises
 ------
 ValueError
-    Unlike levels forward and backward without a spring: the mass drifts.
+    Different levels forward and backward without a spring, with which the mass drifts.
 
 Notes
 -----
-It holds for B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 % at 4,
-25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi. It takes the mean position for x = 0, where
-without a spring nothing holds it: an exact caster may creep away and escape. That a caster's amplitude lies between
-those of Coulomb friction and of the ground, (2.34), is said of these amplitudes, not of motions.
+The theory holds for B well above the slip level. For Coulomb friction without a spring the error is 0.7 % at B/a = 8, 3
+% at 4, 25 % at 2, and the theory finds no motion from B = a, where motion begins, to 4 a / pi. It assumes a mean
+position of x = 0, although without a spring nothing restores it: a caster may in fact creep away and escape. The claim
+(2.34), that the amplitude of a caster lies between those of Coulomb friction and of the ground, holds for these
+amplitudes, not for the exact responses.
 
 References
 ----------
@@ -108,12 +108,12 @@ N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).)")
           .def(py::init([] { return SlowlyVaryingParameters(Slider(Coulomb(1))); }))
           .def(py::init<AnySlider>(), py::arg("slider"))
           .def_property_readonly(
-              "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "What slides.")
+              "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "The slider.")
           .def_property_readonly(
               "centre", [](const SlowlyVaryingParameters& self) { return self.centre(); },
-              "Where the motion swings about [m]: (backward - forward) / (2 wn^2) on a spring, else 0.")
+              "Center of the motion [m]: (backward - forward) / (2 wn^2) with a spring, otherwise 0.")
           .def("dissipative", &by_amplitude<&SlowlyVaryingParameters::dissipative>, py::arg("amplitude"),
-               R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates.
+               R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): dissipation.
 
 Parameters
 ----------
@@ -123,16 +123,16 @@ amplitude : float or array_like
 Returns
 -------
 float or ndarray
-    Of the same shape [m/s^2], at most 0.
+    Values [m/s^2], at most 0, of the same shape.
 
 Raises
 ------
 ValueError
-    Another amplitude.
+    An amplitude out of range.
 
 Notes
 -----
-To round-off for every A / 3l; some 100 ns.)")
+Accurate to round-off for every A / 3l; takes some 100 ns.)")
           .def("dissipative_slope", &by_amplitude<&SlowlyVaryingParameters::dissipative_slope>, py::arg("amplitude"),
                R"(S'(A), thesis (2.38).
 
@@ -144,15 +144,14 @@ amplitude : float or array_like
 Returns
 -------
 float or ndarray
-    Of the same shape [1/s^2].
+    Values [1/s^2], of the same shape.
 
 Raises
 ------
 ValueError
-    Another amplitude.)")
-          .def(
-              "in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
-              R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): what acts in phase with x, the spring.
+    An amplitude out of range.)")
+          .def("in_phase", &by_amplitude<&SlowlyVaryingParameters::in_phase>, py::arg("amplitude"),
+               R"(C(A) = (1/pi) int f cos(theta) dtheta, thesis (2.13), (2.46), (2.52): the part in phase with x.
 
 Parameters
 ----------
@@ -162,12 +161,12 @@ amplitude : float or array_like
 Returns
 -------
 float or ndarray
-    Of the same shape [m/s^2].
+    Values [m/s^2], of the same shape.
 
 Raises
 ------
 ValueError
-    Another amplitude.)")
+    An amplitude out of range.)")
           .def("in_phase_slope", &by_amplitude<&SlowlyVaryingParameters::in_phase_slope>, py::arg("amplitude"),
                R"(C'(A), thesis (2.39).
 
@@ -179,44 +178,45 @@ amplitude : float or array_like
 Returns
 -------
 float or ndarray
-    Of the same shape [1/s^2].
+    Values [1/s^2], of the same shape.
 
 Raises
 ------
 ValueError
-    Another amplitude.)")
+    An amplitude out of range.)")
           .def("response", &SlowlyVaryingParameters::response, py::arg("B"), py::arg("omega"),
                py::call_guard<py::gil_scoped_release>(),
-               R"(Every periodic solution other than rest, by increasing amplitude.
+               R"(Find all periodic solutions except rest, sorted by amplitude.
 
-S^2 + (C - omega^2 A)^2 = B^2, thesis (2.16); phi = atan2(S, C - omega^2 A), (2.17) corrected. Stable where
-S' + S/A <= 0, (2.18) corrected, which friction always meets, and (C/A - omega^2) (C' - omega^2) + S S'/A > 0, (2.19).
+S^2 + (C - omega^2 A)^2 = B^2, thesis (2.16); phi = atan2(S, C - omega^2 A), (2.17) corrected. Stable if
+S' + S/A <= 0, (2.18) corrected, which friction always satisfies, and (C/A - omega^2) (C' - omega^2) + S S'/A > 0,
+(2.19).
 
 Parameters
 ----------
 B : float
-    Amplitude of the force per unit mass, and so of the ground acceleration [m/s^2]; positive and finite.
+    Amplitude of the force per unit mass, which is that of the ground acceleration [m/s^2]; positive and finite.
 omega : float
-    [rad/s], positive and finite.
+    Angular frequency [rad/s], positive and finite.
 
 Returns
 -------
 list of HarmonicSolution
-    Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, no amplitude is
-    stable: Coulomb friction lets it grow for ever where B exceeds 4 a / pi, the caster from its unstable solution on.
-    Without friction there is the one amplitude B / abs(omega^2 - wn^2), which is neutral and counts as stable. At a
-    fold, to round-off, where two solutions meet, both, one or none of them.
+    Without rest, A = 0, which exists for every omega; see `rests`. At resonance, omega = wn, no amplitude is stable: it
+    grows without bound with Coulomb friction if B exceeds 4 a / pi, and for a caster above its unstable solution.
+    Without friction there is a single amplitude B / abs(omega^2 - wn^2), which is neutral and counts as stable. Within
+    round-off of a fold, where two solutions meet, the list may hold both, one or none of them.
 
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 OverflowError
     Amplitudes beyond the range of doubles.
 
 Notes
 -----
-All of them, amplitudes to round-off; 1 to 10 us.)")
+Finds all solutions, with amplitudes to round-off; takes 1 to 10 us.)")
           .def(
               "frequency",
               [](const SlowlyVaryingParameters& self, double B, const py::object& amplitude) {
@@ -230,29 +230,29 @@ omega^2 = C/A -+ sqrt(B^2 - S^2) / A.
 Parameters
 ----------
 B : float
-    [m/s^2], positive and finite.
+    Amplitude of the load [m/s^2], positive and finite.
 amplitude : float or array_like
     A [m], positive and finite.
 
 Returns
 -------
 lower, upper : float or ndarray
-    Of the same shape [rad/s]. nan where none is real: both below the least amplitude, the lower one also where it would
-    be imaginary. Without a spring there is the upper one alone.
+    Frequencies [rad/s], of the same shape. nan if not real: both below the minimum amplitude, the lower one also if it
+    would be imaginary. Without a spring there is only the upper one.
 
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
           .def(
               "stability_boundary",
               [](const SlowlyVaryingParameters& self, const py::object& amplitude) {
                 return branches(amplitude, [&](double a) { return self.stability_boundary(a); });
               },
               py::arg("amplitude"),
-              R"(The frequencies between which solutions of amplitude A are unstable, whatever their B.
+              R"(The frequencies between which solutions of amplitude A are unstable, for any B.
 
-The locus of vertical tangencies, (2.19) as an equation, thesis (2.41), (2.42), on both sides of wn.
+They are the locus of vertical tangents, (2.19) as an equation, thesis (2.41), (2.42), on both sides of wn.
 
 Parameters
 ----------
@@ -262,16 +262,15 @@ amplitude : float or array_like
 Returns
 -------
 lower, upper : float or ndarray
-    Of the same shape [rad/s]. The lower one is 0 where the zone reaches there, as it always does without a spring.
-    Where both are the same, as for Coulomb friction, all are stable.
+    Frequencies [rad/s], of the same shape. The lower one is 0 if the unstable zone extends to 0, as it always does
+    without a spring. If both are equal, as for Coulomb friction, all solutions are stable.
 
 Raises
 ------
 ValueError
-    Another amplitude.)")
-          .def(
-              "least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
-              R"(The least amplitude of any solution, whatever the frequency: -S(A) = B, thesis (2.36), (2.37), by bracketing.
+    An amplitude out of range.)")
+          .def("least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
+               R"(Minimum amplitude over all frequencies: -S(A) = B, thesis (2.36), (2.37), by bracketing.
 
 Parameters
 ----------
@@ -281,16 +280,17 @@ B : float
 Returns
 -------
 float
-    [m]. 0 for B of at least -S(0) = 4 a / pi; inf where there is none, as for Coulomb friction below that.
+    Amplitude [m]; 0 for B of at least -S(0) = 4 a / pi; inf if there is no solution, as for Coulomb friction below
+    that.
 
 Raises
 ------
 ValueError
-    Another B.)")
+    B out of range.)")
           .def("rests", &SlowlyVaryingParameters::rests, py::arg("B"),
-               R"(Whether a small motion dies down to rest: B <= -S(0), which is 4 a / pi.
+               R"(Whether a small motion decays to rest: B <= -S(0), which is 4 a / pi.
 
-The exact motion rests only for B <= a; from there to 4 a / pi it is a small one that sticks twice a cycle.
+The exact motion comes to rest only for B <= a; between that and 4 a / pi it is small and sticks twice per cycle.
 
 Parameters
 ----------
@@ -304,7 +304,7 @@ bool
 Raises
 ------
 ValueError
-    Another B.)")
+    B out of range.)")
           .def(
               "transient",
               [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase,
@@ -318,9 +318,9 @@ ValueError
                 return py::make_tuple(array_of(std::move(found.amplitude)), array_of(std::move(found.phase)));
               },
               py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"), py::arg("times"),
-              R"(Amplitude and phase on their way, from the averaged equations (2.10) corrected and (2.11).
+              R"(Compute the transient amplitude and phase, from the averaged equations (2.10) corrected and (2.11).
 
-A motion that dies down stays at rest where `rests`.
+A motion that decays to zero stays at rest if `rests(B)`.
 
 Parameters
 ----------
@@ -331,23 +331,24 @@ amplitude : float
 phase : float
     phi at t = 0 [rad], finite: x(0) = A cos(phi), x'(0) = -omega A sin(phi).
 times : array_like, shape (T,)
-    [s], increasing, from 0 on.
+    Times [s], increasing, from 0.
 
 Returns
 -------
 amplitude, phase : ndarray, shape (T,)
-    [m], and [rad] from -pi to pi; the phase is nan where the amplitude is 0.
+    Amplitude [m], and phase [rad] from -pi to pi; the phase is nan if the amplitude is 0.
 
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 ConvergenceError
-    After a million steps, with the time reached.
+    No convergence after a million steps (the message states the time reached).
 
 Notes
 -----
-By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B / omega^2.)")
+Integrated by SUNDIALS CVODE, with Adams formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B /
+omega^2.)")
           .def(
               "settles_on",
               [](const SlowlyVaryingParameters& self, double B, double omega, double amplitude, double phase) {
@@ -355,10 +356,10 @@ By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10
                 return self.settles_on(B, omega, amplitude, phase, check_for_interrupt);
               },
               py::arg("B"), py::arg("omega"), py::arg("amplitude"), py::arg("phase"),
-              R"(The solution that a motion comes to in the end.
+              R"(Find the solution to which a motion converges.
 
-The averaged equations contract areas, by (S' + S/A) / (2 omega), so that they have no closed orbits, and a motion which
-turns about a stable solution once, with all others outside, can't leave it.
+The averaged equations contract areas, by (S' + S/A) / (2 omega), so that they have no closed orbits. A motion
+that has encircled one stable solution, and no other solution, cannot leave it.
 
 Parameters
 ----------
@@ -368,19 +369,19 @@ B, omega, amplitude, phase : float
 Returns
 -------
 HarmonicSolution
-    One of `response`, or rest (amplitude 0), or, at resonance, an infinite amplitude. Without friction, the one about
-    which it turns for ever.
+    One of `response`, or rest (amplitude 0), or, at resonance, an infinite amplitude. Without friction, the solution
+    that the motion encircles forever.
 
 Raises
 ------
 ValueError
-    A value out of its range.
+    A value out of range.
 ConvergenceError
-    Not decided after a hundred thousand turns: within round-off of the boundary between two solutions.
+    Undecided after a hundred thousand turns: within round-off of the boundary between two solutions.
 
 Notes
 -----
-Some milliseconds where several are stable.)")
+Takes some milliseconds if several solutions are stable.)")
           .def(
               "predict",
               [](const SlowlyVaryingParameters&, const AnySlider& slider, const HarmonicMotion& excitation,
@@ -391,16 +392,16 @@ Some milliseconds where several are stable.)")
                 return theory.theory::SlowlyVaryingParameters::predict(excitation, at, check_for_interrupt);
               },
               py::arg("slider"), py::arg("excitation"), py::arg("times"),
-              R"(x and x' by time from rest, as every theory: of any slider, by `transient`.
+              R"(Predict x and x' by time from rest for a given slider, like other theories, by `transient`.
 
 Parameters
 ----------
 slider : Slider, Coulomb or Caster
-    What slides.
+    As for the constructor.
 excitation : HarmonicMotion
-    The ground.
+    The ground motion.
 times : array_like, shape (T,)
-    [s], increasing, from 0 on.
+    Times [s], increasing, from 0.
 
 Returns
 -------
@@ -410,9 +411,9 @@ Moments
 Raises
 ------
 ValueError
-    A value out of its range; unlike levels forward and backward.
+    A value out of range; different levels forward and backward.
 ConvergenceError
-    After a million steps, with the time reached.)")
+    No convergence after a million steps (the message states the time reached).)")
           .def("__repr__", [](const SlowlyVaryingParameters& self) {
             return "SlowlyVaryingParameters(" + py::repr(py::cast(self.slider)).cast<std::string>() + ")";
           });

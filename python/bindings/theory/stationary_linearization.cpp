@@ -20,23 +20,26 @@ const Slider<Coulomb>& coulomb(const AnySlider& slider) {
 }  // namespace
 
 void bind_stationary_linearization(py::module_& m) {
-  value_class<StationaryPrediction>(m, "StationaryPrediction",
-                                    R"(What stationary linearization says of a slider.
+  value_class<StationaryPrediction>(
+      m, "StationaryPrediction",
+      R"(Result of stationary linearization, as `StationaryLinearization.predict` returns it.
 
-The linear system x'' + zeta x' + wn^2 x = -n(t) and its response; what `StationaryLinearization.predict` returns.)")
+The linear system x'' + zeta x' + wn^2 x = -n(t) and its response.)")
       .def_readonly("damping", &StationaryPrediction::damping,
-                    "zeta_eq [1/s], thesis (4.20); inf where no motion is predicted.")
-      .def_readonly("velocity_std", &StationaryPrediction::velocity_std,
-                    "[m/s], thesis (4.9); inf without friction where ground velocity is not stationary.")
+                    "zeta_eq [1/s], thesis (4.20); inf if the theory predicts no motion.")
+      .def_readonly(
+          "velocity_std", &StationaryPrediction::velocity_std,
+          "Standard deviation of the velocity [m/s], thesis (4.9); inf without friction if the ground velocity is "
+          "not stationary.")
       .def_readonly("displacement_std", &StationaryPrediction::displacement_std,
-                    "Of the stationary solution [m], thesis (4.12); inf where there is none.")
+                    "Standard deviation of the stationary displacement [m], thesis (4.12); inf if there is none.")
       .def_readonly("growth_rate", &StationaryPrediction::growth_rate,
-                    R"(Of the displacement variance at last [m^2/s], thesis (4.13).
+                    R"(Growth rate of the displacement variance at large times [m^2/s], thesis (4.13).
 
-0 where it does not grow, or less than in proportion to time; inf where it grows more.)")
+0 if it does not grow, or grows less than linearly; inf if it grows faster.)")
       .def_readonly("remark", &StationaryPrediction::remark,
-                    "What to know before trusting the figures; '' where there is nothing.")
-      .def_readonly("spectrum", &StationaryPrediction::spectrum, "Of the ground acceleration.")
+                    "A warning about the validity of the values; '' if there is none.")
+      .def_readonly("spectrum", &StationaryPrediction::spectrum, "Spectrum of the ground acceleration.")
       .def_readonly("natural_frequency", &StationaryPrediction::natural_frequency, "wn [rad/s]; 0 without a spring.")
       .def(
           "velocity_spectrum",
@@ -52,12 +55,12 @@ S(omega) / (omega^2 + zeta^2), thesis (4.8); with a spring S omega^2 / ((omega^2
 Parameters
 ----------
 omega : float or array_like
-    [rad/s], of either sign.
+    Angular frequency [rad/s], of either sign.
 
 Returns
 -------
 float or ndarray
-    Of the same shape [m^2/s]: (m/s)^2 for each rad/s.)")
+    Density [m^2/s]: (m/s)^2 per rad/s, of the same shape.)")
       .def(
           "transient",
           [](const StationaryPrediction& self, const py::object& times) {
@@ -66,17 +69,17 @@ float or ndarray
             return self.transient(at, check_for_interrupt);
           },
           py::arg("times"),
-          R"(The linear system from rest at x = 0, exactly: what a simulation of it shows.
+          R"(Compute the exact moments of the linear system from rest at x = 0.
 
-E[x_i x_j] = integral of S(omega) A_i A_j^* d omega, A_i the integral of h_i(u) exp(-i omega u) from 0 to t, with the
-responses h to an impulse, thesis (4.5). The velocity comes to be the stationary one. Without a spring the displacement
-does not: starting from rest it keeps as an offset the ground velocity at the start over zeta, and its variance goes to
+E[x_i x_j] = integral of S(omega) A_i A_j^* d omega, where A_i is the integral of h_i(u) exp(-i omega u) from 0 to t and
+h the impulse response, thesis (4.5). The velocity becomes stationary. Without a spring the displacement does not: the
+initial ground velocity over zeta remains as an offset, and the variance tends to
 displacement_std**2 + (ground velocity variance) / zeta**2.
 
 Parameters
 ----------
 times : array_like, shape (T,)
-    [s], finite and at least 0, in any order.
+    Times [s], finite and at least 0, in any order.
 
 Returns
 -------
@@ -85,13 +88,14 @@ Moments
 Raises
 ------
 ValueError
-    A time out of its range.
+    A time out of range.
 ConvergenceError
     A spectrum that cannot be integrated.
 
 Notes
 -----
-Accuracy 1e-8 of the values at most; some 0.3 to 2 ms for each time, however late. The interpreter is not held.)")
+The relative error is at most 1e-8. Takes some 0.3 to 2 ms for each time, however late. Releases the interpreter
+lock.)")
       .def("__repr__", [](const StationaryPrediction& p) {
         const auto number = [](double value) { return std::isinf(value) ? "inf" : detail::shortest(value); };
         return "<StationaryPrediction: damping " + number(p.damping) + " 1/s, velocity_std " + number(p.velocity_std) +
@@ -107,14 +111,14 @@ x'' + a sgn(x') + wn^2 x = -n(t) by x'' + zeta x' + wn^2 x = -n(t), thesis (4.1)
 
     zeta = sqrt(2/pi) a / sigma_v,   sigma_v^2 = integral of S(omega) / (omega^2 + zeta^2),   (4.19), (4.20)
 
-(with a spring S omega^2 / ((omega^2 - wn^2)^2 + zeta^2 omega^2)): the damper that friction is on average, were the
-velocity Gaussian. There is one solution where sigma_n / a > sqrt(2/pi), (4.22), and none below, where the method
-predicts no motion. It is bracketed; the iteration (4.41) shrinks too slowly near that threshold and cycles for bands
-far from zero.
+(with a spring S omega^2 / ((omega^2 - wn^2)^2 + zeta^2 omega^2)): the damper equivalent to friction if the velocity
+were Gaussian. There is one solution if sigma_n / a > sqrt(2/pi), (4.22), and none below, where the method predicts no
+motion. It is found by bracketing, because the iteration (4.41) converges too slowly near that threshold and cycles for
+bands far from zero.
 
-Right for the velocity (within some 13 %) from about 1.5 times the threshold on. Wrong for the displacement wherever the
-acceleration has no content at zero frequency: friction makes some, and x drifts; the linear system cannot. On a spring
-the displacement is too small until sigma_n is some four times a. docs/filtered_noise.md has figures.
+The velocity is right within some 13 % from about 1.5 times the threshold. The displacement is wrong if the acceleration
+has no content at zero frequency: friction creates such content, so that x drifts, which the linear system cannot model.
+With a spring the displacement is too small until sigma_n is some four times a. docs/filtered_noise.md has numbers.
 
 References
 ----------
@@ -128,12 +132,12 @@ Thesis 4.3; C. K. Constantinou, I. G. Tadjbakhsh, J. Struct. Eng. 110 (1984).)")
                 const py::gil_scoped_release released;
                 return self.predict(friction, noise);
               },
-              py::arg("slider"), py::arg("excitation"), R"(Damping and stationary response.
+              py::arg("slider"), py::arg("excitation"), R"(Predict the equivalent damping and the stationary response.
 
 Parameters
 ----------
 slider : Slider or Coulomb
-    Coulomb friction, the same level both ways, with or without a spring.
+    Coulomb friction with equal levels in both directions, with or without a spring.
 excitation : Spectrum, GaussianExcitation or float
     Stationary ground acceleration; a number is the level S0 of white noise [m^2/s^3].
 
@@ -146,14 +150,15 @@ Raises
 TypeError
     A caster.
 ValueError
-    Unequal levels: friction then has a mean, and the slider drifts. An envelope; white noise without a line at zero
-    frequency.
+    Unequal levels, with which friction has a mean and the slider drifts. An envelope; white noise without a line at
+    zero frequency.
 ConvergenceError
     A spectrum that cannot be integrated.
 
 Notes
 -----
-Round-off for band-pass and white noise without a spring, in 1 us; else quadrature, to 1e-9, in 0.1 to 10 ms.)")
+Exact to round-off for band-pass and white noise without a spring, in 1 us; otherwise quadrature to 1e-9, in 0.1 to 10
+ms.)")
           .def(
               "predict",
               [](const StationaryLinearization& self, const AnySlider& slider, const AnyNoise& excitation,
@@ -165,14 +170,14 @@ Round-off for band-pass and white noise without a spring, in 1 us; else quadratu
                 return self.predict(friction, noise, at, check_for_interrupt);
               },
               py::arg("slider"), py::arg("excitation"), py::arg("times"),
-              R"(The linear system from rest, as every theory: `StationaryPrediction.transient`.
+              R"(Predict moments from rest, like other theories, by `StationaryPrediction.transient`.
 
 Parameters
 ----------
 slider, excitation
     As above.
 times : array_like, shape (T,)
-    [s], finite and at least 0, in any order.
+    Times [s], finite and at least 0, in any order.
 
 Returns
 -------
@@ -181,16 +186,17 @@ Moments
 Raises
 ------
 TypeError, ValueError, ConvergenceError
-    As above; a time out of its range.)")
+    As above; a time out of range.)")
           .def(
               "threshold",
               [](const StationaryLinearization& self, const AnySlider& slider, const AnyNoise& excitation) {
                 return self.threshold(coulomb(slider), stationary_noise(excitation));
               },
-              py::arg("slider"), py::arg("excitation"), R"(The factor on the ground acceleration at which motion begins.
+              py::arg("slider"), py::arg("excitation"),
+              R"(Compute the factor on the ground acceleration at which motion begins.
 
-sqrt(2/pi) a / sigma_n, thesis (4.22): where it is 1 or more the method predicts no motion, which in truth is rare and
-small but not nil.
+sqrt(2/pi) a / sigma_n, thesis (4.22). If it is 1 or more the method predicts no motion; the actual motion is then small
+and rare, but not zero.
 
 Parameters
 ----------

@@ -1,4 +1,4 @@
-// What the bindings of all theories share: the excitation as Python gives it, `covers` and `name`.
+// Shared by the bindings of all theories: excitations from Python, `covers` and `name`.
 #pragma once
 
 #include <pybind11/stl.h>
@@ -11,14 +11,14 @@
 
 namespace stickslip::python {
 
-/// White noise, and any stationary noise: a number is the level S0.
+/// White or other stationary noise; a number is the level S0.
 using AnyNoise = std::variant<double, Spectrum, GaussianExcitation>;
 
 inline theory::WhiteLevel white_level(const AnyNoise& noise) {
   return std::visit([](const auto& any) { return theory::WhiteLevel(any); }, noise);
 }
 
-/// All that shaped noise is made from.
+/// Sources of shaped noise.
 using AnyShapedNoise = std::variant<double, Spectrum, GaussianExcitation, PoissonPulses, theory::ShapingFilter>;
 
 inline theory::ShapedNoise shaped_noise(const AnyShapedNoise& noise) {
@@ -29,10 +29,10 @@ inline theory::StationaryNoise stationary_noise(const AnyNoise& noise) {
   return std::visit([](const auto& any) { return theory::StationaryNoise(any); }, noise);
 }
 
-/// An excitation that the library does not know.
+/// A user-defined excitation.
 struct OwnExcitation {};
 
-/// Calls `use` with the excitation in its own type.
+/// Calls `use` with the excitation in its static type.
 template <class Use>
 auto with_excitation(const py::object& excitation, const Use& use) {
   if (py::isinstance<Spectrum>(excitation)) return use(excitation.cast<const Spectrum&>());
@@ -45,12 +45,12 @@ auto with_excitation(const py::object& excitation, const Use& use) {
   return use(OwnExcitation());
 }
 
-/// `name` and `covers`.
+/// Binds `name` and `covers`.
 template <class T>
 void def_theory(py::class_<T>& theory) {
   theory
       .def_property_readonly(
-          "name", [](const T& self) { return self.name(); }, "Its name in a `Comparison`.")
+          "name", [](const T& self) { return self.name(); }, "Name of the theory in a `Comparison`.")
       .def(
           "covers",
           [](const T& self, const py::object& slider, const py::object& excitation) -> theory::Coverage {
@@ -61,25 +61,25 @@ void def_theory(py::class_<T>& theory) {
               return std::visit([&](const auto& s) -> theory::Coverage { return self.covers(s, e); }, friction);
             });
             if (!known && coverage.excitation)
-              coverage.reason = std::string(self.name()) + ": covers sliders on friction, got " +
+              coverage.reason = std::string(self.name()) + ": covers sliders with friction, got " +
                                 py::type::of(slider).attr("__name__").template cast<std::string>();
             return coverage;
           },
           py::arg("slider"), py::arg("excitation"), R"(Whether the theory covers a slider under an excitation.
 
-Looks at both alone, in microseconds; what only the computation finds `predict` raises.
+Takes microseconds; `predict` raises errors that only the computation finds.
 
 Parameters
 ----------
 slider : Slider or friction law
-    What slides. Of anything else the answer is no.
+    For other objects the result is False.
 excitation : float, Spectrum, ShapingFilter, GaussianExcitation, PoissonPulses or HarmonicMotion
-    A number is the level S0 of white noise [m^2/s^3]. Of anything else the answer is no.
+    A number is the level S0 of white noise [m^2/s^3]. For other objects the result is False.
 
 Returns
 -------
 Coverage
-    True or False by itself, with the reason.)");
+    True or False as a bool, with the reason.)");
 }
 
 }  // namespace stickslip::python

@@ -26,29 +26,30 @@ void bind_white_noise(py::module_& m) {
   auto type =
       value_class<WhiteNoise>(m, "WhiteNoise", R"(Coulomb friction without a spring under white noise, exactly.
 
-The velocity is a diffusion towards rest: dv = -a sgn(v) dt + sqrt(2 D) dW, D = pi S0, dx = v dt, thesis (3.48), (3.49);
-with a level of its own each way where the two differ. For other laws, and with a spring, nothing exact is known.
+The velocity is a diffusion toward rest: dv = -a sgn(v) dt + sqrt(2 D) dW, D = pi S0, dx = v dt, thesis (3.48), (3.49);
+with a different a in each direction for unequal levels. There is no known exact solution for other laws, or with a
+spring.
 
 Parameters
 ----------
 slider : Slider or Coulomb, optional
-    Coulomb friction; the two levels may differ. An infinite backward level never slides backward. A slip level of
-    1 m/s^2 if not given.
+    Coulomb friction; the two levels may differ. With an infinite backward level it never slides backward. Default: a
+    slip level of 1 m/s^2.
 s0 : float, Spectrum or GaussianExcitation, optional
     Level S0 of the white ground acceleration, two-sided, R(t) = 2 pi S0 delta(t) [m^2/s^3], positive and finite; or a
-    white spectrum or excitation. 1 if not given.
+    white spectrum or excitation. Default: 1.
 
 Raises
 ------
 ValueError
-    s0 out of its range, noise that is not white, a spring.
+    s0 out of range, noise that is not white, a spring.
 TypeError
     Another law.
 
 Notes
 -----
-A level of 0 leaves no stationary velocity that way: stationary figures are then infinite, transient ones stay right.
-Figures at a time are those of a start from rest. All are good to 1e-12 of themselves or better; a time takes about 3 us.
+If one level is 0 the velocity is not stationary: stationary values are infinite, transient ones remain right. Values at
+a time are for a start from rest. The relative error is at most 1e-12; each time takes about 3 us.
 
 References
 ----------
@@ -59,7 +60,7 @@ T. K. Caughey, J. K. Dienes, J. Appl. Phys. 32 (1961), 2476-2479; I. Karatzas, S
           .def_static(
               "coulomb",
               [](double slip_level, const AnyNoise& s0) { return WhiteNoise::coulomb(slip_level, white_level(s0)); },
-              py::arg("slip_level"), py::arg("s0"), R"(The same slip level both ways.
+              py::arg("slip_level"), py::arg("s0"), R"(Construct the theory for equal slip levels in both directions.
 
 Parameters
 ----------
@@ -69,32 +70,33 @@ s0 : float, Spectrum or GaussianExcitation
     As above.)")
           .def_property_readonly("law", &WhiteNoise::law, "The friction law.")
           .def_property_readonly("s0", &WhiteNoise::s0, "Level of the white noise [m^2/s^3].")
-          .def_property_readonly("mean", &WhiteNoise::mean,
-                                 "Stationary mean velocity, the drift: D / a - D / b [m/s], a and b the levels against "
-                                 "forward and backward sliding.")
+          .def_property_readonly(
+              "mean", &WhiteNoise::mean,
+              "Stationary mean velocity, the drift: D / a - D / b [m/s], where a and b are the levels against "
+              "forward and backward sliding.")
           .def_property_readonly("variance", &WhiteNoise::variance,
                                  "Stationary variance of the velocity: D^2 (1 / a^2 + 1 / b^2), which is 2 pi^2 S0^2 / "
                                  "a^2, thesis (3.48) [m^2/s^2].")
           .def_property_readonly(
               "growth_rate", &WhiteNoise::growth_rate,
               "Growth of the displacement variance once the velocity is stationary: 2 D^3 (2 / a^4 + 1 "
-              "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite where a "
-              "level is 0: the variance then grows as t^3, and `predict` leaves its growth rate NaN.")
+              "/ (a b)^2 + 2 / b^4), which is 10 pi^3 S0^3 / a^4, thesis (3.49) [m^2/s]. Infinite if a "
+              "level is 0: the variance then grows as t^3, and the growth rate of `predict` is NaN.")
           .def("density", by_one("velocity", &WhiteNoise::density), py::arg("velocity"),
                R"(Stationary probability density of the velocity.
 
 Two exponentials that meet at rest: p(v) = exp(-a v / D) / (D / a + D / b) for v > 0, exp(b v / D) / (D / a + D / b) for
-v < 0; a / (2 D) exp(-a |v| / D) where the levels are equal. 0 where a level is 0.
+v < 0; a / (2 D) exp(-a |v| / D) if the levels are equal. 0 if a level is 0.
 
 Parameters
 ----------
 velocity : array_like
-    [m/s].
+    Velocities [m/s].
 
 Returns
 -------
 float or numpy.ndarray
-    [s/m], of the shape of velocity.)")
+    Density [s/m], of the shape of velocity.)")
           .def(
               "transition_density",
               [](const WhiteNoise& self, const py::object& velocity, const py::object& time, const py::object& start) {
@@ -104,7 +106,7 @@ float or numpy.ndarray
                    to_numbers(start, "WhiteNoise: start", "m/s"));
               },
               py::arg("velocity"), py::arg("time"), py::arg("start") = 0.0,
-              R"(Probability density of the velocity at a time, from the velocity at time 0.
+              R"(Probability density of the velocity at a time, given the velocity at time 0.
 
 With y = |v|, y0 = |v0|: exp(-(y - y0 + a t)^2 / 4 D t) / sqrt(4 pi D t) + q on the side of the start, exp(-a y / D)
 exp(-(y + y0 - a t)^2 / 4 D t) / sqrt(4 pi D t) + q beyond rest, q = a / (4 D) exp(-a y / D) erfc((y + y0 - a t) /
@@ -122,32 +124,31 @@ start : array_like, optional
 Returns
 -------
 float or numpy.ndarray
-    [s/m], of the shape that the parameters broadcast to.
+    Density [s/m], of the shape to which the parameters broadcast.
 
 Raises
 ------
 ValueError
-    A value out of its range; or unequal levels, for which no closed form is known.)")
-          .def(
-              "velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
-              R"(Two-sided spectral density of the stationary velocity; its variance is the integral over the whole line.
+    A value out of range; unequal levels, for which no closed form is known.)")
+          .def("velocity_spectrum", by_one("omega", &WhiteNoise::velocity_spectrum), py::arg("omega"),
+               R"(Two-sided spectral density of the stationary velocity, whose integral over the line is the variance.
 
 S(w) = D^3 / (pi a^4) Re[(2 k^2 + 2 k + 1) / k^4], 2 k = 1 + sqrt(1 + 4 i w D / a^2).
 
 Parameters
 ----------
 omega : array_like
-    [rad/s].
+    Angular frequencies [rad/s].
 
 Returns
 -------
 float or numpy.ndarray
-    [m^2/s], of the shape of omega.
+    Density [m^2/s], of the shape of omega.
 
 Raises
 ------
 ValueError
-    Levels that differ, or are 0.)")
+    Unequal levels, or levels of 0.)")
           .def(
               "absolute_moment",
               [](const WhiteNoise& self, int order, const py::object& time) {
@@ -156,24 +157,25 @@ ValueError
               py::arg("order"), py::arg("time"),
               R"(E|v|^n at a time, from rest.
 
-By the transform n! (1/k^(n+1) + 1/m^(n+1)) / (s (1/k + 1/m)), 2 D k = a + sqrt(a^2 + 4 D s), m as k, of b.
+Computed from the transform n! (1/k^(n+1) + 1/m^(n+1)) / (s (1/k + 1/m)), 2 D k = a + sqrt(a^2 + 4 D s), and m like k
+with b.
 
 Parameters
 ----------
 order : int
     n, from 1 to 8.
 time : array_like
-    [s], finite and at least 0.
+    Times [s], finite and at least 0.
 
 Returns
 -------
 float or numpy.ndarray
-    [(m/s)^n], of the shape of time.
+    Moments [(m/s)^n], of the shape of time.
 
 Raises
 ------
 ValueError
-    A value out of its range.)")
+    A value out of range.)")
           .def(
               "predict",
               [](const WhiteNoise& self, const py::object& times) {
@@ -181,15 +183,15 @@ ValueError
                 const py::gil_scoped_release released;
                 return self.predict(t);
               },
-              py::arg("times"), R"(Means and covariances by time, from rest.
+              py::arg("times"), R"(Predict means and covariances by time, from rest.
 
-E[x v] and E[x^2] by their transforms too: where the levels are equal, in units of D and a, 3 / ((k - 1) (2 k - 1) k^4)
+E[x v] and E[x^2] also follow from their transforms: for equal levels, in units of D and a, 3 / ((k - 1) (2 k - 1) k^4)
 + 2 / ((k - 1) (2 k - 1)^2 k^3), and 2 / (k (k - 1)) times that.
 
 Parameters
 ----------
 times : array_like of shape (T,)
-    [s], finite, at least 0, increasing.
+    Times [s], finite, at least 0, increasing.
 
 Returns
 -------
@@ -198,7 +200,7 @@ Moments
 Raises
 ------
 ValueError
-    Times out of range; a figure beyond the range of doubles.)")
+    Times out of range; a value beyond the range of doubles.)")
           .def(
               "predict",
               [](const WhiteNoise&, const AnySlider& slider, const AnyNoise& excitation, const py::object& times) {
@@ -208,16 +210,16 @@ ValueError
                 return theory.predict(t);
               },
               py::arg("slider"), py::arg("excitation"), py::arg("times"),
-              R"(As every theory: of any slider and white noise, as of ``WhiteNoise(slider, excitation)``.
+              R"(Predict for a given slider and excitation, like other theories: ``WhiteNoise(slider, excitation)``.
 
 Parameters
 ----------
 slider : Slider or Coulomb
     Coulomb friction without a spring.
 excitation : float, Spectrum or GaussianExcitation
-    White noise: its level S0 [m^2/s^3], or what has one.
+    White noise: the level S0 [m^2/s^3], or a white spectrum or excitation.
 times : array_like of shape (T,)
-    [s], finite, at least 0, increasing.
+    Times [s], finite, at least 0, increasing.
 
 Returns
 -------
@@ -226,9 +228,9 @@ Moments
 Raises
 ------
 ValueError
-    As above, and what `WhiteNoise` raises.
+    As above, and errors of `WhiteNoise`.
 TypeError
-    Another law; an excitation of another kind.)")
+    Another law; another kind of excitation.)")
           .def("__repr__", [](const WhiteNoise& self) {
             return "WhiteNoise(" + py::repr(py::cast(self.law())).cast<std::string>() +
                    ", s0=" + detail::shortest(self.s0()) + ")";

@@ -67,14 +67,14 @@ def _thesis(args: argparse.Namespace) -> str:
     seed = args.seed if args.seed is not None else 2 if args.check else 1
     shown = sys.stderr is not None and sys.stderr.isatty()
 
-    def heartbeat(what: str, share: float) -> None:
-        print(f"\r\33[K{what} {share:4.0%}", end="", file=sys.stderr, flush=True)
+    def progress(task: str, fraction: float) -> None:
+        print(f"\r\33[K{task} {fraction:4.0%}", end="", file=sys.stderr, flush=True)
 
     source = thesis.Thesis(
         members=members,
         seed=seed,
         threads=args.threads,
-        heartbeat=heartbeat if shown else None,
+        progress=progress if shown else None,
     )
     folder = args.out or (None if args.check else Path("thesis"))
     if folder:

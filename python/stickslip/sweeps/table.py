@@ -359,7 +359,7 @@ class SweepTable:
             The parameter on the horizontal axis; default: the first one with numbers. If others
             vary too, each combination of them has its own median and band, at most six.
         ax : matplotlib Axes, optional
-            Where to draw; a new figure of 7 x 4.5 inches if not given.
+            Where to draw; default: a new figure of 7 x 4.5 inches.
         title : str, optional
 
         Returns
