@@ -77,6 +77,22 @@ CASES = {
         ["--mu", 0.06, "--period", 2.5, "--damping-ratio", 0.1],
         ss.Slider(ss.Coulomb(mu=0.06), period=2.5, damping_ratio=0.1),
     ),
+    "static": (
+        ["--mu", 0.1, "--mu-static", 0.15],
+        ss.StaticKinetic(mu_static=0.15, mu_kinetic=0.1),
+    ),
+    "static caster": (
+        ["--mu", 0.1, "--mu-static", 0.15, "--law", "caster", "--reach", 0.9],
+        ss.StaticKinetic(ss.Caster(mu=0.1, reach=0.9), mu_static=0.15),
+    ),
+    "static one-way": (
+        ["--mu", 0.1, "--mu-static", 0.15, "--law", "one-way"],
+        ss.Slider(ss.StaticKinetic(mu_static=0.15, mu_kinetic=0.1), one_way=True),
+    ),
+    "stops": (
+        ["--mu", 0.1, "--stop-gap", 0.01, "--restitution", 0.4],
+        ss.Slider(ss.Coulomb(mu=0.1), stops=ss.Stops(gap=0.01, restitution=0.4)),
+    ),
 }
 
 
@@ -193,6 +209,31 @@ REFUSED = {
         ["RECORD", "--mu", 0.1, "--period", 2, "--damping-ratio", -0.1],
         "--damping-ratio must be finite and at least 0, got -0.1",
     ),
+    "static below kinetic": (
+        ["RECORD", "--mu", 0.1, "--mu-static", 0.05],
+        "--mu-static must be finite and at least --mu, 0.1, got 0.05",
+    ),
+    "NaN static": (["RECORD", "--mu", 0.1, "--mu-static", "nan"], "at least --mu, 0.1, got nan"),
+    "stops without restitution": (
+        ["RECORD", "--mu", 0.1, "--stop-gap", 0.1],
+        "--stop-gap needs --restitution",
+    ),
+    "restitution without stops": (
+        ["RECORD", "--mu", 0.1, "--restitution", 0.1],
+        "--restitution goes with --stop-gap, got 0.1 without",
+    ),
+    "restitution above 1": (
+        ["RECORD", "--mu", 0.1, "--stop-gap", 0.1, "--restitution", 2],
+        "restitution must be from 0 to 1, got 2",
+    ),
+    "all components of a station": (
+        ["RECORD", "--mu", 0.1, "--station", "--component", "all"],
+        "--station slides along one direction, got --component all",
+    ),
+    "one vertical for two records": (
+        ["RECORD", "other.csv", "--mu", 0.1, "--vertical", "up.csv"],
+        "--vertical goes with one record, got 2",
+    ),
     "infinite scale": (
         ["RECORD", "--mu", 0.1, "--scale", "inf"],
         "--scale must be finite, got inf",
@@ -235,6 +276,69 @@ def test_the_version_says_what_the_build_contains_and_its_licence(capsys):
     assert ("GPL-3.0-or-later" in out) == bool(info["fftw"] or info["gsl"])
     for library in ("fftw", "gsl", "sundials"):
         assert info[library] in out
+
+
+# ---- vertical motion
+
+
+@pytest.fixture
+def station(tmp_path, record):
+    """A file of all three components; the vertical one is up to 2.5 times the slider's weight."""
+    quake = ss.read_record(record)
+    up = 2.5 * G * np.sin(9 * quake.time) * np.sin(math.pi * quake.time / quake.duration)
+    components = [quake.acceleration, quake.acceleration[::-1], up]
+    rows = np.column_stack([quake.time, np.transpose(components) / G]).tolist()
+    file = tmp_path / "station.csv"
+    text = "".join(",".join(map(repr, row)) + "\n" for row in rows)
+    file.write_text("Time (s), NS (g), EW (g), UD (g)\n" + text)
+    return file
+
+
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")
+def test_the_vertical_component_of_a_station_acts(capsys, station):
+    motion = ss.read_station(station)
+    assert motion.vertical is not None
+    answers = []
+    for contact in ("flight", "clipped"):
+        (row,) = results(capsys, station, "--station", "--mu", 0.1, "--contact", contact)
+        r = ss.integrate(ss.Coulomb(mu=0.1), motion, settle=True, contact=contact)
+        assert (row["peak_m"], row["residual_m"]) == (r.peak, r.residual)
+        assert (row["contact"], row["components"]) == (contact, "axis + vertical")
+        answers.append(row["peak_m"])
+    assert answers[0] != answers[1]
+    (row,) = results(capsys, station, "--component", "NS", "--mu", 0.1)
+    assert row["components"] == "axis"
+    (row,) = results(capsys, station, "--station", "--component", 30, "--mu", 0.1)
+    r = ss.integrate(ss.Coulomb(mu=0.1), ss.read_station(station, along=30), settle=True)
+    assert row["peak_m"] == r.peak
+
+
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")
+def test_the_vertical_component_may_have_a_file_of_its_own(capsys, record, station, tmp_path):
+    up = ss.read_station(station).component("vertical").acceleration / G
+    rows = "".join(f"{0.02 * i:.2f},{a!r}\n" for i, a in enumerate(up.tolist()))
+    file = tmp_path / "up.csv"
+    file.write_text("# Time (s),Acceleration (g's)\n" + rows)
+    options = ["--vertical", file, "--mu", 0.1]
+    (row,) = results(capsys, record, *options)
+    quake = ss.read_record(record)
+    both = ss.GroundMotion(quake.acceleration, quake.dt, vertical=ss.read_record(file).acceleration)
+    r = ss.integrate(ss.Coulomb(mu=0.1), both, settle=True)
+    assert (row["peak_m"], row["residual_m"]) == (r.peak, r.residual)
+    assert row["components"] == "axis + vertical"
+
+    code, out, err = run(capsys, record, *options, "--csv", file)
+    assert (code, out) == (2, "")
+    assert "would overwrite the record" in err
+    file.write_text("".join(file.read_text().splitlines(True)[:-1]))
+    code, _, err = run(capsys, record, *options)
+    assert code == 1
+    assert "--vertical must have the samples of the record, 500 of 0.02 s, got 499 of 0.02 s" in err
+    file.unlink()
+    code, _, err = run(capsys, record, *options)
+    assert code == 1
+    assert "up.csv" in err
+    assert err.count("\n") == 1
 
 
 # ---- batches

@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .. import GroundMotion, PlausibilityWarning, read_record, sample_record
+from .. import GroundMotion, PlausibilityWarning, read_record, read_station, sample_record
 from .._core import acceleration_unit
 from .output import FAILURES, check_outputs, complain, reason_of
 from .parser import text_argument
 
-__all__ = ["Batch", "StrictError", "add_files"]
+__all__ = ["Batch", "StrictError", "add_files", "add_vertical"]
 
 _SAMPLE = "sample:"  # before the name of a sample record, in place of a file
 
@@ -52,6 +52,24 @@ def add_files(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_vertical(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that let the vertical motion act, which `Batch` reads too."""
+    add = parser.add_mutually_exclusive_group().add_argument
+    add(
+        "--station",
+        action="store_true",
+        help="each record is a file with all components of a station: its vertical component acts"
+        " too, and --component is a horizontal component or an azimuth [degrees] (default: the"
+        " first horizontal component)",
+    )
+    add(
+        "--vertical",
+        type=Path,
+        metavar="FILE",
+        help="vertical component of the record, from another file with the same samples",
+    )
+
+
 class StrictError(Exception):
     """The first failure of a batch under --strict."""
 
@@ -83,12 +101,20 @@ class Batch:
                 raise ValueError(f"--scale must be finite, got {value:g}")
         self.args = args
         self.files = [file for given in args.records for file in _expanded(given)]
+        self.station = getattr(args, "station", False)
+        self.vertical: Path | None = getattr(args, "vertical", None)
+        if self.station and args.component == "all":
+            raise ValueError("--station slides along one direction, got --component all")
+        if self.vertical is not None and len(self.files) != 1:
+            raise ValueError(f"--vertical goes with one record, got {len(self.files)}")
+        # What must not be written to.
+        self.inputs = [*self.files, *([self.vertical] if self.vertical else [])]
         self.errors: list[dict[str, str]] = []
         self.pictures = list(self._pictures())
         outputs = [("--plot", picture) for picture in self.pictures]
         if args.csv:
             outputs.append(("--csv", args.csv))
-        check_outputs(outputs, self.files)
+        check_outputs(outputs, self.inputs)
 
     @property
     def code(self) -> int:
@@ -125,19 +151,34 @@ class Batch:
         if motion.component is None:
             return picture
         picture = picture.with_stem(f"{picture.stem}-{motion.component}")
-        check_outputs([("--plot", picture)], self.files)
+        check_outputs([("--plot", picture)], self.inputs)
         return picture
 
     def _read(self, file: Path) -> list[Motion]:
+        found = self._read_horizontal(file)
+        if self.vertical is None:
+            return found
+        try:
+            up = read_record(self.vertical, **self._options)
+        except FAILURES as error:  # else the line on stderr would name the record
+            raise ValueError(f"--vertical: {reason_of(error)}") from error
+        return [Motion(_with_vertical(motion, up), component) for motion, component in found]
+
+    @property
+    def _options(self) -> dict[str, Any]:
+        """What the readers of all components are given."""
+        return {"units": self.args.units, "dt": self.args.dt, "gaps": self.args.gaps}
+
+    def _read_horizontal(self, file: Path) -> list[Motion]:
         if str(file).startswith(_SAMPLE):
+            if self.station:
+                raise ValueError("a sample record has one component; --station needs a file")
             return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None)]
         if file.is_dir():
             raise ValueError("the folder holds no files")
-        options: dict[str, Any] = {
-            "units": self.args.units,
-            "dt": self.args.dt,
-            "gaps": self.args.gaps,
-        }
+        options = self._options
+        if self.station:
+            return [Motion(read_station(file, along=self.args.component, **options), None)]
         if self.args.component == "all":
             motions = read_record(file, component="all", **options)
             several = len(motions) > 1
@@ -167,6 +208,31 @@ def _expanded(given: Path) -> list[Path]:
         matches = sorted(map(Path, glob.glob(str(given), recursive=True)))
         return [file for match in matches for file in _expanded(match)] or [given]
     return [given]
+
+
+def _with_vertical(motion: GroundMotion, up: GroundMotion) -> GroundMotion:
+    """A motion with the vertical component that another file holds."""
+    if (
+        motion.dt != up.dt
+        or len(motion) != len(up)
+        or (motion.dt is None and any(motion.time != up.time))
+    ):
+
+        def samples(of: GroundMotion) -> str:
+            return f"{len(of)} of {'uneven times' if of.dt is None else f'{of.dt:g} s'}"
+
+        raise ValueError(
+            f"--vertical must have the samples of the record, {samples(motion)}, got {samples(up)}"
+        )
+    times: dict[str, Any] = {"times": motion.time} if motion.dt is None else {"dt": motion.dt}
+    return GroundMotion(
+        motion.acceleration,
+        **times,
+        interpolation=motion.interpolation,
+        name=motion.name,
+        vertical=up.acceleration,
+        orientation=motion.orientation,
+    )
 
 
 def _in_words_of_the_command(text: str) -> str:

@@ -6,11 +6,11 @@ import argparse
 import statistics
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from .. import STANDARD_GRAVITY, ConvergenceError, GroundMotion, Response, Slider, integrate
 from .._text import printable
-from .batch import Batch, add_files
+from .batch import Batch, add_files, add_vertical
 from .output import column, json_text, write_csv
 from .parser import numbers
 from .slider import add_slider, described, heading, slider_of, variations
@@ -25,12 +25,17 @@ _COLUMNS = (
     "pga_g",
     "law",
     "mu",
+    "mu_static",
     "slip_level_forward_m_s2",
     "slip_level_backward_m_s2",
     "reach_m",
     "slope_degrees",
     "period_s",
     "damping_ratio",
+    "stop_gap_m",
+    "restitution",
+    "contact",
+    "components",
     "polarity",
     "peak_m",
     "residual_m",
@@ -50,9 +55,9 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " displacement relative to the ground [cm], the time spent sliding [s] and the number of"
         " slips (a reversal ends one slip and begins another). Ground acceleration is given in g ="
         " 9.80665 m/s^2.",
-        epilog="--mu, --reach, --slope, --period, --damping-ratio and --scale take a number or a"
-        " range START:STOP:STEP, which includes STOP, such as 0.05:0.6:0.05; every combination is"
-        " computed."
+        epilog="--mu, --mu-static, --reach, --slope, --period, --damping-ratio, --stop-gap,"
+        " --restitution and --scale take a number or a range START:STOP:STEP, which includes STOP,"
+        " such as 0.05:0.6:0.05; every combination is computed."
         " A slider that does not come to rest (no friction; a caster that has escaped) is"
         " reported in its state at the end of the record, and its row says so. A record that cannot"
         " be read or slid is reported in one line on stderr; the others are printed, and the exit"
@@ -70,6 +75,14 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         help="coefficients of friction [-] or ranges; a repeated value is used once",
     )
     add_slider(parser, ranges=True)
+    add_vertical(parser)
+    add(
+        "--contact",
+        choices=("flight", "clipped"),
+        default="flight",
+        help="where the ground falls faster than the block: it flies and lands (the default), or"
+        " stays on the ground without friction",
+    )
     add("--scale", type=numbers, default=1.0, help="factor on the ground acceleration (default 1)")
     add(
         "--both",
@@ -102,7 +115,7 @@ def _slide(args: argparse.Namespace) -> str:
                         for polarity, sign in polarities.items():
                             factor = sign * case.scale
                             motion = found.motion if factor == 1 else found.motion.scaled(factor)
-                            response = _settle(slider, motion)
+                            response = _settle(slider, motion, case.contact)
                             responses[label + (f", {polarity}" if polarity else "")] = response
                             both.append(
                                 _row(case, file, found.component, slider, response, polarity)
@@ -132,11 +145,13 @@ def _draw(responses: dict[str, Response], file: Path) -> None:
     plotting.save(figure, file)
 
 
-def _settle(slider: Slider, motion: GroundMotion) -> Response:
+def _settle(
+    slider: Slider, motion: GroundMotion, contact: Literal["flight", "clipped"]
+) -> Response:
     try:
-        return integrate(slider, motion, settle=True)
+        return integrate(slider, motion, settle=True, contact=contact)
     except ConvergenceError:
-        return integrate(slider, motion)
+        return integrate(slider, motion, contact=contact)
 
 
 def _row(
@@ -157,12 +172,17 @@ def _row(
         "pga_g": response.motion.peak_acceleration / STANDARD_GRAVITY,
         "law": args.law,
         "mu": args.mu,
+        "mu_static": args.mu_static,
         "slip_level_forward_m_s2": forward,
         "slip_level_backward_m_s2": backward,
-        "reach_m": getattr(slider.law, "reach", None),
+        "reach_m": getattr(getattr(slider.law, "sliding", slider.law), "reach", None),
         "slope_degrees": args.slope,
         "period_s": args.period,
         "damping_ratio": args.damping_ratio,
+        "stop_gap_m": args.stop_gap,
+        "restitution": args.restitution,
+        "contact": response.contact,
+        "components": response.components,
         "polarity": polarity,
         "peak_m": response.peak,
         "residual_m": response.residual,
@@ -191,10 +211,13 @@ def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
 
 # The key of each option that may be a range.
 _KEYS = {
+    "mu_static": "mu_static",
     "reach": "reach_m",
     "slope": "slope_degrees",
     "period": "period_s",
     "damping_ratio": "damping_ratio",
+    "stop_gap": "stop_gap_m",
+    "restitution": "restitution",
     "scale": "scale",
 }
 

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from .. import Caster, Coulomb, Slider
+from .. import Caster, Coulomb, Slider, StaticKinetic, Stops
 from .parser import numbers
 
 __all__ = ["add_slider", "described", "heading", "slider_of", "variations"]
@@ -16,10 +16,13 @@ __all__ = ["add_slider", "described", "heading", "slider_of", "variations"]
 # The options that may be ranges, with their headings in tables and names in legends.
 _VARIED = {
     "mu": "mu",
+    "mu_static": "static mu",
     "reach": "reach [m]",
     "slope": "slope [deg]",
     "period": "period [s]",
     "damping_ratio": "damping",
+    "stop_gap": "stop gap [m]",
+    "restitution": "restitution",
     "scale": "scale",
 }
 
@@ -36,6 +39,12 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     number: Callable[[str], Any] = numbers if ranges else float
     add = parser.add_argument
     add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
+    add(
+        "--mu-static",
+        type=number,
+        metavar="MU",
+        help="coefficient of static friction [-], at least --mu, which is then the kinetic one",
+    )
     add("--reach", type=number, metavar="M", help="caster: distance over which the level falls [m]")
     add(
         "--trail",
@@ -47,6 +56,18 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     add("--period", type=number, metavar="S", help="period of the mass on its spring [s]")
     add("--damping-ratio", type=number, metavar="Z", help="damping ratio; with --period")
     add("--slope", type=number, metavar="DEGREES", help="slope of the ground; downhill is forward")
+    add(
+        "--stop-gap",
+        type=number,
+        metavar="M",
+        help="distance from the start to a stop, both ways [m]",
+    )
+    add(
+        "--restitution",
+        type=number,
+        metavar="E",
+        help="speed after an impact on a stop over that before, from 0 to 1; with --stop-gap",
+    )
 
 
 def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list[str]]:
@@ -89,24 +110,38 @@ def slider_of(args: argparse.Namespace) -> Slider:
                 "--law caster needs --reach, or --trail and --wheel-width, in meters, got "
                 + (" and ".join(given) or "none")
             )
-        law: Caster | Coulomb = (
+        law: Caster | Coulomb | StaticKinetic = (
             Caster(mu=mu, reach=args.reach)
             if given == ["--reach"]
             else Caster.from_geometry(mu=mu, trail=args.trail, wheel_width=args.wheel_width)
         )
     else:
         law = Coulomb(mu=mu)
-        if args.law == "one-way" and args.slope is None:
-            law = Coulomb(mu=mu, backward=math.inf)
+    # On level ground a level that nothing outgrows, as the tables have it.
+    one_way = args.law == "one-way"
+    if one_way and args.slope is None and args.mu_static is None:
+        law, one_way = Coulomb(mu=mu, backward=math.inf), False
+    if args.mu_static is not None:
+        if not mu <= args.mu_static < math.inf:
+            raise ValueError(
+                f"--mu-static must be finite and at least --mu, {mu:g}, got {args.mu_static:g}"
+            )
+        law = StaticKinetic(law, mu_static=args.mu_static)
     ratio = args.damping_ratio
     if ratio is not None and not 0 <= ratio < math.inf:
         raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
     if ratio is not None and args.period in (None, math.inf):
         raise ValueError(f"--damping-ratio goes with a finite --period, got {ratio:g} without")
+    if args.restitution is not None and args.stop_gap is None:
+        raise ValueError(f"--restitution goes with --stop-gap, got {args.restitution:g} without")
+    if args.stop_gap is not None and args.restitution is None:
+        raise ValueError("--stop-gap needs --restitution, from 0 to 1, got none")
     ground: dict[str, Any] = {
         "slope_degrees": args.slope or 0.0,
-        "one_way": args.law == "one-way" and args.slope is not None,
+        "one_way": one_way,
     }
+    if args.stop_gap is not None:
+        ground["stops"] = Stops(gap=args.stop_gap, restitution=args.restitution)
     if args.period is None:
         return Slider(law, **ground)
     if not args.period > 0:
