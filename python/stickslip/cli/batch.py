@@ -9,10 +9,12 @@ import math
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from .. import GroundMotion, PlausibilityWarning, read_record, sample_record
+from .. import GroundMotion, PlausibilityWarning, sample_record
+from .._core import _warn_if_implausible as warn_if_implausible
 from .._core import acceleration_unit
+from ..records import read_components
 from .output import FAILURES, check_outputs, complain, reason_of
 from .parser import text_argument
 
@@ -61,6 +63,7 @@ class Motion(NamedTuple):
 
     motion: GroundMotion
     component: int | None  # from 1, where all are read
+    units: str  # of the acceleration in the file; empty where it states none
 
 
 class Batch:
@@ -130,19 +133,24 @@ class Batch:
 
     def _read(self, file: Path) -> list[Motion]:
         if str(file).startswith(_SAMPLE):
-            return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None)]
+            return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None, "g")]
         if file.is_dir():
             raise ValueError("the folder holds no files")
-        options: dict[str, Any] = {
-            "units": self.args.units,
-            "dt": self.args.dt,
-            "gaps": self.args.gaps,
-        }
-        if self.args.component == "all":
-            motions = read_record(file, component="all", **options)
-            several = len(motions) > 1
-            return [Motion(one, k if several else None) for k, one in enumerate(motions, 1)]
-        return [Motion(read_record(file, component=self.args.component, **options), None)]
+        every = self.args.component == "all"
+        found = read_components(
+            file,
+            units=self.args.units,
+            component=None if every else self.args.component,
+            dt=self.args.dt,
+            gaps=self.args.gaps,
+            only_one=self.args.component is None,
+        )
+        for one in found:
+            warn_if_implausible(one.motion, "read_record")
+        several = len(found) > 1
+        return [
+            Motion(one.motion, k if several else None, one.units) for k, one in enumerate(found, 1)
+        ]
 
     def _pictures(self) -> Iterator[Path]:
         """One file for each record: their places tell apart records of the same name."""
