@@ -18,6 +18,7 @@ from typing import Any, Literal, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _core
 from ._core import (
     STANDARD_GRAVITY,
     GroundMotion,
@@ -27,12 +28,14 @@ from ._core import (
 )
 from ._files import check_regular, replacing
 from ._text import printable
-from .records import read_record
+from .records import Component, File, files_in
+from .stations import Part, stations_of
 
 __all__ = ["LeftOut", "Suite"]
 
 _FORMAT = "stickslip suite 1"
 _KEYS = ("file", "record", "name")  # columns of metadata that tell which record a row is of
+_OTHERS = ("transverse", "vertical")  # components beside the axis
 _SHOWN = 10  # files named in one message
 
 
@@ -61,6 +64,9 @@ class Suite(Sequence[GroundMotion]):
     ----------
     left_out : tuple of LeftOut
         What `read` left out under ``on_error="skip"``.
+    alone : tuple of LeftOut
+        What fitted no station where `read` was asked for ``stations=True``, and why; these
+        motions are in the suite, with one component.
 
     Raises
     ------
@@ -110,6 +116,7 @@ class Suite(Sequence[GroundMotion]):
             column.setflags(write=False)
             self._metadata[str(name)] = column
         self.left_out: tuple[LeftOut, ...] = ()
+        self.alone: tuple[LeftOut, ...] = ()
 
     # ---- a sequence
 
@@ -185,11 +192,13 @@ class Suite(Sequence[GroundMotion]):
             "motions": self._motions,
             "metadata": {name: column.tolist() for name, column in self._metadata.items()},
             "left_out": self.left_out,
+            "alone": self.alone,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__init__(state["motions"], state["metadata"])  # type: ignore[misc]
         self.left_out = state["left_out"]
+        self.alone = state["alone"]
 
     def __repr__(self) -> str:
         columns = ", ".join(self._metadata)
@@ -222,6 +231,8 @@ class Suite(Sequence[GroundMotion]):
     def duplicates(self) -> list[tuple[int, ...]]:
         """The places of motions whose samples and times are the same, whatever their names.
 
+        All components count.
+
         Returns
         -------
         list of tuple of int
@@ -231,6 +242,8 @@ class Suite(Sequence[GroundMotion]):
         for i, motion in enumerate(self._motions):
             digest = hashlib.blake2b(np.ascontiguousarray(motion.acceleration).tobytes())
             digest.update(repr(motion.dt).encode())
+            for other in (motion.transverse, motion.vertical):
+                digest.update(b"-" if other is None else np.ascontiguousarray(other).tobytes())
             if motion.dt is None:
                 digest.update(np.ascontiguousarray(motion.time).tobytes())
             places.setdefault(digest.digest(), []).append(i)
@@ -390,6 +403,9 @@ class Suite(Sequence[GroundMotion]):
         component: str | int | None = None,
         dt: float | None = None,
         gaps: bool = False,
+        stations: bool = False,
+        along: str | float | None = None,
+        common_length: bool = False,
         on_error: Literal["raise", "skip"] = "raise",
         metadata: str | os.PathLike[str] | Mapping[str, ArrayLike] | Any | None = None,
         threads: int | None = None,
@@ -400,9 +416,24 @@ class Suite(Sequence[GroundMotion]):
         ----------
         files : path-like, str or iterable of these
             A folder, with all in it and below but hidden files; a pattern, as
-            ``"records/**/*.AT2"``, where ``**`` is any folders; a file; or a list of these.
+            ``"records/**/*.AT2"``, where ``**`` is any folders; a file; or a list of these. A zip
+            or tar archive of several files stands for all of them.
         units, component, dt, gaps : optional
-            As `read_record` takes them, for all files.
+            As `read_record` takes them, for all files. ``component="all"`` makes each component a
+            motion of the suite.
+        stations : bool, optional
+            Group the components of each station into one GroundMotion with `transverse` and
+            `vertical`, as `read_station` does. Components belong together if they are in one folder
+            or archive, their names are the same but for the component, and they start at the same
+            time where the files say when. Of a file that does not say where it points, the name
+            does: ``CPM-090.txt``, ``TAK000.AT2``, ``TAK-UP.AT2``. What fits no station stays alone
+            and is kept in `alone`. Not with `component`.
+        along : str or float, optional
+            With `stations`: where the axes point, as `read_station` takes it; along the first
+            horizontal component of each station if not given.
+        common_length : bool, optional
+            With `stations`: cut the components of a station to the shortest; otherwise those of
+            different lengths stay alone.
         on_error : {'raise', 'skip'}
             What becomes of files that cannot be read: 'raise' names all of them in one error;
             'skip' leaves them out, warns once at the end (RuntimeWarning), and keeps what they were
@@ -417,21 +448,25 @@ class Suite(Sequence[GroundMotion]):
         Returns
         -------
         Suite
-            In order of the files' names, with the column `file` and those of the metadata.
+            In order of the files' names, with the column `file` and those of the metadata. With
+            ``component="all"`` also `component`, its name or number in the file. With `stations`
+            also `files`, all that were grouped, parted by ``"; "``, and `components`, how many; the
+            `file` is then the first, whose row of the metadata counts.
 
         Raises
         ------
         ValueError
             No files; files that cannot be read, all of them named, those without units first; all
             of them where they are left out; metadata without a column that names the records, or
-            that names none of them.
+            that names none of them; `along` or `common_length` without `stations`; `component` with
+            it.
         OSError
             The folder or the metadata cannot be read.
 
         Warns
         -----
         RuntimeWarning
-            Files were left out.
+            Files were left out; components fitted no station.
         PlausibilityWarning
             Records that are the same, and what `read_record` warns of.
 
@@ -443,39 +478,83 @@ class Suite(Sequence[GroundMotion]):
             raise ValueError(f"Suite.read: on_error must be 'raise' or 'skip', got {on_error!r}")
         if threads is not None and operator.index(threads) < 1:
             raise ValueError(f"Suite.read: threads must be at least 1, got {threads}")
+        if stations and component is not None:
+            raise ValueError("Suite.read: component and stations must not both be given")
+        if not stations and (along is not None or common_length):
+            given = "along" if along is not None else "common_length"
+            raise ValueError(f"Suite.read: {given} needs stations=True")
         table = Path(os.fspath(metadata)) if isinstance(metadata, (str, os.PathLike)) else None
         paths = [p for p in _files(files) if table is None or not _same_file(p, table)]
         if not paths:
             raise ValueError(f"Suite.read: no files in {_shown_source(files)}")
 
-        def read(path: Path) -> GroundMotion | Exception:
+        every = stations or component == "all"
+        one = None if every else component
+
+        def read(path: Path) -> list[tuple[str, list[Component] | Exception]]:
+            options: dict[str, Any] = {"units": units, "dt": dt, "gaps": gaps}
             try:
-                return read_record(path, units=units, component=component, dt=dt, gaps=gaps)
+                inside = files_in(path, component=one, only_one=not every, **options)
             except (OSError, ValueError) as error:
-                return error
+                return [(str(path), error)]
+            return [(file.shown, _tried(file)) for file in inside]
 
         with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-            found = list(pool.map(read, paths, chunksize=16))
+            found = [each for several in pool.map(read, paths, chunksize=16) for each in several]
         left = [
-            LeftOut(str(path), _reason(one, path))
-            for path, one in zip(paths, found)
-            if isinstance(one, Exception)
+            LeftOut(file, _reason(answer, file))
+            for file, answer in found
+            if isinstance(answer, Exception)
         ]
-        motions = [one for one in found if isinstance(one, GroundMotion)]
-        names = [str(path) for path, one in zip(paths, found) if isinstance(one, GroundMotion)]
-        if left and (on_error == "raise" or not motions):
+        parts = [
+            Part(file, number, part)
+            for file, answer in found
+            if not isinstance(answer, Exception)
+            for number, part in enumerate(answer, 1)
+        ]
+        if left and (on_error == "raise" or not parts):
             raise ValueError(
-                f"Suite.read: {_failures(left, len(paths))}"
-                + ('; on_error="skip" leaves them out' if on_error == "raise" and motions else "")
+                f"Suite.read: {_failures(left, len(found))}"
+                + ('; on_error="skip" leaves them out' if on_error == "raise" and parts else "")
             )
-        columns: dict[str, Any] = {"file": names}
+        alone: list[LeftOut] = []
+        columns: dict[str, Any]
+        if stations:
+            grouped, lonely = stations_of(parts, along, common_length)
+            alone = [LeftOut(*one) for one in lonely]
+            motions = [station.motion for station in grouped]
+            names = [station.files[0] for station in grouped]
+            columns = {
+                "file": names,
+                "files": ["; ".join(station.files) for station in grouped],
+                "components": [station.components for station in grouped],
+            }
+        else:
+            motions = [part.component.motion for part in parts]
+            names = [part.file for part in parts]
+            columns = {"file": names}
+            if component == "all":
+                columns["component"] = [p.component.name or str(p.number) for p in parts]
+        for motion in motions:
+            _core._warn_if_implausible(motion, "read_record", 2)
         if metadata is not None:
             columns |= _joined(names, _read_table(table) if table else dict(metadata))
         suite = cls(motions, columns)
-        suite.left_out = tuple(left)
+        suite.left_out, suite.alone = tuple(left), tuple(alone)
         if left:
             warnings.warn(
-                f"Suite.read: {_failures(left, len(paths))}; they are left out",
+                f"Suite.read: {_failures(left, len(found))}; they are left out",
+                RuntimeWarning,
+                stacklevel=2,
+            )
+        if alone:
+            shown = [f"{one.file}: {one.reason}" for one in alone[:_SHOWN]]
+            shown += [f"and {len(alone) - _SHOWN} more"] if len(alone) > _SHOWN else []
+            warnings.warn(
+                printable(
+                    f"Suite.read: {len(alone)} of {len(parts)} components fit no station and stay"
+                    f" alone: {'; '.join(shown)}"
+                ),
                 RuntimeWarning,
                 stacklevel=2,
             )
@@ -513,7 +592,9 @@ class Suite(Sequence[GroundMotion]):
         -----
         8 bytes a sample. `acceleration` holds the samples of all motions one after the other
         [m/s^2], `first` where each begins, `dt` the steps [s], or NaN, where `time` holds the
-        times [s]; `held` is whether values are held, `name` the names; `metadata` has the columns.
+        times [s]; `held` is whether values are held, `name` the names, `orientation` where the
+        axes point; `transverse` and `vertical` hold the other components of the motions that have
+        them, which `has_transverse` and `has_vertical` tell; `metadata` has the columns.
         """
         h5py = _h5py("Suite.save")
         content = io.BytesIO()
@@ -527,6 +608,11 @@ class Suite(Sequence[GroundMotion]):
             h5["held"] = [m.interpolation == "constant" for m in self._motions]
             text = h5py.string_dtype()
             h5.create_dataset("name", data=list(self.names), dtype=text)
+            h5.create_dataset("orientation", data=[m.orientation for m in self], dtype=text)
+            for which in _OTHERS:
+                others = [getattr(m, which) for m in self]
+                h5[f"has_{which}"] = [one is not None for one in others]
+                h5[which] = np.concatenate([[], *(one for one in others if one is not None)])
             group = h5.create_group("metadata", track_order=True)
             for name, column in self._metadata.items():
                 key = name.replace("/", "\\")  # a slash would make a group
@@ -577,18 +663,20 @@ class Suite(Sequence[GroundMotion]):
             try:
                 first, dt, held = h5["first"][:], h5["dt"][:], h5["held"][:]
                 acceleration, time = h5["acceleration"][:], h5["time"][:]
-                names = h5["name"].asstr()[:]
-                motions, used = [], 0
+                names, orientations = h5["name"].asstr()[:], h5["orientation"].asstr()[:]
+                others = {which: _Taken(h5[which][:]) for which in _OTHERS}
+                has = {which: h5[f"has_{which}"][:] for which in _OTHERS}
+                motions, times = [], _Taken(time)
                 for i, name in enumerate(names):
                     n = acceleration[first[i] : first[i + 1]]
-                    how = "constant" if held[i] else "linear"
-                    if math.isnan(dt[i]):
-                        times = time[used : used + n.size]
-                        used += n.size
-                        motion = GroundMotion(n, times=times, interpolation=how, name=name)
-                    else:
-                        motion = GroundMotion(n, float(dt[i]), interpolation=how, name=name)
-                    motions.append(motion)
+                    about: dict[str, Any] = {
+                        "interpolation": "constant" if held[i] else "linear",
+                        "name": name,
+                        "orientation": orientations[i],
+                    }
+                    about |= {w: others[w].take(n.size) for w in _OTHERS if has[w][i]}
+                    about |= {"times": times.take(n.size)} if math.isnan(dt[i]) else {"dt": dt[i]}
+                    motions.append(GroundMotion(n, **about))
                 columns = {
                     key.replace("\\", "/"): (
                         data.asstr()[:] if h5py.check_string_dtype(data.dtype) else data[:]
@@ -598,6 +686,24 @@ class Suite(Sequence[GroundMotion]):
                 return cls(motions, columns)
             except (KeyError, IndexError, OSError, TypeError, ValueError) as error:
                 raise ValueError(f"Suite.open: '{path}' is damaged: {error}") from error
+
+
+class _Taken:
+    """An array of which one part after the other is taken."""
+
+    def __init__(self, values: NDArray[np.float64]) -> None:
+        self.values, self.used = values, 0
+
+    def take(self, count: int) -> NDArray[np.float64]:
+        self.used += count
+        return self.values[self.used - count : self.used]
+
+
+def _tried(file: File) -> list[Component] | Exception:
+    try:
+        return file.read()
+    except (OSError, ValueError) as error:
+        return error
 
 
 def _column(values: Any) -> NDArray[Any]:
@@ -640,7 +746,7 @@ def _shown_source(source: Any) -> str:
     return f"'{os.fspath(source)}'" if isinstance(source, (str, os.PathLike)) else "the list"
 
 
-def _reason(error: Exception, path: Path) -> str:
+def _reason(error: Exception, path: str) -> str:
     """What went wrong, without the name of the file."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
