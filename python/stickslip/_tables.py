@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import html
+import json
+import math
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -10,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import Ensemble, Estimate, Interval, Response
+from ._core import Ensemble, Estimate, Interval, Response, build_info
 from ._files import replacing
 from ._optional import optional
 from ._text import printable
@@ -24,6 +26,7 @@ __all__ = [
     "response_html",
     "to_csv",
     "to_dataframe",
+    "to_json",
     "to_xarray",
 ]
 
@@ -54,7 +57,7 @@ def to_xarray(response: Response) -> Any:
     """The histories of a response as an xarray Dataset; see `Response.to_xarray`."""
     xarray = optional("xarray", "tables", "Response.to_xarray")
     variables = {
-        name.replace(" ", "_"): (
+        _key(name): (
             "time",
             _history(response, name),
             {"long_name": what} | ({"units": unit} if unit else {}),
@@ -85,6 +88,43 @@ def to_csv(response: Response, path: str | os.PathLike[str]) -> Path:
         for rows in _rows(columns):
             stream.write("".join(",".join(map(repr, row)) + "\n" for row in rows).encode())
     return Path(path)
+
+
+def to_json(response: Response) -> str:
+    """The results and histories of a response as JSON; see `Response.to_json`."""
+    events = response.events
+    document = {
+        "stickslip": build_info()["version"],
+        "slider": repr(response.slider),
+        "motion": response.motion.name,
+        "components": response.components,
+        "peak": response.peak,
+        "residual": response.residual,
+        "sliding_distance": response.sliding_distance,
+        "at_rest": response.at_rest,
+        "units": {"time": "s"} | {_key(name): unit for name, unit, _ in _HISTORIES if unit},
+        "time": response.time,
+        **{_key(name): _history(response, name) for name, _, _ in _HISTORIES},
+        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+    }
+    return json_text(document)
+
+
+def json_text(document: Any) -> str:
+    """A document as JSON: exact doubles, arrays as lists, null for NaN and infinity."""
+    return json.dumps(_plain(document), allow_nan=False)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind != "f" or np.isfinite(value).all():
+            return value.tolist()
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def response_html(response: Response) -> str:
@@ -143,6 +183,10 @@ def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]
     head = f"<thead>{row(heading, 'th')}</thead>" if heading else ""
     body = "".join(row(cells, "td") for cells in rows)
     return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
+
+
+def _key(name: str) -> str:
+    return name.replace(" ", "_")
 
 
 def _heading(name: str, unit: str) -> str:

@@ -17,6 +17,7 @@ from typing import Any, Literal, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _core
 from ._core import (
     STANDARD_GRAVITY,
     GroundMotion,
@@ -27,12 +28,14 @@ from ._core import (
 from ._hdf5 import as_column, creating, opening, read_columns, read_texts, write_columns
 from ._optional import optional
 from ._text import printable
-from .records import read_record
+from .records import Component, File, files_in
+from .stations import Part, stations_of
 
 __all__ = ["LeftOut", "Suite"]
 
 _FORMAT = "stickslip suite 1"
 _KEYS = ("file", "record", "name")  # columns of metadata that identify the record of a row
+_OTHERS = ("transverse", "vertical")  # components other than that along the axis
 _SHOWN = 10  # maximum number of files named in one message
 
 
@@ -61,6 +64,9 @@ class Suite(Sequence[GroundMotion]):
     ----------
     left_out : tuple of LeftOut
         The files that `read` left out under ``on_error="skip"``.
+    alone : tuple of LeftOut
+        The components that fitted no station under ``stations=True``, with the reasons; these
+        motions are in the suite, with one component.
 
     Raises
     ------
@@ -110,6 +116,7 @@ class Suite(Sequence[GroundMotion]):
             column.setflags(write=False)
             self._metadata[str(name)] = column
         self.left_out: tuple[LeftOut, ...] = ()
+        self.alone: tuple[LeftOut, ...] = ()
 
     # ---- a sequence
 
@@ -185,11 +192,13 @@ class Suite(Sequence[GroundMotion]):
             "motions": self._motions,
             "metadata": {name: column.tolist() for name, column in self._metadata.items()},
             "left_out": self.left_out,
+            "alone": self.alone,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__init__(state["motions"], state["metadata"])  # type: ignore[misc]
         self.left_out = state["left_out"]
+        self.alone = state["alone"]
 
     def __repr__(self) -> str:
         columns = ", ".join(self._metadata)
@@ -222,6 +231,8 @@ class Suite(Sequence[GroundMotion]):
     def duplicates(self) -> list[tuple[int, ...]]:
         """Indices of motions with equal samples and times; names may differ.
 
+        All components count.
+
         Returns
         -------
         list of tuple of int
@@ -231,6 +242,8 @@ class Suite(Sequence[GroundMotion]):
         for i, motion in enumerate(self._motions):
             digest = hashlib.blake2b(np.ascontiguousarray(motion.acceleration).tobytes())
             digest.update(repr(motion.dt).encode())
+            for other in (motion.transverse, motion.vertical):
+                digest.update(b"-" if other is None else np.ascontiguousarray(other).tobytes())
             if motion.dt is None:
                 digest.update(np.ascontiguousarray(motion.time).tobytes())
             places.setdefault(digest.digest(), []).append(i)
@@ -390,6 +403,9 @@ class Suite(Sequence[GroundMotion]):
         component: str | int | None = None,
         dt: float | None = None,
         gaps: bool = False,
+        stations: bool = False,
+        along: str | float | None = None,
+        common_length: bool = False,
         on_error: Literal["raise", "skip"] = "raise",
         metadata: str | os.PathLike[str] | Mapping[str, ArrayLike] | Any | None = None,
         threads: int | None = None,
@@ -400,9 +416,24 @@ class Suite(Sequence[GroundMotion]):
         ----------
         files : path-like, str or iterable of these
             A folder, including subfolders but not hidden files; a pattern, such as
-            ``"records/**/*.AT2"``, where ``**`` matches any folders; a file; or a list of these.
+            ``"records/**/*.AT2"``, where ``**`` matches any folders; a file; or a list of these. A
+            zip or tar archive of several files represents all of them.
         units, component, dt, gaps : optional
-            As for `read_record`; they apply to all files.
+            As for `read_record`; they apply to all files. ``component="all"`` makes each component
+            a motion of the suite.
+        stations : bool, optional
+            Group the components of each station into one GroundMotion with `transverse` and
+            `vertical`, as `read_station` does. Components belong together if they are in the same
+            folder or archive, if their names differ only in the component, and if they start at the
+            same time, where the files state it. If a file does not state its orientation, its name
+            does: ``CPM-090.txt``, ``TAK000.AT2``, ``TAK-UP.AT2``. A component that fits no station
+            remains a separate motion and is listed in `alone`. Not with `component`.
+        along : str or float, optional
+            With `stations`: direction of the axes, as for `read_station`. Default: the first
+            horizontal component of each station.
+        common_length : bool, optional
+            With `stations`: cut the components of a station to the shortest one; otherwise
+            components of different lengths remain separate.
         on_error : {'raise', 'skip'}
             What to do about files that cannot be read: 'raise' names all of them in one error;
             'skip' leaves them out, warns once at the end (RuntimeWarning), and lists them in
@@ -417,21 +448,25 @@ class Suite(Sequence[GroundMotion]):
         Returns
         -------
         Suite
-            Sorted by file name, with the column `file` and those of the metadata.
+            Sorted by file name, with the column `file` and those of the metadata. With
+            ``component="all"`` also `component`, its name or number in the file. With `stations`
+            also `files`, all grouped files, separated by ``"; "``, and `components`, their number;
+            `file` is then the first of them, which identifies the row of the metadata.
 
         Raises
         ------
         ValueError
             No files; files that cannot be read (named, those without units first; with 'skip', only
             if no file can be read); metadata without a column that identifies the records, or that
-            identifies none of them.
+            identifies none of them; `along` or `common_length` without `stations`; `component` with
+            `stations`.
         OSError
             The folder or the metadata cannot be read.
 
         Warns
         -----
         RuntimeWarning
-            Files were left out.
+            Files were left out; components fitted no station.
         PlausibilityWarning
             Equal records, and the warnings of `read_record`.
 
@@ -443,39 +478,83 @@ class Suite(Sequence[GroundMotion]):
             raise ValueError(f"Suite.read: on_error must be 'raise' or 'skip', got {on_error!r}")
         if threads is not None and operator.index(threads) < 1:
             raise ValueError(f"Suite.read: threads must be at least 1, got {threads}")
+        if stations and component is not None:
+            raise ValueError("Suite.read: component and stations must not both be given")
+        if not stations and (along is not None or common_length):
+            given = "along" if along is not None else "common_length"
+            raise ValueError(f"Suite.read: {given} needs stations=True")
         table = Path(os.fspath(metadata)) if isinstance(metadata, (str, os.PathLike)) else None
         paths = [p for p in _files(files) if table is None or not _same_file(p, table)]
         if not paths:
             raise ValueError(f"Suite.read: no files in {_shown_source(files)}")
 
-        def read(path: Path) -> GroundMotion | Exception:
+        every = stations or component == "all"
+        one = None if every else component
+
+        def read(path: Path) -> list[tuple[str, list[Component] | Exception]]:
+            options: dict[str, Any] = {"units": units, "dt": dt, "gaps": gaps}
             try:
-                return read_record(path, units=units, component=component, dt=dt, gaps=gaps)
+                inside = files_in(path, component=one, only_one=not every, **options)
             except (OSError, ValueError) as error:
-                return error
+                return [(str(path), error)]
+            return [(file.shown, _tried(file)) for file in inside]
 
         with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-            found = list(pool.map(read, paths, chunksize=16))
+            found = [each for several in pool.map(read, paths, chunksize=16) for each in several]
         left = [
-            LeftOut(str(path), _reason(one, path))
-            for path, one in zip(paths, found)
-            if isinstance(one, Exception)
+            LeftOut(file, _reason(answer, file))
+            for file, answer in found
+            if isinstance(answer, Exception)
         ]
-        motions = [one for one in found if isinstance(one, GroundMotion)]
-        names = [str(path) for path, one in zip(paths, found) if isinstance(one, GroundMotion)]
-        if left and (on_error == "raise" or not motions):
+        parts = [
+            Part(file, number, part)
+            for file, answer in found
+            if not isinstance(answer, Exception)
+            for number, part in enumerate(answer, 1)
+        ]
+        if left and (on_error == "raise" or not parts):
             raise ValueError(
-                f"Suite.read: {_failures(left, len(paths))}"
-                + ('; on_error="skip" leaves them out' if on_error == "raise" and motions else "")
+                f"Suite.read: {_failures(left, len(found))}"
+                + ('; on_error="skip" leaves them out' if on_error == "raise" and parts else "")
             )
-        columns: dict[str, Any] = {"file": names}
+        alone: list[LeftOut] = []
+        columns: dict[str, Any]
+        if stations:
+            grouped, lonely = stations_of(parts, along, common_length)
+            alone = [LeftOut(*one) for one in lonely]
+            motions = [station.motion for station in grouped]
+            names = [station.files[0] for station in grouped]
+            columns = {
+                "file": names,
+                "files": ["; ".join(station.files) for station in grouped],
+                "components": [station.components for station in grouped],
+            }
+        else:
+            motions = [part.component.motion for part in parts]
+            names = [part.file for part in parts]
+            columns = {"file": names}
+            if component == "all":
+                columns["component"] = [p.component.name or str(p.number) for p in parts]
+        for motion in motions:
+            _core._warn_if_implausible(motion, "read_record", 2)
         if metadata is not None:
             columns |= _joined(names, _read_table(table) if table else dict(metadata))
         suite = cls(motions, columns)
-        suite.left_out = tuple(left)
+        suite.left_out, suite.alone = tuple(left), tuple(alone)
         if left:
             warnings.warn(
-                f"Suite.read: {_failures(left, len(paths))}; they are left out",
+                f"Suite.read: {_failures(left, len(found))}; they are left out",
+                RuntimeWarning,
+                stacklevel=2,
+            )
+        if alone:
+            shown = [f"{one.file}: {one.reason}" for one in alone[:_SHOWN]]
+            shown += [f"and {len(alone) - _SHOWN} more"] if len(alone) > _SHOWN else []
+            warnings.warn(
+                printable(
+                    f"Suite.read: {len(alone)} of {len(parts)} components fit no station and stay"
+                    f" alone: {'; '.join(shown)}"
+                ),
                 RuntimeWarning,
                 stacklevel=2,
             )
@@ -514,7 +593,9 @@ class Suite(Sequence[GroundMotion]):
         The file takes 8 bytes per sample. `acceleration` holds the samples of all motions one after
         the other [m/s^2]; `first` the index at which each motion begins; `dt` the steps [s], or NaN
         for motions whose times [s] are in `time`; `held` whether values are constant between
-        samples; `name` the names; `metadata` the columns.
+        samples; `name` the names; `orientation` the directions of the axes; `transverse` and
+        `vertical` the other components of the motions for which `has_transverse` and
+        `has_vertical` are true; `metadata` the columns.
         """
         with creating(file, _FORMAT, "Suite.save") as h5:
             sizes = [len(m) for m in self._motions]
@@ -524,6 +605,11 @@ class Suite(Sequence[GroundMotion]):
             h5["time"] = np.concatenate([[], *(m.time for m in self._motions if m.dt is None)])
             h5["held"] = [m.interpolation == "constant" for m in self._motions]
             h5["name"] = list(self.names)
+            h5["orientation"] = [m.orientation for m in self]
+            for which in _OTHERS:
+                others = [getattr(m, which) for m in self]
+                h5[f"has_{which}"] = [one is not None for one in others]
+                h5[which] = np.concatenate([[], *(one for one in others if one is not None)])
             write_columns(h5, "metadata", self._metadata)
         return Path(file)
 
@@ -551,19 +637,40 @@ class Suite(Sequence[GroundMotion]):
         """
         with opening(file, _FORMAT, "Suite.open") as h5:
             first, dt, held = h5["first"][:], h5["dt"][:], h5["held"][:]
-            acceleration, time = h5["acceleration"][:], h5["time"][:]
-            motions, used = [], 0
+            acceleration, times = h5["acceleration"][:], _Taken(h5["time"][:])
+            orientations = read_texts(h5["orientation"])
+            others = {which: _Taken(h5[which][:]) for which in _OTHERS}
+            has = {which: h5[f"has_{which}"][:] for which in _OTHERS}
+            motions = []
             for i, name in enumerate(read_texts(h5["name"])):
                 n = acceleration[first[i] : first[i + 1]]
-                how = "constant" if held[i] else "linear"
-                if math.isnan(dt[i]):
-                    times = time[used : used + n.size]
-                    used += n.size
-                    motion = GroundMotion(n, times=times, interpolation=how, name=name)
-                else:
-                    motion = GroundMotion(n, float(dt[i]), interpolation=how, name=name)
-                motions.append(motion)
+                about: dict[str, Any] = {
+                    "interpolation": "constant" if held[i] else "linear",
+                    "name": name,
+                    "orientation": orientations[i],
+                }
+                about |= {w: others[w].take(n.size) for w in _OTHERS if has[w][i]}
+                about |= {"times": times.take(n.size)} if math.isnan(dt[i]) else {"dt": dt[i]}
+                motions.append(GroundMotion(n, **about))
             return cls(motions, read_columns(h5, "metadata"))
+
+
+class _Taken:
+    """An array from which consecutive parts are taken."""
+
+    def __init__(self, values: NDArray[np.float64]) -> None:
+        self.values, self.used = values, 0
+
+    def take(self, count: int) -> NDArray[np.float64]:
+        self.used += count
+        return self.values[self.used - count : self.used]
+
+
+def _tried(file: File) -> list[Component] | Exception:
+    try:
+        return file.read()
+    except (OSError, ValueError) as error:
+        return error
 
 
 def _files(source: Any) -> list[Path]:
@@ -590,7 +697,7 @@ def _shown_source(source: Any) -> str:
     return f"'{os.fspath(source)}'" if isinstance(source, (str, os.PathLike)) else "the list"
 
 
-def _reason(error: Exception, path: Path) -> str:
+def _reason(error: Exception, path: str) -> str:
     """The reason for an error, without the name of the file."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror

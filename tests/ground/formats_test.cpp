@@ -73,6 +73,7 @@ TEST_CASE("all components of a file come with name, orientation and start", "[re
     CHECK(one.motion == read(geonet(), {.component = one.name}));
     CHECK(one.motion.orientation() == one.name);
     CHECK(one.start == "2001 February 03 04:05:06 UT");
+    CHECK(one.units == "mm/s^2");
   }
   CHECK(parse_components(geonet(), "a", {.component = "up"}).size() == 1);
   CHECK(read(smc()).orientation() == "270");
@@ -229,6 +230,9 @@ TEST_CASE("more columns are several components on the same times", "[records]") 
   }
   // Each column has its own units.
   const std::string mixed = "t (s), a (g), b (gal)\n0,1,1\n1,2,2\n";
+  CHECK(parse_components(mixed, "made_up.txt")[1].units == "gal");
+  CHECK(parse_components("t (s), a (CM/SEC2)\n0,1\n1,2\n", "made_up.txt")[0].units == "cm/s^2");
+  CHECK(parse_components("0,1\n1,2\n", "made_up.txt", in_g)[0].units.empty());  // given, not stated
   CHECK(read(mixed, {.component = "a"}).acceleration()[0] == g);
   CHECK(read(mixed, {.component = "b"}).acceleration()[0] == 0.01);
   refuses("0 1 2 3\n1 2 3\n", {"line 2", "expected 4 columns as in line 1, got 3", "known formats are"}, in_g);

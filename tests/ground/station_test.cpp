@@ -113,7 +113,7 @@ TEST_CASE("components that do not fit together are refused", "[station][errors]"
   late[1].start = "04:05:07";
   refuses(late, "same start, got 04:05:06 (0) and 04:05:07 (90)");
   const auto uneven = [](double last, const std::string& orientation) {
-    return RecordComponent{GroundMotion(one, {0, 1, last}).with_orientation(orientation), {}, {}};
+    return RecordComponent{GroundMotion(one, {0, 1, last}).with_orientation(orientation)};
   };
   refuses({uneven(3, "0"), component(one, "90")}, "same time step, got uneven times (0) and 0.01 s (90)");
   refuses({uneven(3, "0"), uneven(4, "90")}, "same times, got 3 s (0) and 4 s (90)");

@@ -228,6 +228,27 @@ def test_records_says_what_files_hold(capsys, folder, tmp_path):
         assert pgv == pytest.approx(100 * measures.peak_velocity, abs=0.05)
 
 
+def test_records_tells_the_unit_of_the_file_or_that_it_was_given(capsys, tmp_path):
+    stated, silent = tmp_path / "a.csv", tmp_path / "b.csv"
+    stated.write_text("Time (s),NS (cm/sec2),EW (g)\n0,1,2\n0.1,2,3\n")
+    silent.write_text("0,1\n0.1,2\n")
+    code, out, _ = run(capsys, "records", stated)
+    assert code == 0
+    head, first, second = out.splitlines()
+    place = head.index("units")
+    assert first[place:].startswith("cm/s^2 (in the file)  ")
+    assert second[place:].startswith("g (in the file)  ")
+    code, out, _ = run(capsys, "records", silent, "--units", "m/s^2")
+    assert code == 0
+    assert out.splitlines()[1][place:].startswith("m/s^2 (given)  ")
+    code, out, _ = run(capsys, "records", stated, "--component", "EW", "--json")
+    (row,) = json.loads(out)["records"]
+    assert (row["units"], row["units_from"]) == ("g", "file")
+    code, out, _ = run(capsys, "records", silent, "--units", "gal", "--json")
+    (row,) = json.loads(out)["records"]
+    assert (row["units"], row["units_from"]) == ("gal", "option")
+
+
 def test_uneven_times_are_said(capsys, tmp_path):
     file = tmp_path / "uneven.csv"
     file.write_text("Time (s),Acceleration (g)\n0,0.1\n0.1,0.2\n0.25,0\n")

@@ -3,10 +3,12 @@
 import codecs
 import csv
 import gzip
+import io
 import os
 import pickle
 import subprocess
 import sys
+import tarfile
 import warnings
 import zipfile
 from pathlib import Path
@@ -303,6 +305,64 @@ def test_what_a_file_is_packed_in_does_not_matter(write, archive):
     assert ss.read_record(write(nameless, "odd::name.txt"), units="g").name == "name"
 
 
+def tarred(file, members, mode="w:gz"):
+    """An archive, as NIED hands them out: with a folder, and with what a Mac adds."""
+    with tarfile.open(file, mode) as archive:
+        folder = tarfile.TarInfo("event")
+        folder.type = tarfile.DIRTYPE
+        archive.addfile(folder)
+        for name, content in {"event/._x": "mac", **members}.items():
+            data = content if isinstance(content, bytes) else content.encode()
+            info = tarfile.TarInfo(name)
+            info.size = len(data)
+            archive.addfile(info, io.BytesIO(data))
+    return file
+
+
+@pytest.mark.parametrize("mode", ["w", "w:gz"])
+def test_a_tar_archive_is_read_as_a_zip_archive_is(write, tmp_path, mode):
+    plain = ss.read_record(write(CSV, "kobe.csv"))
+    file = tarred(tmp_path / "one.tar.gz", {"event/kobe.csv": CSV}, mode)
+    assert ss.read_record(file) == plain
+    assert ss.read_record(f"{file}::event/kobe.csv") == plain
+    packed = tarred(tmp_path / "packed.tar", {"kobe.csv.gz": gzip.compress(CSV.encode())}, mode)
+    assert ss.read_record(packed) == plain
+    two = tarred(tmp_path / "two.tgz", {"a.csv": CSV, "b.csv": COLUMN}, mode)
+    assert ss.read_record(f"{two}::a.csv") == plain
+    with pytest.raises(ValueError, match=r"name one as archive.zip::member; .* 2 files: a.csv, b"):
+        ss.read_record(two)
+    with pytest.raises(ValueError, match=r"no such member; the archive holds 2 files"):
+        ss.read_record(f"{two}::c.csv")
+    whole = two.read_bytes()
+    for cut in (600, len(whole) - 1) if mode == "w:gz" else (1200,):
+        with pytest.raises(ValueError, match=r"read_record: .*cut.tar"):
+            ss.read_record(f"{write(whole[: min(cut, len(whole) - 1)], 'cut.tar')}::a.csv")
+
+
+def test_an_archive_within_an_archive_is_named_by_two_members(write, tmp_path, archive):
+    inner = tarred(tmp_path / "k.tar.gz", {"a.csv": CSV, "b.csv": CSV}).read_bytes()
+    outer = archive({"k.tar.gz": inner, "readme.txt": "x"})
+    motion = ss.read_record(f"{outer}::k.tar.gz::b.csv")
+    assert motion == ss.read_record(write(CSV, "b.csv"))
+    with pytest.raises(ValueError, match=r"name one as archive.zip::member"):
+        ss.read_record(f"{outer}::k.tar.gz")
+    with pytest.raises(ValueError, match=r"a.csv is not a zip archive, nor a tar archive"):
+        ss.read_record(f"{outer}::k.tar.gz::a.csv::c")
+
+
+def test_the_files_of_an_archive_are_a_station(tmp_path, archive):
+    members = {}
+    for k, name in enumerate(["262", "352", "UP"], start=1):
+        text = AT2.format(header=NEW_HEADER).replace("262", name)
+        members[f"{name}.AT2"] = text.replace(" .1250000E+00", f" {0.125 * k:.7E}")
+    files = [tmp_path / name for name in members]
+    for file, text in zip(files, members.values()):
+        file.write_text(text)
+    motion = ss.read_station(files, along=30)
+    assert ss.read_station(tarred(tmp_path / "s.tar.gz", members), along=30) == motion
+    assert ss.read_station(archive(members), along=30) == motion
+
+
 def test_what_is_wrong_with_an_archive_is_said(write, archive):
     two = archive({"a.csv": CSV, "b.csv": CSV})
     with pytest.raises(ValueError, match=r"name one as archive.zip::member; .* 2 files: a.csv, b"):
@@ -404,6 +464,28 @@ def test_the_files_of_a_station_are_one_motion(write):
             ss.read_station(files, along=bad)
     with pytest.raises(TypeError):
         ss.read_station(files, along=[262])
+
+
+def test_the_axis_of_a_station_is_a_component_by_name_or_number(write):
+    table = write(COLUMNS)
+    one, two = (ss.read_station(table, along=name) for name in ("NS", "EW"))
+    assert ss.read_station(table, component=1) == ss.read_station(table, component="ns") == one
+    assert ss.read_station(table, component=2) == ss.read_station(table, component="2") == two
+    assert one != two
+    # A number of `along` is an azimuth, as before.
+    assert ss.read_station(table, along=0.0).orientation == "NS"
+    assert ss.read_station(table, along=2).orientation == "2"
+    turned = ss.read_station(table, component=2, orientations=[10, 100, "up"])
+    assert turned.orientation == "100"
+    for chosen in (0, 4, -1, "", "Z9"):
+        with pytest.raises(ValueError, match=r"name or number of one component.*1 NS, 2 EW, 3 UD"):
+            ss.read_station(table, component=chosen)
+    with pytest.raises(ValueError, match="must be a horizontal one, but 3 UD points 'UD'"):
+        ss.read_station(table, component=3)
+    with pytest.raises(ValueError, match="along and component must not both be given"):
+        ss.read_station(table, component=1, along=0)
+    with pytest.raises(TypeError):
+        ss.read_station(table, component=1.5)
 
 
 def test_orientations_and_a_common_length_may_be_given(write):

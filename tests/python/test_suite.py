@@ -3,6 +3,7 @@
 import math
 import pickle
 import warnings
+import zipfile
 
 import numpy as np
 import pytest
@@ -214,6 +215,155 @@ def test_a_saved_suite_is_the_same_to_the_last_bit(tmp_path):
     assert pickle.loads(pickle.dumps(suite)) == suite
     assert suite != SUITE
     assert suite.with_metadata({"magnitude": [0.0] * 6}) != suite
+
+
+def test_all_components_are_saved_and_told_apart(tmp_path):
+    pytest.importorskip("h5py")
+    n, t, v = (m.acceleration for m in MOTIONS[:3])
+    whole = ss.GroundMotion(n, dt=0.02, transverse=t, vertical=v, orientation="N28W", name="whole")
+    flat = ss.GroundMotion(n, dt=0.02, transverse=t, name="flat")
+    uneven = ss.GroundMotion(n[:3], times=[0, 0.1, 0.3], vertical=v[:3])
+    suite = ss.Suite([MOTIONS[3], whole, flat, uneven, whole.scaled(2)])
+    saved = ss.Suite.open(suite.save(tmp_path / "s.h5"))
+    assert saved == suite
+    assert saved[1].orientation == "N28W"
+    assert np.array_equal(saved[1].vertical, v)
+    assert saved[2].vertical is None
+    assert suite.duplicates == []  # the axes of two are the same, the vertical components are not
+    assert ss.Suite([whole, whole]).duplicates == [(0, 1)]
+
+
+# ---- stations
+
+
+def component(folder, name, motion):
+    """A file as PEER writes it: Event, station, component."""
+    title, where = name
+    samples = " ".join(f"{a / 9.80665!r}" for a in motion.acceleration.tolist())
+    text = "PEER NGA STRONG MOTION DATABASE RECORD\n" + f"{title}, {where}\n"
+    text += f"ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {len(motion)}, DT= .02 SEC\n{samples}\n"
+    file = folder / f"{title.split(', ')[-1]}-{where}.AT2"
+    file.write_text(text)
+    return file
+
+
+@pytest.fixture
+def stations(tmp_path):
+    """Two stations of three and two components, and one component alone."""
+    motions = iter([quake(i) for i in range(10, 20)])
+    for title, ends in {"Quake, AAA": ["000", "090", "UP"], "Quake, BBB": ["045", "315"]}.items():
+        for end in ends:
+            component(tmp_path, (title, end), next(motions))
+    component(tmp_path, ("Quake, CCC", "120"), next(motions))
+    return tmp_path
+
+
+def test_the_files_of_each_station_become_one_motion(stations):
+    with pytest.warns(RuntimeWarning, match="1 of 6 components fit no station and stay alone: .*C"):
+        suite = ss.Suite.read(stations, stations=True)
+    assert suite.names == ("Quake, AAA, 000", "Quake, BBB, 045", "Quake, CCC, 120")
+    assert suite.components.tolist() == [3, 2, 1]
+    a = [stations / f"AAA-{end}.AT2" for end in ("000", "090", "UP")]
+    assert suite.files[0] == "; ".join(map(str, a))
+    assert suite.file[0] == str(a[0])
+    assert suite[0] == ss.read_station(a)
+    b = [stations / f"BBB-{end}.AT2" for end in ("045", "315")]
+    assert suite[1] == ss.read_station(b)
+    assert suite[2] == ss.read_record(stations / "CCC-120.AT2")
+    assert suite.alone == (
+        ss.suite.LeftOut(str(stations / "CCC-120.AT2"), "no other component of its station"),
+    )
+    assert pickle.loads(pickle.dumps(suite)).alone == suite.alone
+    with pytest.warns(RuntimeWarning):
+        turned = ss.Suite.read(stations, stations=True, along=30)
+    assert turned[0] == ss.read_station(a, along=30)
+    assert turned[1] == ss.read_station(b, along=30)
+
+
+def test_stations_in_an_archive_and_in_other_folders_are_kept_apart(stations, tmp_path):
+    other = tmp_path / "other"
+    other.mkdir()
+    file = other / "all.zip"
+    with zipfile.ZipFile(file, "w") as archive:
+        for one in sorted(stations.glob("AAA*.AT2")):
+            archive.write(one, one.name)
+    with pytest.warns((RuntimeWarning, ss.PlausibilityWarning)) as said:
+        suite = ss.Suite.read([stations / "*.AT2", file], stations=True)
+    assert "1 records are there more than once" in str(said[-1].message)
+    assert suite.components.tolist() == [3, 2, 1, 3]
+    assert suite.files[3].startswith(f"{file}::AAA-000.AT2; ")
+    assert np.array_equal(suite[3].vertical, suite[0].vertical)
+    # Without stations an archive of several files stands for all of them, too.
+    assert len(ss.Suite.read(file)) == 3
+
+
+def test_what_fits_no_station_stays_alone_with_its_reason(stations):
+    component(stations, ("Quake, AAA", "090 "), quake(3))  # twice the same direction
+    component(stations, ("Quake, BBB", "UP"), quake(4, samples=300))
+    (stations / "table.csv").write_text("Time (s),a (g),b (g)\n0,1,2\n1,2,1\n")
+    with pytest.warns(RuntimeWarning, match="10 of 10 components"):
+        suite = ss.Suite.read(stations, stations=True)
+    assert set(suite.components) == {1}
+    reasons = dict(suite.alone)
+    assert "one or two horizontal components, got 3" in reasons[str(stations / "AAA-000.AT2")]
+    assert "same number of samples" in reasons[str(stations / "BBB-045.AT2")]
+    assert "neither the file nor its name" in reasons[str(stations / "table.csv")]
+    with pytest.warns(RuntimeWarning, match="7 of 10"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", ss.PlausibilityWarning)  # what is cut leaves an offset
+        cut = ss.Suite.read(stations, stations=True, common_length=True)
+    (three,) = cut[cut.components == 3]
+    assert len(three) == 300
+
+
+def test_a_file_name_says_where_a_silent_file_points(tmp_path):
+    for name, seed in [("XYZ-090", 1), ("XYZ-360", 2), ("XYZ-V", 3), ("KOBE_TAK000", 4)]:
+        write(tmp_path, f"{name}.csv", quake(seed))
+    write(tmp_path, "KOBE_TAK090.csv", quake(5))
+    suite = ss.Suite.read(tmp_path, stations=True)
+    assert suite.alone == ()
+    assert suite.names == ("KOBE_TAK, 000", "XYZ, 090")
+    assert np.array_equal(suite[1].acceleration, quake(1).acceleration)
+    assert np.array_equal(suite[1].transverse, -quake(2).acceleration)  # 180 is away from 360
+    assert np.array_equal(suite[1].vertical, quake(3).acceleration)
+
+
+def test_all_components_are_motions_of_a_suite(tmp_path):
+    (tmp_path / "three.csv").write_text(
+        "Time (s),NS (g),EW (g),UD (g)\n0,1,2,3\n1,2,1,3\n2,0,0,1\n"
+    )
+    suite = ss.Suite.read(tmp_path, component="all")
+    assert suite.component.tolist() == ["NS", "EW", "UD"]
+    assert list(suite) == ss.read_record(tmp_path / "three.csv", component="all")
+    assert set(suite.file) == {str(tmp_path / "three.csv")}
+
+
+def test_options_of_stations_are_refused_without_them(tmp_path):
+    with pytest.raises(ValueError, match="along needs stations=True"):
+        ss.Suite.read(tmp_path, along=30)
+    with pytest.raises(ValueError, match="common_length needs stations=True"):
+        ss.Suite.read(tmp_path, common_length=True)
+    with pytest.raises(ValueError, match="component and stations must not both be given"):
+        ss.Suite.read(tmp_path, component=1, stations=True)
+    write(tmp_path, "a.csv", quake(1))
+    with pytest.raises(ValueError, match=r"Suite.read: along must be a finite azimuth"):
+        ss.Suite.read(tmp_path, stations=True, along=math.inf)
+
+
+def test_real_stations(agency_files, tmp_path):
+    pytest.importorskip("h5py")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ss.PlausibilityWarning)  # some have an offset
+        pairs = ss.Suite.read(
+            agency_files / "usgs_pairs" / "*.txt", stations=True, units="g", dt=0.01
+        )
+    assert pairs.alone == ()
+    assert pairs.components.tolist() == [2] * 11
+    assert "Northridge_1994_RRS, 228" in pairs.names
+    geonet = ss.Suite.read(agency_files / "geonet", stations=True, along="S62W")
+    assert geonet.components.tolist() == [3]
+    assert geonet[0] == ss.read_station(geonet.file[0], along="S62W")
+    both = ss.Suite([*pairs, *geonet])
+    assert ss.Suite.open(both.save(tmp_path / "s.h5")) == both
 
 
 def test_a_file_that_is_no_suite_is_refused(tmp_path):

@@ -148,6 +148,46 @@ def test_the_table_goes_to_frames_files_and_back(tmp_path):
     assert table != ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES, settle=True)
 
 
+def test_a_table_goes_to_json_and_back():
+    sliders = [ss.Coulomb(mu=0.1), ss.Slider(ss.Coulomb(mu=0), period=1)]
+    with pytest.warns(RuntimeWarning, match="combinations failed"):
+        failed = ss.sweep(sliders, QUAKES, settle=True)
+    known = QUAKES.with_metadata({"depth": [1.0, math.nan, 3, 4, 5, 6], "event": [*"abcdef"]})
+    whole = ss.sweep(ss.grid(ss.Coulomb, mu=MU, backward=[2.0, math.inf]), known)
+    assert np.isinf(whole.parameters["backward"]).any()
+    for table in (failed, whole):
+        text = table.to_json()
+        assert ss.SweepTable.from_json(text) == table
+        document = json.loads(text, parse_constant=pytest.fail)  # NaN and Infinity are no JSON
+        for name in ("peak", "residual", "sliding_distance"):
+            values = np.array(document[name], float)  # of null NaN
+            assert np.array_equal(values, getattr(table, name), equal_nan=True)
+            assert document["units"][name] == "m"
+    document = json.loads(failed.to_json())
+    (place, *_) = np.argwhere(np.isnan(failed.peak)).tolist()
+    i, j, k = place
+    assert document["peak"][i][j][k] is None
+    assert document["failures"][0]["message"] == failed.failures[0].message
+    assert json.loads(whole.to_json())["metadata"]["depth"][1] is None
+    assert "Infinity" in json.loads(whole.to_json())["parameters"]["backward"]
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (lambda text: text[:-5], "needs a JSON document"),
+        (lambda text: "[1, 2]", "must be of format 'stickslip sweep table 1', got None"),
+        (lambda text: text.replace("table 1", "table 0"), "got 'stickslip sweep table 0'"),
+        (lambda text: text.replace('"peak": [', '"top": ['), "lacks 'peak'"),
+        (lambda text: text.replace('"peak": [[', '"peak": [[],['), "damaged"),
+    ],
+)
+def test_json_that_is_no_table_is_refused(change, message):
+    text = ss.sweep(ss.Coulomb(mu=0.1), QUAKES[:2]).to_json()
+    with pytest.raises(ValueError, match=f"SweepTable.from_json: .*{message}"):
+        ss.SweepTable.from_json(change(text))
+
+
 def test_a_file_that_is_no_table_is_refused(tmp_path):
     (tmp_path / "x.h5").write_text("no table")
     with pytest.raises(ValueError, match="is not an HDF5 file, or is damaged"):

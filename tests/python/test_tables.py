@@ -1,6 +1,7 @@
 """Responses as tables: of pandas and xarray, in files, and in notebooks."""
 
 import io
+import json
 import os
 import sys
 import xml.etree.ElementTree
@@ -188,3 +189,17 @@ def test_a_comparison_shows_theory_over_simulation_in_a_notebook():
     assert shown["simulation [m²/s²]"] == [f"{v:.4g} ± {e:.1g}" for v, e in zip(value, error)]
     for name, why in c.refused.items():
         assert shown[name] == [why]
+
+
+def test_json_has_every_number_and_no_nan(response):
+    document = json.loads(response.to_json(), parse_constant=pytest.fail)
+    assert document["peak"] == response.peak
+    assert document["residual"] == response.residual
+    assert document["slider"] == repr(response.slider)
+    assert document["time"] == response.time.tolist()
+    for column, values in zip(UNITS, histories(response), strict=True):
+        name = column.replace(" ", "_")
+        assert document[name] == np.asarray(values).tolist(), name
+        assert document["units"].get(name, "") == UNITS[column]
+    assert [one["time"] for one in document["events"]] == response.events["time"].tolist()
+    assert [one["kind"] for one in document["events"]] == response.events["kind"].tolist()

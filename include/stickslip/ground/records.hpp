@@ -84,6 +84,7 @@ struct RecordComponent {
   GroundMotion motion;
   std::string name{};   ///< as the file has it, empty where it has none
   std::string start{};  ///< when it begins, in the file's own words; empty where it does not say
+  std::string units{};  ///< of the acceleration, as the file states it; empty where it states none
 };
 
 /// All components of a record in the order of the file, or the one that the options name.

@@ -6,19 +6,22 @@
 namespace stickslip::python {
 namespace {
 
-using Part = std::tuple<GroundMotion, std::string, std::string>;  // motion, name, start time
+using Part = std::tuple<GroundMotion, std::string, std::string, std::string>;  // motion, name, start time, units
 
-RecordComponent component_of(const Part& part) { return {std::get<0>(part), std::get<1>(part), std::get<2>(part)}; }
+RecordComponent component_of(const Part& part) {
+  const auto& [motion, name, start, units] = part;
+  return {motion, name, start, units};
+}
 
 std::vector<Part> parse(const py::bytes& content, const std::string& file, const std::string& units,
                         const std::string& component, std::optional<double> dt, bool gaps, bool only_one) {
   const RecordOptions options{units, component, dt, gaps};
   const std::string_view bytes = content;
   const py::gil_scoped_release released;
-  if (only_one) return {{parse_record(bytes, file, options), "", ""}};
+  if (only_one) return {{parse_record(bytes, file, options), "", "", ""}};
   std::vector<Part> parts;
   for (RecordComponent& one : parse_components(bytes, file, options))
-    parts.emplace_back(std::move(one.motion), std::move(one.name), std::move(one.start));
+    parts.emplace_back(std::move(one.motion), std::move(one.name), std::move(one.start), std::move(one.units));
   return parts;
 }
 
@@ -70,6 +73,7 @@ void bind_records(py::module_& m) {
 
   m.def("_parse_components", &parse, py::arg("content"), py::arg("file"), py::arg("units"), py::arg("component"),
         py::arg("dt"), py::arg("gaps"), py::arg("only_one"));
+  m.def("_azimuth_of", &azimuth_of, py::arg("orientation"));
   m.def("_record_format", &format_of, py::arg("content"));
   m.def("_record_formats", &formats);
   m.def("_station_motion", &station, py::arg("components"), py::arg("orientations"), py::arg("along"),

@@ -338,6 +338,18 @@ OSError
 Notes
 -----
 A line of names with units, then one line per sample; every number reads back as the same double.)")
+      .def(
+          "to_json",
+          [](const py::object& self) { return py::module_::import("stickslip._tables").attr("to_json")(self); },
+          R"(The results and histories as one JSON document, for instance for a web page.
+
+Returns
+-------
+str
+    An object: `stickslip` (the version), `slider`, `motion` (its name), `components`, `peak` [m], `residual` [m],
+    `sliding_distance` [m], `at_rest`; `units` of all that follow; `time` and the columns of `to_dataframe`, each a list
+    with one value per sample; `events`, each with `time` [s], `displacement` [m], `velocity` [m/s] and `kind`. Every
+    number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
       .def("_repr_html_", in_python("stickslip._tables", "response_html"))
       .def("__repr__", [](const Recording& r) {
         return "<Response: peak " + detail::shortest(r.response.peak) + " m, residual " +

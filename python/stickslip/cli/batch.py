@@ -12,7 +12,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from .. import GroundMotion, PlausibilityWarning, read_record, read_station, sample_record
+from .._core import _warn_if_implausible as warn_if_implausible
 from .._core import acceleration_unit
+from ..records import read_components
 from .output import FAILURES, check_outputs, complain, reason_of
 from .parser import text_argument
 
@@ -79,6 +81,7 @@ class Motion(NamedTuple):
 
     motion: GroundMotion
     component: int | None  # from 1, where all are read
+    units: str  # of the acceleration in the file; empty where it states none
 
 
 class Batch:
@@ -162,7 +165,7 @@ class Batch:
             up = read_record(self.vertical, **self._options)
         except FAILURES as error:  # else the line on stderr would name the record
             raise ValueError(f"--vertical: {reason_of(error)}") from error
-        return [Motion(_with_vertical(motion, up), component) for motion, component in found]
+        return [one._replace(motion=_with_vertical(one.motion, up)) for one in found]
 
     @property
     def _options(self) -> dict[str, Any]:
@@ -173,17 +176,26 @@ class Batch:
         if str(file).startswith(_SAMPLE):
             if self.station:
                 raise ValueError("a sample record has one component; --station needs a file")
-            return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None)]
+            return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None, "g")]
         if file.is_dir():
             raise ValueError("the folder holds no files")
-        options = self._options
         if self.station:
-            return [Motion(read_station(file, along=self.args.component, **options), None)]
-        if self.args.component == "all":
-            motions = read_record(file, component="all", **options)
-            several = len(motions) > 1
-            return [Motion(one, k if several else None) for k, one in enumerate(motions, 1)]
-        return [Motion(read_record(file, component=self.args.component, **options), None)]
+            return [
+                Motion(read_station(file, along=self.args.component, **self._options), None, "")
+            ]
+        every = self.args.component == "all"
+        found = read_components(
+            file,
+            component=None if every else self.args.component,
+            only_one=self.args.component is None,
+            **self._options,
+        )
+        for one in found:
+            warn_if_implausible(one.motion, "read_record")
+        several = len(found) > 1
+        return [
+            Motion(one.motion, k if several else None, one.units) for k, one in enumerate(found, 1)
+        ]
 
     def _pictures(self) -> Iterator[Path]:
         """One picture for each record; a number distinguishes records of the same name."""

@@ -27,7 +27,11 @@ _COLUMNS = (
     "pgv_m_s",
     "arias_intensity_m_s",
     "d5_95_s",
+    "units",
+    "units_from",
 )
+
+_FROM = {"file": "(in the file)", "option": "(given)"}
 
 
 def add_records(commands: argparse._SubParsersAction) -> None:
@@ -36,7 +40,8 @@ def add_records(commands: argparse._SubParsersAction) -> None:
         help="list the contents of record files",
         description="Reads records and prints a line for each component: its number in the file,"
         " orientation, time step, samples, duration, peak ground acceleration and velocity, Arias"
-        " intensity and the significant duration D5-95, with units in the heading. The velocity is"
+        " intensity and the significant duration D5-95, with units in the heading, and the unit of"
+        " the acceleration in the file, or that of --units if the file states none. The velocity is"
         " integrated from the record as it is, without baseline correction.",
         epilog="A file that cannot be read is reported in one line on stderr; the others are"
         " printed, and the exit code is 1.",
@@ -74,7 +79,7 @@ def _records(args: argparse.Namespace) -> str:
     rows: list[dict[str, Any]] = []
     for file in batch.files:
         with batch.reported(file):
-            rows += [_row(file, found) for found in batch.motions(file)]
+            rows += [_row(file, found, args.units) for found in batch.motions(file)]
     if args.csv:
         write_csv(args.csv, _COLUMNS, rows)
     args.code = batch.code
@@ -84,7 +89,7 @@ def _records(args: argparse.Namespace) -> str:
     return "\n".join([*_table(rows), *wrote])
 
 
-def _row(file: Path, found: Motion) -> dict[str, Any]:
+def _row(file: Path, found: Motion, given: str | None) -> dict[str, Any]:
     motion = found.motion
     measures = strong_motion(motion)
     return {
@@ -99,6 +104,8 @@ def _row(file: Path, found: Motion) -> dict[str, Any]:
         "pgv_m_s": measures.peak_velocity,
         "arias_intensity_m_s": measures.arias_intensity,
         "d5_95_s": measures.duration,
+        "units": found.units or given,
+        "units_from": "file" if found.units else "option",
     }
 
 
@@ -108,14 +115,15 @@ def _table(rows: list[dict[str, Any]]) -> Iterable[str]:
     names = [printable(row["record"] or row["file"]) for row in rows]
     width = max(len("record"), *map(len, names))
     yield (
-        f"{'record':{width}}  component  points  dt [s]  samples  duration [s]  PGA [g]  PGV [cm/s]"
-        "  Arias [m/s]  D5-95 [s]"
+        f"{'record':{width}}  component  points  {'units':20}  dt [s]  samples  duration [s]"
+        "  PGA [g]  PGV [cm/s]  Arias [m/s]  D5-95 [s]"
     )
     for name, row in zip(names, rows):
         dt = "uneven" if row["dt_s"] is None else f"{row['dt_s']:.4g}"
+        units = f"{row['units']} {_FROM[row['units_from']]}"
         yield (
             f"{name:{width}}  {row['component'] or 1:9d}"
-            f"  {printable(row['orientation'])[:6]:6}  {dt:>6}  {row['samples']:7d}"
+            f"  {printable(row['orientation'])[:6]:6}  {units:20}  {dt:>6}  {row['samples']:7d}"
             f"  {column(row['duration_s'], 12)}  {column(row['pga_g'], 7, 3)}"
             f"  {column(row['pgv_m_s'] * 100, 10, 1)}"
             f"  {column(row['arias_intensity_m_s'], 11, 3)}  {column(row['d5_95_s'], 9)}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -17,6 +18,7 @@ from .._core import STANDARD_GRAVITY, Coulomb
 from .._files import replacing
 from .._hdf5 import as_column, creating, opening, read_columns, read_texts, write_columns
 from .._optional import optional
+from .._tables import json_text
 from ..ensemble.sources import AnySlider
 
 if TYPE_CHECKING:
@@ -242,6 +244,86 @@ class SweepTable:
             stream.write(text.getvalue().encode())
         return Path(file)
 
+    def to_json(self) -> str:
+        """The table as one JSON document, for tools on the web.
+
+        Returns
+        -------
+        str
+            An object: `format`; `sliders`, `records`, `polarity`, `settle`, `contact`; `parameters`
+            and `metadata`, by name a list with a value for each slider or record; `units` of the
+            quantities; `peak`, `residual`, `sliding_distance` and `events`, each a list over
+            sliders of lists over records of lists over polarities; `failures`, each with `slider`
+            and `record` (counted from 0), `polarity` and `message`.
+
+        Notes
+        -----
+        Every number reads back to the same double. JSON lacks NaN and infinity: NaN (a combination
+        that failed, a number that is not known) is null, infinite parameters and metadata are
+        ``"Infinity"`` and ``"-Infinity"``.
+        """
+        document = {
+            "format": _FORMAT,
+            "settle": self.settle,
+            "contact": self.contact,
+            **{name: getattr(self, name) for name in ("sliders", "records", "polarity")},
+            **{
+                name: {key: _listed(column) for key, column in getattr(self, name).items()}
+                for name in ("parameters", "metadata")
+            },
+            "units": {name: unit for name, (_, unit, _) in QUANTITIES.items() if unit},
+            **{name: getattr(self, name) for name in QUANTITIES},
+            "failures": [one._asdict() for one in self.failures],
+        }
+        return json_text(document)
+
+    @classmethod
+    def from_json(cls, text: str) -> SweepTable:
+        """The table of a JSON document that `to_json` made.
+
+        Parameters
+        ----------
+        text : str
+
+        Returns
+        -------
+        SweepTable
+            Equal to the one that was written.
+
+        Raises
+        ------
+        ValueError
+            It is no such document.
+        """
+        try:
+            document = json.loads(text)
+        except ValueError as error:
+            raise ValueError(f"SweepTable.from_json: needs a JSON document: {error}") from None
+        found = document.get("format") if isinstance(document, dict) else None
+        if found != _FORMAT:
+            raise ValueError(
+                f"SweepTable.from_json: the document must be of format '{_FORMAT}', got {found!r}"
+            )
+        try:
+            return cls(
+                **{name: document[name] for name in ("sliders", "records", "polarity")},
+                **{
+                    name: {key: _unlisted(values) for key, values in document[name].items()}
+                    for name in ("parameters", "metadata")
+                },
+                **{name: document[name] for name in QUANTITIES},  # float makes NaN of null
+                settle=document["settle"],
+                contact=document["contact"],
+                failures=[
+                    SweepFailure(*(one[name] for name in SweepFailure._fields))
+                    for one in document["failures"]
+                ],
+            )
+        except KeyError as error:
+            raise ValueError(f"SweepTable.from_json: the document lacks {error}") from None
+        except (AttributeError, TypeError, ValueError) as error:
+            raise ValueError(f"SweepTable.from_json: the document is damaged: {error}") from None
+
     def to_xarray(self) -> Any:
         """An xarray Dataset over slider, record and polarity.
 
@@ -424,6 +506,22 @@ def parameters_of(
         return dict(given)
     blocks = [one for one in sliders if isinstance(one, Coulomb)]
     return {"mu": [one.slip_level / STANDARD_GRAVITY for one in blocks]}
+
+
+_INFINITE = {math.inf: "Infinity", -math.inf: "-Infinity"}
+
+
+def _listed(column: NDArray[Any]) -> list[Any]:
+    """The values of a column, infinite ones as text."""
+    return [_INFINITE.get(value, value) for value in column.tolist()]
+
+
+def _unlisted(values: list[Any]) -> list[Any]:
+    """The values that `_listed` was given; a column with any other text is of texts."""
+    numbers: dict[Any, Any] = {text: number for number, text in _INFINITE.items()}
+    if any(isinstance(one, str) and one not in numbers for one in values):
+        return values
+    return [math.nan if one is None else numbers.get(one, one) for one in values]
 
 
 def _checked(quantity: str) -> str:

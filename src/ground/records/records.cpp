@@ -122,6 +122,36 @@ std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wa
   return {std::move(channels[index])};
 }
 
+/// A unit of acceleration and how many m/s^2 it is.
+using Unit = std::pair<std::string_view, double>;
+
+/// The unit of that name, however it is written.
+Unit unit_named(std::string_view name) {
+  static constexpr Unit units[] = {
+      {"g", standard_gravity}, {"m/s^2", 1},       {"cm/s^2", 0.01},   {"gal", 0.01},
+      {"mm/s^2", 0.001},       {"ft/s^2", 0.3048}, {"in/s^2", 0.0254},
+  };
+  // Every way to write a unit is brought to the one in the table.
+  constexpr std::size_t longest = 32;  // the names below with room to spare
+  std::string unit;
+  for (const char c : name)
+    if (!is_blank(c) && unit.size() <= longest) unit += lower(c);
+  if (unit.size() > longest) unit.clear();
+  for (const auto& [variant, plain] : {std::pair<std::string_view, std::string_view>{"\xC2\xB2", "2"},  // superscript 2
+                                       {"sec", "s"},
+                                       {"**", "^"},
+                                       {"s/s", "s^2"},
+                                       {"s2", "s^2"},
+                                       {"g's", "g"}})
+    for (std::size_t at; (at = unit.find(variant)) != std::string::npos;) unit.replace(at, variant.size(), plain);
+  std::string known;
+  for (const Unit& one : units) {
+    if (unit == one.first) return one;
+    known.append(known.empty() ? "" : ", ").append(one.first);
+  }
+  throw std::invalid_argument("unknown unit of acceleration " + quote(name) + "; known are " + known);
+}
+
 /// m/s^2 per unit of the file.
 double scale(const std::string& stated, const std::string& given) {
   if (stated.empty() && given.empty())
@@ -172,7 +202,9 @@ RecordComponent component_of(Channel channel, const std::string& name, const Rec
                                    : GroundMotion(std::move(channel.acceleration), std::move(channel.times),
                                                   Interpolation::linear, std::move(title));
   if (!even && !options.gaps) refuse_gaps(motion);
-  return {motion.with_orientation(std::move(orientation)), std::move(channel.name), std::move(channel.start)};
+  std::string units(channel.units.empty() ? "" : unit_named(channel.units).first);
+  return {motion.with_orientation(std::move(orientation)), std::move(channel.name), std::move(channel.start),
+          std::move(units)};
 }
 
 /// All that are wanted, of what a file holds.
@@ -196,31 +228,7 @@ std::vector<RecordComponent> parse(std::string content, const std::string& file,
 
 }  // namespace
 
-double acceleration_unit(std::string_view name) {
-  static constexpr std::pair<std::string_view, double> units[] = {
-      {"g", standard_gravity}, {"m/s^2", 1},       {"cm/s^2", 0.01},   {"gal", 0.01},
-      {"mm/s^2", 0.001},       {"ft/s^2", 0.3048}, {"in/s^2", 0.0254},
-  };
-  // Every way to write a unit is brought to the one in the table.
-  constexpr std::size_t longest = 32;  // the names below with room to spare
-  std::string unit;
-  for (const char c : name)
-    if (!is_blank(c) && unit.size() <= longest) unit += lower(c);
-  if (unit.size() > longest) unit.clear();
-  for (const auto& [variant, plain] : {std::pair<std::string_view, std::string_view>{"\xC2\xB2", "2"},  // superscript 2
-                                       {"sec", "s"},
-                                       {"**", "^"},
-                                       {"s/s", "s^2"},
-                                       {"s2", "s^2"},
-                                       {"g's", "g"}})
-    for (std::size_t at; (at = unit.find(variant)) != std::string::npos;) unit.replace(at, variant.size(), plain);
-  std::string known;
-  for (const auto& [text, factor] : units) {
-    if (unit == text) return factor;
-    known.append(known.empty() ? "" : ", ").append(text);
-  }
-  throw std::invalid_argument("unknown unit of acceleration " + quote(name) + "; known are " + known);
-}
+double acceleration_unit(std::string_view name) { return unit_named(name).second; }
 
 std::optional<RecordFormat> record_format(std::string_view content) {
   try {
