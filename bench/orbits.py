@@ -74,7 +74,7 @@ def main() -> None:
     scipy = peer("scipy.integrate")
     if scipy:
         phase = 0.5 * math.pi - orbit.phase
-        exact = np.array([values[0] for values in orbit.motion([phase / OMEGA])])
+        exact = np.array([values[0] for values in orbit.histories([phase / OMEGA])])
         found = shoot(scipy.solve_ivp, exact * 1.01, phase)
         if np.abs(found - exact).max() > 10 * TOLERANCE:
             sys.exit(f"wrong answer: scipy finds {found}, not {exact}")

@@ -36,7 +36,7 @@ TAKES = {
     ).shape[1],
     "PoissonPulses.density": PULSES.density,
     "PoissonPulses.ground_displacement_variance": PULSES.ground_displacement_variance,
-    "Orbit.motion": lambda a: ORBIT.motion(a)[0],
+    "Orbit.histories": lambda a: ORBIT.histories(a)[0],
     "StationaryPrediction.velocity_spectrum": PREDICTED.velocity_spectrum,
     "StationaryPrediction.transient": lambda a: PREDICTED.transient(a).velocity_variance,
     "SlowlyVaryingParameters.dissipative": METHOD.dissipative,

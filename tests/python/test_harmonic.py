@@ -146,7 +146,7 @@ def test_integrate_stays_on_an_orbit():
     (orbit,) = ss.harmonic.orbits(slider, 1.5, 1.1)
     motion = ss.HarmonicMotion(orbit.B, orbit.omega, 3 * orbit.period)
     r = ss.integrate(slider, motion, displacement=orbit.displacement, velocity=orbit.velocity)
-    x, v = orbit.motion(r.time)
+    x, v = orbit.histories(r.time)
     assert r.displacement == pytest.approx(x, abs=1e-12 * orbit.amplitude)
     assert r.velocity == pytest.approx(v, abs=1e-12 * orbit.amplitude)
     assert r.energy.dissipated == pytest.approx(3 * orbit.dissipated, rel=1e-12)
@@ -159,14 +159,14 @@ def test_integrate_stays_on_an_orbit():
 def test_an_orbit_has_neither_beginning_nor_end():
     _, orbit, _ = ss.harmonic.orbits(CASTER, 1.0, 0.5)
     t = np.linspace(-1e6, 1e6, 7)
-    x, v = orbit.motion(t)
-    later, slower = orbit.motion(t + orbit.period / 2)
+    x, v = orbit.histories(t)
+    later, slower = orbit.histories(t + orbit.period / 2)
     assert later == pytest.approx(-x, abs=1e-8)  # of 1e6 s, 1e-10 is rounded off
     assert slower == pytest.approx(-v, abs=1e-8)
-    top, _ = orbit.motion([-orbit.phase / orbit.omega])
+    top, _ = orbit.histories([-orbit.phase / orbit.omega])
     assert top[0] == pytest.approx(orbit.amplitude, rel=1e-12)
     rest = ss.harmonic.orbits(CASTER, 1.0, 0.5)[0]
-    assert not np.any(rest.motion(t))
+    assert not np.any(rest.histories(t))
 
 
 def test_continuation_goes_round_the_fold():
@@ -205,7 +205,7 @@ def test_orbits_and_continuation_refuse_what_they_cannot_answer():
     with pytest.raises(ValueError, match="low"):
         ss.harmonic.continuation(BLOCK, orbit, 1.5, 2.0)
     with pytest.raises(ValueError, match="finite"):
-        orbit.motion([0.0, NAN])
+        orbit.histories([0.0, NAN])
 
 
 def test_unequal_levels_on_a_spring_swing_about_another_place():
@@ -213,7 +213,7 @@ def test_unequal_levels_on_a_spring_swing_about_another_place():
     (orbit,) = ss.harmonic.orbits(slider, 3.0, 1.0)
     assert orbit.centre == pytest.approx(0.3 / 0.49, rel=1e-14)
     assert orbit.displacement == pytest.approx(-3.20727285142, rel=1e-11)  # by another program
-    x, _ = orbit.motion([0.4, 0.4 + orbit.period / 2])
+    x, _ = orbit.histories([0.4, 0.4 + orbit.period / 2])
     assert x.mean() == pytest.approx(orbit.centre, rel=1e-10)
     assert ss.theory.SlowlyVaryingParameters(slider).centre == pytest.approx(orbit.centre)
     with pytest.raises(ValueError, match="drifts"):

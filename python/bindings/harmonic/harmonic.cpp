@@ -42,11 +42,11 @@ SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from,
 }
 
 // x and x' at given times.
-py::tuple motion_of(const SlidersOrbit& self, const py::object& times) {
-  const std::vector<double> t = to_vector(times, "Orbit.motion: times", "s");
-  for (const double time : t) detail::require(std::isfinite(time), "Orbit.motion: times must be finite", time, "s");
+py::tuple histories_of(const SlidersOrbit& self, const py::object& times) {
+  const std::vector<double> t = to_vector(times, "Orbit.histories: times", "s");
+  for (const double time : t) detail::require(std::isfinite(time), "Orbit.histories: times must be finite", time, "s");
   const auto states =
-      with_position_law(self.slider, "Orbit.motion", [&](const auto& s) { return states_at(s, self.orbit, t); });
+      with_position_law(self.slider, "Orbit.histories", [&](const auto& s) { return states_at(s, self.orbit, t); });
   std::vector<double> displacement, velocity;
   for (const State& state : states) {
     displacement.push_back(state.displacement);
@@ -143,7 +143,7 @@ spring the mean position is arbitrary, and a slider at rest stays where it is.)"
       .def_property_readonly(
           "events", [](const SlidersOrbit& self) { return events_array(self.orbit.events); },
           "Events of one period from t = 0, a structured array like `Response.events`, without 'end'.")
-      .def("motion", &motion_of, py::arg("times"), R"(Compute displacement and velocity at given times.
+      .def("histories", &histories_of, py::arg("times"), R"(Compute displacement and velocity at given times.
 
 Parameters
 ----------
