@@ -68,6 +68,7 @@ from ._core import (
 
 TYPE_CHECKING = False  # that of `typing`, whose import takes as long as all of this
 if TYPE_CHECKING:
+    from ._interfaces import interfaces
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, run_ensemble
     from .records import read_record, read_station, record_formats
@@ -128,6 +129,7 @@ __all__ = [
     "harmonic",
     "histories",
     "integrate",
+    "interfaces",
     "read_record",
     "read_station",
     "record_formats",
@@ -149,6 +151,10 @@ if not TYPE_CHECKING:
             from . import ensemble
 
             return globals().setdefault(name, getattr(ensemble, name))
+        if name == "interfaces":
+            from . import _interfaces
+
+            return globals().setdefault(name, _interfaces.interfaces)
         if name in ("Comparison", "compare"):
             from . import comparison
 
