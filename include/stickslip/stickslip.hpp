@@ -25,6 +25,8 @@
 #include "stickslip/sliding/floor_motion.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/histories.hpp"
+#include "stickslip/sliding/margins.hpp"
+#include "stickslip/sliding/sensitivity.hpp"
 #include "stickslip/statistics/distribution.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/sweep/sweep.hpp"

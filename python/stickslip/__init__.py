@@ -44,6 +44,7 @@ from ._core import (
     PulseFit,
     Response,
     ResponseSpectrum,
+    Sensitivity,
     Slider,
     Spectrum,
     State,
@@ -69,6 +70,7 @@ from ._core import (
 
 TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as all of this
 if TYPE_CHECKING:
+    from ._interfaces import interfaces
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, run_ensemble
     from .records import read_record, read_station, record_formats
@@ -104,6 +106,7 @@ __all__ = [
     "Random",
     "Response",
     "ResponseSpectrum",
+    "Sensitivity",
     "Slider",
     "Spectrum",
     "State",
@@ -129,6 +132,7 @@ __all__ = [
     "harmonic",
     "histories",
     "integrate",
+    "interfaces",
     "read_record",
     "read_station",
     "record_formats",
@@ -150,6 +154,10 @@ if not TYPE_CHECKING:
             from . import ensemble
 
             return globals().setdefault(name, getattr(ensemble, name))
+        if name == "interfaces":
+            from . import _interfaces
+
+            return globals().setdefault(name, _interfaces.interfaces)
         if name in ("Comparison", "compare"):
             from . import comparison
 

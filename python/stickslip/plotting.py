@@ -53,6 +53,7 @@ __all__ = [
     "save",
     "sticks",
     "style",
+    "without_contact",
 ]
 
 INK, GREY, PALE = "#222222", "#8a8a8a", "#e6e6e6"
@@ -161,6 +162,39 @@ def sticks(response: Response) -> np.ndarray:
     return spans[ends > begins]
 
 
+def without_contact(response: Response) -> np.ndarray:
+    """When nothing pressed the slider on the ground.
+
+    Parameters
+    ----------
+    response : Response
+
+    Returns
+    -------
+    ndarray, shape (S, 2)
+        Begin and end [s], in order of time: of each flight, or with ``contact='clipped'`` of each
+        time in which the ground fell faster than the slider. The last may end with the response.
+    """
+    events = response.events
+    end = events["time"][-1]
+    if response.contact == "flight":
+        begins = events["time"][events["kind"] == "liftoff"]
+        ends = np.append(events["time"][events["kind"] == "landing"], end)[: len(begins)]
+        return np.column_stack([begins, ends])
+    t = response.time
+    if response.motion.interpolation == "constant":
+        falls = np.append(_pressing(response, t[:-1]) < 0, False)
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], falls])))
+        return np.column_stack([t[edges[::2]], t[edges[1::2]]])
+    pressing = _pressing(response, t)
+    falls = pressing < 0
+    edges = np.flatnonzero(falls[1:] != falls[:-1])  # N is a straight line from one to the next
+    before, after = pressing[edges], pressing[edges + 1]
+    crossings = t[edges] + (t[edges + 1] - t[edges]) * before / (before - after)
+    crossings = np.concatenate([t[:1][falls[:1]], crossings, t[-1:][falls[-1:]]])
+    return crossings.reshape(-1, 2)
+
+
 def plot_response(
     response: Response, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
@@ -169,26 +203,33 @@ def plot_response(
     The first panel shows the accelerations that friction can resist as a band: a slider at rest
     stays at rest while the ground acceleration is between -level_forward - wn^2 x and
     level_backward - wn^2 x, where x is the current displacement. The second panel shades the
-    sticks; the third marks peak and residual. If the slider settled after the last sample, the
-    picture shows that tail too.
+    sticks; the third marks peak and residual, and draws stops near the displacement as lines. If
+    the slider settled after the last sample, the picture shows that tail too. Under vertical
+    motion a fourth panel shows the normal force, and a fifth the gap between slider and ground if
+    the slider ever left it; both shade the times without contact.
 
     Parameters
     ----------
     response : Response
         The result of `integrate`.
     figure : matplotlib Figure or SubFigure, optional
-        Where to draw; default: a new figure of 7 x 6 inches.
+        Where to draw; default: a new figure 7 inches wide, and 6 inches high with three panels.
     title : str, optional
         Default: the name of the ground motion.
 
     Returns
     -------
     matplotlib Figure or SubFigure
-        With three axes: ground acceleration [g], relative velocity, relative displacement.
+        With these axes: ground acceleration [g], relative velocity, relative displacement; then
+        normal force over the weight [g] and gap, if drawn.
     """
+    lifted = response.contact == "flight" and "liftoff" in response.events["kind"]
+    more = 0 if "vertical" not in response.components else 2 if lifted else 1
     with style():
-        figure = figure or new_figure(7, 6)
-        ground, speed, way = figure.subplots(3, sharex=True, height_ratios=(1, 1, 1.25))
+        figure = figure or new_figure(7, 6 + 1.4 * more)
+        ground, speed, way, *below = figure.subplots(
+            3 + more, sharex=True, height_ratios=(1, 1, 1.25, 0.8, 0.8)[: 3 + more]
+        )
         t, x, v = _path(response)
         length, unit = _unit(response.peak)
         fast, fast_unit = _unit(np.abs(v).max())
@@ -223,12 +264,70 @@ def plot_response(
         way.plot(t, x * length, color=BLUE, linewidth=1.4)
         way.axhline(0, color=GREY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
-        way.set_xlabel("time [s]")
         way.set_xlim(t[0], t[-1])
         _mark_peak(way, t, x * length, unit)
         _mark_residual(way, response, length, unit)
+        _draw_stops(way, response, length)
+        if below:
+            _draw_normal_force(below[0], response)
+        if lifted:
+            _draw_gap(below[1], response)
+        figure.axes[-1].set_xlabel("time [s]")
         figure.align_ylabels()
     return figure
+
+
+def _draw_stops(axes: Axes, response: Response, length: float) -> None:
+    stops = response.slider.stops
+    if stops is None:
+        return
+    for place in (stops.gap, -stops.backward):
+        if abs(place) <= 1.25 * response.peak:  # else the motion would be drawn small
+            axes.axhline(place * length, color=INK, linewidth=1.2, label="stop", zorder=1)
+
+
+def _shade_without_contact(axes: Axes, response: Response) -> None:
+    spans = without_contact(response)
+    if len(spans):
+        axes.broken_barh(
+            np.column_stack([spans[:, 0], np.diff(spans)[:, 0]]),
+            (0, 1),
+            transform=axes.get_xaxis_transform(),
+            color=VERMILION,
+            alpha=0.25,
+            linewidth=0,
+            zorder=0,
+            label="without contact",
+        )
+        axes.annotate(
+            "shaded:\nwithout\ncontact", (1, 0.5), **_AT_RIGHT, va="center", color=VERMILION
+        )
+
+
+def _draw_normal_force(axes: Axes, response: Response) -> None:
+    edges = without_contact(response).ravel()
+    t = np.concatenate([response.time, edges, np.nextafter(edges, -np.inf)])  # a landing is a jump
+    t = np.sort(t[t >= response.time[0]])
+    held = response.motion.interpolation == "constant"
+    axes.plot(
+        t,
+        _normal(response, t) / STANDARD_GRAVITY,
+        color=INK,
+        linewidth=0.6,
+        drawstyle="steps-post" if held else "default",
+    )
+    _shade_without_contact(axes, response)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("normal force\n[g]")
+
+
+def _draw_gap(axes: Axes, response: Response) -> None:
+    gap = response.gap
+    length, unit = _unit(gap.max())
+    axes.plot(response.time, gap * length, color=INK, linewidth=0.9)
+    _shade_without_contact(axes, response)
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel(f"gap to the ground\n[{unit}]")
 
 
 def plot_responses(
@@ -896,13 +995,18 @@ def _at(response: Response, t: np.ndarray, component: str) -> np.ndarray:
     return np.where(t < motion.time[-1], samples[np.minimum(after, len(samples) - 1)], 0)
 
 
-def _normal(response: Response, t: np.ndarray) -> np.ndarray:
-    """Normal force per unit mass at given times [m/s^2], 0 in flight."""
+def _pressing(response: Response, t: np.ndarray) -> np.ndarray:
+    """N at given times [m/s^2], also where it is negative."""
     if isinstance(response.motion, HarmonicMotion):
         return np.full(np.shape(t), STANDARD_GRAVITY)
     slope = np.radians(response.slider.slope_degrees)
     heavy = STANDARD_GRAVITY + _at(response, t, "vertical")
-    normal = heavy * np.cos(slope) + _at(response, t, "acceleration") * np.sin(slope)
+    return heavy * np.cos(slope) + _at(response, t, "acceleration") * np.sin(slope)
+
+
+def _normal(response: Response, t: np.ndarray) -> np.ndarray:
+    """Normal force per unit mass at given times [m/s^2], 0 in flight."""
+    normal = _pressing(response, t)
     changes = response.events[np.isin(response.events["kind"], ("liftoff", "landing"))]
     flies = np.searchsorted(changes["time"], t, "right") % 2 == 1
     return np.where(flies, 0, np.maximum(normal, 0))

@@ -283,3 +283,101 @@ def test_theories_refuse_what_they_do_not_cover():
 def test_free_fall_is_refused():
     with pytest.raises(ValueError, match="never lands"):
         ss.integrate(ss.Coulomb(mu=0.1), ss.GroundMotion([0, 1, 0], dt=0.1, vertical=[0, -10, -10]))
+
+
+# ---- margins and sensitivities
+
+
+def load(*values, dt=1.0):
+    """Ground whose load on a slider on level ground runs straight between these values."""
+    return ss.GroundMotion(-np.array(values), dt)
+
+
+def test_the_margin_is_that_of_the_closest_decision():
+    block = ss.Coulomb(slip_level=1)
+    assert ss.integrate(block, load(0, 0.75, 0)).margin == 0.25
+    assert ss.integrate(block, load(0, 1.25, 0)).margin == pytest.approx(0.25, rel=1e-12)
+    assert ss.integrate(ss.StaticKinetic(static=2, kinetic=1), load(0, 1.5, 0)).margin == 0.25
+    assert ss.integrate(ss.Coulomb(mu=0), load(0, 0.75, 0)).margin == math.inf
+    # The normal force falls from g to 0.8 g under a load of 0.6.
+    lighter = ss.GroundMotion([-0.6, -0.6, -0.6], 1.0, vertical=[0, -0.2 * G, 0])
+    assert ss.integrate(block, lighter).margin == pytest.approx(1 - 0.6 / 0.8, rel=1e-13)
+    harmonic = ss.HarmonicMotion(amplitude=0.75, omega=3, duration=20)
+    assert ss.integrate(block, harmonic).margin == pytest.approx(0.25, rel=1e-13)
+
+
+def test_the_impact_margin_is_the_way_by_which_a_stop_was_missed_or_met():
+    still = ss.GroundMotion([0.0, 0.0], dt=9)
+    for gap in (0.625, 0.51, 0.49, 0.4):  # thrown at 1 m/s against 1 m/s^2: 0.5 m
+        stops = ss.Stops(gap=gap, backward=9, restitution=0.3)
+        slider = ss.Slider(ss.Coulomb(slip_level=1), stops=stops)
+        r = ss.integrate(slider, still, velocity=1)
+        assert r.impact_margin == pytest.approx(abs(0.5 - gap) / gap, rel=1e-12)
+    assert ss.integrate(ss.Coulomb(slip_level=1), still, velocity=1).impact_margin == math.inf
+
+
+def test_sensitivities_are_those_of_the_reference():
+    # next_values.json H: per m/s^2 of the level
+    record = ss.GroundMotion(RECORD, dt=0.1)
+    r = ss.integrate(ss.Coulomb(slip_level=1), record)
+    s = r.sensitivity("slip_level")
+    assert s.residual == pytest.approx(0.0369442211522422060947586, abs=1e-11)
+    assert s.velocity == pytest.approx(0.2826502237287907562626829, abs=1e-11)
+    assert r.sensitivity("mu").residual == G * s.residual
+    static = ss.integrate(ss.StaticKinetic(static=1.3, kinetic=1), record)
+    kinetic = static.sensitivity("kinetic")
+    assert kinetic.residual == pytest.approx(-0.005800506449603001092489243, abs=1e-11)
+    assert static.sensitivity("mu_kinetic").residual == G * kinetic.residual
+    damped = ss.integrate(
+        ss.Slider(ss.Coulomb(slip_level=1), natural_frequency=5, damping=1), record
+    )
+    assert damped.sensitivity("slip_level").peak == pytest.approx(
+        -0.06605024081606075327844513, abs=1e-11
+    )
+
+
+def test_sensitivities_are_differences_in_the_limit():
+    """With respect to each parameter that Python names, by central differences at two steps."""
+    record = shaken()
+
+    def slider(static=1.2, kinetic=1.0, wn=3.0, c=0.4, slope=5.0):
+        law = ss.StaticKinetic(static=static, kinetic=kinetic)
+        return ss.Slider(law, natural_frequency=wn, damping=c, slope_degrees=slope)
+
+    changed = {
+        "slip_level": (1e-5, lambda d: (slider(1.2 + d, 1 + d), record)),
+        "static": (1e-5, lambda d: (slider(static=1.2 + d), record)),
+        "kinetic": (1e-5, lambda d: (slider(kinetic=1 + d), record)),
+        "natural_frequency": (1e-5, lambda d: (slider(wn=3 + d), record)),
+        "damping": (1e-5, lambda d: (slider(c=0.4 + d), record)),
+        "slope_degrees": (1e-5, lambda d: (slider(slope=5 + d), record)),
+        "scale": (1e-5, lambda d: (slider(), record.scaled(1 + d))),
+    }
+    r = ss.integrate(slider(), record)
+    for name, (h, change) in changed.items():
+
+        def difference(h, of, change=change):
+            above, below = (getattr(ss.integrate(*change(d)), of) for d in (h, -h))
+            return (above - below) / (2 * h)
+
+        found = r.sensitivity(name)
+        for of in ("peak", "residual"):
+            near, far = difference(h / 2, of), difference(h, of)
+            allowed = abs(far - near) + 1e-12 * r.peak / h  # truncation; round-off
+            assert getattr(found, of) == pytest.approx(near, abs=allowed), (name, of)
+
+
+def test_what_has_no_sensitivity_is_refused_with_the_reason():
+    record = ss.GroundMotion(RECORD, dt=0.1)
+    refused = {
+        "covers Coulomb friction": (ss.Caster(mu=0.1, reach=0.5), record, "mu"),
+        "has one level for sliding and rest": (ss.Coulomb(mu=0.1), record, "mu_static"),
+        "without a spring": (ss.Coulomb(mu=0.1), record, "natural_frequency"),
+        "got a pendulum": (ss.FrictionPendulum(radius=2, mu=0.05), record, "mu"),
+        "must not leave the ground": (ss.Coulomb(mu=0.1), shaken(5), "mu"),
+        r"motion.sampled\(dt\)": (ss.Coulomb(mu=0.1), ss.HarmonicMotion(2, 3, 4), "mu"),
+        "must be one of 'mu', .*, got 'colour'": (ss.Coulomb(mu=0.1), record, "colour"),
+    }
+    for reason, (slider, motion, parameter) in refused.items():
+        with pytest.raises(ValueError, match=reason):
+            ss.integrate(slider, motion).sensitivity(parameter)

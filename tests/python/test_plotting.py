@@ -148,6 +148,82 @@ def test_an_infinite_level_is_not_drawn():
     assert "slip level backward" not in drawn
 
 
+def lifted(interpolation="linear", slope=0.0, contact="flight"):
+    """A response to ground that throws the slider up."""
+    quake = motion()
+    up = 2 * G * np.sin(25 * quake.time) * np.sin(math.pi * quake.time / quake.duration)
+    both = ss.GroundMotion(quake.acceleration, quake.dt, vertical=up, interpolation=interpolation)
+    slider = ss.Slider(ss.Coulomb(mu=0.4), slope_degrees=slope)
+    return ss.integrate(slider, both, settle=True, contact=contact)
+
+
+def test_flights_are_shaded_and_without_normal_force():
+    r = lifted()
+    spans = plotting.without_contact(r)
+    kinds, times = r.events["kind"], r.events["time"]
+    assert len(spans) > 5
+    assert (spans == np.column_stack([times[kinds == k] for k in ("liftoff", "landing")])).all()
+    *_, normal, gap = r.plot().axes
+    assert (normal.get_ylabel(), gap.get_xlabel()) == ("normal force\n[g]", "time [s]")
+    for axes in (normal, gap):
+        (bands,) = (c for c in axes.collections if c.get_label() == "without contact")
+        drawn = [(p.vertices[:, 0].min(), p.vertices[:, 0].max()) for p in bands.get_paths()]
+        assert np.array(drawn) == pytest.approx(spans, rel=1e-12)
+    t, force = normal.lines[0].get_data()
+    inside = np.zeros(t.shape, bool)
+    for begin, end in spans:
+        inside |= (t >= begin) & (t < end)
+    assert (force[inside] == 0).all()
+    assert (force[~inside] >= 0).all()
+    at_samples = np.interp(r.time, t, force) * G
+    assert at_samples == pytest.approx(r.normal_force, abs=1e-9)
+    # The gap is that of the response, in the unit of its axis.
+    unit = {"[mm]": 1e3, "[cm]": 1e2, "[m]": 1}[gap.get_ylabel().split("\n")[1]]
+    assert gap.lines[0].get_ydata() / unit == pytest.approx(r.gap, rel=1e-12)
+
+
+@pytest.mark.parametrize("slope", [0.0, 8.0])
+def test_clipped_times_are_those_of_a_negative_normal_force(slope):
+    r = lifted(slope=slope, contact="clipped")
+    spans = plotting.without_contact(r)
+    assert len(spans) > 5
+    assert len(r.plot().axes) == 4
+    angle = math.radians(slope)
+    n, up = (getattr(r.motion, name) for name in ("acceleration", "vertical"))
+    pressing = (G + up) * math.cos(angle) + n * math.sin(angle)
+    time = r.motion.time
+    inside = np.zeros(time.shape, bool)
+    for begin, end in spans:
+        inside |= (time > begin) & (time < end)
+    assert (inside == (pressing < 0)).all()
+    assert np.interp(spans.ravel(), time, pressing) == pytest.approx(0, abs=1e-9 * G)
+
+
+def test_held_values_lift_for_whole_steps():
+    r = lifted("constant", contact="clipped")
+    spans = plotting.without_contact(r)
+    lasted = np.diff(spans).sum()
+    falls = (r.motion.vertical[:-1] < -G).sum()
+    assert lasted == pytest.approx(falls * r.motion.dt, rel=1e-9)
+    assert len(r.plot().axes) == 4
+
+
+def test_without_vertical_motion_contact_is_never_lost(response):
+    assert plotting.without_contact(response).shape == (0, 2)
+
+
+def test_stops_are_drawn_where_they_came_near():
+    for gap, drawn in ((0.01, 2), (50.0, 0)):
+        slider = ss.Slider(ss.Coulomb(mu=0.1), stops=ss.Stops(gap=gap, restitution=0.3))
+        way = ss.integrate(slider, motion()).plot().axes[2]
+        lines = [line for line in way.lines if line.get_label() == "stop"]
+        assert len(lines) == drawn
+        unit = {"[mm]": 1e3, "[cm]": 1e2, "[m]": 1}[way.get_ylabel().split("\n")[1]]
+        assert sorted(line.get_ydata()[0] for line in lines) == pytest.approx(
+            [-gap * unit, gap * unit][:drawn]
+        )
+
+
 def test_thousands_of_events_are_one_artist():
     shaking = ss.GroundMotion(5 * np.resize([1.0, -1.0], 20_001), dt=0.01)
     r = ss.integrate(ss.Coulomb(mu=0.45), shaking)

@@ -150,6 +150,7 @@ EXAMPLES = {
     ],
     ss.SweepError: [ss.SweepError("no node here", range(2, 4), SWEPT)],
     ss.Energy: [r.energy for r in RESPONSES],
+    ss.Sensitivity: [RESPONSES[0].sensitivity(name) for name in ("mu", "damping", "scale")],
     ss.Response: RESPONSES,
     ss.ResponseSpectrum: [
         ss.response_spectrum(EVEN, [0, 0.5]),

@@ -1,0 +1,385 @@
+// How a response changes with a parameter.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "stickslip/detail/equal.hpp"
+#include "stickslip/detail/min_max.hpp"
+#include "stickslip/detail/recorder.hpp"
+#include "stickslip/detail/run.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/friction/static_kinetic.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/ground/segment.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/integrate.hpp"
+#include "stickslip/sliding/observer.hpp"
+#include "stickslip/sliding/response.hpp"
+#include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+/// What a response is differentiated by.
+enum class Parameter {
+  slip_level,         ///< the levels of sliding and rest, forward and backward alike [m/s^2]
+  kinetic,            ///< the levels of sliding alone [m/s^2]
+  static_level,       ///< the levels of rest alone, where they are above those of sliding [m/s^2]
+  natural_frequency,  ///< wn [rad/s]
+  damping,            ///< c [1/s]
+  slope,              ///< of the ground [degrees]
+  scale               ///< a factor on all components of the ground motion, 1 here
+};
+
+/// Derivatives of a response by a parameter: [m], [m/s] over the unit of the parameter.
+struct Sensitivity {
+  double peak = 0;      ///< of the peak displacement
+  double residual = 0;  ///< of the displacement at the end
+  double velocity = 0;  ///< of the velocity at the end
+
+  friend bool operator==(const Sensitivity&, const Sensitivity&) = default;
+};
+
+namespace detail {
+
+/// What a change of the parameter by one changes at once.
+struct Change {
+  double kinetic = 0, held = 0;  // levels [m/s^2]
+  double stiffness = 0, damping = 0;
+  bool slope = false, scale = false;
+};
+
+/// The impulse response psi of y'' + c y' + k y, its derivative, and that of a unit displacement, k >= 0, c >= 0.
+struct Propagator {
+  double psi, psi_rate, phi, phi_rate;
+
+  Propagator(double k, double c, double t) noexcept {
+    if (equal(k, 0) && equal(c, 0)) {
+      psi = t, psi_rate = 1, phi = 1, phi_rate = 0;
+      return;
+    }
+    const double square = c * c / 4 - k;
+    double even, odd;  // exp(-c t / 2) times cosh(m t) and sinh(m t) / m
+    const double z = square * t * t;
+    if (std::abs(z) < 1e-2) {
+      const double decay = c > 0 ? std::exp(-c / 2 * t) : 1;
+      even = decay * (1 + z / 2 * (1 + z / 12 * (1 + z / 30 * (1 + z / 56 * (1 + z / 90)))));
+      odd = decay * t * (1 + z / 6 * (1 + z / 20 * (1 + z / 42 * (1 + z / 72 * (1 + z / 110)))));
+    } else if (square < 0) {
+      const double w = std::sqrt(-square), decay = std::exp(-c / 2 * t);
+      even = decay * std::cos(w * t);
+      odd = decay * std::sin(w * t) / w;
+    } else {
+      const double m = std::sqrt(square), slow = std::exp(-k / (c / 2 + m) * t), fast = std::exp(-(c / 2 + m) * t);
+      even = (slow + fast) / 2;
+      odd = (slow - fast) / (2 * m);
+    }
+    psi = odd;
+    psi_rate = even - c / 2 * odd;
+    phi = even + c / 2 * odd;
+    phi_rate = -k * odd;
+  }
+};
+
+/// Runs beside a slider with constant levels and carries the change of its motion: between events the linear
+/// variational equation
+///     dv' = dp - s d(a N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx,
+/// by its propagator and Gauss-Legendre quadrature; at events the jumps that come of the shift of their times.
+template <FrictionLaw Law>
+class VariationalMotion : public NoRecorder {
+ public:
+  VariationalMotion(const Slider<Law>& slider, const GroundMotion& motion, const Change& change, const State& start)
+      : NoRecorder(max_events(motion.segments()), none_),
+        slider_(slider),
+        motion_(motion),
+        pieces_(motion, slider.slope()),
+        change_(change),
+        peak_(std::abs(start.displacement)),
+        before_(start.mode) {}
+
+  void begin_segment(double, double) {
+    begin_piece(pieces_.segment(segment_), ground(segment_));
+    ++segment_;
+  }
+  /// A segment after the motion.
+  void begin_still(double duration) { begin_piece(load_segment(Segment{duration, 0, 0}, slider_.slope()), {}); }
+
+  template <class Flow>
+  void follow(const Flow& flow, double taken) {
+    nodes_.clear();
+    if (equal(change_.stiffness, 0) && equal(change_.damping, 0)) return;
+    each_node(taken, [&](double t, double) {
+      const Progress now = flow.at(t);
+      nodes_.push_back({now.distance, now.speed});
+    });
+  }
+
+  void slide(const Slip& slip) {
+    const double s = sign(slip.direction), taken = slip.duration;
+    const double level = resist(slider_.law(), slip.from, slip.direction, 0.0);
+    const double k = slider_.stiffness(), c = slider_.damping();
+    const bool presses = load_.normal(time_ + taken / 2) > 0;
+    double x = 0, v = 0;
+    std::size_t i = 0;
+    each_node(taken, [&](double t, double weight) {
+      const double at = time_ + t, normal = presses ? load_.normal(at) : 0;
+      double force =
+          by_load(at) - s * (change_.kinetic * normal + (presses ? level * by_normal(at) : 0)) / standard_gravity;
+      if (!nodes_.empty()) {
+        const auto [distance, speed] = nodes_[i++];
+        force -= change_.stiffness * (slip.from + s * distance) + change_.damping * s * speed;
+      }
+      const Propagator rest(k, c, taken - t);
+      x += weight * rest.psi * force;
+      v += weight * rest.psi_rate * force;
+    });
+    const Propagator whole(k, c, taken);
+    const double dx = whole.phi * dx_ + whole.psi * dv_ + x, dv = whole.phi_rate * dx_ + whole.psi_rate * dv_ + v;
+    dx_ = dx;
+    dv_ = dv;
+    time_ += taken;
+    direction_ = slip.direction;
+  }
+
+  void event(EventKind kind, double time, const State& state) {
+    NoRecorder::event(kind, time, state);
+    const double since = time - time_;  // a rest, or nothing
+    const bool struck = last_ == EventKind::impact && !(since > 0);
+    time_ = time;
+    const double s = sign(direction_);
+    const auto push = [&](double way, double speed) {  // acceleration while it slides that way
+      const Direction direction = way > 0 ? Direction::forward : Direction::backward;
+      return net(state.displacement) - way * kinetic(direction, state.displacement) * weight() -
+             slider_.damping() * way * speed;
+    };
+    switch (kind) {
+      case EventKind::breakaway:
+        if (before_ == Mode::stuck) break_away(state);
+        break;
+      case EventKind::reversal:
+        if (!struck) dv_ *= push(-s, 0) / push(s, 0);
+        break;
+      case EventKind::arrest:
+        dv_ = 0;
+        if (at_wall(state.displacement)) dx_ = 0;
+        break;
+      case EventKind::impact: {
+        note_peak(state.displacement, 0);  // a stop stays where it is
+        const double e = slider_.mounting().stops.restitution(), speed = std::abs(state.velocity);
+        const double before = push(s, speed), after = push(-s, e * speed);
+        dv_ = -e * dv_ + (e * before + after) * dx_ / state.velocity;
+        dx_ *= -e;
+        break;
+      }
+      case EventKind::liftoff:
+      case EventKind::landing:
+        throw std::invalid_argument(
+            "sensitivity: the slider must not leave the ground, got a lift-off; use contact = clipped");
+      case EventKind::end:
+        break;
+    }
+    if (kind != EventKind::impact) note_peak(state.displacement, dx_);
+    last_ = kind;
+    before_ = state.mode;
+    if (kind == EventKind::reversal || kind == EventKind::breakaway) direction_ = direction_of(state.mode);
+  }
+
+  Sensitivity finish(const State& state) {
+    note_peak(state.displacement, dx_);
+    return {at_peak_, dx_, state.mode == Mode::stuck ? 0 : dv_};
+  }
+
+ private:
+  /// Of the ground [m/s^2], at both ends of a segment.
+  struct Ground {
+    double n_start = 0, n_end = 0, up_start = 0, up_end = 0;
+  };
+  Ground ground(std::size_t i) const {
+    const Segment n = motion_.segment(i);
+    if (!motion_.has_vertical()) return {n.start, n.end};
+    const std::size_t next = motion_.interpolation() == Interpolation::linear ? 1 : 0;
+    return {n.start, n.end, motion_.vertical()[i], motion_.vertical()[i + next]};
+  }
+
+  void begin_piece(const LoadSegment& load, const Ground& ground) {
+    load_ = load;
+    time_ = 0;
+    const double sine = std::sin(slider_.slope()), cosine = std::cos(slider_.slope());
+    const auto changes = [&](double n, double up) -> std::array<double, 2> {  // of p and N
+      if (change_.scale) return {up * sine - n * cosine, up * cosine + n * sine};
+      if (!change_.slope) return {0, 0};
+      const double heavy = standard_gravity + up;
+      constexpr double radians = std::numbers::pi / 180;
+      return {radians * (heavy * cosine + n * sine), radians * (n * cosine - heavy * sine)};
+    };
+    const auto first = changes(ground.n_start, ground.up_start), last = changes(ground.n_end, ground.up_end);
+    change_of_load_ = {load.duration, first[0], last[0], first[1], last[1]};
+  }
+
+  double by_load(double time) const noexcept { return change_of_load_.load(time); }
+  double by_normal(double time) const noexcept { return change_of_load_.normal(time); }
+  double weight() const noexcept { return std::max(load_.normal(time_), 0.0) / standard_gravity; }
+  double net(double x) const noexcept { return load_.load(time_) - slider_.stiffness() * x; }
+  double kinetic(Direction direction, double x) const { return resist(slider_.law(), x, direction, 0.0); }
+  bool at_wall(double x) const noexcept {
+    const Stops& stops = slider_.mounting().stops;
+    return equal(x, stops.forward()) || equal(x, -stops.backward());
+  }
+
+  /// Points and weights of the quadrature over a slip or a part of one.
+  template <class Use>
+  void each_node(double taken, Use&& use) const {
+    // Six points integrate a turn of the product of a motion and a propagator, each of this rate, to round-off.
+    const double turns = 2 * taken * (slider_.natural_frequency() + slider_.damping());
+    const double panels = std::max(1.0, std::min(std::ceil(turns), 4096.0));
+    for (double k = 0; k < panels; ++k)
+      numerics::gauss_points<6>(taken * (k / panels), taken * ((k + 1) / panels), use);
+  }
+
+  /// The moment at which the load reaches a static level depends on the parameter, and the slip begins with a jump of
+  /// the acceleration; unless the load itself jumps through the level, at a time that does not change.
+  void break_away(const State& state) {
+    const Direction direction = direction_of(state.mode);
+    const double s = sign(direction), x = state.displacement, level = hold(slider_.law(), x, direction);
+    const double held = level * weight(), jump = (level - kinetic(direction, x)) * weight();
+    dv_ = 0;
+    if (!(jump > 0) || s * net(x) - held > 1e-9 * held) return;
+    const double duration = load_.duration;
+    const double rate = s * (load_.load_end - load_.load_start) / duration -
+                        level * (load_.normal_end - load_.normal_start) / duration / standard_gravity;
+    const double nearer = s * (by_load(time_) - change_.stiffness * x - slider_.stiffness() * dx_) -
+                          (change_.held * load_.normal(time_) + level * by_normal(time_)) / standard_gravity;
+    dv_ = s * jump * nearer / rate;
+  }
+
+  void note_peak(double x, double change) noexcept {
+    if (!(std::abs(x) > peak_)) return;
+    peak_ = std::abs(x);
+    at_peak_ = x < 0 ? -change : change;
+  }
+
+  const Slider<Law>& slider_;
+  const GroundMotion& motion_;
+  LoadPieces pieces_;
+  Change change_;
+  double peak_;
+  Mode before_;
+  std::function<void()> none_{};
+  std::size_t segment_ = 0;
+  LoadSegment load_{1, 0, 0, standard_gravity, standard_gravity}, change_of_load_{1, 0, 0, 0, 0};
+  double time_ = 0, dx_ = 0, dv_ = 0, at_peak_ = 0;
+  Direction direction_ = Direction::forward;
+  EventKind last_ = EventKind::end;
+  std::vector<std::array<double, 2>> nodes_;
+};
+
+/// What a parameter changes of a slider; refuses what it does not have.
+template <FrictionLaw Law>
+Change change_of(const Slider<Law>& slider, Parameter parameter) {
+  constexpr bool has_static = !std::same_as<Law, Coulomb>;
+  const auto refuse = [](const std::string& reason) { throw std::invalid_argument("sensitivity: " + reason); };
+  Change change;
+  switch (parameter) {
+    case Parameter::slip_level:
+      change.kinetic = change.held = 1;
+      break;
+    case Parameter::kinetic:
+    case Parameter::static_level:
+      if (!has_static)
+        refuse("Coulomb friction has one level for sliding and rest, by which slip_level differentiates");
+      (parameter == Parameter::kinetic ? change.kinetic : change.held) = 1;
+      break;
+    case Parameter::natural_frequency:
+      if (!(slider.natural_frequency() > 0)) refuse("without a spring there is no derivative by natural_frequency");
+      change.stiffness = 2 * slider.natural_frequency();
+      break;
+    case Parameter::damping:
+      change.damping = 1;
+      break;
+    case Parameter::slope:
+      change.slope = true;
+      break;
+    case Parameter::scale:
+      change.scale = true;
+      break;
+  }
+  return change;
+}
+
+/// Laws whose level is constant during a slip.
+template <class Law>
+concept DifferentiableLaw = std::same_as<Law, Coulomb> || std::same_as<Law, StaticKinetic<Coulomb>>;
+
+}  // namespace detail
+
+/// Derivatives of a response by a parameter: by the variational equation between events and the jumps of its solution
+/// at events. With s the direction, f the acceleration, q' the rate of the load, a_s and a_k the levels of rest and
+/// sliding, x and v those before the event:
+///     slip        d(v') = dp - s d(a_k N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx
+///     arrest      dv = 0
+///     reversal    dv jumps by the factor f+ / f-
+///     breakaway   dv = -(a_s - a_k) (d(a_s) + s wn^2 dx) / (q' - s a_s'), in the case of level ground
+///     impact      dx = -e dx,  dv = -e dv + (e f- + f+) dx / v
+///     peak        d|x| = sgn(x) dx at its time
+///
+/// @param slider     Coulomb friction, also with a static level; any mounting but a pendulum
+/// @param motion     the ground motion it moved under
+/// @param response   what `integrate` returned for them
+/// @param parameter  by what
+/// @throws std::invalid_argument  another law, whose level changes during a slip; a pendulum; a parameter that the
+///                                slider does not have; a slider that leaves the ground; a response that is not
+///                                differentiable there: a velocity that turns without acceleration
+/// With static friction above kinetic the response jumps where a decision changes. The derivative is that between such
+/// jumps, and Margins say how near the next is.
+/// Near round-off. 0.1 us a sample without spring and damper, 0.3 with them, 2 by the natural frequency with a damper:
+/// 3 to 17 times as long as `integrate`.
+template <FrictionLaw Law>
+Sensitivity sensitivity(const Slider<Law>& slider, const GroundMotion& motion, const Response& response,
+                        Parameter parameter) {
+  if constexpr (!detail::DifferentiableLaw<Law>) {
+    throw std::invalid_argument(
+        "sensitivity: covers Coulomb friction, also with a static level; of a law whose level changes during a slip "
+        "take differences of integrate");
+  } else {
+    if (slider.mounting().pendulum)
+      throw std::invalid_argument("sensitivity: covers springs of constant stiffness, got a pendulum");
+    const detail::Change change = detail::change_of(slider, parameter);
+    State state = State::at(response.displacement.front(), response.velocity.front());
+    detail::VariationalMotion<Law> variation(slider, motion, change, state);
+    std::vector<double> x(motion.samples()), v(motion.samples());
+    const detail::HistorySpans spans{x, v};
+    detail::with_flows(slider, motion, [&](const auto& flows) {
+      detail::run_loaded(slider, flows, motion, response.contact, state, variation, spans);
+    });
+    if (response.events.back().time > motion.time(motion.segments()))
+      detail::settle(slider, state, [&](double duration) {
+        variation.begin_still(duration);
+        advance(slider, detail::load_segment(Segment{duration, 0, 0}, slider.slope()), state, variation,
+                response.contact);
+      });
+    const Sensitivity result = variation.finish(state);
+    if (!std::isfinite(result.peak) || !std::isfinite(result.residual) || !std::isfinite(result.velocity))
+      throw std::invalid_argument(
+          "sensitivity: the response is not differentiable: a velocity comes to zero, or a load to a level, with no "
+          "rate");
+    return result;
+  }
+}
+
+template <FrictionLaw Law>
+Sensitivity sensitivity(const Law& law, const GroundMotion& motion, const Response& response, Parameter parameter) {
+  return sensitivity(Slider<Law>(law), motion, response, parameter);
+}
+
+}  // namespace stickslip

@@ -1,0 +1,66 @@
+"""Coefficients of friction of real interfaces."""
+
+from __future__ import annotations
+
+from typing import Any
+
+__all__ = ["interfaces"]
+
+_KASIMZADE = "quoted by Kasimzade et al., EJERS 4 (2), 2019"
+
+# Interface, lowest and highest coefficient, what to know of them, source.
+_TABLE = (
+    (
+        "steel on mortar",
+        0.5,
+        0.8,
+        "0.78 on average; begins at 0.5 and rises to 0.8 with wear; 0.5 in design",
+        "Ikenaga et al. 2008; AIJ",
+    ),
+    ("wood on stone", 0.5, 0.5, "stable", "14th World Conf. Earthquake Eng. 2008, 12-01-0050"),
+    (
+        "PTFE bearing, unlubricated",
+        0.05,
+        0.16,
+        "from slow to fast sliding, less under high pressure: use VelocityDependent",
+        "OpenSees manual, friction models",
+    ),
+    (
+        "marble on marble, HDPE or geosynthetic",
+        0.05,
+        0.15,
+        "averages of tests under 10 to 50 kN",
+        "Nanda, Agarwal, Shrikhande 2012, Shock and Vibration 19, 1327-1339",
+    ),
+    ("Delrin below masonry", 0.2, 0.2, "", _KASIMZADE),
+    (
+        "graphite on concrete",
+        0.23,
+        0.4,
+        "on a shaking table: 0.23 at peak accelerations of 0.2 to 0.3 g, 0.4 at 0.3 to 0.6 g",
+        _KASIMZADE,
+    ),
+    ("graphite powder", 0.25, 0.25, "", _KASIMZADE),
+    ("dry sand", 0.34, 0.34, "", _KASIMZADE),
+    ("wet sand", 0.41, 0.41, "", _KASIMZADE),
+    ("asphalt below masonry", 0.6, 0.6, "", _KASIMZADE),
+    ("vinyl flooring below masonry", 0.7, 0.7, "", _KASIMZADE),
+)
+
+
+def interfaces() -> list[dict[str, Any]]:
+    """Coefficients of friction of real interfaces, as published.
+
+    They are values of single test series, to begin with: surfaces, wear, pressure and speed change
+    them by tens of percent, so measure yours, or slide a range. Values for which no published
+    source was seen are left out.
+
+    Returns
+    -------
+    list of dict
+        Of each interface its name, ``interface``; the lowest and highest coefficient, ``mu_low``
+        and ``mu_high`` [-], equal where the source gives one; a ``note`` on them; the ``source``.
+        `pandas.DataFrame(interfaces())` is the table.
+    """
+    names = ("interface", "mu_low", "mu_high", "note", "source")
+    return [dict(zip(names, row)) for row in _TABLE]
