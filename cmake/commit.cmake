@@ -1,5 +1,5 @@
-# Writes the commit of SOURCE to OUTPUT, a header; "unknown" where SOURCE is no git repository itself (an archive
-# unpacked in somebody else's).
+# Writes the commit of SOURCE to OUTPUT, a header. Where SOURCE is no git repository itself (an archive, also one that is
+# unpacked in another repository) it is COMMIT, or "unknown" where that is not given.
 execute_process(
   COMMAND git rev-parse --show-prefix
   WORKING_DIRECTORY ${SOURCE}
@@ -12,6 +12,9 @@ if(failure EQUAL 0 AND prefix STREQUAL "")
     WORKING_DIRECTORY ${SOURCE}
     OUTPUT_VARIABLE commit
     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+endif()
+if(NOT commit)
+  set(commit "${COMMIT}")
 endif()
 if(NOT commit)
   set(commit unknown)
