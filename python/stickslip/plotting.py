@@ -368,7 +368,8 @@ def plot_responses(
         labels = [_describe(r.slider) for r in responses]
     if len(labels) != len(responses):
         raise ValueError(
-            f"plot_responses: needs {len(responses)} labels, one per response, got {len(labels)}"
+            f"plot_responses: needs a label for each of {len(responses)} responses, got"
+            f" {len(labels)}"
         )
     with style():
         figure = figure or new_figure(7, 5)
