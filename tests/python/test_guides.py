@@ -16,6 +16,7 @@ from pages import write_records
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
     DOCS / "start.md",
+    DOCS / "coming_from.md",
     DOCS / "ground_motions.md",
     DOCS / "command.md",
     DOCS / "contact.md",
