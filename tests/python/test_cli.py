@@ -17,6 +17,7 @@ import pytest
 import stickslip as ss
 from sources import waiting_for
 from stickslip.cli import main
+from stickslip.records import read_components
 
 G = ss.STANDARD_GRAVITY
 
@@ -437,7 +438,7 @@ def test_without_enough_memory_there_is_one_line(capsys, record, monkeypatch, te
     said = "not enough memory" + (f": {text}" if text.startswith("U") else "")
     monkeypatch.setattr("stickslip.ensemble.run_ensemble", full)
     assert run_ensemble(capsys, *QUAKE) == (2, "", f"stickslip: {said}\n")
-    monkeypatch.setattr("stickslip.cli.batch.read_record", full)
+    monkeypatch.setattr("stickslip.cli.batch.read_components", full)
     assert run(capsys, record, "--mu", 0.1) == (1, "", f"stickslip: {record}: {said}\n")
 
 
@@ -740,11 +741,11 @@ def test_errors_that_nobody_hears_are_told_by_the_exit_code_alone(record, stderr
 
 
 def test_a_warning_is_one_line(capsys, record, monkeypatch):
-    def warned(*_, **__):
+    def warned(*arguments, **options):
         warnings.warn("two\nlines", stacklevel=1)
-        return ss.read_record(record)
+        return read_components(*arguments, **options)
 
-    monkeypatch.setattr("stickslip.cli.batch.read_record", warned)
+    monkeypatch.setattr("stickslip.cli.batch.read_components", warned)
     with warnings.catch_warnings():
         warnings.simplefilter("default")
         code, _, err = run(capsys, record, "--mu", 0.1)
