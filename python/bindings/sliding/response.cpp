@@ -256,6 +256,9 @@ arrival; a slider that a stop throws back goes on without a reversal.)")
       .def_property_readonly(
           "at_rest", [](const Recording& r) { return r.response.state.mode == Mode::stuck; },
           "Whether the slider rests at the end.")
+      .def_property_readonly(
+          "state", [](const Recording& r) { return r.response.state; },
+          "The `State` at the end: a motion can be continued from it.")
       .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(), "Length of the way slid [m].")
       .def_property_readonly(
           "slips",
