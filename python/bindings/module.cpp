@@ -45,9 +45,9 @@ PYBIND11_MODULE(_core, m) {
   bind_ground_motion(m);
   bind_harmonic_motion(m);
   bind_records(m);
+  bind_advance(m);
   bind_response(m);
   bind_integrate(m);
-  bind_advance(m);
   bind_histories(m);
   bind_envelope(m);
   bind_spectrum(m);

@@ -117,10 +117,10 @@ def test_theories_and_orbits_refuse_it_in_a_sentence():
     pulses = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
     with pytest.raises(ValueError, match=message):
         harmonic.orbits(LAW, 2, 3)
-    for one in (theory.PulseSuperposition(), theory.PulseChain()):
-        assert message in str(one.covers(LAW, pulses))
+    assert message in str(theory.PulseSuperposition().covers(LAW, pulses))
+    assert not theory.PulseChain().covers(LAW, pulses)
     with pytest.raises(ValueError, match=message):
-        theory.pulse_response(LAW, [0, 1, 0], dt=0.1)
+        theory.pulse_response(LAW, 1.0, 0.1)
 
 
 def test_a_drawn_level_makes_an_ensemble():
@@ -128,7 +128,7 @@ def test_a_drawn_level_makes_an_ensemble():
         return ss.Degrading(distance=[0, 0.1], mu=[mu, 0.7 * mu])
 
     sliders = [soil(mu) for mu in (0.05, 0.1)]
-    e = ss.run_ensemble(sliders, [MOTION], members=4)
+    e = ss.run_ensemble(sliders, [MOTION], members=4, seed=1)
     expected = [ss.integrate(one, MOTION).residual for one in sliders] * 2
     assert e.residual == pytest.approx(expected, rel=1e-13)
     assert "Degrading" in str(e.configuration)

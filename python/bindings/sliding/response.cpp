@@ -370,6 +370,9 @@ an impact is that before it; a rebound from a stop is not a reversal.)")
       .def_property_readonly(
           "at_rest", [](const Recording& r) { return r.response.state.mode == Mode::stuck; },
           "Whether the slider is at rest at the end.")
+      .def_property_readonly(
+          "state", [](const Recording& r) { return r.response.state; },
+          "The `State` at the end; another run can continue from it.")
       .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(),
                              "Total sliding distance (path length) [m].")
       .def_property_readonly(
