@@ -98,6 +98,24 @@ TEST_CASE("margins do not depend on the scale", "[margins]") {
   }
 }
 
+TEST_CASE("margins follow the memory of a law", "[margins]") {
+  // Thrown at 1 m/s the slider goes until it stops at a level that has fallen meanwhile; a load of half of that level
+  // then leaves a margin of 0.5 of what holds.
+  const Degrading law({0, 0.5}, {2, 1});
+  IntegrateOptions thrown;
+  thrown.velocity = 1;
+  const GroundMotion quiet = loads({0, 0, 0});
+  const Response r = integrate(law, quiet, thrown);
+  State state;
+  state.displacement = r.residual;
+  state.sliding_distance = r.sliding_distance;
+  const double level = hold(law.at(state), r.residual, Direction::forward);
+  CHECK(level < 2);
+  const GroundMotion motion = loads({0, 0, level / 2, 0});
+  const Response pushed = integrate(law, motion, thrown);
+  CHECK(margins(law, motion, pushed).load == Approx(0.5).epsilon(1e-12));
+}
+
 TEST_CASE("levels that are zero or infinite decide nothing", "[margins]") {
   CHECK(margins_of(Coulomb(0), record_a()).load == infinity);
   CHECK(margins_of(Coulomb(0), record_a()).impact == infinity);
