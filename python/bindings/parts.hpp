@@ -56,8 +56,8 @@ template <>
 inline constexpr auto parts<Energy> = std::tuple(&Energy::initial, &Energy::input, &Energy::dissipated, &Energy::damped,
                                                  &Energy::kinetic, &Energy::elastic, &Energy::impact);
 template <>
-inline constexpr auto parts<Sensitivity> =
-    std::tuple(&Sensitivity::peak, &Sensitivity::residual, &Sensitivity::velocity);
+inline constexpr auto parts<Sensitivity> = std::tuple(&Sensitivity::peak, &Sensitivity::residual,
+                                                      &Sensitivity::velocity);
 template <>
 inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Response::velocity, &Response::events,
                                                    &Response::peak, &Response::residual, &Response::sliding_distance,
