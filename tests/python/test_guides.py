@@ -17,6 +17,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
     DOCS / "start.md",
     DOCS / "coming_from.md",
+    DOCS / "trust.md",
     DOCS / "ground_motions.md",
     DOCS / "command.md",
     DOCS / "contact.md",
