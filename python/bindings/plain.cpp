@@ -117,11 +117,12 @@ std::string plain(const std::string& name, const std::string& doc) {
     text = doc.substr(after_line(end_of(doc, name.size())));
   }
   for (std::size_t i = overloaded.size(), number = 1; doc.starts_with(overloaded); ++number) {
-    const std::string head = "\n" + std::to_string(number) + ". " + name;
+    const auto heading = [&](std::size_t of) { return std::string("\n").append(std::to_string(of)) + ". " + name; };
+    const std::string head = heading(number);
     i = doc.find(head + "(", i - 1);
     if (i == std::string::npos) break;
     const std::size_t bracket = i + head.size(), begin = after_line(end_of(doc, bracket));
-    const std::size_t next = doc.find("\n" + std::to_string(number + 1) + ". " + name + "(", begin - 1);
+    const std::size_t next = doc.find(heading(number + 1) + "(", begin - 1);
     forms.push_back(parameters_at(bracket));
     const std::string own = doc.substr(begin, next == std::string::npos ? next : next - begin);
     if (own.find_first_not_of('\n') != std::string::npos)
