@@ -87,3 +87,9 @@ def test_words_to_avoid_are_found_and_code_is_not_read():
         (1, "gone\non with"),
         (6, "Centre"),
     ]
+
+
+def test_the_terms_are_those_that_developers_read():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    assert "`gone on with`" in text and "`heartbeat`" in text
+    assert "test_english.py" in text
