@@ -563,7 +563,7 @@ class Suite(Sequence[GroundMotion]):
                 " = ".join(Path(names[i]).name for i in places) for places in equal[:_SHOWN]
             )
             warnings.warn(
-                f"Suite.read: {len(equal)} records occur more than once: {printable(sets)}",
+                f"Suite.read: records that occur more than once: {len(equal)}: {printable(sets)}",
                 PlausibilityWarning,
                 stacklevel=2,
             )

@@ -19,15 +19,12 @@ void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopp
   std::exception_ptr error;
   std::size_t working = count;
 
-  const auto fail = [&] {  // what other threads throw once they are stopped says nothing new
-    if (!stopped.exchange(true)) error = std::current_exception();
-  };
   const auto run = [&] {
     try {
       work();
     } catch (...) {
       const std::scoped_lock lock(mutex);
-      fail();
+      if (!stopped.exchange(true)) error = std::current_exception();  // others throw because they are stopped
     }
     const std::scoped_lock lock(mutex);
     --working;
@@ -47,7 +44,8 @@ void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopp
     }
   } catch (...) {
     const std::scoped_lock lock(mutex);
-    fail();
+    stopped = true;
+    error = std::current_exception();
   }
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);

@@ -10,8 +10,8 @@ namespace stickslip::detail {
 /// Runs `work` on several threads at once and returns when all have ended. Meanwhile the calling thread calls `beat`
 /// ten times a second, and once more at the end.
 ///
-/// The first exception, of `work`, of `beat` or of a thread that does not start, sets `stopped` and is thrown again
-/// when all threads have ended. Work should look at `stopped`, and end by returning or by any exception.
+/// An exception sets `stopped` and is thrown again when all threads have ended: that of `beat` or of a thread that does
+/// not start, else the first one of `work`. Work should look at `stopped`, and end by returning or by any exception.
 ///
 /// @param wanted  number of threads; 0: as many as the machine has
 /// @param tasks   no more threads than tasks are started

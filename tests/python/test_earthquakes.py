@@ -82,7 +82,7 @@ def test_as_many_records_end_within_a_factor_of_two_as_the_models_own_earthquake
     count = sum(within_two(t.final, t.rms) for t in trials)
     expected = sum(within_two(t.finals, t.rms).mean() for t in trials)
     assert count == said("# of the 54 final displacements")
-    assert round(expected) == said("a right model would have #") == 28
+    assert round(expected) == said("a correct model would have #") == 28
     assert abs(count - expected) < 12
 
 
@@ -97,14 +97,14 @@ def test_as_many_peaks_are_within_a_factor_of_two_of_the_median(trials):
     count = sum(within_two(t.peak, t.median) for t in trials)
     expected = sum(within_two(t.peaks, t.median).mean() for t in trials)
     assert count == said("# of the 54 peaks")
-    assert round(expected) == said("where a right one has #") == 44
+    assert round(expected) == said("where a correct model has #") == 44
     assert abs(count - expected) < 10
 
 
 def test_so_it_is_with_more_friction(pyslammer_files, strong):
     moving = [t for t in slide(pyslammer_files, strong, (0.2, 0.3)) if t.median > 0]
     count = sum(within_two(t.peak, t.median) for t in moving)
-    assert len(moving) == said("like # of the 36 trials")
+    assert len(moving) == said("at all in # of the 36 trials")
     assert count == said("# of the 29 peaks")
     assert round(sum(within_two(t.peaks, t.median).mean() for t in moving)) == 14
 
@@ -112,7 +112,7 @@ def test_so_it_is_with_more_friction(pyslammer_files, strong):
 def test_nine_in_ten_lie_between_the_quantiles_that_hold_nine_in_ten(trials):
     finals = sum(0.05 < np.mean(t.finals < t.final) < 0.95 for t in trials)
     peaks = sum(0.05 < np.mean(t.peaks < t.peak) < 0.95 for t in trials)
-    assert finals == said("hold # of the finals")
+    assert finals == said("contain # of the final displacements")
     assert peaks == said("and # of the peaks")
     assert {t.record for t in trials if np.mean(t.peaks < t.peak) > 0.95} == {
         "Cape_Mendocino_1992_PET-090"

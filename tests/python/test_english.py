@@ -6,25 +6,8 @@ import pytest
 from pages import ROOT
 
 PAGES = [
-    ROOT / name
-    for name in (
-        "README.md",
-        "CONTRIBUTING.md",
-        "CHANGELOG.md",
-        "bench/README.md",
-        "docs/index.md",
-        "docs/start.md",
-        "docs/coming_from.md",
-        "docs/command.md",
-        "docs/contact.md",
-        "docs/conventions.md",
-        "docs/errata.md",
-        "docs/ground_motions.md",
-        "docs/pulse_chain.md",
-        "docs/pulse_superposition.md",
-        "docs/sweeps.md",
-        "docs/trust.md",
-    )
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
 ]
 INSTEAD = {  # what not to write, as a regular expression: what to write
     r"gone on (?:with|from)": "resumed from",

@@ -586,7 +586,7 @@ def test_a_truncated_file_is_refused(ensemble, tmp_path):
     whole = file.read_bytes()
     for length in (0, 1, 3, 4, 100, len(whole) // 2, len(whole) - 100, len(whole) - 1):
         file.write_bytes(whole[:length])
-        with pytest.raises(ValueError, match=r"run\.npz' is (truncated|damaged|no ensemble)"):
+        with pytest.raises(ValueError, match=r"run\.npz' is (truncated|damaged|not an ensemble)"):
             ss.Ensemble.load(file)
 
 

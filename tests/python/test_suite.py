@@ -289,7 +289,7 @@ def test_stations_in_an_archive_and_in_other_folders_are_kept_apart(stations, tm
             archive.write(one, one.name)
     with pytest.warns((RuntimeWarning, ss.PlausibilityWarning)) as said:
         suite = ss.Suite.read([stations / "*.AT2", file], stations=True)
-    assert "1 records are there more than once" in str(said[-1].message)
+    assert "records that occur more than once: 1: " in str(said[-1].message)
     assert suite.components.tolist() == [3, 2, 1, 3]
     assert suite.files[3].startswith(f"{file}::AAA-000.AT2; ")
     assert np.array_equal(suite[3].vertical, suite[0].vertical)
