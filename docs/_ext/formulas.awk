@@ -1,5 +1,6 @@
 # Doxygen's input filter: in /// comments indented text is a formula, to be shown as it stands; a line that is not
-# indented ends the @param or @throws before it. Markdown would run both into the paragraph.
+# indented ends the @param or @throws before it. Markdown would run both into the paragraph. Sphinx cannot match a
+# function that returns decltype(auto): it is shown as auto.
 function leave() {
   if (verbatim) print margin "/// @endcode"
   verbatim = 0
@@ -31,5 +32,6 @@ match($0, /^ *\/\/\/( |$)/) {
 {
   leave()
   command = 0
+  gsub(/decltype\(auto\)/, "auto")
   print
 }
