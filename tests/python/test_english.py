@@ -7,7 +7,8 @@ from pages import ROOT
 
 PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md")),
-    *sorted((ROOT / "docs").rglob("*.md")),
+    *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "docs" / "guides").glob("*.md")),
 ]
 INSTEAD = {  # what not to write, as a regular expression: what to write
     r"gone on (?:with|from)": "resumed from",
