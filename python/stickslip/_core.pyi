@@ -1783,7 +1783,21 @@ def _station_motion(
     along: str,
     common_length: bool,
 ) -> GroundMotion: ...
-def _warn_if_implausible(motion: GroundMotion, who: str, depth: SupportsIndex = 1) -> None: ...
+def _ground_motion(
+    acceleration: _Samples,
+    dt: _Number | None = None,
+    *,
+    times: _Samples | None = None,
+    interpolation: _Interpolation = "linear",
+    name: str = "",
+    units: _AccelerationUnit = "m/s^2",
+    transverse: _Samples | None = None,
+    vertical: _Samples | None = None,
+    orientation: str = "",
+) -> GroundMotion: ...
+def _warn_if_implausible(
+    motion: GroundMotion, who: str, depth: SupportsIndex = 1, recorded: bool = True
+) -> None: ...
 def run_ensemble(
     sliders: Any,
     motions: Any,

@@ -499,7 +499,7 @@ def _of_stream(
 def _of_trace(trace: Any, units: str) -> Component:
     code = trace.stats.channel
     orientation = {"N": "N", "E": "E", "Z": "up"}.get(code[-1:], "") if len(code) == 3 else ""
-    motion = _core.GroundMotion(
+    motion = _core._ground_motion(
         trace.data, trace.stats.delta, units=units, name=trace.id, orientation=orientation
     )
     return Component(motion, code, str(trace.stats.starttime), "")

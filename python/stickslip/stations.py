@@ -82,7 +82,7 @@ def _pointed(part: Part) -> Part:
     if motion.orientation or ending is None:
         return part
     station, orientation = ending[1] or ending[3], ending[2] or ending[4]
-    pointed = GroundMotion(
+    pointed = _core._ground_motion(
         motion.acceleration,
         **({"times": motion.time} if motion.dt is None else {"dt": motion.dt}),
         interpolation=motion.interpolation,

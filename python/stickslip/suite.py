@@ -651,7 +651,7 @@ class Suite(Sequence[GroundMotion]):
                 }
                 about |= {w: others[w].take(n.size) for w in _OTHERS if has[w][i]}
                 about |= {"times": times.take(n.size)} if math.isnan(dt[i]) else {"dt": dt[i]}
-                motions.append(GroundMotion(n, **about))
+                motions.append(_core._ground_motion(n, **about))
             return cls(motions, read_columns(h5, "metadata"))
 
 

@@ -233,6 +233,7 @@ def test_arguments_of_another_kind_are_a_type_error(arguments):
 # ---- extremes
 
 
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")
 @pytest.mark.parametrize("power", [-1000, -300, 300])
 @pytest.mark.parametrize("natural_frequency", [0.0, 1.3])
 def test_displacements_scale_with_accelerations_from_1e_minus_300_to_1e_90(

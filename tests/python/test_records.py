@@ -697,6 +697,39 @@ def test_a_record_that_is_hardly_one_is_warned_of(tmp_path):
     assert issubclass(ss.PlausibilityWarning, UserWarning)
 
 
+def test_an_array_that_is_hardly_a_record_is_warned_of():
+    for factor in (0, 0.02, 1, 29):
+        ss.GroundMotion(factor * WAVE, dt=0.01)
+    for factor in (0.009, 31, 981):
+        with pytest.warns(ss.PlausibilityWarning, match=r"^GroundMotion: .*m/s\^2.*units") as said:
+            ss.GroundMotion(factor * WAVE, dt=0.01)
+        assert [warning.filename for warning in said] == [__file__]
+    with pytest.warns(ss.PlausibilityWarning, match=r"^GroundMotion \(cm\): .*check the units"):
+        ss.GroundMotion(100 * WAVE, dt=0.01, name="cm")
+    ss.GroundMotion(100 * WAVE, dt=0.01, units="cm/s^2")
+    ss.GroundMotion(100 * WAVE[:99], dt=0.01)
+    # An offset shows if a motion begins and ends at rest; else its mean may be its own.
+    ss.GroundMotion(WAVE + 0.5, dt=0.01)
+    for seed in range(50):
+        ss.GroundMotion(np.random.default_rng(seed).normal(size=400), dt=0.01)
+    at_rest = np.concatenate([np.zeros(10), WAVE, np.zeros(10)])
+    ss.GroundMotion(at_rest + 0.0049, dt=0.01)
+    for offset in (-0.0052, 0.0052, 0.5):
+        with pytest.warns(ss.PlausibilityWarning, match=r"the mean acceleration.*detrended"):
+            ss.GroundMotion(at_rest + offset, dt=0.01)
+
+
+def test_what_was_read_is_not_warned_of_again(tmp_path):
+    # Neither by a pickle nor by the functions that change a motion.
+    with pytest.warns(ss.PlausibilityWarning):
+        motion = ss.GroundMotion(981 * WAVE, dt=0.01)
+    assert pickle.loads(pickle.dumps(motion)) == motion
+    assert (motion / 981 * 981).cut(0, 2).dt == motion.dt
+    file = tmp_path / "suite.h5"
+    ss.Suite([motion]).save(file)
+    assert ss.Suite.open(file)[0] == motion
+
+
 def test_real_records_are_plausible_and_with_an_offset_they_are_not(pyslammer_files, tmp_path):
     # Without a warning, which would be an error here. The offset of 0.01 g that no one saw.
     records = {file.stem: ss.read_record(file) for file in pyslammer_files}
@@ -705,6 +738,8 @@ def test_real_records_are_plausible_and_with_an_offset_they_are_not(pyslammer_fi
     )
     kobe = records["Kobe_1995_TAK-090"]
     shifted = np.asarray(kobe.acceleration) + 0.01 * ss.STANDARD_GRAVITY
+    with pytest.warns(ss.PlausibilityWarning, match=r"0.5 % of the peak"):
+        ss.GroundMotion(shifted, dt=kobe.dt)
     with pytest.warns(ss.PlausibilityWarning, match=r"0.5 % of the peak"):
         off = ss.read_record(written(tmp_path / "kobe.csv", shifted, kobe.dt))
     peaks = [ss.integrate(ss.Coulomb(mu=0.1), q, settle=True).peak for q in (kobe, off)]

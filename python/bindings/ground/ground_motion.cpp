@@ -42,6 +42,17 @@ GroundMotion make(const py::object& acceleration, std::optional<double> dt, cons
   return motion.with_components(other(transverse, "transverse"), other(vertical, "vertical"));
 }
 
+// `make`, with a warning about what no record would be.
+GroundMotion made(const py::object& acceleration, std::optional<double> dt, const std::optional<py::object>& times,
+                  const std::string& interpolation, std::string name, const std::string& units,
+                  const std::optional<py::object>& transverse, const std::optional<py::object>& vertical,
+                  std::string orientation) {
+  const GroundMotion motion = make(acceleration, dt, times, interpolation, std::move(name), units, transverse, vertical,
+                                   std::move(orientation));
+  warn_if_implausible(motion, "GroundMotion", 1, false);
+  return motion;
+}
+
 Component component_of(const std::string& name) {
   for (const Component component : {Component::axis, Component::transverse, Component::vertical})
     if (name == name_of(component)) return component;
@@ -123,16 +134,27 @@ Raises
 ValueError
     An invalid value; the message names it and its index.
 
+Warns
+-----
+PlausibilityWarning
+    With 100 samples or more: the largest acceleration is not from 0.01 to 30 m/s^2, nor zero; or the mean is more than
+    0.5 % of it in a motion that begins and ends at rest, as a record does: ten samples at either end within 5 % of the
+    peak of the mean.
+
 Notes
 -----
 `2 * motion`, `motion / 2` and `-motion` return motions `scaled` by the factor. Methods that return a motion treat all
 components alike.)");
   type.attr("__array_ufunc__") = py::none();  // NumPy factors then use the operators of the motion
-  type.def(py::init(&make), py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(),
-           py::arg("times") = py::none(), py::arg("interpolation") = "linear", py::arg("name") = "",
-           py::arg("units") = "m/s^2", py::arg("transverse") = py::none(), py::arg("vertical") = py::none(),
-           py::arg("orientation") = "")
-      .def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
+  const auto with_arguments = [](auto&& define) {
+    define(py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(), py::arg("times") = py::none(),
+           py::arg("interpolation") = "linear", py::arg("name") = "", py::arg("units") = "m/s^2",
+           py::arg("transverse") = py::none(), py::arg("vertical") = py::none(), py::arg("orientation") = "");
+  };
+  // For what was checked when it was read.
+  with_arguments([&](auto&&... arguments) { m.def("_ground_motion", &make, arguments...); });
+  with_arguments([&](auto&&... arguments) { type.def(py::init(&made), arguments...); });
+  type.def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
                   py::arg("name") = py::none(),
                   R"(Convert an ObsPy trace to a ground motion.
 

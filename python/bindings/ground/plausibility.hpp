@@ -1,9 +1,11 @@
 // A warning about implausible recorded ground motions.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <span>
 #include <string>
 
 #include "bindings.hpp"
@@ -19,9 +21,20 @@ inline constexpr double most_plausible_mean = 0.005;
 /// Motions with fewer samples are examples, not records, and are not checked.
 inline constexpr std::size_t fewest_samples = 100;
 
+/// Whether a motion begins and ends as records do: ten samples at either end within 5 % of the peak of the mean.
+/// Stationary noise and harmonic motions, whose mean is rarely zero, do not.
+inline bool begins_and_ends_at_rest(std::span<const double> n, double mean, double peak) {
+  constexpr std::size_t ends = 10;
+  const auto quiet = [&](double value) { return std::abs(value - mean) <= 0.05 * peak; };
+  return std::ranges::all_of(n.first(ends), quiet) && std::ranges::all_of(n.last(ends), quiet);
+}
+
 /// Warns through Python's `warnings`; throws if warnings are errors.
-/// @param depth  stack level that the warning names: 1 is the calling Python function
-inline void warn_if_implausible(const GroundMotion& motion, const std::string& who, int depth = 1) {
+/// @param depth     stack level that the warning names: 1 is the calling Python function
+/// @param recorded  whether the motion was read as a record; else it may be zero throughout, and its mean is checked
+///                  only if it begins and ends at rest
+inline void warn_if_implausible(const GroundMotion& motion, const std::string& who, int depth = 1,
+                                bool recorded = true) {
   if (motion.samples() < fewest_samples) return;
   const auto warn = [&](const std::string& what) {
     const py::object type = py::module_::import("stickslip._core").attr("PlausibilityWarning");
@@ -34,13 +47,15 @@ inline void warn_if_implausible(const GroundMotion& motion, const std::string& w
     return std::string(text);
   };
   const double peak = motion.peak_acceleration();
+  if (!recorded && peak == 0) return;
   if (!(peak >= least_plausible_peak && peak <= most_plausible_peak)) {
     warn("the largest acceleration, " + rounded(peak) +
          " m/s^2, is not from 0.01 to 30 m/s^2 as in recorded earthquakes; check the units");
     return;
   }
   const double velocity = ground_history(motion).velocity.back(), mean = velocity / motion.duration();
-  if (std::abs(mean) > most_plausible_mean * peak)
+  if (std::abs(mean) > most_plausible_mean * peak &&
+      (recorded || begins_and_ends_at_rest(motion.acceleration(), mean, peak)))
     warn("the mean acceleration, " + rounded(mean) +
          " m/s^2, is more than 0.5 % of the peak and leaves the ground moving at " + rounded(velocity) +
          " m/s; this is a baseline error, which .detrended() removes");

@@ -63,9 +63,11 @@ void bind_records(py::module_& m) {
   m.attr("PlausibilityWarning") = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "stickslip.PlausibilityWarning",
       "Warning about an implausible record, probably in other units or with a baseline error.\n\n"
-      "`read_record` and `GroundMotion.from_obspy` warn if the maximum acceleration is below 0.01 or above 30 m/s^2,\n"
-      "or if the mean acceleration is above 0.5 % of the maximum; they do not check motions of fewer than 100 "
-      "samples.\n"
+      "`read_record`, `read_station`, `Suite.read` and `GroundMotion.from_obspy` warn if the maximum acceleration is\n"
+      "below 0.01 or above 30 m/s^2, or if the mean acceleration is above 0.5 % of the maximum; they do not check\n"
+      "motions of fewer than 100 samples.\n"
+      "`GroundMotion(...)` warns of the same, but accepts a motion that is zero, and checks the mean only of a motion\n"
+      "that begins and ends at rest, as a record does: synthetic noise and harmonic motions rarely have no mean.\n"
       "In processed records the mean is below 0.02 % of the maximum; an offset of 0.01 g in a record of 0.6 g, 1.6 %,\n"
       "can double a displacement. Silence the warning with Python's filter:\n"
       "`warnings.simplefilter(\"ignore\", stickslip.PlausibilityWarning)`.",
@@ -78,7 +80,8 @@ void bind_records(py::module_& m) {
   m.def("_record_formats", &formats);
   m.def("_station_motion", &station, py::arg("components"), py::arg("orientations"), py::arg("along"),
         py::arg("common_length"));
-  m.def("_warn_if_implausible", &warn_if_implausible, py::arg("motion"), py::arg("who"), py::arg("depth") = 1);
+  m.def("_warn_if_implausible", &warn_if_implausible, py::arg("motion"), py::arg("who"), py::arg("depth") = 1,
+        py::arg("recorded") = true);
 
   m.def("acceleration_unit", &acceleration_unit, py::arg("name"),
         R"(Value of a unit of acceleration in m/s^2: `acceleration_unit("gal")` is 0.01.

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from .. import GroundMotion, PlausibilityWarning, read_record, read_station, sample_record
+from .._core import _ground_motion as ground_motion
 from .._core import _warn_if_implausible as warn_if_implausible
 from .._core import acceleration_unit
 from ..records import read_components
@@ -237,7 +238,7 @@ def _with_vertical(motion: GroundMotion, up: GroundMotion) -> GroundMotion:
             f"--vertical must have the samples of the record, {samples(motion)}, got {samples(up)}"
         )
     times: dict[str, Any] = {"times": motion.time} if motion.dt is None else {"dt": motion.dt}
-    return GroundMotion(
+    return ground_motion(
         motion.acceleration,
         **times,
         interpolation=motion.interpolation,
