@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/surface_heat.hpp"
 
 namespace stickslip {
 
@@ -37,10 +37,16 @@ struct State {
   /// Slid so far, forward and backward alike [m], at least 0. Counted where the law depends on it (MemoryLaw), else
   /// left as it is.
   double sliding_distance = 0;
+  /// Left at the surface, where the law depends on its temperature (HeatedLaw), else cold.
+  SurfaceHeat heat{};
 
   /// At rest where `velocity` is 0, else sliding the way it points.
-  static constexpr State at(double displacement, double velocity) noexcept {
-    return {displacement, velocity, velocity > 0 ? Mode::forward : velocity < 0 ? Mode::backward : Mode::stuck};
+  static State at(double displacement, double velocity) noexcept {
+    return {.displacement = displacement,
+            .velocity = velocity,
+            .mode = velocity > 0   ? Mode::forward
+                    : velocity < 0 ? Mode::backward
+                                   : Mode::stuck};
   }
 };
 

@@ -8,7 +8,8 @@
 #include "stickslip/detail/event_loop.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/flow/polynomial.hpp"
-#include "stickslip/flow/taylor.hpp"
+#include "stickslip/flow/power_series.hpp"
+#include "stickslip/flow/remembering.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/state.hpp"
@@ -40,6 +41,8 @@ struct WithinSegment {
 /// A law as it is at one place.
 template <MemorylessLaw Law>
 struct AtPlace {
+  static constexpr bool numeric = NumericLaw<Law>;
+
   const Law* law;
   double displacement;
 
@@ -57,7 +60,7 @@ double after_impulse(const Law& law, double displacement, Direction direction, d
     const Slider<AtPlace<Law>> slider({&law, displacement});
     State state = State::at(0, sign(direction) * speed);
     NoObserver none;
-    advance(slider.law(), Taylor<AtPlace<Law>>{slider}, Segment{impulse / standard_gravity, 0, 0}, state, none);
+    advance(slider.law(), general_flows(slider), Segment{impulse / standard_gravity, 0, 0}, state, none);
     return std::abs(state.velocity);
   } else {
     return std::max(speed - law.resist(displacement, direction) / standard_gravity * impulse, 0.0);

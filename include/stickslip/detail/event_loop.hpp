@@ -10,6 +10,7 @@
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/collocation.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/root.hpp"
@@ -79,6 +80,56 @@ concept LoadedPiece = requires(const Piece& piece) {
   piece.weight(0.0);
 };
 
+/// When a slider at rest begins to slip, if what holds it changes as its surface cools: `pull(left)` is the spring's
+/// pull and `bound(direction, level)` what holds it at a level. The margins are polynomials on one part of the time
+/// after another, to 1e-9 of the level. Leaves the surface as it is at the departure, or else at the end.
+template <HeatedLaw Law, class Piece, class Pull, class Bound>
+Departure heated_departure(const Law& law, const Piece& segment, State& state, double left, Cooling& cooling,
+                           const Pull& pull, const Bound& bound) {
+  const Nodes& nodes = Nodes::get();
+  for (double passed = 0, step = left;;) {
+    const Nodes::Values half = cooling.half_integrals(state.heat, step);
+    Nodes::Values holds, net;
+    double scale = 0;
+    for (std::size_t i = 0; i < half.size(); ++i) {
+      const double then = std::max(left - (passed + nodes.nodes[i] * step), 0.0);
+      double weight = 1;
+      if constexpr (LoadedPiece<Piece>) weight = segment.weight(then);
+      holds[i] = weight * law.level(0, weight, half[i]);
+      net[i] = segment.load_before_end(then) - pull(then);
+      scale = std::max(scale, std::abs(net[i]) + holds[i]);
+    }
+    bool resolved = true;
+    const auto first_exceeded = [&](Direction direction) -> double {
+      if (!(bound(direction, 0.0) < never)) return never;
+      Nodes::Values margin, powers;
+      for (std::size_t i = 0; i < margin.size(); ++i) margin[i] = holds[i] - sign(direction) * net[i];
+      const Nodes::Values c = nodes.chebyshev(margin);
+      resolved = resolved && std::abs(c[c.size() - 1]) + std::abs(c[c.size() - 2]) <= 1e-9 * scale;
+      int degree = Nodes::powers(c, 1e-15 * scale, powers);
+      const double* from = powers.data();
+      if (!(margin[0] > 0))  // at the level itself it holds
+        for (++from, --degree; degree >= 0 && equal(*from, 0);) ++from, --degree;
+      if (degree < 0) return never;
+      return *from > 0 ? FirstRoot(from, degree).find() : 0;
+    };
+    const double forward = first_exceeded(Direction::forward), backward = first_exceeded(Direction::backward);
+    if (!resolved && step > 0x1p-40 * left) {
+      step /= 2;
+      continue;
+    }
+    const double part = std::min(forward, backward);
+    if (part <= 1) {
+      state.heat.rest(part * step);
+      return {forward <= backward ? Mode::forward : Mode::backward, passed + part * step};
+    }
+    state.heat.rest(step);
+    passed += step;
+    if (!(passed < left)) return {};
+    step = std::min(2 * step, left - passed);
+  }
+}
+
 /// The event loop, over a piece of any kind (segment.hpp); `flows` makes the flows of the law under its load.
 template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, class Within = Unbounded>
 [[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const Piece& segment, State& state,
@@ -107,7 +158,13 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   // Since an impact the way from that stop is known to all digits.
   Direction struck = Direction::forward;
   double from_stop = -1;
-  const auto law_now = [&]() -> decltype(auto) { return law_at(law, state); };
+  const auto law_then = [&](double until_end) -> decltype(auto) {
+    if constexpr (loaded && HeatedLaw<Law>)
+      return law_at(law, state, segment.weight(until_end));
+    else
+      return law_at(law, state);
+  };
+  const auto law_now = [&]() -> decltype(auto) { return law_then(left); };
   const auto slid = [&](double distance) {
     if constexpr (MemoryLaw<Law>) state.sliding_distance += distance;
   };
@@ -144,11 +201,23 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       } else if (load < -backward) {
         state.mode = Mode::backward;
       } else if (left > 0) {
-        const Departure next = segment.departure(load, pull_at(0), holds_forward, holds_backward, left);
+        const Departure next = [&] {
+          if constexpr (HeatedLaw<Law>)
+            return heated_departure(
+                law, segment, state, left, flows.cooling(), pull_at,
+                [&](Direction direction, double level) { return within.bound(direction, state.displacement, level); });
+          else
+            return segment.departure(load, pull_at(0), holds_forward, holds_backward, left);
+        }();
         if (next.mode != Mode::stuck) {
           state.mode = next.mode;
           delay = next.delay;
-          load = next.mode == Mode::forward ? weigh(left - delay, holds_forward) : -weigh(left - delay, holds_backward);
+          const auto level = [&](Direction direction, double held) {
+            if constexpr (HeatedLaw<Law>) held = hold(law_then(left - delay), state.displacement, direction);
+            return weigh(left - delay, held);
+          };
+          load = next.mode == Mode::forward ? level(Direction::forward, holds_forward)
+                                            : -level(Direction::backward, holds_backward);
         }
       }
 
@@ -187,6 +256,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
     const double stop = flow.first_stop();
     const auto show = [&](double taken, const Progress& end, double gain) {
       if constexpr (requires { observer.follow(flow, taken); }) observer.follow(flow, taken);
+      if constexpr (HeatedLaw<Law>) flow.heat(taken, state.heat);
       if constexpr (loaded && requires { observer.dissipate(0.0); }) {
         if constexpr (requires { flow.friction_work(taken); })
           observer.dissipate(flow.friction_work(taken));
@@ -199,7 +269,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
     if constexpr (bounded || MemoryLaw<Law>) {
       // Without a zero of velocity x runs one way: it passes a stop, or where the law changes, where it ends beyond it.
       const double to_stop = room_ahead(direction), to_change = [&]() -> double {
-        if constexpr (MemoryLaw<Law>) return law.until(state) - state.sliding_distance;
+        if constexpr (MemoryLaw<Law>) return law.ahead(state, direction);
         return never;
       }();
       const double room = std::min(to_stop, to_change), most = stop < never ? stop : flow.horizon();
@@ -218,8 +288,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
         const auto load_now = [&] { return ground_load + s * start.gain_within(flow_left - left, flow_left) - pull(); };
         if constexpr (MemoryLaw<Law>)
           if (to_change < to_stop) {
-            state.displacement += s * room;
-            state.sliding_distance = law.until(state);
+            law.pass(state, direction);
             if (from_stop >= 0) from_stop += direction == struck ? -room : room;
             if (left <= 0) return;
             load = load_now();

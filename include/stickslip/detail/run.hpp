@@ -22,10 +22,14 @@ namespace stickslip::detail {
 struct HistorySpans {
   std::span<double> displacement, velocity;
   std::span<double> gap{};  // empty where the slider cannot leave the ground
+  std::span<double> temperature{};
 
-  void keep(std::size_t sample, const State& state) const noexcept {
+  template <FrictionLaw Law>
+  void keep(std::size_t sample, const Law& law, const State& state) const noexcept {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
+    if constexpr (HeatedLaw<Law>)
+      if (!temperature.empty()) temperature[sample] = law.temperature(state);
   }
 };
 
@@ -64,7 +68,7 @@ template <FrictionLaw Law, class Flows, class Recording>
       [&](std::size_t i, double begin, double end, const Segment& segment) {
         recorder.begin_segment(begin, end);
         detail::advance(law, flows, segment, moving, recorder);
-        histories.keep(i + 1, moving);
+        histories.keep(i + 1, law, moving);
       },
       [&] { recorder.heartbeat(); });
   state = moving;
@@ -107,7 +111,7 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
         time = next;
       }
     }
-    histories.keep(i + 1, state);
+    histories.keep(i + 1, law, state);
   }
 }
 
@@ -172,7 +176,7 @@ template <FrictionLaw Law, class Flows, class Recording>
   const auto go = [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
     recorder.begin_segment(begin, end);
     advance(slider.law(), flows, segment, bounds, contact, state, recorder);
-    histories.keep(i + 1, state);
+    histories.keep(i + 1, slider.law(), state);
     if (!histories.gap.empty()) histories.gap[i + 1] = state.gap;
   };
   walk(pieces, motion.segments(), Recording::work_a_beat, go, [&] { recorder.heartbeat(); });

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/collocation.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/flow/taylor.hpp"
@@ -88,5 +89,16 @@ class Remembering {
   const Slider<Law>& slider_;
   mutable std::optional<Slider<Now>> now_;
 };
+
+/// Makes the flows that serve a law under any load.
+template <FrictionLaw Law>
+auto general_flows(const Slider<Law>& slider) {
+  if constexpr (HeatedLaw<Law> || NumericLaw<Law>)
+    return Collocating<Law>(slider);
+  else if constexpr (MemoryLaw<Law>)
+    return Remembering<Law>(slider);
+  else
+    return Taylor<Law>{slider};
+}
 
 }  // namespace stickslip

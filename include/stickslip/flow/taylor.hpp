@@ -1,4 +1,4 @@
-// Friction that varies with position, by a Taylor series of high order.
+// Friction that varies with position or speed, by a Taylor series of high order.
 #pragma once
 
 #include <array>
@@ -10,167 +10,15 @@
 #include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/flow/power_series.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/series/dual.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
 
 namespace stickslip {
-
-/// A polynomial on [0, 1] whose value at 0 is positive, asked for its first root.
-///
-/// Its Bernstein coefficients on an interval change sign as often as it has roots there, or more often by an even
-/// number (Descartes' rule). No change, no root; one change, one root, which Newton's method finds inside its bracket;
-/// else the interval is halved. A double root, which no halving parts, is a graze: the speed touches zero and rises
-/// again.
-class FirstRoot {
- public:
-  /// @param w  coefficients of t^0 .. t^degree, w[0] > 0
-  FirstRoot(const double* w, int degree) noexcept : w_(w), degree_(degree) {}
-
-  /// In (0, 1]; `never` where there is none.
-  double find() const noexcept {
-    double fall = 0;
-    for (int k = 1; k <= degree_; ++k) fall += std::min(w_[k], 0.0);
-    if (w_[0] + fall > 0) return never;
-
-    // Closer bounds of the value and the slope, by Horner's rule with t at its worst, 0 or 1, at each step.
-    double lowest = 0, steepest = 0, last = 0, order = degree_;
-    for (int k = degree_; k >= 1; --k, --order) {
-      lowest = w_[k] + std::min(lowest, 0.0);
-      steepest = order * w_[k] + std::max(steepest, 0.0);
-      last += w_[k];
-    }
-    last += w_[0];
-    if (w_[0] + std::min(lowest, 0.0) > 0) return never;
-    if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it falls all the way
-
-    Bernstein coefficients;
-    double* const b = coefficients.data();
-    double binomial = 1;
-    for (int k = 0; k <= degree_; ++k) {
-      b[k] = w_[k] / binomial;
-      binomial *= static_cast<double>(degree_ - k) / (k + 1);
-    }
-    for (int i = 1; i <= degree_; ++i)
-      for (int k = degree_; k >= i; --k) b[k] += b[k - 1];
-    const double last_value = b[degree_], root = search(b, 0, 1);
-    return detail::equal(root, never) && last_value <= 0 ? 1 : root;  // at the end, but for rounding
-  }
-
- private:
-  using Bernstein = std::array<double, series::highest_order + 1>;
-
-  double search(double* b, double left, double width) const noexcept {
-    int changes = 0;
-    for (int k = 1; k <= degree_; ++k) changes += (b[k - 1] >= 0) != (b[k] >= 0);
-    if (changes == 0) return never;
-    if (changes == 1) return polish(left, left + width);
-    if (width < 0x1p-40) return never;
-    Bernstein half;
-    double* const first = half.data();  // de Casteljau: `b` becomes the second half
-    for (int i = 0; i <= degree_; ++i) {
-      first[i] = b[0];
-      for (int k = 0; k < degree_ - i; ++k) b[k] = (b[k] + b[k + 1]) / 2;
-    }
-    const double root = search(first, left, width / 2);
-    return root < never ? root : search(b, left + width / 2, width / 2);
-  }
-
-  // Newton's method, as the slope comes with the value, from where a parabola through the start would be zero; even
-  // and odd powers go apart, as an addition must wait for what it adds.
-  double polish(double low, double high) const noexcept {
-    const double guess = degree_ < 2 ? 1 : first_root(w_[0], w_[1], 2 * w_[2]);
-    double t = guess > low && guess < high ? guess : low + (high - low) / 2;
-    for (int steps = 0;; ++steps) {
-      const double z = t * t;
-      double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // slopes by z
-      for (int k = degree_ & ~1; k >= 0; k -= 2) {
-        even_slope = even_slope * z + even;
-        even = even * z + w_[k];
-      }
-      for (int k = (degree_ - 1) | 1; k >= 1; k -= 2) {
-        odd_slope = odd_slope * z + odd;
-        odd = odd * z + w_[k];
-      }
-      const double value = even + t * odd, slope = 2 * t * (even_slope + t * odd_slope) + odd;
-      (value > 0 ? low : high) = t;
-      double next = t - value / slope;
-      if (std::abs(next - t) <= 0x1p-52 * t) return t;
-      if (!(next > low && next < high) || steps > 64) next = low + (high - low) / 2;  // powers of t may underflow
-      if (next <= low || next >= high) return high;
-      t = next;
-    }
-  }
-
-  const double* w_;
-  int degree_;
-};
-
-namespace detail {
-
-/// What a load gains from the start of a flow, as a power series: linear.
-class GainSeries {
- public:
-  GainSeries(const Start& start, double duration) noexcept : rate_(start.gain / duration) {}
-
-  /// The longest step over which the series keeps its digits [s].
-  double reach(double /*natural_frequency*/) const noexcept { return never; }
-
-  /// Coefficients of time in units of h, to be asked for in order from k = 1 [m/s^2].
-  auto coefficients(double h) const noexcept {
-    return [first = rate_ * h](int k) { return k == 1 ? first : 0.0; };
-  }
-
-  double at(double h, double part) const noexcept { return rate_ * h * part; }
-  double largest(double h, double part) const noexcept { return std::abs(at(h, part)); }
-  double steepest() const noexcept { return std::abs(rate_); }  // [m/s^3]
-
- private:
-  double rate_;
-};
-
-/// A cosine's. Its orders rise to exp(omega h) before they fall: over two radians, of it or of the spring, a digit is
-/// lost, and both are as if there were one frequency; resonance is nothing special.
-class SinusoidalGainSeries {
- public:
-  SinusoidalGainSeries(const SinusoidalStart& start, double /*duration*/) noexcept
-      : start_(start),
-        derivatives_{start.amplitude * std::cos(start.phase), -start.amplitude * std::sin(start.phase)} {}
-
-  double reach(double natural_frequency) const noexcept { return 2 / std::max(start_.frequency, natural_frequency); }
-
-  auto coefficients(double h) const noexcept {
-    return [this, radians = start_.frequency * h, power = 1.0](int k) mutable {
-      power *= radians * series::reciprocal[k];
-      return (k & 2 ? -power : power) * derivatives_[k & 1];
-    };
-  }
-
-  double at(double h, double part) const noexcept { return start_.gain_within(h * part, h); }
-  double largest(double h, double part) const noexcept {
-    return std::abs(start_.amplitude) * std::min(2.0, start_.frequency * h * part);
-  }
-  double steepest() const noexcept { return std::abs(start_.amplitude) * start_.frequency; }
-
- private:
-  SinusoidalStart start_;
-  double derivatives_[2];  // the load and its derivative by the phase at the start [m/s^2]
-};
-
-inline GainSeries gain_series(const Start& start, double duration) noexcept { return {start, duration}; }
-inline GainSeries gain_series(const LoadStart& start, double duration) noexcept {
-  return {Start{start.speed, start.acceleration, start.load_gain}, duration};
-}
-inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double duration) noexcept {
-  return {start, duration};
-}
-
-}  // namespace detail
 
 /// Friction that varies with position or speed: the distance slid is a Taylor series in time, with the coefficients of
 ///     d'' = a + g(t) - wn^2 d - c (d' - u) - [resist(x0 +- d, d') - resist(x0, u)],      thesis (2.27), (2.50)
@@ -180,21 +28,19 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 /// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
 /// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
 template <FrictionLaw Law, class SlipStart = Start>
-class TaylorFlow {
-  static constexpr bool loaded = std::same_as<SlipStart, LoadStart>;
+class TaylorFlow : public PowerSeriesFlow<SlipStart> {
+  using Base = PowerSeriesFlow<SlipStart>;
+  using Base::at_part, Base::end_series, Base::find_first_stop, Base::integral, Base::weight;
+  using Base::loaded, Base::direction_, Base::displacement_, Base::start_, Base::gain_, Base::weight_rate_,
+      Base::horizon_, Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_;
 
  public:
   /// @param longest  step to try first [s]
   TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement, const SlipStart& start,
              double duration, double longest = never)
-      : slider_(slider),
-        direction_(direction),
-        displacement_(displacement),
-        start_(start),
-        gain_(detail::gain_series(start, duration)),
-        weight_rate_(weight_rate(start, duration)),
-        level_here_(resist(slider.law(), displacement, direction, start.speed)),
-        horizon_(std::min(std::min(duration, longest), gain_.reach(slider.natural_frequency()))) {
+      : Base(slider.mounting(), direction, displacement, start, duration, longest),
+        slider_(slider),
+        level_here_(resist(slider.law(), displacement, direction, start.speed)) {
     // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
     // the way at most.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
@@ -217,8 +63,6 @@ class TaylorFlow {
     }
   }
 
-  double horizon() const noexcept { return horizon_; }
-
   /// As `ClosedForm::first_stop`, within the horizon.
   double first_stop() const noexcept {
     if constexpr (SpeedLaw<Law>)
@@ -226,12 +70,6 @@ class TaylorFlow {
     else
       return find_first_stop();
   }
-
-  Progress at(double t) const noexcept { return at_part(t / horizon_); }
-  Progress at_horizon() const noexcept { return end_; }
-
-  /// Net, at the start [m/s^2].
-  double acceleration() const noexcept { return start_.acceleration; }
 
   /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- resist'(x)) y - c y' from (1, 0) and from (0, 1).
   std::array<double, 4> variation(double t) const requires PositionLaw<Law> {
@@ -260,11 +98,6 @@ class TaylorFlow {
     return {value[0], value[1] * h, rate[0] / h, rate[1]};
   }
 
-  /// Work on the damper within t [m^2/s^2].
-  double damped_work(double t) const noexcept {
-    if (detail::equal(slider_.damping(), 0)) return 0;
-    return slider_.damping() * integral(t, [](const Progress& at, double) { return at.speed * at.speed; });
-  }
   /// Work against friction within t [m^2/s^2].
   double friction_work(double t) const {
     return integral(t, [&](const Progress& at, double part) {
@@ -273,55 +106,7 @@ class TaylorFlow {
     });
   }
 
-  /// Work of a normal force that is not g on a pendulum, within t [m^2/s^2]: the integral of wn^2 (1 - w) x x'.
-  double pendulum_work(double t) const noexcept requires loaded {
-    if (!slider_.mounting().pendulum) return 0;
-    return slider_.stiffness() * integral(t, [&](const Progress& at, double part) {
-             return (1 - weight(part)) * (sign(direction_) * displacement_ + at.distance) * at.speed;
-           });
-  }
-
-  /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
-  double work_of_gain(double t) const noexcept {
-    const double s = t / horizon_;
-    auto gain = gain_.coefficients(horizon_ * s);
-    double way[series::highest_order + 1], power = horizon_, work = 0;
-    for (int k = 1; k <= order_; ++k) way[k] = (power *= s) * speed_[k - 1];
-    for (int i = 1; i <= order_; ++i) {
-      double sum = 0;
-      for (int k = 1; k <= order_; ++k) sum += way[k] * reciprocal_sums[i + k];
-      work += gain(i) * sum;
-    }
-    return work;
-  }
-
  private:
-  // Of a function of the motion, within t: Gauss-Legendre quadrature of 20 points is exact for products of two series
-  // that have come down to round-off at their ends.
-  template <class Function>
-  double integral(double t, Function&& of) const {
-    return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s), s); });
-  }
-
-  double find_first_stop() const noexcept {
-    // Roots at the start are taken out by leaving out leading zeros.
-    int leading = 0;
-    while (leading < order_ && detail::equal(speed_[leading], 0)) ++leading;
-    // All of them underflow where a slip that does begin is too slow for doubles.
-    const double gain = [&] {
-      if constexpr (loaded)
-        return start_.gain;  // that of the load less friction's
-      else
-        return start_.gain_within(horizon_, horizon_);
-    }();
-    const bool begins =
-        start_.speed > 0 || start_.acceleration > 0 || (detail::equal(start_.acceleration, 0) && gain > 0);
-    if (leading == order_) return begins ? never : 0;
-    if (speed_[leading] < 0) return 0;
-    const double root = FirstRoot(speed_ + leading, order_ - 1 - leading).find();
-    return root < never ? root * horizon_ : never;
-  }
-
   // A level that changes fast at low speeds only says nothing of that where the speed is high: the equation of motion
   // must hold where the speed is least, too.
   bool balanced_where_slowest() {
@@ -333,44 +118,6 @@ class TaylorFlow {
     const bool holds = balanced(slowest);
     end_ = at_part(1);
     return holds;
-  }
-
-  // N/g at a part of the horizon, and its rate [1/s].
-  double weight(double part) const noexcept {
-    if constexpr (loaded)
-      return start_.weight + weight_rate_ * horizon_ * part;
-    else
-      return 1;
-  }
-  static double weight_rate(const SlipStart& start, double duration) noexcept {
-    if constexpr (loaded)
-      return start.weight_gained / duration;
-    else
-      return 0;
-  }
-
-  // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and
-  // as it was given.
-  Progress at_part(double s) const noexcept {
-    struct Sums {
-      double distance = 0, speed = 0, acceleration = 0, mean = 0;
-    } even, odd;
-    const double z = s * s;
-    for (int k = (order_ + 1) & ~1;; k -= 2) {
-      odd.distance = odd.distance * z + distance_[k - 1];
-      odd.speed = odd.speed * z + speed_[k - 1];
-      odd.acceleration = odd.acceleration * z + acceleration_[k - 1];
-      odd.mean = odd.mean * z + distance_[k - 1] * series::reciprocal[k + 1];
-      if (k == 2) break;
-      even.distance = even.distance * z + distance_[k - 2];
-      even.speed = even.speed * z + speed_[k - 2];
-      even.acceleration = even.acceleration * z + acceleration_[k - 2];
-      even.mean = even.mean * z + distance_[k - 2] * series::reciprocal[k];
-    }
-    const auto gained = [s, z](double of_odd, double of_even) { return s * of_odd + z * of_even; };
-    return {s * (distance_[0] + gained(odd.distance, even.distance)), start_.speed + gained(odd.speed, even.speed),
-            start_.acceleration + gained(odd.acceleration, even.acceleration),
-            s * (distance_[0] / 2 + gained(odd.mean, even.mean))};
   }
 
   // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
@@ -430,12 +177,6 @@ class TaylorFlow {
     return part > 0x1p-20 ? std::min(part, 0.75) : 0x1p-20;  // also where the coefficients overflowed
   }
 
-  // `order` is the highest of the distance. Sums in pairs find zeros beyond.
-  void end_series(int order) noexcept {
-    order_ = order;
-    distance_[order] = speed_[order] = acceleration_[order] = acceleration_[order - 1] = 0;
-  }
-
   // Whether the equation of motion holds at a part of the horizon, to the round-off of its terms and of the series.
   bool balanced(double part) {
     end_ = at_part(part);
@@ -461,13 +202,6 @@ class TaylorFlow {
                     std::cbrt(third) / std::cbrt(gain_.steepest()));
   }
 
-  // 1/k, for k = 1 to twice the highest order.
-  static constexpr auto reciprocal_sums = [] {
-    std::array<double, 2 * series::highest_order + 1> table{};
-    for (std::size_t k = 1; k < table.size(); ++k) table[k] = 1.0 / static_cast<double>(k);
-    return table;
-  }();
-
   static auto as_series(double level) noexcept { return series::Constant{level}; }
   template <series::Series S>
   static S as_series(const S& level) noexcept {
@@ -478,20 +212,8 @@ class TaylorFlow {
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
   const Slider<Law>& slider_;
-  Direction direction_;
-  double displacement_;
-  SlipStart start_;
-  decltype(detail::gain_series(SlipStart{}, 0)) gain_;
-  double weight_rate_;
-  double level_here_;  // [m/s^2]
-  double horizon_;
-  double fastest_ = 0;  // the largest term of the speed [m/s]
-  int order_ = 0;
-  // Coefficients, for time in units of the horizon: of the distance over that time [m], of the speed [m/s] and of the
-  // acceleration [m/s^2].
-  double distance_[series::highest_order + 1], speed_[series::highest_order + 1],
-      acceleration_[series::highest_order + 1];
-  Progress end_{};       // at the horizon
+  double level_here_;    // [m/s^2]
+  double fastest_ = 0;   // the largest term of the speed [m/s]
   double stop_ = never;  // kept where the law depends on the speed [s]
 };
 

@@ -85,15 +85,23 @@ class Degrading {
     return {line(forward_, next, state.sliding_distance), line(backward_, next, state.sliding_distance),
             state.displacement};
   }
-  /// The sliding distance of the next knot [m].
-  double until(const State& state) const noexcept {
-    const std::size_t next = next_knot(state.sliding_distance);
-    return next < distances_.size() ? distances_[next] : std::numeric_limits<double>::infinity();
+  /// The way to the next knot [m].
+  double ahead(const State& state, Direction) const noexcept {
+    return knot_after(state.sliding_distance) - state.sliding_distance;
+  }
+  void pass(State& state, Direction direction) const noexcept {
+    state.displacement += sign(direction) * ahead(state, direction);
+    state.sliding_distance = knot_after(state.sliding_distance);
   }
 
  private:
   std::size_t next_knot(double slid) const noexcept {
     return static_cast<std::size_t>(std::upper_bound(distances_.begin(), distances_.end(), slid) - distances_.begin());
+  }
+
+  double knot_after(double slid) const noexcept {
+    const std::size_t next = next_knot(slid);
+    return next < distances_.size() ? distances_[next] : std::numeric_limits<double>::infinity();
   }
 
   Piece::Line line(const std::vector<double>& levels, std::size_t next, double slid) const noexcept {

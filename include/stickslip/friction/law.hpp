@@ -41,27 +41,59 @@ concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, doub
 template <class Law>
 concept MemorylessLaw = PositionLaw<Law> || SpeedLaw<Law>;
 
+/// A law of numbers alone, such as a table or a function of another language, said by `static constexpr bool numeric =
+/// true;` its `resist` need be no template. It must be continuous in x and speed; its flows are found by collocation,
+/// to 1e-10 of the scale.
+template <class Law>
+concept NumericLaw = MemorylessLaw<Law> && requires {
+  requires Law::numeric;
+};
+
 /// A law with memory, whose level depends on how far it has slid, State::sliding_distance. It answers both questions
 /// through another law:
 ///
-///     at(state)       // the law as it goes on from a state, in x and the speed, for as long as it slides one way
-///     until(state)    // the sliding distance to which that holds [m], above the state's; infinite: for good
+///     at(state)                // the law as it goes on from a state, in x and the speed
+///     ahead(state, direction)  // the way in a direction for which that holds [m], positive; infinite: for good
+///     pass(state, direction)   // moves a state to the end of that way: x and the sliding distance
 ///
-/// At `until` the level must not jump. A law `at` that is linear in x says its rate, `slope(direction)`, the derivative
+/// There the level must not jump. A law `at` that is linear in x says its rate, `slope(direction)`, the derivative
 /// of what resists by the distance slid that way [1/s^2]: its motion is then known in closed form.
 template <class Law>
-concept MemoryLaw = std::copy_constructible<Law> && requires(const Law& law, const State& state) {
+concept MemoryLaw = std::copy_constructible<Law> &&
+    requires(const Law& law, const State& state, State& there, Direction direction) {
   { law.at(state) } -> MemorylessLaw;
-  { law.until(state) } -> std::convertible_to<double>;
+  { law.ahead(state, direction) } -> std::convertible_to<double>;
+  law.pass(there, direction);
+};
+
+/// A law with memory whose level also depends on the normal force, and on the temperature of a surface that friction
+/// heats, State::heat:
+///
+///     at(state, weight)            // the law under a normal force of weight times g
+///     level(speed, weight, H)      // what resists, times the weight, with the heat's half-integral H [m/s^2]
+///     heating(state, direction)    // heat per area that a slip makes where the temperature is taken, per force per
+///                                  // unit mass and speed [kg/m^2]; constant along `ahead`
+///     temperature(state)           // of the surface [degrees Celsius]
+///     half_integral_at(T)          // H at a temperature [W s^(1/2)/m^2]
+/// `at(state)` is `at(state, 1)`.
+template <class Law>
+concept HeatedLaw = MemoryLaw<Law> && requires(const Law& law, const State& state, Direction direction, double value) {
+  { law.at(state, value) } -> MemorylessLaw;
+  { law.level(value, value, value) } -> std::convertible_to<double>;
+  { law.heating(state, direction) } -> std::convertible_to<double>;
+  { law.temperature(state) } -> std::convertible_to<double>;
+  { law.half_integral_at(value) } -> std::convertible_to<double>;
 };
 
 template <class Law>
 concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
 
-/// The law as it goes on from a state: itself, unless it has a memory.
+/// The law as it goes on from a state under a normal force of `weight` times g: itself, unless it has a memory.
 template <FrictionLaw Law>
-decltype(auto) law_at(const Law& law, const State& state) {
-  if constexpr (MemoryLaw<Law>)
+decltype(auto) law_at(const Law& law, const State& state, double weight = 1) {
+  if constexpr (HeatedLaw<Law>)
+    return law.at(state, weight);
+  else if constexpr (MemoryLaw<Law>)
     return law.at(state);
   else
     return law;

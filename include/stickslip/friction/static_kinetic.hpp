@@ -26,6 +26,7 @@ template <FrictionLaw Law = Coulomb>
 class StaticKinetic {
  public:
   static constexpr bool constant_while_sliding = ConstantLevelLaw<Law>;
+  static constexpr bool numeric = NumericLaw<Law>;
 
   /// @param sliding       what resists sliding
   /// @param static_level  what holds at rest, both ways, force per unit mass [m/s^2]; at least what resists there
@@ -69,7 +70,10 @@ class StaticKinetic {
     using Now = decltype(sliding_.at(state));
     return StaticKinetic<Now>(sliding_.at(state), forward_, backward_, typename StaticKinetic<Now>::Unchecked{});
   }
-  double until(const State& state) const requires MemoryLaw<Law> { return sliding_.until(state); }
+  double ahead(const State& state, Direction direction) const requires MemoryLaw<Law> {
+    return sliding_.ahead(state, direction);
+  }
+  void pass(State& state, Direction direction) const requires MemoryLaw<Law> { sliding_.pass(state, direction); }
   double slope(Direction direction) const noexcept requires LinearLaw<Law> { return sliding_.slope(direction); }
 
  private:

@@ -31,6 +31,8 @@ struct Segment {
   double end;       ///< ground acceleration at its end [m/s^2], finite; equal to `start` where a value is held
 
   double first_load() const noexcept { return -start; }
+  /// p, `left` before the end [m/s^2].
+  double load_before_end(double left) const noexcept { return -end + (end - start) * (left / duration); }
 
   /// Of a slider at rest, whose load net of its spring's pull is within both levels now.
   /// @param left  time to the end, positive [s]
@@ -75,6 +77,8 @@ struct WeighedSegment {
   double weight_end;    ///< N+ / g at its end
 
   double first_load() const noexcept { return load_start; }
+  /// p, `left` before its end [m/s^2].
+  double load_before_end(double left) const noexcept { return load_end + (load_start - load_end) * (left / duration); }
 
   /// N+ / g, `left` before its end.
   double weight(double left) const noexcept {
@@ -126,6 +130,8 @@ struct HarmonicSegment {
   double phase;      ///< at its beginning [rad], of some periods at most
 
   double first_load() const noexcept { return amplitude * std::cos(phase); }
+  /// p, `left` before its end [m/s^2].
+  double load_before_end(double left) const noexcept { return amplitude * std::cos(phase + omega * (duration - left)); }
 
   Departure departure(double net, double pull, double forward, double backward, double left) const noexcept {
     const double most = amplitude * (omega * left);  // that it can gain, or lose

@@ -38,10 +38,8 @@ auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
       return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
     if (slider.stiffness() > 0) return work(Harmonic{slider.natural_frequency(), usual_duration});
     return work(Polynomial{});
-  } else if constexpr (MemoryLaw<Law>) {
-    return work(Remembering<Law>{slider});
   } else {
-    return work(Taylor<Law>{slider});
+    return work(general_flows(slider));
   }
 }
 
@@ -51,10 +49,7 @@ auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
   if constexpr (ConstantLevelLaw<Law>) {
     if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0)) return work(Sinusoidal{omega, usual_duration});
   }
-  if constexpr (MemoryLaw<Law>)
-    return work(Remembering<Law>{slider});
-  else
-    return work(Taylor<Law>{slider});
+  return work(general_flows(slider));
 }
 
 /// The state after a segment.

@@ -97,6 +97,10 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
         "largest_loop: needs a slider on a spring (natural_frequency or period): without one no force draws the mass "
         "back, and it has no effective period");
   if (!(response.peak > 0)) throw std::invalid_argument("largest_loop: the slider never slips");
+  if constexpr (HeatedLaw<Law>)
+    throw std::invalid_argument(
+        "largest_loop: does not cover friction that depends on the temperature, which differs "
+        "from one loop to the next");
   const std::vector<Event>& events = response.events;
   std::size_t peak = 1;
   while (peak < events.size() &&

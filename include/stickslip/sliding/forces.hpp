@@ -59,6 +59,32 @@ class SlidAlong {
   State state_;
 };
 
+/// Which of the samples of a response comes last at a time or before.
+template <Motion M>
+std::size_t sample_at(const M& motion, const Response& response, double time) {
+  std::size_t first = 0, last = response.displacement.size();
+  while (last - first > 1) {
+    const std::size_t middle = first + (last - first) / 2;
+    (motion.time(middle) <= time ? first : last) = middle;
+  }
+  return first;
+}
+
+/// The heat at the surface at a time, by the temperatures at the samples, straight between them; none where the law
+/// does not depend on it.
+template <FrictionLaw Law, Motion M>
+SurfaceHeat heat_at(const Law& law, const M& motion, const Response& response, double time) {
+  if constexpr (HeatedLaw<Law>) {
+    const std::vector<double>& celsius = response.temperature;
+    const std::size_t i = std::min(sample_at(motion, response, time), celsius.size() - 2);
+    const double from = motion.time(i), part = (time - from) / (motion.time(i + 1) - from);
+    return SurfaceHeat::with(
+        law.half_integral_at(std::lerp(celsius[i], celsius[i + 1], std::min(std::max(part, 0.0), 1.0))));
+  } else {
+    return {};
+  }
+}
+
 /// Ground acceleration just after each of the first `samples` samples [m/s^2], of a component of a motion: at the end
 /// of the motion the value just before it, then 0.
 inline std::vector<double> acting(const GroundMotion& motion, std::span<const double> component, std::size_t samples) {
@@ -138,7 +164,9 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
       const double gone = events[next].displacement - events[next - 1].displacement;
       const double way = !detail::equal(v, 0) ? v : !detail::equal(gone, 0) ? gone : load - result.spring[i];
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;
-      const double level = resist(law_at(slider.law(), slid.to(x)), x, direction, std::abs(v));
+      State there = slid.to(x);
+      there.heat = detail::heat_at(slider.law(), motion, response, time);
+      const double level = resist(law_at(slider.law(), there, weight), x, direction, std::abs(v));
       result.friction[i] = sign(direction) * detail::WeighedSegment::weigh(weight, level) + 0.0;  // no minus zero
     }
   }

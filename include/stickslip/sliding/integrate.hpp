@@ -25,6 +25,7 @@ struct IntegrateOptions {
   Contact contact = Contact::flight;  ///< what it does where the ground falls away from under it
   std::function<void()> heartbeat{};  ///< called at least every second or so; may throw to end the work
   double sliding_distance = 0;        ///< slid before the start [m], finite and at least 0; for laws that depend on it
+  SurfaceHeat heat{};                 ///< left at the surface at the start, for laws that depend on its temperature
 };
 
 namespace detail {
@@ -54,16 +55,22 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
 /// @param from  the state at the end of the motion
 /// @param rest  when the slider comes to rest for good [s], at `residual` [m]
 /// @return whether the rest was reached
-template <Motion M, class Move>
-bool add_samples(const M& motion, Move&& move, State from, double rest, double residual, Response& response) {
+template <FrictionLaw Law, Motion M, class Move>
+bool add_samples(const Law& law, const M& motion, Move&& move, State from, double rest, double residual,
+                 Response& response) {
   const Segment step{motion.last_step(), 0, 0};
   for (std::size_t i = motion.segments(); motion.time(i) < rest; ++i) {
     if (i + 1 >= 10 * motion.samples()) return false;
     move(step, from);
-    if (!(motion.time(i + 1) < rest)) from = State::at(residual, 0);
+    if (!(motion.time(i + 1) < rest)) {
+      const SurfaceHeat heat = from.heat;
+      from = State::at(residual, 0);
+      from.heat = heat;
+    }
     response.displacement.push_back(from.displacement);
     response.velocity.push_back(from.velocity);
     if (!response.gap.empty()) response.gap.push_back(from.gap);
+    if constexpr (HeatedLaw<Law>) response.temperature.push_back(law.temperature(from));
   }
   return true;
 }
@@ -79,6 +86,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
           "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
   State state = State::at(options.displacement, options.velocity);
   state.sliding_distance = options.sliding_distance;
+  state.heat = options.heat;
   if (state.mode != Mode::stuck)
     require(std::isfinite(resist(law_at(slider.law(), state), state.displacement, direction_of(state.mode),
                                  std::abs(state.velocity))),
@@ -90,6 +98,8 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
   const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
 
+  response.temperature.clear();
+  if constexpr (HeatedLaw<Law>) response.temperature.resize(motion.samples(), slider.law().temperature(state));
   response.displacement[0] = state.displacement;
   response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
@@ -98,7 +108,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   recorder.begin_segment(motion.time(0), motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
-  const HistorySpans histories{response.displacement, response.velocity, response.gap};
+  const HistorySpans histories{response.displacement, response.velocity, response.gap, response.temperature};
   run(state, recorder, histories);
   response.truncated = false;
   response.contact = options.contact;
@@ -118,7 +128,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
       NoObserver none;
       move(segment, from, none);
     };
-    response.truncated = !add_samples(motion, step, at_end, end, state.displacement, response);
+    response.truncated = !add_samples(slider.law(), motion, step, at_end, end, state.displacement, response);
   }
   recorder.finish(end, state, response);
 

@@ -51,7 +51,9 @@ class MarginFinder {
   MarginFinder(const Slider<Law>& slider, const History& history)
       : slider_(slider), history_(history), bounds_{slider.mounting().stops, slider.mounting().one_way} {}
 
-  Margins find(const std::vector<Event>& events, SlidAlong slid, double begin, double from) {
+  /// @param heat  heat(time), at the surface
+  template <class Heat>
+  Margins find(const std::vector<Event>& events, SlidAlong slid, double begin, double from, const Heat& heat) {
     bool sticks = true, flies = false;
     double since = begin, x = from;
     const Event* before = nullptr;
@@ -59,6 +61,7 @@ class MarginFinder {
       const Event& e = events[k];
       const bool at_once = before != nullptr && equal(before->time, e.time);
       at_ = slid.to(e.displacement);
+      at_.heat = heat(e.time);
       switch (e.kind) {
         case EventKind::breakaway:
           if (equal(e.velocity, 0) && !flies) broke_away(since, e);
@@ -104,7 +107,8 @@ class MarginFinder {
     return weighed > 0 && weighed < infinite ? 1 - sign(direction) * net.load / weighed : infinite;
   }
   double held(Direction direction, double x, const Net& net) const {
-    return left_of(bounds_.bound(direction, x, hold(law_at(slider_.law(), at_), x, direction)), direction, net);
+    return left_of(bounds_.bound(direction, x, hold(law_at(slider_.law(), at_, net.weight), x, direction)), direction,
+                   net);
   }
 
   void count(double left) noexcept { margins_.load = std::min(margins_.load, std::abs(left)); }
@@ -122,7 +126,7 @@ class MarginFinder {
       count(held(direction, e.displacement, now));
     if (forced || equal(e.displacement, x)) return;
     const Direction direction = e.displacement > x ? Direction::forward : Direction::backward;
-    count(left_of(resist(law_at(slider_.law(), at_), e.displacement, direction, 0.0), direction, now));
+    count(left_of(resist(law_at(slider_.law(), at_, now.weight), e.displacement, direction, 0.0), direction, now));
     count_impact(bounds_.room(direction, e.displacement), direction);
   }
 
@@ -166,8 +170,8 @@ class MarginFinder {
                                                       : Direction::backward;
     const Net now = net(history_.after(e.time), e.displacement);
     const double speed = std::abs(e.velocity);
-    const double slows =
-        resist(law_at(slider_.law(), at_), e.displacement, direction, speed) * now.weight - sign(direction) * now.load;
+    const double slows = resist(law_at(slider_.law(), at_, now.weight), e.displacement, direction, speed) * now.weight -
+                         sign(direction) * now.load;
     if (slows > 0) count_impact(speed * speed / (2 * slows), direction);
   }
 
@@ -184,13 +188,15 @@ class MarginFinder {
 /// @param slider    the slider that moved
 /// @param motion    the ground motion it moved under
 /// @param response  what `integrate` returned for them
+/// Where the level depends on a temperature, that is taken straight between samples, and during a rest as at its end.
 /// A velocity that all but touches zero without an event is no decision here, nor is a landing. One pass over events
 /// and samples.
 template <FrictionLaw Law, Motion M>
 Margins margins(const Slider<Law>& slider, const M& motion, const Response& response) {
   const auto history = detail::load_history(motion, slider.slope());
   return detail::MarginFinder(slider, history)
-      .find(response.events, detail::SlidAlong(response), motion.time(0), response.displacement.front());
+      .find(response.events, detail::SlidAlong(response), motion.time(0), response.displacement.front(),
+            [&](double time) { return detail::heat_at(slider.law(), motion, response, time); });
 }
 
 template <FrictionLaw Law, Motion M>

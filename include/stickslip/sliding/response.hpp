@@ -73,6 +73,8 @@ struct Response {
   Contact contact = Contact::flight;  ///< what was asked of it where the ground falls away from under it
   std::string components = "axis";    ///< of the ground motion that acted, joined by " + "
   State state;                        ///< at the end: a motion can be continued from it
+  /// Of the sliding surface at the same times [degrees Celsius], where the law depends on it; else empty.
+  std::vector<double> temperature;
 };
 
 }  // namespace stickslip

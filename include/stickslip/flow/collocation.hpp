@@ -1,0 +1,264 @@
+// Friction by numbers alone, or with a temperature, by collocation.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "stickslip/detail/equal.hpp"
+#include "stickslip/detail/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/flow/power_series.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/numerics/collocation.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+namespace detail {
+
+using Nodes = numerics::Collocation<8>;
+
+/// How a heated surface cools and is heated within a step, kept while steps are equally long.
+class Cooling {
+ public:
+  /// Of the heat of before, at the nodes of a step.
+  Nodes::Values half_integrals(const SurfaceHeat& heat, double step) {
+    Nodes::Values result{};
+    if (!heat.warm()) return result;
+    if (!alike(step, step_)) {
+      step_ = step;
+      for (std::size_t i = 0; i < result.size(); ++i) steps_[i].emplace(Nodes::get().nodes[i] * step);
+    }
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = heat.half_integral_after(*steps_[i]);
+    return result;
+  }
+
+  /// Heats it for a part of a step.
+  void heat(SurfaceHeat& heat, const Nodes::Values& q, double step, double part) {
+    if (part < 1) return heat.heat(q, SurfaceHeat::Step(part * step, true), part);
+    if (!alike(step, heating_step_)) heating_.emplace(heating_step_ = step, true);
+    heat.heat(q, *heating_);
+  }
+
+ private:
+  // Steps of a record differ by the rounding of their times.
+  static bool alike(double one, double other) noexcept { return std::abs(one - other) <= 1e-12 * one; }
+
+  double step_ = -1;
+  std::array<std::optional<SurfaceHeat::Step>, Nodes::points> steps_;
+  std::optional<SurfaceHeat::Step> heating_;
+  double heating_step_ = -1;
+};
+
+}  // namespace detail
+
+/// Friction of a law that gives numbers only, or that depends on the temperature: the acceleration is a polynomial of
+/// degree 8 in time that satisfies, at nine Chebyshev points of the step,
+///     d'' = a + g(t) - wn^2 d - c (d' - u) - [w resist(x0 +- d, d') - w0 resist(x0, u)],   thesis (2.27), (2.50)
+/// with the terms of TaylorFlow. It is found by iteration. The step (the horizon) is shortened until the last
+/// coefficients of the acceleration make no more than 1e-11 of the speed (1e-8 with a temperature), and until it ends
+/// not far beyond a stop: beyond it the resistance is continued as an odd function of the speed.
+///
+/// Heat that friction makes within the step acts on the step: its half-integral is a matrix times the heat at the
+/// nodes.
+template <FrictionLaw Law, class SlipStart = Start>
+class CollocationFlow : public PowerSeriesFlow<SlipStart> {
+  using Base = PowerSeriesFlow<SlipStart>;
+  using Base::at_part, Base::end_series, Base::find_first_stop, Base::integral, Base::stiffness, Base::weight;
+  using Base::loaded, Base::mounting_, Base::direction_, Base::displacement_, Base::start_, Base::gain_, Base::horizon_,
+      Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_;
+  using Nodes = detail::Nodes;
+  using Values = Nodes::Values;
+  static constexpr bool heated = HeatedLaw<Law>;
+
+ public:
+  /// @param longest  step to try first [s]
+  CollocationFlow(const Slider<Law>& slider, Direction direction, const State& state, const SlipStart& start,
+                  double duration, double longest, detail::Cooling& cooling)
+      : Base(slider.mounting(), direction, state.displacement, start, duration, longest),
+        law_(slider.law()),
+        cooling_(cooling) {
+    if (detail::equal(start.speed, 0) && start.acceleration < 0) {  // it stops where it is
+      stand();
+      return;
+    }
+    if constexpr (heated) heating_ = law_.heating(state, direction);
+    for (;;) {
+      if constexpr (heated) before_ = cooling.half_integrals(state.heat, horizon_);
+      const bool found = solve();
+      const double shorter = found ? horizon_to_stop() : horizon_ / 2;
+      if (found && !(shorter < horizon_)) return;
+      if (!(shorter > 0x1p-200 * duration && shorter < horizon_)) break;
+      horizon_ = shorter;
+    }
+    throw ConvergenceError("friction changes too fast to be followed at x = " + detail::shortest(state.displacement) +
+                           " m and a speed of " + detail::shortest(start.speed) +
+                           " m/s: it must be a continuous function of both");
+  }
+
+  /// As `ClosedForm::first_stop`, within the horizon.
+  double first_stop() const noexcept { return stop_; }
+
+  /// Work against friction within t [m^2/s^2].
+  double friction_work(double t) const noexcept {
+    return integral(t, [&](const Progress& at, double s) { return power(friction_, s) * at.speed; });
+  }
+
+  /// Hands on the heat made within t.
+  void heat(double t, SurfaceHeat& surface) const requires heated {
+    if (heating_ > 0 && t > 0)
+      cooling_.heat(surface, heat_, horizon_, t / horizon_);
+    else
+      surface.rest(t);
+  }
+
+ private:
+  static double power(const Values& coefficients, double s) noexcept {
+    double sum = 0;
+    for (std::size_t k = coefficients.size(); k-- > 0;) sum = sum * s + coefficients[k];
+    return sum;
+  }
+
+  // What resists at a node [m/s^2].
+  double level(std::size_t i, double x, double speed, double half_integral) const {
+    const auto at = [&](double v) {
+      if constexpr (heated)
+        return law_.level(v, weight(Nodes::get().nodes[i]), half_integral);
+      else
+        return resist(law_, x, direction_, v);
+    };
+    return speed >= 0 ? at(speed) : 2 * at(0) - at(-speed);
+  }
+
+  // Finds the motion over the horizon.
+  bool solve() {
+    const Nodes& nodes = Nodes::get();
+    const double h = horizon_, s = sign(direction_), damping = mounting_.damping, root_h = std::sqrt(h);
+    constexpr std::size_t n = Nodes::points;
+    Values a{}, v{}, d{}, force{}, q{};
+    for (std::size_t i = 0; i < n; ++i) a[i] = start_.acceleration + gain_.at(h, nodes.nodes[i]);
+    a[0] = start_.acceleration;
+    const auto pull = [&](std::size_t i, double way) {  // the spring's, above that of the start
+      if constexpr (loaded)
+        if (mounting_.pendulum) {
+          const double now = weight(0), then = weight(nodes.nodes[i]);
+          return stiffness() * (then * way + (then - now) * s * displacement_);
+        }
+      return stiffness() * way;
+    };
+    double fastest = 0, change = 0;
+    for (int sweep = 0;; ++sweep) {
+      const double previous = change;
+      double terms = 0;
+      fastest = start_.speed;
+      change = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        double gained = 0, way = 0, half = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+          gained += nodes.integral[i][k] * a[k];
+          way += nodes.double_integral[i][k] * a[k];
+        }
+        v[i] = start_.speed + h * gained;
+        d[i] = h * (nodes.nodes[i] * start_.speed + h * way);
+        fastest = std::max(fastest, std::abs(v[i]));
+        if constexpr (heated) {
+          for (std::size_t k = 0; k < n; ++k) half += nodes.half_integral[i][k] * q[k];
+          half = std::max(before_[i] + root_h * half, 0.0);
+        }
+        force[i] = weight(nodes.nodes[i]) * level(i, displacement_ + s * d[i], v[i], half);
+        if constexpr (heated) q[i] = heating_ * force[i] * std::max(v[i], 0.0);
+        const double drag = damping * (v[i] - start_.speed), back = pull(i, d[i]);
+        terms = std::max(terms, std::abs(start_.acceleration) + std::abs(back) + std::abs(drag) + std::abs(force[i]));
+        if (i == 0) continue;
+        const double net = start_.acceleration + gain_.at(h, nodes.nodes[i]) - back - drag - (force[i] - force[0]);
+        change = std::max(change, std::abs(net - a[i]));
+        a[i] = net;
+      }
+      if (!std::isfinite(change)) return false;
+      if (sweep > 0 && (h * change <= convergence * fastest || change <= 4 * round_off * terms)) break;
+      if (sweep > 3 && change > previous / 2) return false;
+      if (sweep == 60) return false;
+    }
+    const Values c = nodes.chebyshev(a);
+    if (h * (std::abs(c[n - 1]) + std::abs(c[n - 2])) > tolerance * fastest) return false;
+    const auto noise = [](const Values& values) {
+      double largest = 0;
+      for (const double value : values) largest = std::max(largest, std::abs(value));
+      return round_off * largest;
+    };
+    Values coefficients;
+    const int degree = Nodes::powers(c, noise(a), coefficients);
+    coefficients[0] = start_.acceleration;
+    speed_[0] = start_.speed;
+    distance_[0] = h * start_.speed;
+    for (int k = 0; k <= degree; ++k) {
+      acceleration_[k] = coefficients[static_cast<std::size_t>(k)];
+      speed_[k + 1] = h * acceleration_[k] * series::reciprocal[k + 1];
+      distance_[k + 1] = h * speed_[k + 1] * series::reciprocal[k + 2];
+    }
+    end_series(degree + 2);
+    Nodes::powers(nodes.chebyshev(force), noise(force), friction_);
+    if constexpr (heated) Nodes::powers(nodes.chebyshev(q), noise(q), heat_);
+    end_ = at_part(1);
+    stop_ = find_first_stop();
+    return true;
+  }
+
+  // The horizon, or if the slip stops well before it, a little more than the time to the stop.
+  double horizon_to_stop() const noexcept { return stop_ > 0 && stop_ < 0.95 * horizon_ ? 1.02 * stop_ : horizon_; }
+
+  void stand() noexcept {
+    acceleration_[0] = start_.acceleration;
+    speed_[0] = distance_[0] = 0;
+    speed_[1] = horizon_ * start_.acceleration;
+    distance_[1] = horizon_ * speed_[1] / 2;
+    end_series(2);
+    end_ = at_part(1);
+    stop_ = 0;
+  }
+
+  static constexpr double round_off = 0x1p-54;
+  static constexpr double tolerance = heated ? 1e-8 : 1e-11, convergence = tolerance / 64;
+
+  const Law& law_;
+  detail::Cooling& cooling_;
+  Values before_{}, friction_{}, heat_{};
+  double heating_ = 0, stop_ = never;
+};
+
+/// Makes the flows of a slider by collocation.
+template <FrictionLaw Law>
+class Collocating {
+ public:
+  explicit Collocating(const Slider<Law>& slider) : slider_(slider) {}
+
+  double pull(double displacement) const noexcept { return slider_.stiffness() * displacement; }
+  double drag(double speed) const noexcept { return slider_.damping() * speed; }
+  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
+
+  template <class SlipStart>
+  CollocationFlow<Law, SlipStart> flow(Direction direction, const State& state, const SlipStart& start,
+                                       double duration) const {
+    const CollocationFlow<Law, SlipStart> flow(slider_, direction, state, start, duration, 2 * last_step_, cooling_);
+    const double step = flow.horizon();
+    last_step_ = step < duration ? step : std::max(step, last_step_);
+    return flow;
+  }
+  template <class SlipStart>
+  CollocationFlow<Law, SlipStart> flow(Direction direction, double displacement, const SlipStart& start,
+                                       double duration) const {
+    return flow(direction, State{.displacement = displacement}, start, duration);
+  }
+
+  detail::Cooling& cooling() const noexcept { return cooling_; }
+
+ private:
+  const Slider<Law>& slider_;
+  mutable double last_step_ = never;  // that a flow was shortened to [s]
+  mutable detail::Cooling cooling_;
+};
+
+}  // namespace stickslip

@@ -1,0 +1,134 @@
+// Friction of sliding isolators that depends on pressure, speed and temperature.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "stickslip/detail/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+/// Friction of a PTFE-type liner on stainless steel:
+///     mu = mu_ref kp kv kT,
+///     kp = 0.7^(0.02 (p - p0)),            p and p0 in MPa
+///     kv = 1 - 0.5 exp(-rate |v|),
+///     kT = 0.79 (0.7^(0.02 T) + 0.40),     T in degrees Celsius
+/// p = static_pressure N/g is the pressure under the normal force N. At rest it holds what resists at no speed. T is
+/// the temperature at the middle of the sliding surface, which friction heats while the slider covers it,
+///     T = T0 + sqrt(D) / (k sqrt(pi)) times the integral of q(t - tau) / sqrt(tau) over tau > 0,
+///     q = mu p |v| while |x| < contact_radius sqrt(pi/4), else 0
+///
+/// Source: M. Kumar, A. S. Whittaker, M. C. Constantinou, Characterizing friction in sliding isolation bearings,
+/// Earthquake Engineering & Structural Dynamics 44 (2015), 1409-1425.
+class KumarFriction {
+ public:
+  static constexpr bool symmetric = true;
+
+  struct Parameters {
+    double mu_ref = 0;              ///< at high speed, p = p0 and 20 degrees [1], finite and at least 0
+    double static_pressure = 0;     ///< p where N = g [Pa], positive and finite
+    double reference_pressure = 0;  ///< p0 [Pa], positive and finite
+    double contact_radius = 0;      ///< of the slider [m], positive; infinite where it always covers the middle
+    double temperature = 20;        ///< T0 [degrees Celsius], from -100 to 400
+    double rate = 100;              ///< [s/m], finite and at least 0
+    double diffusivity = 4.44e-6;   ///< D, of the steel [m^2/s], positive and finite
+    double conductivity = 18;       ///< k, of the steel [W/(m K)], positive; infinite for a surface that stays cold
+
+    friend bool operator==(const Parameters&, const Parameters&) = default;
+  };
+
+  /// The law at one temperature and normal force.
+  class Now {
+   public:
+    static constexpr bool numeric = true;
+
+    double resist(double, Direction, double speed) const noexcept {
+      return law_->level(speed, weight_, half_integral_);
+    }
+
+   private:
+    friend class KumarFriction;
+    Now(const KumarFriction& law, double weight, double half_integral) noexcept
+        : law_(&law), weight_(weight), half_integral_(half_integral) {}
+
+    const KumarFriction* law_;
+    double weight_, half_integral_;
+  };
+
+  /// @throws std::invalid_argument naming the value
+  explicit KumarFriction(const Parameters& parameters) : parameters_(parameters) {
+    const auto check = [](bool met, const char* rule, double value, const char* unit) {
+      detail::require(met, std::string("KumarFriction: ") + rule, value, unit);
+    };
+    const Parameters& p = parameters_;
+    const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+    check(std::isfinite(p.mu_ref) && p.mu_ref >= 0, "mu_ref must be finite and at least 0", p.mu_ref, "");
+    check(positive(p.static_pressure), "static_pressure must be positive and finite", p.static_pressure, "Pa");
+    check(positive(p.reference_pressure), "reference_pressure must be positive and finite", p.reference_pressure, "Pa");
+    check(p.static_pressure < 1e9 && p.reference_pressure < 1e9, "pressures are in Pa and must be below 1e9 Pa",
+          std::max(p.static_pressure, p.reference_pressure), "Pa");
+    check(p.contact_radius > 0, "contact_radius must be positive", p.contact_radius, "m");
+    check(p.temperature >= -100 && p.temperature <= 400, "temperature must be from -100 to 400", p.temperature,
+          "degrees Celsius");
+    check(std::isfinite(p.rate) && p.rate >= 0, "rate must be finite and at least 0", p.rate, "s/m");
+    check(positive(p.diffusivity), "diffusivity must be positive and finite", p.diffusivity, "m^2/s");
+    check(p.conductivity > 0, "conductivity must be positive", p.conductivity, "W/(m K)");
+    warming_ = std::sqrt(p.diffusivity) * std::numbers::inv_sqrtpi / p.conductivity;
+    edge_ = p.contact_radius * std::sqrt(std::numbers::pi / 4);
+  }
+
+  const Parameters& parameters() const noexcept { return parameters_; }
+
+  /// What resists under a normal force of `weight` times g, divided by the weight, with the heat's half-integral H [W
+  /// s^(1/2)/m^2] [m/s^2].
+  double level(double speed, double weight, double half_integral) const noexcept {
+    const double pressure = (parameters_.static_pressure * weight - parameters_.reference_pressure) * 1e-6;
+    const double celsius = parameters_.temperature + warming_ * half_integral;
+    return standard_gravity * parameters_.mu_ref * power_of_seven_tenths(0.02 * pressure) *
+           (1 - 0.5 * std::exp(-parameters_.rate * speed)) * 0.79 * (power_of_seven_tenths(0.02 * celsius) + 0.40);
+  }
+
+  /// T [degrees Celsius].
+  double temperature(const State& state) const noexcept {
+    return parameters_.temperature + warming_ * state.heat.half_integral();
+  }
+  /// The heat's half-integral at a temperature [W s^(1/2)/m^2].
+  double half_integral_at(double temperature) const noexcept {
+    return warming_ > 0 ? (temperature - parameters_.temperature) / warming_ : 0;
+  }
+
+  Now at(const State& state, double weight = 1) const noexcept { return {*this, weight, state.heat.half_integral()}; }
+
+  /// Heat per area and per friction force per unit mass and speed [kg/m^2].
+  double heating(const State& state, Direction direction) const noexcept {
+    const double place = sign(direction) * state.displacement;
+    return place >= -edge_ && place < edge_ ? parameters_.static_pressure / standard_gravity : 0;
+  }
+
+  /// The way to where the slider comes to cover the middle of the surface, or leaves it [m].
+  double ahead(const State& state, Direction direction) const noexcept {
+    const double place = sign(direction) * state.displacement;
+    return place < -edge_ ? -edge_ - place : place < edge_ ? edge_ - place : std::numeric_limits<double>::infinity();
+  }
+  void pass(State& state, Direction direction) const noexcept {
+    const double place = sign(direction) * state.displacement;
+    state.sliding_distance += ahead(state, direction);
+    state.displacement = sign(direction) * (place < -edge_ ? -edge_ : edge_);
+  }
+
+ private:
+  static double power_of_seven_tenths(double exponent) noexcept {
+    return std::exp(-0.35667494393873237891 * exponent);  // ln 0.7
+  }
+
+  Parameters parameters_;
+  double warming_;  // of the surface, per half-integral [K m^2 / (W s^(1/2))]
+  double edge_;     // |x| where the slider leaves the middle of the surface [m]
+};
+
+}  // namespace stickslip

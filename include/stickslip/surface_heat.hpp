@@ -1,0 +1,156 @@
+// How much of the heat that friction made is left at the surface.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "stickslip/detail/min_max.hpp"
+
+namespace stickslip {
+
+/// The memory of a surface that is heated with q(t) [W/m^2] and cools into the solid below: the half-integral
+///     H(t) = integral of q(t - tau) / sqrt(tau) over tau > 0,
+/// with which the surface of a half-space becomes warmer by sqrt(D) / (k sqrt(pi)) H (H. S. Carslaw, J. C. Jaeger,
+/// Conduction of heat in solids, 2nd ed. 1959, section 2.9).
+///
+/// 1 / sqrt(tau) = integral of exp(u/2 - tau exp(u)) du / sqrt(pi) is summed by the trapezoidal rule, its tails by one
+/// exponential each: 40 exponentials, within 6e-7 of the largest H for heat that lasts from 1 us to 500 s. Each is a
+/// mode y' = q - rate y, so that time costs the same however long the history is.
+class SurfaceHeat {
+ public:
+  static constexpr std::size_t modes = 40;
+
+  SurfaceHeat() noexcept {}  // the modes of a cold surface are not read
+  SurfaceHeat(const SurfaceHeat& other) noexcept : warm_(other.warm_) {
+    if (warm_) modes_ = other.modes_;
+  }
+  SurfaceHeat& operator=(const SurfaceHeat& other) noexcept {
+    warm_ = other.warm_;
+    if (warm_) modes_ = other.modes_;
+    return *this;
+  }
+  /// @param modes  y_j [J/m^2], as `values` gives them
+  explicit SurfaceHeat(const std::array<double, modes>& values) noexcept : warm_(true), modes_(values) {}
+  /// A surface whose half-integral is H now; how it came to it is lost.
+  static SurfaceHeat with(double half_integral) noexcept {
+    SurfaceHeat heat;
+    heat.warm_ = half_integral > 0;
+    if (heat.warm_) {
+      heat.modes_.fill(0);
+      heat.modes_[0] = half_integral / table().weight[0];
+    }
+    return heat;
+  }
+
+  /// Whether it was ever heated.
+  bool warm() const noexcept { return warm_; }
+  /// y_j [J/m^2].
+  std::array<double, modes> values() const noexcept { return warm_ ? modes_ : std::array<double, modes>{}; }
+
+  /// H now [W s^(1/2)/m^2].
+  double half_integral() const noexcept {
+    double sum = 0;
+    if (warm_)
+      for (std::size_t j = 0; j < modes; ++j) sum += table().weight[j] * modes_[j];
+    return sum;
+  }
+
+  /// What a time does to the modes: what is left of them, and what heat that is a power of time adds.
+  class Step {
+   public:
+    static constexpr int degree = 8;  // of heat
+
+    /// @param time     [s]
+    /// @param heating  whether heat is added; else only what is left is known
+    explicit Step(double time, bool heating = false) noexcept : time_(time) {
+      std::array<double, modes> x;
+      for (std::size_t j = 0; j < modes; ++j) left_[j] = std::exp(-(x[j] = table().rate[j] * time));
+      if (!heating) return;
+      // The integral of exp(-x (1 - s)) s^k over s from 0 to 1: the highest by a series of x, for x small, and from it
+      // the others; for x large from the lowest.
+      constexpr double small = 8;
+      std::array<double, modes> sum, term;
+      for (std::size_t j = 0; j < modes; ++j) term[j] = left_[j], sum[j] = left_[j] / (degree + 1);
+      for (int m = 1; m <= 48; ++m) {
+        const double by = 1.0 / m, share = 1.0 / (m + degree + 1);
+        for (std::size_t j = 0; j < modes; ++j) sum[j] += share * (term[j] *= by * std::min(x[j], small));
+      }
+      for (std::size_t j = 0; j < modes; ++j) {
+        if (x[j] < small) {
+          added_[degree][j] = sum[j];
+          for (int k = degree; k > 0; --k) added_[at(k - 1)][j] = (1 - x[j] * added_[at(k)][j]) / k;
+        } else {
+          added_[0][j] = (1 - left_[j]) / x[j];
+          for (int k = 1; k <= degree; ++k) added_[at(k)][j] = (1 - k * added_[at(k - 1)][j]) / x[j];
+        }
+      }
+    }
+
+   private:
+    friend class SurfaceHeat;
+    static constexpr std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
+
+    double time_;
+    std::array<double, modes> left_;
+    std::array<std::array<double, modes>, degree + 1> added_;
+  };
+
+  /// H after a time without heat.
+  double half_integral_after(const Step& step) const noexcept {
+    double sum = 0;
+    if (warm_)
+      for (std::size_t j = 0; j < modes; ++j) sum += table().weight[j] * step.left_[j] * modes_[j];
+    return sum;
+  }
+
+  /// Cools for a time [s].
+  void rest(double time) noexcept {
+    if (!warm_ || !(time > 0)) return;
+    for (std::size_t j = 0; j < modes; ++j) modes_[j] *= std::exp(-table().rate[j] * time);
+  }
+
+  /// Is heated for a step with q = sum of q_k (t / unit)^k [W/m^2]: exact for the modes but for round-off.
+  /// @param step  of a time that is `part` of the unit, made for heating
+  void heat(const std::array<double, Step::degree + 1>& q, const Step& step, double part = 1) noexcept {
+    if (!warm_) modes_.fill(0);
+    warm_ = true;
+    std::array<double, modes> gained{};
+    double power = step.time_;
+    for (std::size_t k = 0; k < q.size(); ++k, power *= part)
+      for (std::size_t j = 0; j < modes; ++j) gained[j] += q[k] * power * step.added_[k][j];
+    for (std::size_t j = 0; j < modes; ++j) modes_[j] = step.left_[j] * modes_[j] + gained[j];
+  }
+
+ private:
+  struct Table {
+    std::array<double, modes> rate{}, weight{};  // [1/s], [s^(-1/2)]
+
+    Table() noexcept {
+      constexpr double step = 0.72, slowest = 3e-5;
+      const double r = std::exp(-step / 2), tail = r / (1 - r), tail3 = r * r * r / (1 - r * r * r);
+      for (std::size_t j = 1; j + 1 < modes; ++j) {
+        const double u = std::log(slowest) + step * static_cast<double>(j - 1);
+        rate[j] = std::exp(u);
+        weight[j] = step * std::exp(u / 2) * std::numbers::inv_sqrtpi;
+      }
+      // What is slower keeps its sum and its mean rate; what is faster its area and its mean age.
+      const std::size_t last = modes - 1;
+      rate[0] = rate[1] * tail3 / tail;
+      weight[0] = weight[1] * tail;
+      const double area = weight[last - 1] / rate[last - 1] * tail;
+      rate[last] = rate[last - 1] * tail / tail3;
+      weight[last] = area * rate[last];
+    }
+  };
+  static const Table& table() noexcept {
+    static const Table values;
+    return values;
+  }
+
+  bool warm_ = false;
+  std::array<double, modes> modes_;
+};
+
+}  // namespace stickslip
