@@ -17,7 +17,7 @@ namespace stickslip {
 struct Orbit {
   double load;       ///< B, amplitude of the load [m/s^2]
   double omega;      ///< [rad/s]
-  double amplitude;  ///< half the way from the lowest x to the highest [m]; 0 for the rest at the centre
+  double amplitude;  ///< half the peak-to-peak displacement [m]; 0 for the rest at the centre
   double phase;  ///< of x - centre = amplitude cos(omega t + phase): -omega times the time at which x first comes to
                  ///< its highest value, in (-pi, pi] [rad]; NaN at rest. Thesis (2.2), (2.17) as corrected
 

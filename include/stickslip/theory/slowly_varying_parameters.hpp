@@ -91,7 +91,7 @@ namespace theory {
 struct HarmonicSolution {
   double amplitude;  ///< A [m]
   double phase;      ///< phi [rad], from -pi to pi; NaN where the amplitude is 0
-  bool stable;       ///< whether it is come back to after a small disturbance
+  bool stable;       ///< true if stable under small perturbations
 };
 
 /// Two frequencies [rad/s], lower and upper.
