@@ -166,7 +166,7 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
   }
   predictions.push_back({"pulse chain", Kind::theory, {}});
   for (const double p : finely) {
-    if (thesis.options().heartbeat) thesis.options().heartbeat("pulse chain", p / 2);
+    if (thesis.options().progress) thesis.options().progress("pulse chain", p / 2);
     predictions.back().moments.push_back(chain(p));
   }
   for (const Measure& measure : measures) {

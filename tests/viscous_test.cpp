@@ -256,7 +256,7 @@ TEST_CASE("what a viscous slider cannot be or do is refused", "[viscous]") {
   EnsembleOptions settle = options(2);
   settle.settle = true;
   CHECK_THROWS_WITH(run_ensemble(ViscousSlider(1), shaking(), settle), ContainsSubstring("does not come to rest"));
-  IntegrateOptions beat;
-  beat.heartbeat = [] { throw std::runtime_error("enough"); };
-  CHECK_THROWS_WITH(integrate(ViscousSlider(1), broadband(1, 20000), beat), "enough");
+  IntegrateOptions how;
+  how.progress = [] { throw std::runtime_error("enough"); };
+  CHECK_THROWS_WITH(integrate(ViscousSlider(1), broadband(1, 20000), how), "enough");
 }

@@ -1798,7 +1798,7 @@ def run_ensemble(
     velocity_spectrum: bool,
     ground_acceleration: bool,
     start: Ensemble | None,
-    heartbeat: Callable[[int, int, Callable[[], Ensemble]], object] | None,
+    progress: Callable[[int, int, Callable[[], Ensemble]], object] | None,
     interrupted: Callable[[Callable[[], Ensemble]], object] | None,
 ) -> Ensemble: ...
 def sweep(
@@ -1809,7 +1809,7 @@ def sweep(
     settle: bool,
     contact: str,
     threads: SupportsIndex,
-    heartbeat: Callable[[int, int], object] | None,
+    progress: Callable[[int, int], object] | None,
 ) -> dict[str, Any]: ...
 def run_nothing(
     sliders: Any,

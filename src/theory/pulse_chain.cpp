@@ -436,7 +436,7 @@ class Chain {
   /// From rest on, slot by slot, the last one stationary.
   /// @tparam Order  cumulants of the displacement
   template <std::size_t Order>
-  std::vector<Slot> solve(const std::function<void()>& heartbeat) const;
+  std::vector<Slot> solve(const std::function<void()>& progress) const;
 
   /// Adds to the slots that nothing has slipped yet.
   void add_slips(std::vector<Slot>& slots) const;
@@ -548,7 +548,7 @@ class Chain {
 };
 
 template <std::size_t Order>
-std::vector<Slot> Chain::solve(const std::function<void()>& heartbeat) const {
+std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
   constexpr int most_slots = 20'000;
   const auto reach = static_cast<std::ptrdiff_t>(batch_.reach);
   const std::size_t width = static_cast<std::size_t>(span()), nodes = size(), past = values_.size() - 1;
@@ -602,7 +602,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& heartbeat) const {
   for (int slot = 0; steady < 2; ++slot) {
     if (slot == most_slots)
       throw ConvergenceError("PulseChain: not stationary after " + std::to_string(most_slots) + " slots");
-    if (heartbeat) heartbeat();
+    if (progress) progress();
     Sums sums;
     double total = 0;
     Slot found;
@@ -1101,10 +1101,10 @@ class Growth {
 /// @tparam Order  how many cumulants of the displacement there are
 /// @param slots   to a step
 template <std::size_t Order>
-ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<void()>& heartbeat) {
+ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<void()>& progress) {
   const Steps steps = steps_of(problem.shape, slots);
   const Chain chain(problem.block, steps, problem.arrivals, slots, problem.drifting());
-  std::vector<Slot> solution = chain.solve<Order>(heartbeat);
+  std::vector<Slot> solution = chain.solve<Order>(progress);
   if (Order > 2) chain.add_slips(solution);
   Correction correction;
   if (!problem.drifting()) correction = {chain.pairs().table(slots, false), problem.arrivals.rate, solution, slots};
@@ -1129,12 +1129,12 @@ bool two_slots(double sigma, bool refined) { return refined && sigma >= least_re
 double extrapolation(double sigma) { return std::clamp((0.5 - sigma) / (0.5 - 1.0 / 3), 0.0, 1.0) / 3; }
 
 template <std::size_t Order>
-Growth growth_of(const Problem& problem, bool refined, const std::function<void()>& heartbeat) {
+Growth growth_of(const Problem& problem, bool refined, const std::function<void()>& progress) {
   Growth growth;
   const bool two = two_slots(problem.sigma, refined);
   const double more = two ? extrapolation(problem.sigma) : -1;
-  if (more != 0) growth.add(-more, chain_growth<Order>(problem, 1, heartbeat));
-  if (two) growth.add(1 + more, chain_growth<Order>(problem, 2, heartbeat));
+  if (more != 0) growth.add(-more, chain_growth<Order>(problem, 1, progress));
+  if (two) growth.add(1 + more, chain_growth<Order>(problem, 2, progress));
   return growth;
 }
 
@@ -1152,7 +1152,7 @@ void PulseChain::check(const Slider<Coulomb>& slider, const PoissonPulses& pulse
 namespace {
 
 /// Of the displacement at a time [s], by the chain's cumulants.
-detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& heartbeat) {
+detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& progress) {
   if (problem.sigma < weakest || time == 0) return {};
   require(
       problem.sigma >= least_refined,
@@ -1164,7 +1164,7 @@ detail::Slips slips_of(const Problem& problem, double time, bool refined, const 
   require(time >= length,
           "PulseChain: a distribution is known at time 0 and from the length of a pulse on, " + shortest(length) + " s",
           time, "s");
-  const Growth growth = growth_of<orders>(problem, refined, heartbeat);
+  const Growth growth = growth_of<orders>(problem, refined, progress);
   const double t = time / problem.step, unit = problem.acceleration() * problem.step * problem.step;
   std::array<double, orders> found;
   double power = 1;
@@ -1175,10 +1175,10 @@ detail::Slips slips_of(const Problem& problem, double time, bool refined, const 
 }  // namespace
 
 double PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
-                        const std::function<void()>& heartbeat) const {
+                        const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   require(probability > 0 && probability < 1, "PulseChain: probability must lie in (0, 1)", probability);
-  const detail::Slips slips = slips_of(problem, pulses.duration(), refined_, heartbeat);
+  const detail::Slips slips = slips_of(problem, pulses.duration(), refined_, progress);
   if (slips.count == 0) return 0;
   const Steps steps = steps_of(problem.shape, 1);
   const Chain chain(problem.block, steps, problem.arrivals, 1, problem.drifting());
@@ -1188,14 +1188,14 @@ double PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& puls
 }
 
 DisplacementDistribution PulseChain::distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
-                                                  double time, const std::function<void()>& heartbeat) const {
+                                                  double time, const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   require(std::isfinite(time) && time >= 0, "PulseChain: time must be finite and at least 0", time, "s");
-  return DisplacementDistribution(slips_of(problem, time, refined_, heartbeat));
+  return DisplacementDistribution(slips_of(problem, time, refined_, progress));
 }
 
 Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
-                            const std::function<void()>& heartbeat) const {
+                            const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   const auto& [step, push, sigma, block, arrivals, chance, shape] = problem;
   const PoissonOptions& options = pulses.options();
@@ -1216,7 +1216,7 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     return moments;
   }
 
-  const Growth growth = growth_of<2>(problem, refined_, heartbeat);
+  const Growth growth = growth_of<2>(problem, refined_, progress);
   const double v_unit = problem.acceleration() * step, x_unit = v_unit * step;
   for (std::size_t i = 0; i < count; ++i) {
     const double t = times[i] / step, drift = growth.rate(0, t);
@@ -1259,9 +1259,9 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
 }
 
 double PulseChain::final_rms(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
-                             const std::function<void()>& heartbeat) const {
+                             const std::function<void()>& progress) const {
   const double end[] = {pulses.duration()};
-  const Moments moments = predict(slider, pulses, end, heartbeat);
+  const Moments moments = predict(slider, pulses, end, progress);
   return std::hypot(std::sqrt(moments.displacement_variance.value[0]), moments.displacement_mean.value[0]);
 }
 

@@ -209,7 +209,7 @@ double motion_ratio(const ShapedProblem& problem) {
 }
 
 ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double> times,
-                            const std::function<void()>& heartbeat) {
+                            const std::function<void()>& progress) {
   check_times(noun, times);
   ShapedSolution solution;
   if (times.empty()) return solution;
@@ -258,7 +258,7 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
                  .method = method,
                  .most_steps = 300'000,
-                 .heartbeat = heartbeat};
+                 .progress = progress};
   pack(tolerance * scale * scale.transpose(), columns, ode.absolute_tolerance.data());
 
   Matrix start = Matrix::Zero(n, n);

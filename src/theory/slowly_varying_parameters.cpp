@@ -427,11 +427,11 @@ constexpr double at_rest = 1e-9;  // an amplitude that is none
 class SlowlyVaryingParameters::Plane {
  public:
   Plane(const SlowlyVaryingParameters& theory, double force, double frequency, double amplitude, double phase,
-        const std::function<void()>& heartbeat)
+        const std::function<void()>& progress)
       : balance_(theory, force, frequency),
         length_(force / frequency / frequency),
         rests_(theory.rests(force)),
-        heartbeat_(heartbeat) {
+        progress_(progress) {
     check_cycle(amplitude);
     require(std::isfinite(phase), "SlowlyVaryingParameters: phase must be finite", phase, "rad");
     const double start = amplitude / length_;
@@ -478,7 +478,7 @@ class SlowlyVaryingParameters::Plane {
  private:
   // A' = (S - B sin(phi)) / (2 omega), A phi' = (C - omega^2 A - B cos(phi)) / (2 omega)
   void rate(std::span<const double> y, std::span<double> slope) {
-    if (heartbeat_ && ++rates_ % 4096 == 0) heartbeat_();
+    if (progress_ && ++rates_ % 4096 == 0) progress_();
     const double a = std::hypot(y[0], y[1]), amplitude = a * length_;
     if (rests({y[0], y[1]})) {
       slope[0] = slope[1] = 0;
@@ -494,7 +494,7 @@ class SlowlyVaryingParameters::Plane {
   Balance balance_;
   double length_;
   bool rests_;
-  const std::function<void()>& heartbeat_;
+  const std::function<void()>& progress_;
   long rates_ = 0;
   Point at_{};
   double passed_ = 0;  // omega t
@@ -503,8 +503,8 @@ class SlowlyVaryingParameters::Plane {
 
 HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, double amplitude, double phase,
                                                      std::span<const double> times,
-                                                     const std::function<void()>& heartbeat) const {
-  Plane plane(*this, B, omega, amplitude, phase, heartbeat);
+                                                     const std::function<void()>& progress) const {
+  Plane plane(*this, B, omega, amplitude, phase, progress);
   std::vector<double> angles;
   for (std::size_t i = 0; i < times.size(); ++i) {
     require(std::isfinite(times[i]) && times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
@@ -523,10 +523,10 @@ HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, dou
 }
 
 Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span<const double> times,
-                                         const std::function<void()>& heartbeat) const {
+                                         const std::function<void()>& progress) const {
   const double omega = motion.omega();
   const double phase = centre_ > 0 ? pi : 0;
-  const HarmonicTransient path = transient(motion.amplitude(), omega, std::abs(centre_), phase, times, heartbeat);
+  const HarmonicTransient path = transient(motion.amplitude(), omega, std::abs(centre_), phase, times, progress);
   Moments moments = detail::moments_at(times);
   const bool stays = rests(motion.amplitude());  // at x = 0, which friction holds as well as the centre
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -541,9 +541,9 @@ Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span
 }
 
 HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, double amplitude, double phase,
-                                                     const std::function<void()>& heartbeat) const {
+                                                     const std::function<void()>& progress) const {
   constexpr int samples = 64, most_turns = 100'000;
-  Plane plane(*this, B, omega, amplitude, phase, heartbeat);
+  Plane plane(*this, B, omega, amplitude, phase, progress);
   const Balance& balance = plane.balance();
   const std::vector<HarmonicSolution> solutions = response(B, omega);
   const double largest = solutions.empty() ? 0 : solutions.back().amplitude;

@@ -167,8 +167,8 @@ Slider<Law> slider_of(const Problem& p) {
 IntegrateOptions options_of(const Problem& p) {
   IntegrateOptions options;
   options.displacement = p.displacement, options.velocity = p.velocity, options.settle = p.settle;
-  options.heartbeat = [&p, beats = 0]() mutable {
-    if (++beats > 100) fail(p, "no end after 100 heartbeats");
+  options.progress = [&p, calls = 0]() mutable {
+    if (++calls > 100) fail(p, "no end after 100 progress calls");
   };
   return options;
 }

@@ -392,9 +392,9 @@ TEST_CASE("continuation goes from Den Hartog's orbits to those that stop", "[orb
   options.largest_amplitude = 100;
   const OrbitBranch branch = continuation(slider, orbits(slider, 1.3, 2)[0], 0.1, 3, options);
   CHECK(branch.orbits.front().amplitude > 80);  // towards resonance
-  int beats = 0;
-  options.heartbeat = [&] {
-    if (++beats == 5) throw std::runtime_error("enough");
+  int calls = 0;
+  options.progress = [&] {
+    if (++calls == 5) throw std::runtime_error("enough");
   };
   CHECK_THROWS_WITH(continuation(slider, branch.orbits[0], 0.1, 3, options), "enough");
   std::size_t stopping = 0;

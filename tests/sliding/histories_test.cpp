@@ -86,7 +86,7 @@ TEST_CASE("what leaves the range of doubles is refused", "[histories]") {
   CHECK_THROWS_AS(histories(Coulomb(0), GroundMotion(std::vector<double>(10000, 1e100), 1e103)), std::overflow_error);
 }
 
-TEST_CASE("a heartbeat can end the work", "[histories]") {
+TEST_CASE("a progress callback can end the work", "[histories]") {
   struct Enough {};
   CHECK_THROWS_AS(histories(Coulomb(1), shaking(1000000, 2), [] { throw Enough(); }), Enough);
   CHECK_THROWS_AS(histories(Slider(Coulomb(1), 1.0), shaking(10000, 2), [] { throw Enough(); }), Enough);

@@ -1,4 +1,4 @@
-// Friction that varies with position, by a Taylor series of high order.
+// The motion under friction that varies with position or speed, as a Taylor series of high order.
 #pragma once
 
 #include <array>
@@ -21,24 +21,24 @@
 
 namespace stickslip {
 
-/// A polynomial on [0, 1] whose value at 0 is positive, asked for its first root.
+/// Finds the first root on [0, 1] of a polynomial that is positive at 0.
 ///
-/// Its Bernstein coefficients on an interval change sign as often as it has roots there, or more often by an even
-/// number (Descartes' rule). No change, no root; one change, one root, which Newton's method finds inside its bracket;
-/// else the interval is halved. A double root, which no halving parts, is a graze: the speed touches zero and rises
-/// again.
+/// The number of sign changes of its Bernstein coefficients on an interval is the number of its roots there, or exceeds
+/// it by an even number (Descartes' rule). Without a change there is no root; with one change there is one root, which
+/// Newton's method finds inside its bracket; otherwise the interval is halved. A double root, which bisection cannot
+/// separate, is a graze: the speed touches zero and rises again.
 class FirstRoot {
  public:
   /// @param w  coefficients of t^0 .. t^degree, w[0] > 0
   FirstRoot(const double* w, int degree) noexcept : w_(w), degree_(degree) {}
 
-  /// In (0, 1]; `never` where there is none.
+  /// The first root, in (0, 1]; `never` if there is none.
   double find() const noexcept {
     double fall = 0;
     for (int k = 1; k <= degree_; ++k) fall += std::min(w_[k], 0.0);
     if (w_[0] + fall > 0) return never;
 
-    // Closer bounds of the value and the slope, by Horner's rule with t at its worst, 0 or 1, at each step.
+    // Tighter bounds on the value and the slope, by Horner's rule with the worse of t = 0 and t = 1 at each step.
     double lowest = 0, steepest = 0, last = 0, order = degree_;
     for (int k = degree_; k >= 1; --k, --order) {
       lowest = w_[k] + std::min(lowest, 0.0);
@@ -47,7 +47,7 @@ class FirstRoot {
     }
     last += w_[0];
     if (w_[0] + std::min(lowest, 0.0) > 0) return never;
-    if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it falls all the way
+    if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it decreases throughout
 
     Bernstein coefficients;
     double* const b = coefficients.data();
@@ -59,7 +59,7 @@ class FirstRoot {
     for (int i = 1; i <= degree_; ++i)
       for (int k = degree_; k >= i; --k) b[k] += b[k - 1];
     const double last_value = b[degree_], root = search(b, 0, 1);
-    return detail::equal(root, never) && last_value <= 0 ? 1 : root;  // at the end, but for rounding
+    return detail::equal(root, never) && last_value <= 0 ? 1 : root;  // at the end, up to rounding
   }
 
  private:
@@ -81,14 +81,14 @@ class FirstRoot {
     return root < never ? root : search(b, left + width / 2, width / 2);
   }
 
-  // Newton's method, as the slope comes with the value, from where a parabola through the start would be zero; even
-  // and odd powers go apart, as an addition must wait for what it adds.
+  // Newton's method: the slope costs little once the value is computed. It starts at the zero of the parabola through
+  // the start. Even and odd powers are summed separately, to shorten the chain of dependent additions.
   double polish(double low, double high) const noexcept {
     const double guess = degree_ < 2 ? 1 : first_root(w_[0], w_[1], 2 * w_[2]);
     double t = guess > low && guess < high ? guess : low + (high - low) / 2;
     for (int steps = 0;; ++steps) {
       const double z = t * t;
-      double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // slopes by z
+      double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // derivatives with respect to z
       for (int k = degree_ & ~1; k >= 0; k -= 2) {
         even_slope = even_slope * z + even;
         even = even * z + w_[k];
@@ -113,7 +113,7 @@ class FirstRoot {
 
 namespace detail {
 
-/// What a load gains from the start of a flow, as a power series: linear.
+/// The change of a load since the start of a flow, as a power series: linear in time.
 class GainSeries {
  public:
   GainSeries(const Start& start, double duration) noexcept : rate_(start.gain / duration) {}
@@ -121,7 +121,7 @@ class GainSeries {
   /// The longest step over which the series keeps its digits [s].
   double reach(double /*natural_frequency*/) const noexcept { return never; }
 
-  /// Coefficients of time in units of h, to be asked for in order from k = 1 [m/s^2].
+  /// Coefficients for time in units of h, to be called in order from k = 1 [m/s^2].
   auto coefficients(double h) const noexcept {
     return [first = rate_ * h](int k) { return k == 1 ? first : 0.0; };
   }
@@ -134,8 +134,8 @@ class GainSeries {
   double rate_;
 };
 
-/// A cosine's. Its orders rise to exp(omega h) before they fall: over two radians, of it or of the spring, a digit is
-/// lost, and both are as if there were one frequency; resonance is nothing special.
+/// The change of a sinusoidal load. Its terms rise to exp(omega h) before they fall: over two radians of the load or of
+/// the spring, one digit is lost. Both are treated alike, so resonance needs no special case.
 class SinusoidalGainSeries {
  public:
   SinusoidalGainSeries(const SinusoidalStart& start, double /*duration*/) noexcept
@@ -159,7 +159,7 @@ class SinusoidalGainSeries {
 
  private:
   SinusoidalStart start_;
-  double derivatives_[2];  // the load and its derivative by the phase at the start [m/s^2]
+  double derivatives_[2];  // the load and its derivative with respect to the phase, at the start [m/s^2]
 };
 
 inline GainSeries gain_series(const Start& start, double duration) noexcept { return {start, duration}; }
@@ -172,13 +172,14 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 
 }  // namespace detail
 
-/// Friction that varies with position or speed: the distance slid is a Taylor series in time, with the coefficients of
+/// A slip under friction that varies with position or speed. The distance slid d is a Taylor series in time that solves
 ///     d'' = a + g(t) - wn^2 d - c (d' - u) - [resist(x0 +- d, d') - resist(x0, u)],      thesis (2.27), (2.50)
-/// where g is what the load gains, linear in time or a cosine's; found order by order (series.hpp). Where the normal
-/// force varies, a weight w = N/g that is linear in time multiplies the resistance, and a pendulum's spring.
+/// where g is the change of the load, linear in time or sinusoidal; the coefficients are found order by order
+/// (series.hpp). Under a variable normal force, a weight w = N/g that is linear in time multiplies the resistance and
+/// the spring of a pendulum.
 ///
-/// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
-/// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
+/// Orders are added until they are below round-off at the end of the step, where the equation of motion is then checked
+/// against the law itself. If `highest_order` is not enough, the step (the horizon) is shortened.
 template <FrictionLaw Law, class SlipStart = Start>
 class TaylorFlow {
   static constexpr bool loaded = std::same_as<SlipStart, LoadStart>;
@@ -195,8 +196,8 @@ class TaylorFlow {
         weight_rate_(weight_rate(start, duration)),
         level_here_(resist(slider.law(), displacement, direction, start.speed)),
         horizon_(std::min(std::min(duration, longest), gain_.reach(slider.natural_frequency()))) {
-    // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
-    // the way at most.
+    // If the level has nearly underflowed, its series does not show how the level rises toward the center: cover at
+    // most half of that distance.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
         resist(slider.law(), 0.0, direction, start.speed) > vanishing)
       horizon_ = std::min(horizon_, time_to_half_way());
@@ -230,7 +231,7 @@ class TaylorFlow {
   Progress at(double t) const noexcept { return at_part(t / horizon_); }
   Progress at_horizon() const noexcept { return end_; }
 
-  /// Net, at the start [m/s^2].
+  /// Net acceleration at the start [m/s^2].
   double acceleration() const noexcept { return start_.acceleration; }
 
   /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- resist'(x)) y - c y' from (1, 0) and from (0, 1).
@@ -273,7 +274,8 @@ class TaylorFlow {
     });
   }
 
-  /// Work of a normal force that is not g on a pendulum, within t [m^2/s^2]: the integral of wn^2 (1 - w) x x'.
+  /// Work that the deviation of the normal force from g does on a pendulum within t [m^2/s^2]: the integral of
+  /// wn^2 (1 - w) x x'.
   double pendulum_work(double t) const noexcept requires loaded {
     if (!slider_.mounting().pendulum) return 0;
     return slider_.stiffness() * integral(t, [&](const Progress& at, double part) {
@@ -281,7 +283,7 @@ class TaylorFlow {
            });
   }
 
-  /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
+  /// Work of the change of the load since the start [m^2/s^2]: the integral of the product of two series.
   double work_of_gain(double t) const noexcept {
     const double s = t / horizon_;
     auto gain = gain_.coefficients(horizon_ * s);
@@ -296,21 +298,21 @@ class TaylorFlow {
   }
 
  private:
-  // Of a function of the motion, within t: Gauss-Legendre quadrature of 20 points is exact for products of two series
-  // that have come down to round-off at their ends.
+  // The integral of a function of the motion within t. 20-point Gauss-Legendre quadrature is exact for products of two
+  // series whose last terms are below round-off.
   template <class Function>
   double integral(double t, Function&& of) const {
     return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s), s); });
   }
 
   double find_first_stop() const noexcept {
-    // Roots at the start are taken out by leaving out leading zeros.
+    // Skipping leading zeros removes roots at the start.
     int leading = 0;
     while (leading < order_ && detail::equal(speed_[leading], 0)) ++leading;
-    // All of them underflow where a slip that does begin is too slow for doubles.
+    // All coefficients underflow if a slip does begin but is too slow for doubles.
     const double gain = [&] {
       if constexpr (loaded)
-        return start_.gain;  // that of the load less friction's
+        return start_.gain;  // change of the load minus change of friction
       else
         return start_.gain_within(horizon_, horizon_);
     }();
@@ -322,8 +324,8 @@ class TaylorFlow {
     return root < never ? root * horizon_ : never;
   }
 
-  // A level that changes fast at low speeds only says nothing of that where the speed is high: the equation of motion
-  // must hold where the speed is least, too.
+  // A level that changes fast only at low speeds does not show this at high speed. The equation of motion must
+  // therefore also hold at the minimum of the speed.
   bool balanced_where_slowest() {
     double slowest = stop_ < never ? stop_ / horizon_ : 1;
     if (detail::equal(slowest, 1) && start_.acceleration < 0 && end_.acceleration > 0)
@@ -335,7 +337,7 @@ class TaylorFlow {
     return holds;
   }
 
-  // N/g at a part of the horizon, and its rate [1/s].
+  // N/g at a fraction of the horizon, and its rate [1/s].
   double weight(double part) const noexcept {
     if constexpr (loaded)
       return start_.weight + weight_rate_ * horizon_ * part;
@@ -349,8 +351,8 @@ class TaylorFlow {
       return 0;
   }
 
-  // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and
-  // as it was given.
+  // Even and odd powers are summed separately, to shorten the chain of dependent additions. The value at the start, by
+  // far the largest term, is added last and unrounded.
   Progress at_part(double s) const noexcept {
     struct Sums {
       double distance = 0, speed = 0, acceleration = 0, mean = 0;
@@ -373,11 +375,12 @@ class TaylorFlow {
             s * (distance_[0] / 2 + gained(odd.mean, even.mean))};
   }
 
-  // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
+  // Computes the coefficients, for time in units of the horizon. Returns 1, or the fraction of the horizon over which a
+  // series can converge.
   double expand() {
     const double s = sign(direction_), h = horizon_, stiffness = slider_.stiffness(), damping = slider_.damping();
     series::Coefficients x;
-    series::Coefficients v;  // of the speed, where the law asks for it
+    series::Coefficients v;  // of the speed, if the law depends on it
     auto level = as_series(resist(slider_.law(), series::Variable{&x}, direction_, series::Variable{&v}));
     x[0] = displacement_;
     speed_[0] = start_.speed;
@@ -390,7 +393,7 @@ class TaylorFlow {
     fastest_ = speed_[0];
     double term = speed_[0];
     auto gain = gain_.coefficients(h);
-    // Of a product with the weight, a series of two terms.
+    // The weight, a series of two terms, for products with it.
     const double weight_now = weight(0), weight_gains = weight_rate_ * h;
     const bool pendulum = loaded && slider_.mounting().pendulum;
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
@@ -415,11 +418,11 @@ class TaylorFlow {
       fastest_ = std::max(fastest_, term);
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
       end_series(k + 2);
-      // On breaking away x is a cubic, and two of three coefficients of the level are zero. A linear level is as good
-      // as the speed.
+      // Just after breakaway x is cubic in time, and two of three coefficients of the level are zero. A linear level
+      // converges as fast as the speed.
       const double recent_level =
           LinearLaw<Law> ? 0 : std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
-      // From rest, or nearly so, x may also come back to its start at the horizon, where nothing would then be noticed.
+      // From rest, or nearly so, x may also return to its start at the horizon, where the check would then see nothing.
       const bool fast = start_.speed > fastest_ / 16;
       if (recent_level <= largest_level && (fast || balanced(0.6)) && balanced(1)) return 1;
     }
@@ -430,13 +433,13 @@ class TaylorFlow {
     return part > 0x1p-20 ? std::min(part, 0.75) : 0x1p-20;  // also where the coefficients overflowed
   }
 
-  // `order` is the highest of the distance. Sums in pairs find zeros beyond.
+  // `order` is the highest order of the distance. Zeros are stored above it for sums taken in pairs.
   void end_series(int order) noexcept {
     order_ = order;
     distance_[order] = speed_[order] = acceleration_[order] = acceleration_[order - 1] = 0;
   }
 
-  // Whether the equation of motion holds at a part of the horizon, to the round-off of its terms and of the series.
+  // Whether the equation of motion holds at a fraction of the horizon, up to the round-off of its terms and the series.
   bool balanced(double part) {
     end_ = at_part(part);
     const double level_there =
@@ -454,7 +457,8 @@ class TaylorFlow {
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
-  // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
+  // The distance is bounded by d <= u t + (|a| + |j| t) t^2: each of the three terms may use a third of it (of half of
+  // |x|).
   double time_to_half_way() const noexcept {
     const double third = std::abs(displacement_) / 6;
     return std::min(std::min(third / start_.speed, std::sqrt(third / std::abs(start_.acceleration))),
@@ -474,7 +478,7 @@ class TaylorFlow {
     return level;
   }
 
-  static constexpr double vanishing = 1e-290;  // a slip level that is none, and near to losing digits [m/s^2]
+  static constexpr double vanishing = 1e-290;  // a negligible slip level, about to lose digits by underflow [m/s^2]
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
   const Slider<Law>& slider_;
@@ -487,8 +491,8 @@ class TaylorFlow {
   double horizon_;
   double fastest_ = 0;  // the largest term of the speed [m/s]
   int order_ = 0;
-  // Coefficients, for time in units of the horizon: of the distance over that time [m], of the speed [m/s] and of the
-  // acceleration [m/s^2].
+  // Coefficients, for time in units of the horizon, of the distance divided by that time [m], of the speed [m/s] and of
+  // the acceleration [m/s^2].
   double distance_[series::highest_order + 1], speed_[series::highest_order + 1],
       acceleration_[series::highest_order + 1];
   Progress end_{};       // at the horizon
@@ -499,7 +503,7 @@ class TaylorFlow {
 template <FrictionLaw Law>
 struct Taylor {
   const Slider<Law>& slider;
-  mutable double last_step = never;  // that a flow was shortened to, where pieces of motion are long [s]
+  mutable double last_step = never;  // to which a flow was last shortened, for long segments of motion [s]
 
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
   double drag(double speed) const noexcept { return slider.damping() * speed; }

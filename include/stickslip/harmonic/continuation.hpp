@@ -34,7 +34,7 @@ struct ContinuationOptions {
   double largest_step = 0.05;  ///< part by which state and frequency may change from orbit to orbit, up to 0.5
   double largest_amplitude = std::numeric_limits<double>::infinity();  ///< the branch is left beyond it [m]
   std::size_t most_orbits = 10'000;                                    ///< each way
-  std::function<void()> heartbeat{};  ///< called at each orbit; may throw to end the work
+  std::function<void()> progress{};  ///< called at each orbit; may throw to end the work
 };
 
 namespace detail {
@@ -54,7 +54,7 @@ class BranchFollower {
     Vector direction = tangent(last, {0, 0, way});
     double step = options_.largest_step / 16;
     while (branch.orbits.size() < options_.most_orbits) {
-      if (options_.heartbeat) options_.heartbeat();
+      if (options_.progress) options_.progress();
       const auto next = try_correct(last, direction, step);
       if (!next) {
         step /= 2;

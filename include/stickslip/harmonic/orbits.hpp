@@ -208,7 +208,7 @@ class OrbitFinder {
   static constexpr double close_enough = 1e-11;  // a miss, of the amplitude: beyond it Newton's method goes on
 
   /// The symmetric orbits that have been found, by amplitude.
-  std::vector<Orbit> find(const std::function<void()>& heartbeat) const {
+  std::vector<Orbit> find(const std::function<void()>& progress) const {
     std::vector<Orbit> found;
     if (load_ <= level(0)) found.push_back(rest());
     if constexpr (ConstantLevelLaw<Law>) {
@@ -219,7 +219,7 @@ class OrbitFinder {
       }
       if (equal(slider_.stiffness(), 0)) return {with_stops()};
     }
-    search(found, heartbeat);
+    search(found, progress);
     std::ranges::sort(found, {}, &Orbit::amplitude);
     return found;
   }
@@ -279,7 +279,7 @@ class OrbitFinder {
   // laid on a grid; where its two parts are both zero on a triangle, as if it were linear, Newton's method goes on. On
   // the beginning of the arc x' is missed by nothing, and x alone must change sign. Two orbits next to a fold may be
   // closer than the grid: so where the miss is less than all around, they are sought too.
-  void search(std::vector<Orbit>& found, const std::function<void()>& heartbeat) const {
+  void search(std::vector<Orbit>& found, const std::function<void()>& progress) const {
     const auto [least, largest] = amplitudes();
     const double usual = load_ / (omega_ * omega_ + slider_.stiffness());
     const double begin = std::max(least, 1e-5 * usual);
@@ -288,11 +288,11 @@ class OrbitFinder {
     std::vector<Row> rows;
     if (equal(least, 0)) rows.push_back({.free = load_ > level(0), .misses = {{{-1, 0}}}});
     for (double amplitude = begin; amplitude < largest * step; amplitude *= step) {
-      if (heartbeat) heartbeat();
+      if (progress) progress();
       rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));  // so far goes a slip without stops
     }
     for (std::size_t i = 1; i < rows.size(); ++i) {
-      if (heartbeat) heartbeat();
+      if (progress) progress();
       search_beginning(rows[i - 1], rows[i], found);
       if (rows[i - 1].columns == columns && rows[i].columns == columns) search_between(rows[i - 1], rows[i], found);
       if (i + 1 < rows.size()) search_dips(rows[i - 1], rows[i], rows[i + 1], found);
@@ -522,7 +522,7 @@ inline Orbit moved(Orbit orbit, double distance) {
 ///                on a spring
 /// @param load    B [m/s^2], positive and at most 1e100
 /// @param omega   [rad/s], positive, with a finite square
-/// @param heartbeat  called some times a second; may throw to end the work; optional
+/// @param progress  called some times a second; may throw to end the work; optional
 /// @return orbits in order of amplitude
 /// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring
 ///                                (the slider drifts)
@@ -532,18 +532,18 @@ inline Orbit moved(Orbit orbit, double distance) {
 /// friction, Trans. ASME 53 (1931).
 template <FrictionLaw Law>
 std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega,
-                          const std::function<void()>& heartbeat = {}) {
+                          const std::function<void()>& progress = {}) {
   const auto balanced = detail::balanced(slider);
   detail::check_orbit_arguments(balanced.slider, load, omega, "orbits");
   std::vector<Orbit> found =
-      detail::with_finder(balanced.slider, load, omega, [&](const auto& finder) { return finder.find(heartbeat); });
+      detail::with_finder(balanced.slider, load, omega, [&](const auto& finder) { return finder.find(progress); });
   for (Orbit& orbit : found) orbit = detail::moved(std::move(orbit), balanced.centre);
   return found;
 }
 
 template <FrictionLaw Law>
-std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::function<void()>& heartbeat = {}) {
-  return orbits(Slider<Law>(law), load, omega, heartbeat);
+std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::function<void()>& progress = {}) {
+  return orbits(Slider<Law>(law), load, omega, progress);
 }
 
 /// Where the slider is on its orbit.

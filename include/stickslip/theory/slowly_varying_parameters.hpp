@@ -218,12 +218,12 @@ class SlowlyVaryingParameters {
   /// @param amplitude  at t = 0 [m], finite and at least 0
   /// @param phase      at t = 0 [rad], finite: x(0) - centre() = A cos(phi), x'(0) = -omega A sin(phi)
   /// @param times      [s], increasing, from 0 on
-  /// @param heartbeat  called at times; may throw to end the work; optional
+  /// @param progress  called at times; may throw to end the work; optional
   /// @throws std::invalid_argument  naming the value
   /// @throws ConvergenceError       with the time reached, after a million steps
   /// By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B / omega^2.
   HarmonicTransient transient(double B, double omega, double amplitude, double phase, std::span<const double> times,
-                              const std::function<void()>& heartbeat = {}) const;
+                              const std::function<void()>& progress = {}) const;
 
   /// The solution that a motion comes to in the end: one of `response`, or rest (amplitude 0), or, at resonance, an
   /// infinite amplitude. Without friction, the one about which it turns for ever.
@@ -234,12 +234,12 @@ class SlowlyVaryingParameters {
   /// @throws ConvergenceError  where that is not decided after a hundred thousand turns: within round-off of the
   ///                           boundary between two solutions
   HarmonicSolution settles_on(double B, double omega, double amplitude, double phase,
-                              const std::function<void()>& heartbeat = {}) const;
+                              const std::function<void()>& progress = {}) const;
 
   /// x and x' by time from rest at x = 0, by `transient`, whose parameters and exceptions they are: means without
   /// scatter.
   Moments predict(const HarmonicMotion& motion, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const;
+                  const std::function<void()>& progress = {}) const;
 
   /// As a `Theory`, of any slider, whatever this one is of.
   static std::string name() { return "SlowlyVaryingParameters"; }
@@ -258,8 +258,8 @@ class SlowlyVaryingParameters {
   /// As of `SlowlyVaryingParameters(slider)`.
   template <detail::AnalyticLaw Law>
   static Moments predict(const Slider<Law>& slider, const HarmonicMotion& motion, std::span<const double> times,
-                         const std::function<void()>& heartbeat = {}) {
-    return SlowlyVaryingParameters(slider).predict(motion, times, heartbeat);
+                         const std::function<void()>& progress = {}) {
+    return SlowlyVaryingParameters(slider).predict(motion, times, progress);
   }
 
  private:
