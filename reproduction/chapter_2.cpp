@@ -34,7 +34,7 @@ double block_amplitude(const Slider<Coulomb>& slider, double b, double omega) {
 // The frequencies of amplitude A by averaging: the lower branch and the upper one, where they are real.
 void add_branches(ThesisPanel& panel, const SlowlyVaryingParameters& svp, double b, double least, double most) {
   ThesisCurve upper{ratio(b), Kind::thesis, {}, {}}, lower = upper;
-  for (const double amplitude : geometric(std::max(least, svp.least_amplitude(b) * (1 + 1e-9)), most, 240)) {
+  for (const double amplitude : geometric(std::max(least, svp.min_amplitude(b) * (1 + 1e-9)), most, 240)) {
     const theory::Branches omega = svp.frequency(b, amplitude);
     for (auto [curve, value] : {std::pair{&upper, omega.upper}, std::pair{&lower, omega.lower}})
       if (std::isfinite(value)) {
@@ -76,12 +76,12 @@ std::vector<OrbitBranch> caster_branches(const Thesis& thesis, const Slider<Cast
   const auto progress = [&] {
     if (thesis.options().progress) thesis.options().progress("exact orbits, B/a = " + number(b), 0);
   };
-  const ContinuationOptions options{.largest_step = 0.04, .largest_amplitude = largest, .progress = progress};
+  const ContinuationOptions options{.max_step = 0.04, .max_amplitude = largest, .progress = progress};
   std::vector<OrbitBranch> branches;
   for (const double omega : starts)
     for (const Orbit& orbit : orbits(slider, b, omega, progress)) {
       const auto passes = [&](const OrbitBranch& branch) {
-        // Between two neighbours on the branch that have both frequencies and amplitudes about it.
+        // Between two neighbors on the branch that have both frequencies and amplitudes about it.
         for (std::size_t i = 0; i + 1 < branch.orbits.size(); ++i) {
           const Orbit &p = branch.orbits[i], &q = branch.orbits[i + 1];
           if ((p.omega - orbit.omega) * (q.omega - orbit.omega) > 0) continue;

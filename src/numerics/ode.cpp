@@ -308,7 +308,7 @@ OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const
     int flag;
     while ((flag = solver->advance(time, y.get(), &reached)) == CV_TOO_MUCH_WORK) {
       solution.steps = solver->steps();
-      if (solution.steps >= options.most_steps)
+      if (solution.steps >= options.max_steps)
         give_up(std::to_string(solution.steps) + " steps done, no more are allowed");
       if (reached == std::exchange(last_reached, reached)) give_up("steps have become too short to get on");
       if (options.progress) options.progress();

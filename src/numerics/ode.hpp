@@ -33,7 +33,7 @@ struct OdeOptions {
   /// One a component, or one for all. Zero is allowed for components that never are zero.
   std::vector<double> absolute_tolerance = {0};
   OdeMethod method = OdeMethod::adams;
-  long most_steps = 1'000'000;
+  long max_steps = 1'000'000;
   std::function<void()> progress{};  ///< called every thousand steps; may throw to end the work; optional
 };
 

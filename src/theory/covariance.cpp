@@ -202,7 +202,7 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
                    .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
                    // Coulomb's velocity settles within unit; up to there no slower without
                    .method = last > 1000 * unit ? OdeMethod::bdf : OdeMethod::adams,
-                   .most_steps = 300'000,  // some 1 s; needed for many periods of a spring
+                   .max_steps = 300'000,  // some 1 s; needed for many periods of a spring
                    .progress = progress});
     solution.steps = states.steps;
     solution.evaluations = states.evaluations;

@@ -82,7 +82,7 @@ struct Weights {
   double operator[](int i) const { return w[static_cast<std::size_t>(i + reach)]; }
 };
 
-/// Sums of `count` Gaussian amplitudes, normalised on the lattice.
+/// Sums of `count` Gaussian amplitudes, normalized on the lattice.
 Weights gaussian(double sigma, double spacing, int reach, int count) {
   Weights law{spacing, reach, std::vector<double>(static_cast<std::size_t>(2 * reach + 1))};
   double sum = 0;
@@ -523,7 +523,7 @@ class Chain {
     double slips = 0;
     for (int n = -offset_; n <= offset_; ++n)
       if (chance_to_move(n) == 1) slips += law[static_cast<std::size_t>(n + offset_)];
-    least_ = 1e-3 * slips / std::pow(span(), static_cast<double>(values_.size()));
+    min_chance_ = 1e-3 * slips / std::pow(span(), static_cast<double>(values_.size()));
   }
 
   double chance_to_move(std::ptrdiff_t n) const {
@@ -536,7 +536,7 @@ class Chain {
   int slots_;
   bool mirrored_ = true;         ///< the mirror image of each motion is as likely
   bool drifting_;                ///< the grid is of u, else of v
-  double least_ = 0;             ///< chance of a combination of batches
+  double min_chance_ = 0;        ///< chance of a combination of batches
   std::vector<int> values_{};    ///< of the slots of a pulse
   std::vector<double> still_{};  ///< velocity to come from the rest of a pulse, from slot i on
   double unit_ = 1;
@@ -549,7 +549,7 @@ class Chain {
 
 template <std::size_t Order>
 std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
-  constexpr int most_slots = 20'000;
+  constexpr int max_slots = 20'000;
   const auto reach = static_cast<std::ptrdiff_t>(batch_.reach);
   const std::size_t width = static_cast<std::size_t>(span()), nodes = size(), past = values_.size() - 1;
   std::size_t heads = 1;  // of the past batches, all but the oldest
@@ -600,8 +600,8 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
   std::vector<Slot> slots;
   int steady = 0;
   for (int slot = 0; steady < 2; ++slot) {
-    if (slot == most_slots)
-      throw ConvergenceError("PulseChain: not stationary after " + std::to_string(most_slots) + " slots");
+    if (slot == max_slots)
+      throw ConvergenceError("PulseChain: not stationary after " + std::to_string(max_slots) + " slots");
     if (progress) progress();
     Sums sums;
     double total = 0;
@@ -625,7 +625,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
         Sums part;
         for (std::size_t oldest = 0; oldest < width; ++oldest) {
           const std::size_t tuple = head * width + oldest;
-          if (chances[tuple] * std::abs(chance) < least_) continue;
+          if (chances[tuple] * std::abs(chance) < min_chance_) continue;
           const std::size_t kind =
               drifting_
                   ? k * tuples + tuple
@@ -759,8 +759,8 @@ void Chain::add_slips(std::vector<Slot>& slots) const {
 /// Above this sigma / a the answers are those without friction less a part that falls as a / sigma: growth right to 3 %
 /// where pulses are one to a step at most, or friction next to nothing.
 constexpr double strongest = 256;
-constexpr double weakest = 0.05, least_refined = 0.12;
-constexpr double most_arrivals = 50;
+constexpr double weakest = 0.05, min_refined_sigma = 0.12;
+constexpr double max_arrivals = 50;
 /// With levels or amplitudes that differ both ways nothing is known beyond these.
 constexpr double strongest_drift = 20, greatest_ratio = 4;
 
@@ -1006,8 +1006,7 @@ Problem::Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses)
             "PulseChain: where sigma exceeds 3 times the smaller slip level the other one must be at most 4 times it",
             other / level);
   }
-  require(arrivals.rate <= most_arrivals, "PulseChain: pulses to a step of the pulse must be at most 50",
-          arrivals.rate);
+  require(arrivals.rate <= max_arrivals, "PulseChain: pulses to a step of the pulse must be at most 50", arrivals.rate);
   if (sigma > strongest)
     require(arrivals.rate <= 1 || sigma >= 1000 * std::exp(3 * arrivals.rate),
             "PulseChain: with " + shortest(arrivals.rate) +
@@ -1122,7 +1121,7 @@ ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<
 }
 
 /// Two slots to a step: above, their coarser grid errs by more than one slot does; below they take minutes.
-bool two_slots(double sigma, bool refined) { return refined && sigma >= least_refined && sigma <= 1; }
+bool two_slots(double sigma, bool refined) { return refined && sigma >= min_refined_sigma && sigma <= 1; }
 
 /// Weight of Richardson's extrapolation: what three pulses and more do errs as the square of the slot. Full where they
 /// are what slips, none where grids err as much.
@@ -1155,7 +1154,7 @@ namespace {
 detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& progress) {
   if (problem.sigma < weakest || time == 0) return {};
   require(
-      problem.sigma >= least_refined,
+      problem.sigma >= min_refined_sigma,
       "PulseChain: a distribution is known for sigma of at least 0.12 slip levels, or below 0.05 where nothing slips",
       problem.sigma);
   require(problem.arrivals.rate <= 4, "PulseChain: a distribution is known for at most 4 pulses to a step of the pulse",

@@ -440,9 +440,9 @@ std::string PulseSuperposition::name() const {
 void PulseSuperposition::check(bool constant_level, const PoissonPulses& pulses) const {
   const double overlap = pulses.rate() * pulses.half_width();
   if (overlap_ != Overlap::none) {
-    require(overlap <= most_overlap,
+    require(overlap <= max_overlap,
             "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
-                shortest(most_overlap),
+                shortest(max_overlap),
             overlap);
     if (pulses.options().quantile)
       throw std::invalid_argument(
@@ -678,9 +678,9 @@ DisplacementDistribution PulseSuperposition::distribution(const detail::PulseSys
                                                           const PoissonPulses& pulses, double time) const {
   const double overlap = pulses.rate() * pulses.half_width();
   require(std::isfinite(time) && time >= 0, "PulseSuperposition: time must be finite and at least 0", time, "s");
-  require(overlap <= most_overlap_of_distribution,
+  require(overlap <= max_overlap_of_distribution,
           "PulseSuperposition: a distribution is for rare pulses, rate x half_width at most " +
-              shortest(most_overlap_of_distribution),
+              shortest(max_overlap_of_distribution),
           overlap);
   if (!system.constant_level)
     throw std::invalid_argument("PulseSuperposition: a distribution is covered for constant slip levels only");

@@ -135,7 +135,7 @@ TEST_CASE("a solver that gives up says how far it came", "[ode]") {
                     ContainsSubstring("reached t = 1.4") || ContainsSubstring("reached t = 1.5"));
   const std::array<double, 2> two = {1, 0};
   const std::array<double, 1> late = {1e9};
-  CHECK_THROWS_WITH(solve_ode(oscillator, 0, two, late, {.absolute_tolerance = {1e-10}, .most_steps = 2000}),
+  CHECK_THROWS_WITH(solve_ode(oscillator, 0, two, late, {.absolute_tolerance = {1e-10}, .max_steps = 2000}),
                     ContainsSubstring("2000 steps done"));
 }
 

@@ -467,7 +467,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
   require_plain_mounting(slider, who);
   require(equal(slider.damping(), 0), who + ": a slider with a damper is not covered, damping must be 0",
           slider.damping(), "1/s");
-  require(load > 0 && load <= GroundMotion::largest_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
+  require(load > 0 && load <= GroundMotion::max_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
           load, "m/s^2");
   require(omega > 0 && std::isfinite(omega * omega) && std::isfinite(2 * std::numbers::pi / omega),
           who + ": omega must be positive, its square and its period finite", omega, "rad/s");
@@ -495,7 +495,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
 /// The same orbit about a place that lies farther by `distance` [m].
 inline Orbit moved(Orbit orbit, double distance) {
   if (equal(distance, 0)) return orbit;
-  orbit.centre += distance;
+  orbit.center += distance;
   orbit.state.displacement += distance;
   for (Event& event : orbit.events) event.displacement += distance;
   return orbit;
@@ -515,8 +515,8 @@ inline Orbit moved(Orbit orbit, double distance) {
 /// by Newton's method on the half-period map. The rest at x = 0 is entered, with amplitude 0, where B is at most the
 /// slip level there. Orbits that are not symmetric are not looked for.
 ///
-/// Coulomb friction of unequal levels on a spring: with x = centre + y, centre = (backward - forward) / (2 wn^2), it is
-/// that of the mean level, a = (forward + backward) / 2; its orbits lie about the centre.
+/// Coulomb friction of unequal levels on a spring: with x = center + y, center = (backward - forward) / (2 wn^2), it is
+/// that of the mean level, a = (forward + backward) / 2; its orbits lie about the center.
 ///
 /// @param slider  a law with equal levels both ways, and an optional spring; or Coulomb friction of any finite levels
 ///                on a spring
@@ -537,7 +537,7 @@ std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega,
   detail::check_orbit_arguments(balanced.slider, load, omega, "orbits");
   std::vector<Orbit> found =
       detail::with_finder(balanced.slider, load, omega, [&](const auto& finder) { return finder.find(progress); });
-  for (Orbit& orbit : found) orbit = detail::moved(std::move(orbit), balanced.centre);
+  for (Orbit& orbit : found) orbit = detail::moved(std::move(orbit), balanced.center);
   return found;
 }
 
@@ -552,7 +552,7 @@ std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::
 /// @return the state at each time
 template <FrictionLaw Law>
 std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, const std::vector<double>& times) {
-  std::vector<State> states(times.size(), State::at(orbit.centre, 0));
+  std::vector<State> states(times.size(), State::at(orbit.center, 0));
   if (orbit.at_rest() || times.empty()) return states;
   for (const double time : times) detail::require(std::isfinite(time), "states_at: times must be finite", time, "s");
   const HarmonicMotion motion(orbit.load, orbit.omega, orbit.period());

@@ -79,7 +79,7 @@ enum class Overlap {
 class PulseSuperposition {
  public:
   /// Above this lambda dt the overlap series describes one never-ending composite, and is refused.
-  static constexpr double most_overlap = 1e6;
+  static constexpr double max_overlap = 1e6;
 
   explicit PulseSuperposition(Overlap overlap = Overlap::renewal) : overlap_(overlap) {}
 
@@ -131,7 +131,7 @@ class PulseSuperposition {
   }
 
   /// Above this lambda dt `distribution` is refused.
-  static constexpr double most_overlap_of_distribution = 0.1;
+  static constexpr double max_overlap_of_distribution = 0.1;
 
   /// The distribution of the displacement at a time: pulses come independently, each that exceeds the slip level adds
   /// its offset, so that x is a compound Poisson sum. With its mean and variance those of `predict`,
