@@ -5,7 +5,7 @@
 
 The stick is a spring that yields at mu g: `ElasticPP` in a `zeroLength` element, with Newmark's
 average acceleration, undamped. Differences from `integrate` at the end of 18 records, where the
-peak is above a centimetre: these are the tables of the guides for equipment and isolation.
+peak is above a centimeter: these are the tables of the guides for equipment and isolation.
 """
 
 from __future__ import annotations

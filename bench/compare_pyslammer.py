@@ -55,12 +55,12 @@ def main() -> None:
         for ky in YIELD:
             law = ss.Coulomb(slip_level=ky * ss.STANDARD_GRAVITY, backward=math.inf)
             slide = partial(ss.integrate, law, motion)
-            analyse = partial(slam.RigidAnalysis, ky, ground)
-            r, its = slide(), analyse().max_sliding_disp
+            analyze = partial(slam.RigidAnalysis, ky, ground)
+            r, its = slide(), analyze().max_sliding_disp
             if not abs(r.energy.imbalance) <= 1e-11 * r.energy.dissipated:
                 sys.exit(f"wrong answer: {name}, ky = {ky}: energy {r.energy.imbalance}")
             timings = take_turns(
-                {"ours": (slide, len(record.accel)), "its": (analyse, len(ground.accel))},
+                {"ours": (slide, len(record.accel)), "its": (analyze, len(ground.accel))},
                 args.rounds,
             )
             ours_times += timings["ours"].times

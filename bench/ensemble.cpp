@@ -330,7 +330,7 @@ double largest_memory() {  // [MB]
 
 void million() {
   EnsembleOptions how = options(1'000'000, true, 0);
-  how.heartbeat = [](const EnsembleProgress& progress) {
+  how.progress = [](const EnsembleProgress& progress) {
     std::fprintf(stderr, "\r%3.0f %%",
                  100 * static_cast<double>(progress.done) / static_cast<double>(progress.members));
   };

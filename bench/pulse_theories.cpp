@@ -116,7 +116,7 @@ Ratio ratio(double theory, const Estimate& found) {
 void print_map() {
   constexpr std::array sigmas = {0.2, 0.25, 1.0 / 3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0};
   constexpr std::array rates = {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0};
-  constexpr double most_pulses = 1e8;  // of one ensemble
+  constexpr double max_pulses = 1e8;  // of one ensemble
   std::printf("theory / simulation, its standard error in the last digits; R growth rate, V velocity variance\n");
   std::printf("%7s %6s %22s %22s %13s %6s %6s %6s %6s %13s %6s %6s %6s %6s\n", "sigma/a", "rate", "R", "V", "R: chain",
               "fine", "none", "thesis", "renew", "V: chain", "fine", "none", "thesis", "renew");
@@ -124,7 +124,7 @@ void print_map() {
     for (const double rate : rates) {
       const PoissonPulses source = pulses(rate, sigma);
       EnsembleOptions how;
-      how.members = static_cast<std::uint64_t>(most_pulses / (rate * duration));
+      how.members = static_cast<std::uint64_t>(max_pulses / (rate * duration));
       how.seed = 1;
       how.threads = 1;
       how.dt = duration / 32;

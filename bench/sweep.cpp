@@ -25,7 +25,7 @@ constexpr std::size_t samples = 8700, levels = 100;
 constexpr double dt = 0.005;
 
 /// Filtered noise in an envelope that rises in 2 to 8 s and decays, much as recorded: like the records of pyslammer it
-/// has centre frequencies from 1.5 to 4 Hz, and 5 to 95 % of its energy within 4 to 15 s. The largest accelerations are
+/// has center frequencies from 1.5 to 4 Hz, and 5 to 95 % of its energy within 4 to 15 s. The largest accelerations are
 /// lognormal, with a median of 0.15 g and a logarithmic deviation of 0.8.
 GroundMotion record(std::uint64_t seed) {
   std::mt19937_64 bits(seed);

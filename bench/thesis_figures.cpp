@@ -74,7 +74,7 @@ int run(const std::vector<std::string>& arguments) {
   if (numbers.empty()) numbers.assign(Thesis::numbers().begin(), Thesis::numbers().end());
   ThesisOptions options{.members = members.value_or(check ? 2000 : 100'000), .seed = seed.value_or(check ? 2 : 1)};
   std::string told;
-  options.heartbeat = [&](std::string_view what, double) {
+  options.progress = [&](std::string_view what, double) {
     if (what != told) std::fprintf(stderr, "%.*s\n", static_cast<int>(what.size()), what.data());
     told = what;
   };

@@ -22,23 +22,23 @@ args = ask.parse_args()
 quake = ss.read_record(args.record) if args.record else ss.sample_record("Loma_Prieta")
 strong = ss.strong_motion(quake)
 fit = ss.fit_pulses(quake)
-spectrum = ss.estimate_spectrum(quake, fit.centre_frequency_hz / 3)
+spectrum = ss.estimate_spectrum(quake, fit.center_frequency_hz / 3)
 print(f"{quake.name}: {strong.duration:.1f} s of strong motion")
 error = fit.half_width_error / fit.half_width
-print(f"f_c by the spectrum    {fit.centre_frequency_hz:.2f} Hz +- {100 * error:.0f} %")
-print(f"f_c by the velocity    {strong.centre_frequency_hz:.2f} Hz")
+print(f"f_c by the spectrum    {fit.center_frequency_hz:.2f} Hz +- {100 * error:.0f} %")
+print(f"f_c by the velocity    {strong.center_frequency_hz:.2f} Hz")
 print(f"misfit                 {fit.misfit:.2f}")
 
 rectangular = ss.PoissonPulses.from_earthquake(
     rms_acceleration=fit.rms_acceleration,
-    centre_frequency_hz=fit.centre_frequency_hz,
+    center_frequency_hz=fit.center_frequency_hz,
     duration=strong.duration,
 )
 shaped = ss.PoissonPulses.from_spectrum(
     spectrum, rate=rectangular.rate, duration=strong.duration, dt=0.01, tolerance=0.01
 )
 
-f = np.linspace(0, 4 * fit.centre_frequency_hz, 801)
+f = np.linspace(0, 4 * fit.center_frequency_hz, 801)
 with style():
     figure = Figure(figsize=(7, 3.4), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))

@@ -34,7 +34,7 @@ double block_amplitude(const Slider<Coulomb>& slider, double b, double omega) {
 // The frequencies of amplitude A by averaging: the lower branch and the upper one, where they are real.
 void add_branches(ThesisPanel& panel, const SlowlyVaryingParameters& svp, double b, double least, double most) {
   ThesisCurve upper{ratio(b), Kind::thesis, {}, {}}, lower = upper;
-  for (const double amplitude : geometric(std::max(least, svp.least_amplitude(b) * (1 + 1e-9)), most, 240)) {
+  for (const double amplitude : geometric(std::max(least, svp.min_amplitude(b) * (1 + 1e-9)), most, 240)) {
     const theory::Branches omega = svp.frequency(b, amplitude);
     for (auto [curve, value] : {std::pair{&upper, omega.upper}, std::pair{&lower, omega.lower}})
       if (std::isfinite(value)) {
@@ -73,15 +73,15 @@ void add_exact(ThesisPanel& panel, const OrbitBranch& branch, const std::string&
 // The branches of a caster, a = 3l = 1: that of its large orbits, and others that do not hang together with it.
 std::vector<OrbitBranch> caster_branches(const Thesis& thesis, const Slider<Caster>& slider, double b,
                                          std::vector<double> starts, double low, double high, double largest) {
-  const auto heartbeat = [&] {
-    if (thesis.options().heartbeat) thesis.options().heartbeat("exact orbits, B/a = " + number(b), 0);
+  const auto progress = [&] {
+    if (thesis.options().progress) thesis.options().progress("exact orbits, B/a = " + number(b), 0);
   };
-  const ContinuationOptions options{.largest_step = 0.04, .largest_amplitude = largest, .heartbeat = heartbeat};
+  const ContinuationOptions options{.max_step = 0.04, .max_amplitude = largest, .progress = progress};
   std::vector<OrbitBranch> branches;
   for (const double omega : starts)
-    for (const Orbit& orbit : orbits(slider, b, omega, heartbeat)) {
+    for (const Orbit& orbit : orbits(slider, b, omega, progress)) {
       const auto passes = [&](const OrbitBranch& branch) {
-        // Between two neighbours on the branch that have both frequencies and amplitudes about it.
+        // Between two neighbors on the branch that have both frequencies and amplitudes about it.
         for (std::size_t i = 0; i + 1 < branch.orbits.size(); ++i) {
           const Orbit &p = branch.orbits[i], &q = branch.orbits[i + 1];
           if ((p.omega - orbit.omega) * (q.omega - orbit.omega) > 0) continue;
@@ -279,7 +279,7 @@ ThesisFigure figure_2_5(Thesis& thesis) {
       ThesisCurve exact = curve(ratio(b), Kind::exact, even(low, high, 80),
                                 [&](double omega) { return block_amplitude(block, b, omega); });
       panel.curves.push_back(std::move(exact));
-      if (thesis.options().heartbeat) thesis.options().heartbeat("2.5", b / 4);
+      if (thesis.options().progress) thesis.options().progress("2.5", b / 4);
     }
   }
   panel.x_limits = {0, 2};

@@ -33,8 +33,8 @@ double linearized(double low, double width) { return method.predict(block, band_
 // fewer, and be less Gaussian: it gets a longer period.
 GaussianExcitation shaking(double low, double width) {
   constexpr std::size_t samples = 1024;
-  constexpr double dt = 0.1, least_lines = 32;
-  const auto period = std::bit_ceil(static_cast<std::size_t>(std::ceil(least_lines * 2 * pi / dt / width)));
+  constexpr double dt = 0.1, min_lines = 32;
+  const auto period = std::bit_ceil(static_cast<std::size_t>(std::ceil(min_lines * 2 * pi / dt / width)));
   GaussianOptions options;
   options.period = std::max(samples, period);
   options.zero_frequency = low == 0;

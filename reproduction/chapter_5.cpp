@@ -74,7 +74,7 @@ ThesisFigure figure_5_2(Thesis&) {
   const double peak =
       numerics::first_where(2, 2.6, [&](double w) { return pulses.density(w + h) <= pulses.density(w - h); });
   figure.statements.push_back(about("(5.60)", "the spectrum's peak, ωΔt", pi, 0.05, {peak},
-                                    "π/Δt is a definition of the centre frequency, not its peak"));
+                                    "π/Δt is a definition of the center frequency, not its peak"));
   return figure;
 }
 
@@ -166,7 +166,7 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
   }
   predictions.push_back({"pulse chain", Kind::theory, {}});
   for (const double p : finely) {
-    if (thesis.options().heartbeat) thesis.options().heartbeat("pulse chain", p / 2);
+    if (thesis.options().progress) thesis.options().progress("pulse chain", p / 2);
     predictions.back().moments.push_back(chain(p));
   }
   for (const Measure& measure : measures) {
@@ -293,7 +293,7 @@ Estimate rms(const std::vector<double>& x) {
   return root({mean, std::sqrt(scatter / (n - 1) / n)});
 }
 
-Estimate in_centimetres(Estimate e) { return {100 * e.value, 100 * e.error}; }
+Estimate in_centimeters(Estimate e) { return {100 * e.value, 100 * e.error}; }
 
 }  // namespace
 
@@ -314,7 +314,7 @@ ThesisFigure table_5_1(Thesis& thesis) {
     const std::vector<double> time = ensemble.time();
     Points points(name, ensemble.members());
     for (std::size_t k = time.size() / 8; k < time.size(); k += time.size() / 8)
-      points.add(time[k], in_centimetres(root({variance.value[k], variance.error[k]})));
+      points.add(time[k], in_centimeters(root({variance.value[k], variance.error[k]})));
     panel.curves.push_back(std::move(points.curve));
 
     const Row& row = table[i];
@@ -382,7 +382,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
     panel.curves.push_back(curve(name, Kind::thesis, finely, [&](double mu) { return series(event, mu); }));
     panel.curves.push_back(curve(name, Kind::theory, finely, [&](double mu) { return chain(event, mu); }));
     Points simulation(name, thesis.options().members);
-    for (const double mu : points) simulation.add(mu, in_centimetres(simulated(event, mu)));
+    for (const double mu : points) simulation.add(mu, in_centimeters(simulated(event, mu)));
     panel.curves.push_back(std::move(simulation.curve));
     panel.curves.push_back(line("ground", 0, 0.01, in_ground(event)));
   }
@@ -403,7 +403,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
   ThesisPanel casters{"Carts on casters", figure.panels[0].x, figure.panels[0].y, false, true};
   for (const std::string_view event : PoissonPulses::events()) {
     Points simulation{std::string(event), carts};
-    for (const double mu : {0.1, 0.3, 0.5, 0.7}) simulation.add(mu, in_centimetres(rolled(event, mu)));
+    for (const double mu : {0.1, 0.3, 0.5, 0.7}) simulation.add(mu, in_centimeters(rolled(event, mu)));
     casters.curves.push_back(std::move(simulation.curve));
     casters.curves.push_back(line("ground", 0.05, 0.75, in_ground(event)));
   }
@@ -420,10 +420,10 @@ ThesisFigure figure_5_7(Thesis& thesis) {
                                     "50 % is that of the variance; of the rms, as of the great ones, 22.5 %"));
   for (const double mu : {0.1, 0.3})
     figure.statements.push_back(
-        at_least("5.6", "moderate very near field, μ = " + number(mu) + ": \"tens of centimetres\", in cm", 10,
-                 in_centimetres(simulated(events[2], mu)), "of the final rms"));
+        at_least("5.6", "moderate very near field, μ = " + number(mu) + ": \"tens of centimeters\", in cm", 10,
+                 in_centimeters(simulated(events[2], mu)), "of the final rms"));
   const auto ratio = [&](const char* event, double mu) {
-    const Estimate e = in_centimetres(simulated(event, mu));
+    const Estimate e = in_centimeters(simulated(event, mu));
     const double predicted = series(event, mu);
     return Estimate{e.value / predicted, e.error / predicted};
   };
@@ -434,7 +434,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
   double worst = 0, error = 0;
   for (const char* event : events)
     for (const double mu : points) {
-      const Estimate e = in_centimetres(simulated(event, mu));
+      const Estimate e = in_centimeters(simulated(event, mu));
       if (e.value < 1) continue;
       const double over = chain(event, mu) / e.value, off = std::abs(over - 1);
       if (off > worst) {
@@ -450,14 +450,14 @@ ThesisFigure figure_5_7(Thesis& thesis) {
     figure.statements.push_back(std::move(statement));
   };
   for (const char* event : {events[0], events[1]}) {
-    const Estimate e = in_centimetres(rolled(event, 0.5));
+    const Estimate e = in_centimeters(rolled(event, 0.5));
     of_carts(at_most("5.6", std::string(event) + ", μ = 0.5: a cart's final rms over the ground's", 1,
                      {e.value / in_ground(event), e.error / in_ground(event)},
                      "beyond a few reaches its friction is gone, and it keeps the velocity that it broke loose with"));
   }
-  const Estimate e = in_centimetres(rolled(events[0], 0.5)),
+  const Estimate e = in_centimeters(rolled(events[0], 0.5)),
                  block_of_level =
-                     in_centimetres(rms(thesis
+                     in_centimeters(rms(thesis
                                             .ensemble("block of the cart's level", carts, false,
                                                       [&](const EnsembleOptions&options) {
                                                         return run_ensemble(Coulomb(cart(0.5).slip_level()),

@@ -172,7 +172,7 @@ ThesisFigure Thesis::figure(std::string_view number) {
     throw std::invalid_argument(message + ", got " + std::string(number));
   }
   number_ = number;
-  if (options_.heartbeat) options_.heartbeat(number_, 0);
+  if (options_.progress) options_.progress(number_, 0);
   const auto begin = std::chrono::steady_clock::now();
   ThesisFigure figure = entry->draw(*this);
   for (ThesisStatement& statement : figure.statements)
@@ -187,10 +187,10 @@ const Ensemble& Thesis::ensemble(const std::string& what, std::uint64_t members,
   if (const auto kept = ensembles_.find(key); kept != ensembles_.end()) return kept->second;
   EnsembleOptions options{
       .members = members, .seed = options_.seed, .threads = options_.threads, .velocity_spectrum = velocity_spectrum};
-  if (options_.heartbeat)
-    options.heartbeat = [&](const EnsembleProgress& progress) {
-      options_.heartbeat(number_ + ": " + what,
-                         static_cast<double>(progress.done) / static_cast<double>(progress.members));
+  if (options_.progress)
+    options.progress = [&](const EnsembleProgress& progress) {
+      options_.progress(number_ + ": " + what,
+                        static_cast<double>(progress.done) / static_cast<double>(progress.members));
     };
   return ensembles_.emplace(key, run(options)).first->second;
 }

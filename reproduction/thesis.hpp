@@ -84,7 +84,7 @@ struct ThesisOptions {
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< at most; 0: as many as the machine has
   /// Called some times a second with what is being done and how much of it is; may throw to end the work.
-  std::function<void(std::string_view what, double share)> heartbeat{};
+  std::function<void(std::string_view what, double share)> progress{};
 };
 
 /// Draws the figures of the thesis, number by number; what figures share is computed once.
@@ -106,7 +106,7 @@ class Thesis {
   const ThesisOptions& options() const noexcept { return options_; }
 
   /// An ensemble, remembered under a name of its own.
-  /// @param what  as the heartbeat is told
+  /// @param what  as the progress callback is told
   /// @param run   simulates it with the options given
   const Ensemble& ensemble(const std::string& what, std::uint64_t members, bool velocity_spectrum,
                            const std::function<Ensemble(const EnsembleOptions&)>& run);

@@ -39,7 +39,7 @@ TEST_CASE("a slider at rest holds while load and spring stay within its levels",
   CHECK(integrate(slider, held(2, 1), from(0.25)).displacement[1] < 0.25);
 }
 
-TEST_CASE("a stretched spring rings down by twice the friction each swing, and sticks off centre", "[slider]") {
+TEST_CASE("a stretched spring rings down by twice the friction each swing, and sticks off center", "[slider]") {
   // values.json edge.spring_ringdown: 3.5 to -1.5 to -0.5, half a period each; it must not creep back to 0.
   for (const double sense : {1.0, -1.0}) {
     const Response r = integrate(Slider(Coulomb(1), 1), held(0, 4 * pi), from(3.5 * sense));
@@ -135,7 +135,7 @@ TEST_CASE("a spring swings many times within one piece of the ground motion", "[
   CHECK(count(pieces.events) == count(braked.events));
 }
 
-TEST_CASE("settling under a steady pull over, a slider held off centre by the ground is let go", "[slider]") {
+TEST_CASE("settling under a steady pull over, a slider held off center by the ground is let go", "[slider]") {
   // wn^2 x = 3 with n = -2.5 and a = 1 holds; when the motion ends, 3 > 1 pulls it back: 3 to -1, where it sticks.
   const Slider slider(Coulomb(1), 1);
   const Response held_there = integrate(slider, held(-2.5, 1), from(3));

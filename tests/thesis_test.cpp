@@ -173,8 +173,8 @@ TEST_CASE("a file of a figure has a line for each point and 17 digits") {
   CHECK(std::stod(text.substr(begin, end - begin)) == figure.panels[0].curves[0].x[0]);
 }
 
-TEST_CASE("what a heartbeat throws ends a figure") {
-  Thesis thesis({.members = 1000, .heartbeat = [](std::string_view, double) { throw std::runtime_error("enough"); }});
+TEST_CASE("what a progress callback throws ends a figure") {
+  Thesis thesis({.members = 1000, .progress = [](std::string_view, double) { throw std::runtime_error("enough"); }});
   CHECK_THROWS_WITH(thesis.figure("5.4"), ContainsSubstring("enough"));
 }
 

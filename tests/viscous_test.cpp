@@ -198,22 +198,22 @@ TEST_CASE("lanes find the peaks between samples, with each instruction set", "[v
     const detail::ViscousLanes lanes{ViscousSlider(zeta, wn), DampedBasis(zeta, wn, h)};
     on_each_instruction_set([&](const std::string& set) {
       INFO(set);
-      alignas(64) double x[detail::most_lanes] = {}, v[detail::most_lanes] = {}, peak[detail::most_lanes] = {};
+      alignas(64) double x[detail::max_lanes] = {}, v[detail::max_lanes] = {}, peak[detail::max_lanes] = {};
       std::vector<Response> one_by_one;
       std::vector<std::vector<double>> n;
-      for (std::size_t i = 0; i < detail::most_lanes; ++i) {
+      for (std::size_t i = 0; i < detail::max_lanes; ++i) {
         n.push_back(gaussian(100 + i, 60, 1));
         one_by_one.push_back(integrate(lanes.slider, GroundMotion(n[i], h)));
       }
       for (std::size_t k = 1; k < 60; ++k) {
-        double start[detail::most_lanes], end[detail::most_lanes];
-        for (std::size_t i = 0; i < detail::most_lanes; ++i) {
+        double start[detail::max_lanes], end[detail::max_lanes];
+        for (std::size_t i = 0; i < detail::max_lanes; ++i) {
           start[i] = n[i][k - 1];
           end[i] = n[i][k];
         }
-        advance_lanes(lanes, detail::most_lanes, start, end, {x, v, peak});
+        advance_lanes(lanes, detail::max_lanes, start, end, {x, v, peak});
       }
-      for (std::size_t i = 0; i < detail::most_lanes; ++i) {
+      for (std::size_t i = 0; i < detail::max_lanes; ++i) {
         CHECK(peak[i] == Approx(one_by_one[i].peak).epsilon(1e-12));
         CHECK(x[i] == Approx(one_by_one[i].residual).margin(1e-12 * one_by_one[i].peak));
       }
@@ -256,7 +256,7 @@ TEST_CASE("what a viscous slider cannot be or do is refused", "[viscous]") {
   EnsembleOptions settle = options(2);
   settle.settle = true;
   CHECK_THROWS_WITH(run_ensemble(ViscousSlider(1), shaking(), settle), ContainsSubstring("does not come to rest"));
-  IntegrateOptions beat;
-  beat.heartbeat = [] { throw std::runtime_error("enough"); };
-  CHECK_THROWS_WITH(integrate(ViscousSlider(1), broadband(1, 20000), beat), "enough");
+  IntegrateOptions how;
+  how.progress = [] { throw std::runtime_error("enough"); };
+  CHECK_THROWS_WITH(integrate(ViscousSlider(1), broadband(1, 20000), how), "enough");
 }

@@ -1,4 +1,4 @@
-// Where a slider is, how fast it moves, and in which mode.
+// The state of a slider: position, velocity and mode.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace stickslip {
 
-/// The two ways a slider can slide along its line.
+/// The two directions in which a slider can slide along its line.
 enum class Direction : std::int8_t { backward = -1, forward = +1 };
 
 /// +1 forward, -1 backward.
@@ -25,22 +25,22 @@ constexpr Mode mode_of(Direction direction) noexcept { return static_cast<Mode>(
 /// The direction of a mode that is not stuck.
 constexpr Direction direction_of(Mode mode) noexcept { return static_cast<Direction>(mode); }
 
-/// All that the motion to come depends on. The mode is carried, never derived again from (x, v): the same (x, v = 0)
-/// can be a rest or the instant in which a slip begins.
+/// Everything on which future motion depends. The mode is stored, never inferred from (x, v): the same (x, v = 0) can
+/// be a state of rest or the instant at which a slip begins.
 struct State {
   double displacement = 0;  ///< x, relative to the ground [m]
-  double velocity = 0;      ///< x', relative to the ground [m/s]; 0 where stuck, else never against the mode
+  double velocity = 0;      ///< x', relative to the ground [m/s]; 0 if stuck, else never opposite to the mode
   Mode mode = Mode::stuck;
   bool in_flight = false;   ///< whether the slider has left the ground
   double gap = 0;           ///< between slider and ground, in flight [m]
   double gap_velocity = 0;  ///< rate of the gap, in flight [m/s]
-  /// Slid so far, forward and backward alike [m], at least 0. Counted where the law depends on it (MemoryLaw), else
-  /// left as it is.
+  /// Total sliding distance so far, forward plus backward [m], at least 0. Updated only if the law depends on it
+  /// (MemoryLaw).
   double sliding_distance = 0;
-  /// Left at the surface, where the law depends on its temperature (HeatedLaw), else cold.
+  /// Heat left in the sliding surface. Updated only if the law depends on its temperature (HeatedLaw).
   SurfaceHeat heat{};
 
-  /// At rest where `velocity` is 0, else sliding the way it points.
+  /// A state at rest if `velocity` is 0, else one that slides in its direction.
   static State at(double displacement, double velocity) noexcept {
     return {.displacement = displacement,
             .velocity = velocity,

@@ -68,7 +68,7 @@ template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,
                                                 &Orbit::half_period_multipliers, &Orbit::multipliers, &Orbit::stable,
-                                                &Orbit::mean_arbitrary, &Orbit::centre, &Orbit::state, &Orbit::events,
+                                                &Orbit::mean_arbitrary, &Orbit::center, &Orbit::state, &Orbit::events,
                                                 &Orbit::dissipated);
 
 template <>
@@ -98,11 +98,11 @@ inline constexpr auto parts<StrongMotion> =
     std::tuple(&StrongMotion::peak_acceleration, &StrongMotion::peak_velocity, &StrongMotion::peak_displacement,
                &StrongMotion::cumulative_absolute_velocity, &StrongMotion::mean_period, &StrongMotion::arias_intensity,
                &StrongMotion::begin, &StrongMotion::end, &StrongMotion::duration, &StrongMotion::duration_5_75,
-               &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity, &StrongMotion::centre_frequency_hz);
+               &StrongMotion::rms_acceleration, &StrongMotion::rms_velocity, &StrongMotion::center_frequency_hz);
 template <>
 inline constexpr auto parts<PulseFit> = std::tuple(&PulseFit::half_width, &PulseFit::half_width_error,
                                                    &PulseFit::intensity, &PulseFit::rms_acceleration,
-                                                   &PulseFit::centre_frequency_hz, &PulseFit::misfit);
+                                                   &PulseFit::center_frequency_hz, &PulseFit::misfit);
 
 template <>
 inline constexpr auto parts<theory::Coverage> = std::tuple(&theory::Coverage::reason, &theory::Coverage::excitation);

@@ -157,7 +157,7 @@ ValueError
              ThesisOptions options{.members = members, .seed = seed, .threads = threads.value_or(0)};
              std::optional<HeldFunction> held;
              if (progress) held.emplace(*progress);
-             options.heartbeat = [held](std::string_view what, double share) {
+             options.progress = [held](std::string_view what, double share) {
                const py::gil_scoped_acquire lock;
                if (PyErr_CheckSignals() != 0) throw py::error_already_set();
                if (held) held->function()(what, share);

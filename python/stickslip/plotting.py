@@ -56,9 +56,9 @@ __all__ = [
     "without_contact",
 ]
 
-INK, GREY, PALE = "#222222", "#8a8a8a", "#e6e6e6"
+INK, GRAY, PALE = "#222222", "#8a8a8a", "#e6e6e6"
 BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
-COLOURS = (BLUE, VERMILION, GREEN, "#cc79a7", "#e69f00", "#56b4e9")
+COLORS = (BLUE, VERMILION, GREEN, "#cc79a7", "#e69f00", "#56b4e9")
 SUFFIXES = (".png", ".pdf", ".svg")
 
 
@@ -71,15 +71,15 @@ def style() -> Any:
             "axes.titleweight": "bold",
             "axes.titlelocation": "left",
             "axes.labelcolor": INK,
-            "axes.edgecolor": GREY,
+            "axes.edgecolor": GRAY,
             "axes.linewidth": 0.8,
             "axes.spines.top": False,
             "axes.spines.right": False,
             "axes.unicode_minus": True,
-            "axes.prop_cycle": matplotlib.cycler(color=COLOURS),
+            "axes.prop_cycle": matplotlib.cycler(color=COLORS),
             "text.color": INK,
-            "xtick.color": GREY,
-            "ytick.color": GREY,
+            "xtick.color": GRAY,
+            "ytick.color": GRAY,
             "xtick.labelcolor": INK,
             "ytick.labelcolor": INK,
             "lines.linewidth": 1.1,
@@ -259,10 +259,10 @@ def plot_response(
             speed.set_ylim(-1, 1)
         speed.set_ylabel(f"relative velocity\n[{fast_unit}/s]")
         if _has_friction(response.slider):
-            speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GREY)
+            speed.annotate("shaded:\nstuck", (1, 0.5), **_AT_RIGHT, va="center", color=GRAY)
 
         way.plot(t, x * length, color=BLUE, linewidth=1.4)
-        way.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+        way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
         way.set_xlim(t[0], t[-1])
         _mark_peak(way, t, x * length, unit)
@@ -378,23 +378,23 @@ def plot_responses(
         _title(ground, responses[0].motion)
         _draw_ground(ground, responses[0])
         for i, (response, label) in enumerate(zip(responses, labels)):
-            colour = COLOURS[i % len(COLOURS)]
-            dashes = ("-", "--", ":")[i // len(COLOURS) % 3]
+            color = COLORS[i % len(COLORS)]
+            dashes = ("-", "--", ":")[i // len(COLORS) % 3]
             t, x, _ = _path(response)
             for bound in _held(response, t, x):
                 if np.isfinite(bound).all():
-                    ground.plot(t, bound, color=colour, linestyle=dashes, linewidth=0.8)
+                    ground.plot(t, bound, color=color, linestyle=dashes, linewidth=0.8)
             way.plot(
                 t,
                 x * length,
-                color=colour,
+                color=color,
                 linestyle=dashes,
                 label=f"{label}: peak {_digits(response.peak * length)} {unit}, "
                 f"{'residual' if response.at_rest else 'still sliding at'} "
                 f"{_digits(response.residual * length)} {unit}",
             )
-            _dot_at_right(way, response.residual * length, colour)
-        way.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+            _dot_at_right(way, response.residual * length, color)
+        way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
         way.set_xlabel("time [s]")
         way.set_xlim(responses[0].time[0], max(r.events["time"][-1] for r in responses))
@@ -543,8 +543,8 @@ def plot_hysteresis(
         x, force = _force_path(response)
         length, unit = _unit(response.peak)
         axes.plot(x * length, force / STANDARD_GRAVITY, color=BLUE, linewidth=0.9)
-        axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
-        axes.axvline(0, color=GREY, linewidth=0.6, zorder=0)
+        axes.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
+        axes.axvline(0, color=GRAY, linewidth=0.6, zorder=0)
         axes.set_xlabel(f"relative displacement [{unit}]")
         axes.set_ylabel("force per unit mass [g]")
         _title(axes, response.motion, title, _describe(response.slider))
@@ -589,9 +589,9 @@ def plot_sweep(
         As `SweepTable.plot` does.
     """
     curves = list(table.curves(against))
-    if len(curves) > len(COLOURS):
+    if len(curves) > len(COLORS):
         raise ValueError(
-            f"plot_sweep: draws at most {len(COLOURS)} combinations of the other parameters, got"
+            f"plot_sweep: draws at most {len(COLORS)} combinations of the other parameters, got"
             f" {len(curves)}; fix some of them"
         )
     heading = quantity.replace("_", " ")
@@ -601,21 +601,21 @@ def plot_sweep(
     axis = {"mu": "coefficient of friction [\N{MINUS SIGN}]", "period": "period [s]"}
     with style():
         figure, axes = _one_panel("plot_sweep", None, ax, 7, 4.5)
-        for (name, label, places), colour in zip(curves, COLOURS):
+        for (name, label, places), color in zip(curves, COLORS):
             x = table.parameters[name][places]
             if len(table.records) == 1:  # both polarities of one record, without statistics
                 for p, polarity in enumerate(table.polarity):
                     shown = ", ".join(part for part in (label, polarity) if part)
                     style_of = {"linestyle": "--" if p else "-", "linewidth": 1.5}
-                    axes.plot(x, values[places, 0, p], color=colour, label=shown, **style_of)
+                    axes.plot(x, values[places, 0, p], color=color, label=shown, **style_of)
                 continue
             if len(curves) == 1:
                 thin = values[places].reshape(len(places), -1)
                 axes.plot(x, thin, color="#c4c4c4", linewidth=0.5, alpha=min(1, 40 / samples + 0.2))
             low, middle, high = quantiles[:, places]
-            axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0)
+            axes.fill_between(x, low, high, color=color, alpha=0.25, linewidth=0)
             shown = f"median, 16 and 84 % of {samples} histories"
-            axes.plot(x, middle, color=colour, linewidth=2, label=label or shown)
+            axes.plot(x, middle, color=color, linewidth=2, label=label or shown)
         name = curves[0][0]
         axes.set_xlabel(axis.get(name, name))
         axes.set_ylabel(
@@ -718,8 +718,8 @@ def plot_friction_sweep(
         figure, axes = _one_panel("plot_friction_sweep", figure, ax, 7, 5)
         for line in np.delete(lines, lifted, axis=0):
             axes.plot(mu, line, color="#c4c4c4", linewidth=0.8)
-        for i, colour in zip(lifted, COLOURS):
-            axes.plot(mu, lines[i], color=colour, linewidth=1.5, label=printable(names[i]))
+        for i, color in zip(lifted, COLORS):
+            axes.plot(mu, lines[i], color=color, linewidth=1.5, label=printable(names[i]))
         median = np.median(lines, axis=0)
         axes.plot(mu, median, color=INK, linewidth=3, label=f"median of {len(names)} records")
         axes.set(xscale="log", yscale="log", xlim=(mu[0], mu[-1]))
@@ -786,7 +786,7 @@ def plot_comparison(
                 axes.plot(
                     moments.time,
                     getattr(moments, name) * factor**2,
-                    color=COLOURS[i % len(COLOURS)],
+                    color=COLORS[i % len(COLORS)],
                     linestyle=("--", "-.", ":")[i % 3],
                     marker=".",
                     label=theory,
@@ -1087,7 +1087,7 @@ def _mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str) -> None:
     axes.set_ylim(low - height * (0.07 if up else 0.18), high + height * (0.18 if up else 0.07))
     if x[at] == 0:
         axes.set_ylim(-1, 1)
-        axes.annotate("never slips", (0.5, 0.6), xycoords="axes fraction", ha="center", color=GREY)
+        axes.annotate("never slips", (0.5, 0.6), xycoords="axes fraction", ha="center", color=GRAY)
         return
     place = (t[at] - t[0]) / (t[-1] - t[0])
     axes.plot(t[at], x[at], "o", color=VERMILION, markersize=5, zorder=4)
@@ -1116,10 +1116,10 @@ def _mark_residual(axes: Axes, response: Response, length: float, unit: str) -> 
     )
 
 
-def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
+def _dot_at_right(axes: Axes, x: float, color: str) -> None:
     """Draw a dot on the right edge, wherever the time axis ends."""
     edge = axes.get_yaxis_transform()
-    axes.plot(1, x, "o", color=colour, markersize=5, clip_on=False, zorder=4, transform=edge)
+    axes.plot(1, x, "o", color=color, markersize=5, clip_on=False, zorder=4, transform=edge)
 
 
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
@@ -1171,17 +1171,17 @@ def _by_speed(slow: float, fast: float) -> str:
     return f"slip level {_digits(slow)} g slow, {_digits(fast)} g fast"
 
 
-def _band(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, colour: str) -> None:
+def _band(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, color: str) -> None:
     """Draw a line in a band of plus and minus two standard errors."""
-    axes.fill_between(x, y - 2 * error, y + 2 * error, color=colour, alpha=0.25, linewidth=0)
-    axes.plot(x, y, color=colour)
+    axes.fill_between(x, y - 2 * error, y + 2 * error, color=color, alpha=0.25, linewidth=0)
+    axes.plot(x, y, color=color)
 
 
 def _note(axes: Axes, text: str, band: str = "band: two standard errors") -> None:
     """Write a line of text and an explanation of the band above the panel."""
     above = {"xycoords": "axes fraction", "textcoords": "offset points", "fontsize": 8}
     axes.annotate(text, (0, 1), xytext=(0, 4), color=VERMILION, **above)
-    axes.annotate(band, (1, 1), xytext=(0, 4), color=GREY, ha="right", **above)
+    axes.annotate(band, (1, 1), xytext=(0, 4), color=GRAY, ha="right", **above)
 
 
 def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
@@ -1194,7 +1194,7 @@ def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
     axes.set(yscale="log", xlabel=f"peak displacement [{unit}]", ylabel="probability of exceedance")
     axes.set_ylim(0.5 / n, 1.3)
     if highest == 0:
-        axes.annotate("none slips", (0.5, 0.5), xycoords="axes fraction", ha="center", color=GREY)
+        axes.annotate("none slips", (0.5, 0.5), xycoords="axes fraction", ha="center", color=GRAY)
         return
     levels = np.linspace(0, highest, 121)[:-1]
     shares = [e.exceedance(level) for level in levels]

@@ -155,7 +155,7 @@ def plot(figure: ThesisFigure) -> Figure:
         for axes, panel in zip(picture.subplots(1, len(panels), squeeze=False)[0], panels):
             _draw(axes, panel)
         _legend_of_kinds(picture, panels)
-        picture.text(0.01, 0.01, "\n".join(caption), fontsize=8, color=plotting.GREY, va="bottom")
+        picture.text(0.01, 0.01, "\n".join(caption), fontsize=8, color=plotting.GRAY, va="bottom")
         bottom = (0.16 * len(caption) + 0.1) / (4.3 + 0.16 * len(caption))
         picture.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
     return picture
@@ -164,16 +164,16 @@ def plot(figure: ThesisFigure) -> Figure:
 def _draw(axes: Axes, panel: ThesisPanel) -> None:
     from . import plotting
 
-    colours = _colours(panel)
+    colors = _colors(panel)
     named = set()
     for curve in panel.curves:
         label = curve.label if curve.label not in named else None
         named.add(curve.label)
-        colour = colours[curve.label]
+        color = colors[curve.label]
         if curve.kind == "region":
             axes.fill(curve.x, curve.y, color=plotting.PALE, lw=0, label=label, zorder=0)
         elif curve.kind == "limit":
-            axes.plot(curve.x, curve.y, ":", color=plotting.GREY, lw=1, label=label, zorder=1)
+            axes.plot(curve.x, curve.y, ":", color=plotting.GRAY, lw=1, label=label, zorder=1)
         elif curve.kind == "simulation":
             axes.errorbar(
                 curve.x,
@@ -182,14 +182,14 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
                 fmt="o",
                 ms=2.6,
                 lw=0.8,
-                color=colour,
+                color=color,
                 label=label,
                 zorder=3,
             )
         elif curve.kind == "points":
-            axes.plot(curve.x, curve.y, "D", ms=3, color=colour, label=label, zorder=3)
+            axes.plot(curve.x, curve.y, "D", ms=3, color=color, label=label, zorder=3)
         else:
-            axes.plot(curve.x, curve.y, _LINES[curve.kind], color=colour, label=label, zorder=2)
+            axes.plot(curve.x, curve.y, _LINES[curve.kind], color=color, label=label, zorder=2)
     if panel.log_x:
         axes.set_xscale("log")
     if panel.log_y:
@@ -207,18 +207,18 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
         axes.legend(fontsize=7.5, handlelength=2.6)
 
 
-def _colours(panel: ThesisPanel) -> dict[str, object]:
+def _colors(panel: ThesisPanel) -> dict[str, object]:
     """A color for each label: those of `plotting`, or a color scale if there are many."""
     from matplotlib import colormaps
 
     from . import plotting
 
     labels = list(dict.fromkeys(c.label for c in panel.curves if c.kind not in ("limit", "region")))
-    if len(labels) <= len(plotting.COLOURS):
-        colours = dict(zip(labels, plotting.COLOURS))
+    if len(labels) <= len(plotting.COLORS):
+        colors = dict(zip(labels, plotting.COLORS))
     else:
-        colours = dict(zip(labels, colormaps["viridis"](np.linspace(0, 0.92, len(labels)))))
-    return {curve.label: plotting.GREY for curve in panel.curves} | colours
+        colors = dict(zip(labels, colormaps["viridis"](np.linspace(0, 0.92, len(labels)))))
+    return {curve.label: plotting.GRAY for curve in panel.curves} | colors
 
 
 def _legend_of_kinds(picture: Figure, panels: list[ThesisPanel]) -> None:

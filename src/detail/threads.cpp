@@ -11,7 +11,7 @@
 namespace stickslip::detail {
 
 void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopped, const std::function<void()>& work,
-                    const std::function<void()>& beat) {
+                    const std::function<void()>& report) {
   const std::size_t available = wanted != 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
   const std::size_t count = std::min(available, tasks);
   std::mutex mutex;  // guards these
@@ -39,7 +39,7 @@ void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopp
       const bool ended = changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; });
       if (ended && error) break;
       lock.unlock();
-      beat();
+      report();
       if (ended) break;
     }
   } catch (...) {

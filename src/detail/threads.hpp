@@ -1,4 +1,4 @@
-// One piece of work on several threads, with a heartbeat.
+// Run work on several threads, with progress reports.
 #pragma once
 
 #include <atomic>
@@ -7,15 +7,16 @@
 
 namespace stickslip::detail {
 
-/// Runs `work` on several threads at once and returns when all have ended. Meanwhile the calling thread calls `beat`
+/// Runs `work` on several threads at once and returns when all have ended. Meanwhile the calling thread calls `report`
 /// ten times a second, and once more at the end.
 ///
-/// An exception sets `stopped` and is thrown again when all threads have ended: that of `beat` or of a thread that does
-/// not start, else the first one of `work`. Work should look at `stopped`, and end by returning or by any exception.
+/// An exception sets `stopped` and is thrown again when all threads have ended: that of `report` or of a thread that
+/// does not start, else the first one of `work`. Work should look at `stopped`, and end by returning or by any
+/// exception.
 ///
 /// @param wanted  number of threads; 0: as many as the machine has
 /// @param tasks   no more threads than tasks are started
 void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopped, const std::function<void()>& work,
-                    const std::function<void()>& beat);
+                    const std::function<void()>& report);
 
 }  // namespace stickslip::detail

@@ -143,7 +143,7 @@ void Ensemble::insert(std::uint64_t block, detail::Tally tally, Kept kept) {
 }
 
 void Ensemble::bound_memory() {
-  if (parts_.peaks.count() == 0 && members() <= most_kept) return;
+  if (parts_.peaks.count() == 0 && members() <= max_kept) return;
   for (const auto& [block, values] : parts_.kept)
     for (const double peak : values.peak) parts_.peaks.add(peak);
   parts_.kept.clear();
@@ -379,7 +379,7 @@ namespace {
 
 std::vector<double> gathered(const Ensemble::Parts& parts, std::vector<double> Ensemble::Kept::*what) {
   if (parts.peaks.count() != 0)
-    throw std::domain_error("Ensemble: the single members of more than " + std::to_string(Ensemble::most_kept) +
+    throw std::domain_error("Ensemble: the single members of more than " + std::to_string(Ensemble::max_kept) +
                             " are not kept; quantile and exceedance know their distribution");
   std::vector<double> all;
   for (const auto& [block, values] : parts.kept) all.insert(all.end(), (values.*what).begin(), (values.*what).end());

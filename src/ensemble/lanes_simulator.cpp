@@ -106,7 +106,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
                                            std::uint64_t seed, bool settle) {
   const std::size_t edges = excitation.options().shape.times().size();
   // Blocks so long that they could not be interrupted within a blink go member by member.
-  if (!has_friction_alone(slider) || edges > most_edges ||
+  if (!has_friction_alone(slider) || edges > max_edges ||
       excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
     return nullptr;
   return std::make_unique<PulseSimulator>(slider, excitation, seed, settle);

@@ -21,7 +21,7 @@ void check(const EnsembleOptions& options, std::size_t block) {
                                 std::to_string(options.members));
 }
 
-// Throws where motions are so large that their statistics could overflow.
+// Throws if motions are so large that their statistics could overflow.
 void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleTimes& times, std::uint64_t first) {
   const auto refuse = [](const std::string& got) {
     throw std::overflow_error("run_ensemble: displacement [m] and velocity [m/s] must not exceed " +
@@ -63,10 +63,9 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
     if (block >= first_block && block - first_block < blocks && members_of(block) != members)
       throw std::invalid_argument("run_ensemble: start holds only " + std::to_string(members) + " members from " +
                                   std::to_string(block * block_size) + " on, part of a block of " +
-                                  std::to_string(block_size) +
-                                  "; what is to be gone on from must end on a whole block");
+                                  std::to_string(block_size) + "; a resumed ensemble must end on a block boundary");
 
-  std::mutex mutex;  // guards all that follows, and the ensemble
+  std::mutex mutex;  // guards everything below, and the ensemble
   std::atomic<bool> stopped = false;
   std::uint64_t next = 0, done = 0;
 
@@ -95,11 +94,11 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
       done += members;
     }
   };
-  const auto beat = [&] {
+  const auto report = [&] {
     const std::scoped_lock lock(mutex);
-    if (options.heartbeat) options.heartbeat({done, options.members, ensemble});
+    if (options.progress) options.progress({done, options.members, ensemble});
   };
-  run_on_threads(options.threads, blocks, stopped, work, beat);
+  run_on_threads(options.threads, blocks, stopped, work, report);
   return ensemble;
 }
 

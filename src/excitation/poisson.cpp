@@ -24,7 +24,7 @@ constexpr std::uint32_t gap_purpose = 0x70756c73, amplitude_purpose = 0x616d706c
 
 struct Event {
   std::string_view name;
-  double rms_acceleration, centre_frequency_hz, duration;
+  double rms_acceleration, center_frequency_hz, duration;
 };
 
 // thesis, Table 5.1, whose column of frequencies is in Hz
@@ -143,20 +143,20 @@ PoissonPulses::PoissonPulses(double rate, double half_width, double sigma, doubl
   detail::require(std::isfinite(edges_.back()), "PoissonPulses: the length of a pulse must be finite", edges_.back(),
                   "s");
   const double lead = options_.stationary_start ? edges_.back() : 0;
-  detail::require(rate * (lead + duration) * static_cast<double>(edges_.size()) <= most_steps,
+  detail::require(rate * (lead + duration) * static_cast<double>(edges_.size()) <= max_steps,
                   "PoissonPulses: rate times duration must make at most 3e8 steps (4.8 GB), " +
                       std::to_string(edges_.size()) + " for each pulse",
                   rate * (lead + duration) * static_cast<double>(edges_.size()), "steps");
   if (options_.quantile) quantile_hash_ = examine(options_.quantile);
 }
 
-PoissonPulses PoissonPulses::from_earthquake(double rms_acceleration, double centre_frequency_hz, double duration,
+PoissonPulses PoissonPulses::from_earthquake(double rms_acceleration, double center_frequency_hz, double duration,
                                              double overlap, Options options) {
   require_positive(rms_acceleration, "rms_acceleration", "m/s^2");
-  require_positive(centre_frequency_hz, "centre_frequency_hz", "Hz");
+  require_positive(center_frequency_hz, "center_frequency_hz", "Hz");
   require_positive(overlap, "overlap", "");
-  const double rate = 2 * overlap * centre_frequency_hz;
-  const double half_width = 1 / (2 * centre_frequency_hz);  // thesis (5.60)
+  const double rate = 2 * overlap * center_frequency_hz;
+  const double half_width = 1 / (2 * center_frequency_hz);  // thesis (5.60)
   PoissonPulses unit(rate, half_width, 1, duration, std::move(options));
   unit.sigma_ = rms_acceleration / std::sqrt(unit.variance());  // thesis (5.61), for any shape
   require_positive(unit.sigma_, "sigma", "m/s^2");
@@ -176,7 +176,7 @@ PoissonPulses PoissonPulses::from_spectrum(const Spectrum& spectrum, double rate
 PoissonPulses PoissonPulses::event(std::string_view name, Options options) {
   for (const Event& e : table_5_1)
     if (e.name == name)
-      return from_earthquake(e.rms_acceleration, e.centre_frequency_hz, e.duration, 0.5, std::move(options));
+      return from_earthquake(e.rms_acceleration, e.center_frequency_hz, e.duration, 0.5, std::move(options));
   std::string names;
   for (const std::string_view known : event_names) names += (names.empty() ? "'" : ", '") + std::string(known) + "'";
   throw std::invalid_argument("PoissonPulses: event must be one of " + names + ", got '" + std::string(name) + "'");

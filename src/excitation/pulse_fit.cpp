@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t most_samples = std::size_t{1} << 22;
+constexpr std::size_t max_samples = std::size_t{1} << 22;
 
 /// Values of a two-sided density at frequencies that are evenly spaced: (j + offset) x step.
 struct Densities {
@@ -57,7 +57,7 @@ Densities periodogram(const GroundMotion& motion, const StrongMotion& strong) {
   const double whole = motion.time(motion.segments()) - motion.time(0);
   const double steps = 8 * static_cast<double>(motion.segments()) * strong.duration / whole;
   std::size_t n = 4096;
-  while (static_cast<double>(n) < steps && n < most_samples) n *= 2;
+  while (static_cast<double>(n) < steps && n < max_samples) n *= 2;
   const double peak = motion.peak_acceleration(), dt = strong.duration / static_cast<double>(n);
   const std::vector<double> velocity = velocities(motion.scaled(1 / peak), strong.begin, strong.end, n);
   std::vector<double> sample(n);
@@ -157,7 +157,7 @@ PulseFit fit(const Densities& s, double shortest_half, double longest_half, cons
   result.half_width = shortest_half * std::exp(ratio * (low + high) / 2);
   result.intensity = trial(s, result.half_width).intensity();
   result.rms_acceleration = std::sqrt(2 * result.half_width * result.intensity);
-  result.centre_frequency_hz = 1 / (2 * result.half_width);
+  result.center_frequency_hz = 1 / (2 * result.half_width);
   return result;
 }
 
@@ -219,7 +219,7 @@ PulseFit fit_pulses(const GroundMotion& motion) {
   for (double& value : s.value) value /= peak * peak;
   PulseFit result = fit(s, 4 * pi / highest, strong.duration / 8,
                         "where the strong part has " + detail::shortest(strong.duration) + " s");
-  s.value = average(s.value, static_cast<std::size_t>(std::lround(strong.duration * result.centre_frequency_hz / 6)));
+  s.value = average(s.value, static_cast<std::size_t>(std::lround(strong.duration * result.center_frequency_hz / 6)));
   find_misfit(result, s);
   result.half_width_error = relative_error(result, s) * result.half_width;
   result.intensity *= peak * peak;

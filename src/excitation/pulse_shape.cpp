@@ -21,8 +21,8 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-constexpr std::size_t fewest_points = std::size_t{1} << 12, most_points = std::size_t{1} << 20;
-constexpr int most_zeros = 8;
+constexpr std::size_t fewest_points = std::size_t{1} << 12, max_points = std::size_t{1} << 20;
+constexpr int max_zeros = 8;
 
 fftw_complex* fftw(std::vector<Complex>& values) { return reinterpret_cast<fftw_complex*>(values.data()); }
 
@@ -55,7 +55,7 @@ class Target {
     const double power = std::log2(spectrum(2 * low) / spectrum(low));
     zeros_ = static_cast<int>(std::lround(power / 2));
     detail::require(
-        zeros_ >= 1 && zeros_ <= most_zeros && std::abs(power - 2 * zeros_) < 0.01,
+        zeros_ >= 1 && zeros_ <= max_zeros && std::abs(power - 2 * zeros_) < 0.01,
         "PulseShape: where the spectrum is 0 at omega = 0 it must rise as an even power of omega, 2 to 16, or "
         "the pulse does not end; its power there is",
         power);
@@ -134,7 +134,7 @@ SpectralPulse spectral_pulse(const Spectrum& spectrum, double dt, double toleran
   const Target target(spectrum, dt);
   const auto least = static_cast<std::size_t>(target.zeros()) + 1;
 
-  for (std::size_t n = fewest_points; n <= most_points; n *= 4) {
+  for (std::size_t n = fewest_points; n <= max_points; n *= 4) {
     const std::vector<double> sequence = minimum_phase(target, dt, n);
     // Between the frequencies at which it was made, too.
     const double step = pi / (static_cast<double>(n) * dt);
@@ -168,7 +168,7 @@ SpectralPulse spectral_pulse(const Spectrum& spectrum, double dt, double toleran
     return {PulseShape(std::move(times), std::move(values)), peak};
   }
   throw std::invalid_argument("PulseShape: a pulse with this spectrum is not within the tolerance " +
-                              shortest(tolerance) + " in " + std::to_string(most_points / 2) + " pieces of " +
+                              shortest(tolerance) + " in " + std::to_string(max_points / 2) + " pieces of " +
                               shortest(dt) + " s: its peaks or its zeros are too sharp for so short a dt");
 }
 

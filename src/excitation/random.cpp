@@ -25,10 +25,10 @@ const hn::ScalableTag<std::uint32_t> narrow;
 using Real = hn::Vec<decltype(real)>;
 using Wide = hn::Vec<decltype(wide)>;
 
-constexpr std::size_t most_lanes = HWY_MAX_BYTES / sizeof(double);
+constexpr std::size_t max_lanes = HWY_MAX_BYTES / sizeof(double);
 constexpr std::size_t chunk_blocks = 256;
-static_assert(std::endian::native == std::endian::little);         // rows are read as pairs of words and as single ones
-using Words = std::uint64_t[2 * (chunk_blocks + 2 * most_lanes)];  // a block is two of these; the last step overshoots
+static_assert(std::endian::native == std::endian::little);        // rows are read as pairs of words and as single ones
+using Words = std::uint64_t[2 * (chunk_blocks + 2 * max_lanes)];  // a block is two of these; the last step overshoots
 
 /// Words of `blocks` blocks or a few more, in their order; a lane is a block.
 HWY_ATTR void philox(const RandomStream& stream, std::uint32_t first_block, std::size_t blocks, Words& out) {
@@ -120,7 +120,7 @@ template <class Step>
 HWY_ATTR HWY_INLINE void fill(const RandomStream& stream, double* numbers, std::size_t count, std::size_t per_block,
                               std::size_t doubles, std::size_t per_step, Step step) {
   HWY_ALIGN Words words;
-  HWY_ALIGN double rest[2 * most_lanes];
+  HWY_ALIGN double rest[2 * max_lanes];
   std::uint32_t block = 0;
   while (count > 0) {
     const std::size_t size = std::min(count, chunk_blocks * per_block);

@@ -239,7 +239,7 @@ ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vect
     if (!(s.duration >= 0 && std::isfinite(s.duration)))
       detail::refuse(piece() + ".duration must be finite and at least 0", s.duration, "s");
     for (const double n : {s.start, s.end})
-      if (!(std::abs(n) <= GroundMotion::largest_acceleration))
+      if (!(std::abs(n) <= GroundMotion::max_acceleration))
         detail::refuse(piece() + " must be finite and at most 1e100 m/s^2 in magnitude", n, "m/s^2");
     start[i] = s.start;
     end[i] = s.end;

@@ -93,7 +93,7 @@ StrongMotion strong_motion(const GroundMotion& motion) {
         detail::shortest(result.begin) + " to " + detail::shortest(result.end) + " s");
   result.rms_velocity = std::sqrt(square) * peak;
   const double raw = result.rms_acceleration / (2 * std::sqrt(3.0) * result.rms_velocity);  // thesis (5.46), (5.60)
-  result.centre_frequency_hz = raw / std::sqrt(1 + 1.5 / (raw * duration));
+  result.center_frequency_hz = raw / std::sqrt(1 + 1.5 / (raw * duration));
   return result;
 }
 

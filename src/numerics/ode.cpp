@@ -303,15 +303,15 @@ OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const
 
   double reached = t0;
   const auto give_up = [&](const std::string& why) { throw OdeFailure(reached, times.back(), why); };
-  double beat = t0;
+  double last_reached = t0;
   for (const double time : times) {
     int flag;
     while ((flag = solver->advance(time, y.get(), &reached)) == CV_TOO_MUCH_WORK) {
       solution.steps = solver->steps();
-      if (solution.steps >= options.most_steps)
+      if (solution.steps >= options.max_steps)
         give_up(std::to_string(solution.steps) + " steps done, no more are allowed");
-      if (reached == std::exchange(beat, reached)) give_up("steps have become too short to get on");
-      if (options.heartbeat) options.heartbeat();
+      if (reached == std::exchange(last_reached, reached)) give_up("steps have become too short to get on");
+      if (options.progress) options.progress();
     }
     if (problem.thrown) std::rethrow_exception(problem.thrown);
     if (flag == CV_ILL_INPUT)

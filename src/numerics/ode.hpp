@@ -33,8 +33,8 @@ struct OdeOptions {
   /// One a component, or one for all. Zero is allowed for components that never are zero.
   std::vector<double> absolute_tolerance = {0};
   OdeMethod method = OdeMethod::adams;
-  long most_steps = 1'000'000;
-  std::function<void()> heartbeat{};  ///< called every thousand steps; may throw to end the work; optional
+  long max_steps = 1'000'000;
+  std::function<void()> progress{};  ///< called every thousand steps; may throw to end the work; optional
 };
 
 /// The solver gave up; for callers whose `t` is not the time that users know.
@@ -57,8 +57,8 @@ struct OdeSolution {
 };
 
 /// y(t) at `times`, from y(t0) = `y0`. Local errors are held within the tolerances; the error at a time is some ten
-/// times that. What `right_side` or the heartbeat throw comes through; where a slope is not finite a shorter step is
-/// tried.
+/// times that. What `right_side` or the progress callback throw comes through; where a slope is not finite a shorter
+/// step is tried.
 /// @param times  increasing, from t0 on
 /// @throws std::invalid_argument where times, sizes or tolerances make no sense
 /// @throws OdeFailure, a ConvergenceError with the time reached, where the solver gives up

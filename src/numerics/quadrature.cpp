@@ -14,7 +14,7 @@
 namespace stickslip::detail {
 namespace {
 
-constexpr std::size_t most_intervals = 2000;
+constexpr std::size_t max_intervals = 2000;
 
 struct Integrand {
   const std::function<double(double)>& f;
@@ -37,7 +37,7 @@ using Workspace = std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integ
 Workspace make_workspace() {
   // GSL's own handler would end the program. There is one for the whole process, so it is set once.
   [[maybe_unused]] static const auto handler = gsl_set_error_handler_off();
-  Workspace workspace(gsl_integration_workspace_alloc(most_intervals), &gsl_integration_workspace_free);
+  Workspace workspace(gsl_integration_workspace_alloc(max_intervals), &gsl_integration_workspace_free);
   if (!workspace) throw std::bad_alloc();
   return workspace;
 }
@@ -56,10 +56,10 @@ double oscillating_integral(const std::function<double(double)>& f, double frequ
   double result = 0, error = 0;
   if (std::isinf(high)) {
     const Workspace cycles = make_workspace();
-    gsl_integration_qawf(&function, low, tolerance, most_intervals, workspace.get(), cycles.get(), table.get(), &result,
+    gsl_integration_qawf(&function, low, tolerance, max_intervals, workspace.get(), cycles.get(), table.get(), &result,
                          &error);
   } else {
-    gsl_integration_qawo(&function, low, tolerance, 0, most_intervals, workspace.get(), table.get(), &result, &error);
+    gsl_integration_qawo(&function, low, tolerance, 0, max_intervals, workspace.get(), table.get(), &result, &error);
   }
   if (integrand.thrown) std::rethrow_exception(integrand.thrown);
   if (!(error <= 1e3 * tolerance))
@@ -78,9 +78,9 @@ double integral(const std::function<double(double)>& f, double low, double high,
     Integrand integrand{g};
     gsl_function function{&value, &integrand};
     double result = 0, uncertainty = 0;
-    const int status = std::isinf(to) ? gsl_integration_qagiu(&function, from, 0, 1e-10, most_intervals,
-                                                              workspace.get(), &result, &uncertainty)
-                                      : gsl_integration_qags(&function, from, to, 0, 1e-10, most_intervals,
+    const int status = std::isinf(to) ? gsl_integration_qagiu(&function, from, 0, 1e-10, max_intervals, workspace.get(),
+                                                              &result, &uncertainty)
+                                      : gsl_integration_qags(&function, from, to, 0, 1e-10, max_intervals,
                                                              workspace.get(), &result, &uncertainty);
     if (integrand.thrown) std::rethrow_exception(integrand.thrown);
     sum += result;

@@ -21,7 +21,7 @@ struct CasterLanes {
 /// worst (over a thousand segments 1e-10 of the displacement), with the same events as `advance`. Where the velocity's
 /// polynomial has one change of sign in its Bernstein coefficients it has one zero, where it has none, none; else the
 /// step is halved. The few that this does not settle go through `advance`.
-/// @param members  at most `most_lanes`
+/// @param members  at most `max_lanes`
 void advance_lanes(const CasterLanes& slider, std::size_t members, const double* start, const double* end,
                    const LaneStates& states);
 

@@ -132,11 +132,11 @@ void AdvanceCoulomb(const CoulombLanes& slider, std::size_t members, const doubl
 }
 void AdvanceRow(const CoulombLanes& slider, const double* HWY_RESTRICT start, const double* HWY_RESTRICT end,
                 const LaneStates& row, const LaneStates& next_row) {
-  advance<false, false>(slider, most_lanes, start, end, row, next_row, nullptr);
+  advance<false, false>(slider, max_lanes, start, end, row, next_row, nullptr);
 }
 void AdvanceRowWithAccount(const CoulombLanes& slider, const double* HWY_RESTRICT start, const double* HWY_RESTRICT end,
                            const LaneStates& row, const LaneStates& next_row, LaneAccount& account) {
-  advance<false, true>(slider, most_lanes, start, end, row, next_row, &account);
+  advance<false, true>(slider, max_lanes, start, end, row, next_row, &account);
 }
 
 }  // namespace stickslip::detail::HWY_NAMESPACE

@@ -27,10 +27,10 @@ struct LaneEvent {
 
 /// What a whole response tells beside the states.
 struct LaneAccount {
-  static constexpr std::size_t most_events = 4;  ///< of a block in a segment
+  static constexpr std::size_t max_events = 4;  ///< of a block in a segment
 
   std::uint32_t segment;      ///< the one at hand
-  LaneEvent** next;           ///< where each block's next event goes, moved on; there is room for `most_events`
+  LaneEvent** next;           ///< where each block's next event goes, moved on; there is room for `max_events`
   const double* work_before;  ///< of the ground on each block, before the segment [m^2/s^2]
   double* work_after;         ///< and after it, set
   std::uint64_t indistinct;   ///< the bit of a block is set where two events coincide, or one and the end of its
@@ -41,11 +41,11 @@ struct LaneAccount {
 /// in closed form, with up to two stops and breakaways. The formulas are those of flow/polynomial.hpp and advance.hpp,
 /// for many at a time: those blocks which may have an event are set apart by a test that errs on the safe side, and
 /// done together.
-/// @param members  at most `most_lanes`
+/// @param members  at most `max_lanes`
 void advance_lanes(const CoulombLanes& slider, std::size_t members, const double* start, const double* end,
                    const LaneStates& states);
 
-/// The same for rows of `most_lanes`, from the states of one to those of the next, whose peaks are not looked at.
+/// The same for rows of `max_lanes`, from the states of one to those of the next, whose peaks are not looked at.
 /// @param account  or null
 void advance_lanes(const CoulombLanes& slider, const double* start, const double* end, const LaneStates& row,
                    const LaneStates& next_row, LaneAccount* account);

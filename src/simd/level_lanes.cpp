@@ -130,7 +130,7 @@ HWY_INLINE void slide_group(const LevelGround& ground, std::span<LevelLane> thes
   LevelGroup group(these);
   const Real turned = Real::load(group.turned), forward = Real::load(group.forward),
              backward = Real::load(group.backward);
-  const Real least_held = Real::load(group.lowest_held), most_held = Real::load(group.highest_held);
+  const Real min_held = Real::load(group.lowest_held), max_held = Real::load(group.highest_held);
 
   Real x = 0.0, v = 0.0;
   for (std::size_t i = 0;;) {
@@ -143,7 +143,7 @@ HWY_INLINE void slide_group(const LevelGround& ground, std::span<LevelLane> thes
     const Real direction = select(back, Real(-1.0), 1.0), step = direction * h;
     const Real way = where(~stuck, -direction * turned), against = where(~stuck, select(back, -backward, -forward));
     const Real least = where(stuck, Real(-1.0));
-    const Real low = select(stuck, least_held, -infinity), high = select(stuck, most_held, infinity);
+    const Real low = select(stuck, min_held, -infinity), high = select(stuck, max_held, infinity);
     Real speed = abs(v), first = multiply_add(way, start[i], against);
     Bool eventful = Bool::first(0);
     // What holds a lane at the end of a segment holds it at the beginning of the next one, but for the first of all.
@@ -228,8 +228,8 @@ HWY_INLINE void slide_weighed_group(const LevelGround& ground, std::span<LevelLa
   const Real forward = Real::load(group.forward), backward = Real::load(group.backward);
   // What is held for sure, whatever the rounding of -p / W.
   constexpr double surely_held = 1 - 0x1p-50;
-  const Real least_held = Real::load(group.lowest_held) * surely_held;
-  const Real most_held = Real::load(group.highest_held) * surely_held;
+  const Real min_held = Real::load(group.lowest_held) * surely_held;
+  const Real max_held = Real::load(group.highest_held) * surely_held;
 
   Real x = 0.0, v = 0.0;
   for (std::size_t i = 0; i < segments;) {
@@ -241,7 +241,7 @@ HWY_INLINE void slide_weighed_group(const LevelGround& ground, std::span<LevelLa
     const Real direction = select(back, Real(-1.0), 1.0), step = direction * h;
     const Real way = where(~stuck, direction), against = where(~stuck, select(back, -backward, -forward));
     const Real least = where(stuck, Real(-1.0));
-    const Real low = select(stuck, least_held, -infinity), high = select(stuck, most_held, infinity);
+    const Real low = select(stuck, min_held, -infinity), high = select(stuck, max_held, infinity);
     Real speed = abs(v), first = multiply_add(way, load[i], against * weight[i]);
     Bool eventful = Bool::first(i == 0 ? Real::size : 0) & stuck;
     for (;; ++i) {

@@ -34,11 +34,11 @@ HWY_INLINE void slide(const Real& forward, const Real& backward, const Real& loa
   peak = max(peak, abs(x));
 }
 
-// So many edges that they stay in registers; or, with 0, any number up to `most_edges`.
+// So many edges that they stay in registers; or, with 0, any number up to `max_edges`.
 template <std::size_t fixed_edges>
 HWY_INLINE void move(const PulseLanes& slider, double end, const PulseStreams& pulses, const PulseHistory& history,
                      const LaneStates& states) {
-  constexpr std::size_t room = fixed_edges == 0 ? most_edges : fixed_edges;
+  constexpr std::size_t room = fixed_edges == 0 ? max_edges : fixed_edges;
   const Real forward = slider.forward, backward = slider.backward;
   const std::size_t edges = fixed_edges == 0 ? slider.edges.size() : fixed_edges, width = pulses.first.size();
   for (std::size_t i = 0; i < width; i += Real::size) {

@@ -10,7 +10,7 @@
 namespace stickslip::detail {
 
 /// Shapes have at most so many edges.
-inline constexpr std::size_t most_edges = 16;
+inline constexpr std::size_t max_edges = 16;
 
 /// Coulomb friction without a spring, under pulses of one shape.
 struct PulseLanes {

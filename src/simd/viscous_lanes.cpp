@@ -29,7 +29,7 @@ void AdvanceViscous(const ViscousLanes& all, std::size_t members, const double* 
   // those at the ends, with a spring less than three times their sum. From a turn to the nearer end, half a segment at
   // most, the displacement goes by an eighth of it times the segment squared.
   const Real reach = (slider.stiffness() == 0 ? 1 : 3) * h * h / 8;
-  double displacement[most_lanes], velocity[most_lanes];  // at the beginning
+  double displacement[max_lanes], velocity[max_lanes];  // at the beginning
   std::uint64_t turning = 0;
   for (std::size_t i = 0; i < members; i += Real::size) {
     const Real x = Real::load(states.displacement + i), v = Real::load(states.velocity + i);

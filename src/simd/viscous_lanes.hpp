@@ -20,7 +20,7 @@ struct ViscousLanes {
 
 /// Moves each slider over its segment of ground acceleration, from start[i] to end[i] [m/s^2]: thesis (4.2), in closed
 /// form; those whose displacement may turn beyond its peak so far are looked at one by one.
-/// @param members  at most `most_lanes`
+/// @param members  at most `max_lanes`
 void advance_lanes(const ViscousLanes& lanes, std::size_t members, const double* start, const double* end,
                    const LaneStates& states);
 

@@ -15,27 +15,27 @@
 namespace stickslip::detail {
 namespace {
 
-constexpr std::size_t pieces = most_lanes;
+constexpr std::size_t pieces = max_lanes;
 // Segments of a piece, at most: what is kept of all pieces then stays near the processor.
-constexpr std::size_t most_lines = 127, longest = most_lines * row_padding;
+constexpr std::size_t max_lines = 127, longest = max_lines * row_padding;
 
 /// Pieces of a record, all of one length, one after the other in time.
-/// @tparam Recording  a Recorder or NoRecorder
-template <class Recording>
+/// @tparam RecorderType  a Recorder or NoRecorder
+template <class RecorderType>
 class SideBySide {
-  static constexpr bool recorded = std::same_as<Recording, Recorder<Coulomb>>;
+  static constexpr bool recorded = std::same_as<RecorderType, Recorder<Coulomb>>;
 
  public:
-  SideBySide(const Coulomb& law, const GroundMotion& motion, const HistorySpans& histories, Recording& recorder)
+  SideBySide(const Coulomb& law, const GroundMotion& motion, const HistorySpans& histories, RecorderType& recorder)
       : law_(law),
         motion_(motion),
         ground_(motion),
         histories_(histories),
         recorder_(recorder),
-        most_(std::min(longest, motion.segments() / pieces)) {
+        max_segments_(std::min(longest, motion.segments() / pieces)) {
     if constexpr (recorded) {
-      events_ = std::make_unique_for_overwrite<LaneEvent[]>(LaneAccount::most_events * most_ * pieces);
-      work_ = std::make_unique_for_overwrite<double[]>((most_ + 1) * pieces);
+      events_ = std::make_unique_for_overwrite<LaneEvent[]>(LaneAccount::max_events * max_segments_ * pieces);
+      work_ = std::make_unique_for_overwrite<double[]>((max_segments_ + 1) * pieces);
       std::fill_n(work_.get(), pieces, 0.0);
     }
   }
@@ -105,7 +105,7 @@ class SideBySide {
   }
 
  private:
-  LaneEvent* events_of(std::size_t piece) { return &events_[LaneAccount::most_events * most_ * piece]; }
+  LaneEvent* events_of(std::size_t piece) { return &events_[LaneAccount::max_events * max_segments_ * piece]; }
   LaneStates row(std::size_t i) { return {&xs_[i * pieces], &vs_[i * pieces], peaks_}; }
 
   // Tells the recorder of a piece from one of its segments on, at the beginning of which it is stuck.
@@ -135,8 +135,8 @@ class SideBySide {
   GroundMotion::Pieces ground_;
   std::size_t length_ = 0;
   HistorySpans histories_;
-  Recording& recorder_;
-  std::size_t most_;  // segments of a piece
+  RecorderType& recorder_;
+  std::size_t max_segments_;  // segments of a piece
   // Nine samples of all pieces, of ground acceleration, x and v.
   alignas(64) double loads_[(row_padding + 1) * pieces], xs_[(row_padding + 1) * pieces],
       vs_[(row_padding + 1) * pieces];
@@ -147,18 +147,18 @@ class SideBySide {
   LaneAccount account_{.next = next_};
 };
 
-template <class Recording>
-void run(const Coulomb& law, const GroundMotion& motion, State& state, Recording& recorder,
+template <class RecorderType>
+void run(const Coulomb& law, const GroundMotion& motion, State& state, RecorderType& recorder,
          const HistorySpans& histories) {
   constexpr std::size_t most = pieces * longest;
   const std::size_t segments = motion.segments();
-  SideBySide<Recording> side_by_side(law, motion, histories, recorder);
+  SideBySide<RecorderType> side_by_side(law, motion, histories, recorder);
   std::size_t i = 0;
   for (std::size_t rounds = (segments + most - 1) / most; rounds > 0; --rounds) {
     // An odd number of cache lines: else the same samples of all pieces would share few places in the cache.
-    const std::size_t lines = std::min(most_lines, (segments - i) / (pieces * rounds * row_padding));
+    const std::size_t lines = std::min(max_lines, (segments - i) / (pieces * rounds * row_padding));
     const std::size_t length = (lines % 2 == 0 ? lines - 1 : lines) * row_padding;
-    recorder.heartbeat();
+    recorder.report_progress();
     side_by_side.start(i, length);
     for (std::size_t p = 0; p < pieces; ++p, i += length) side_by_side.join(p, i, state);
   }

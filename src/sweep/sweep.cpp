@@ -74,7 +74,7 @@ class Sweep {
       }
     };
     run_on_threads(options_.threads, tasks, stopped_, work, [this] {
-      if (options_.heartbeat) options_.heartbeat({done_, table_.peak.size()});
+      if (options_.progress) options_.progress({done_, table_.peak.size()});
     });
     std::ranges::sort(table_.failures, {},
                       [](const SweepFailure& f) { return std::tuple(f.slider, f.record, f.polarity); });
@@ -152,10 +152,10 @@ class Sweep {
   }
 
   void run_single(std::size_t slider, std::size_t record, bool flipped, Response& storage) {
-    const auto heartbeat = [this] {
+    const auto check_stopped = [this] {
       if (stopped_) throw Stopped{};
     };
-    const IntegrateOptions how{0, 0, options_.settle, options_.contact, heartbeat};
+    const IntegrateOptions how{0, 0, options_.settle, options_.contact, check_stopped};
     try {
       const GroundMotion& motion = *motions_[record];
       storage =

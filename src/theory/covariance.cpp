@@ -154,7 +154,7 @@ void check_start(const LinearizedLaw& law, double s0, Start start) {
 CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_frequency, double s0,
                                     std::span<const double> times,
                                     const theory::EquivalentLinearization::Options& options,
-                                    const std::function<void()>& heartbeat) {
+                                    const std::function<void()>& progress) {
   check_times(noun, times);
   CovarianceSolution solution;
   if (times.empty()) return solution;
@@ -202,8 +202,8 @@ CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_fre
                    .absolute_tolerance = {options.tolerance / 10, options.tolerance / 1000, options.tolerance / 10},
                    // Coulomb's velocity settles within unit; up to there no slower without
                    .method = last > 1000 * unit ? OdeMethod::bdf : OdeMethod::adams,
-                   .most_steps = 300'000,  // some 1 s; needed for many periods of a spring
-                   .heartbeat = heartbeat});
+                   .max_steps = 300'000,  // some 1 s; needed for many periods of a spring
+                   .progress = progress});
     solution.steps = states.steps;
     solution.evaluations = states.evaluations;
     for (std::size_t i = 0; i < times.size(); ++i) {

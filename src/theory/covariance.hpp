@@ -24,7 +24,7 @@ void check_start(const LinearizedLaw& law, double s0, theory::EquivalentLineariz
 CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_frequency, double s0,
                                     std::span<const double> times,
                                     const theory::EquivalentLinearization::Options& options,
-                                    const std::function<void()>& heartbeat = {});
+                                    const std::function<void()>& progress = {});
 
 /// Without friction: (3.41) to (3.43), and with a spring.
 Covariance frictionless_covariance(double natural_frequency, double s0, double time);

@@ -197,7 +197,7 @@ double DisplacementDistribution::cdf(double x) const {
 }
 
 double DisplacementDistribution::quantile(double probability) const {
-  require(probability >= least_probability && probability <= 1 - least_probability,
+  require(probability >= min_probability && probability <= 1 - min_probability,
           "DisplacementDistribution: probability must be at least 1e-9 and at most 1 - 1e-9", probability);
   const double before = smooth_cdf(0);
   if (probability >= before && probability <= before + atom_) return 0;

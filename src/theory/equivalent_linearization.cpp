@@ -144,9 +144,9 @@ void EquivalentLinearization::check(const detail::LinearizedLaw& law, double dam
 
 Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double damping,
                                          const ShapedNoise& noise, std::span<const double> times,
-                                         const std::function<void()>& heartbeat) const {
+                                         const std::function<void()>& progress) const {
   if (const auto s0 = two_states(law, damping, noise)) {
-    const auto solution = detail::solve_covariance(law, natural_frequency, *s0, times, options_, heartbeat);
+    const auto solution = detail::solve_covariance(law, natural_frequency, *s0, times, options_, progress);
     Moments moments = detail::moments_at(times);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto& [q11, q12, q22] = solution.covariance[i];
@@ -162,7 +162,7 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
   detail::check_times(noun, times);
   const ShapingFilter filter = noise.filter(options_.filter);
   const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
-  Moments moments = moments_of(times, detail::solve_shaped(problem, times, heartbeat).state);
+  Moments moments = moments_of(times, detail::solve_shaped(problem, times, progress).state);
   try {
     if (!noise.envelope()) moments.growth_rate.value = detail::solve_stationary(problem).growth_rate;
   } catch (const std::invalid_argument&) {  // there is no stationary solution

@@ -82,7 +82,7 @@ struct Weights {
   double operator[](int i) const { return w[static_cast<std::size_t>(i + reach)]; }
 };
 
-/// Sums of `count` Gaussian amplitudes, normalised on the lattice.
+/// Sums of `count` Gaussian amplitudes, normalized on the lattice.
 Weights gaussian(double sigma, double spacing, int reach, int count) {
   Weights law{spacing, reach, std::vector<double>(static_cast<std::size_t>(2 * reach + 1))};
   double sum = 0;
@@ -436,7 +436,7 @@ class Chain {
   /// From rest on, slot by slot, the last one stationary.
   /// @tparam Order  cumulants of the displacement
   template <std::size_t Order>
-  std::vector<Slot> solve(const std::function<void()>& heartbeat) const;
+  std::vector<Slot> solve(const std::function<void()>& progress) const;
 
   /// Adds to the slots that nothing has slipped yet.
   void add_slips(std::vector<Slot>& slots) const;
@@ -523,7 +523,7 @@ class Chain {
     double slips = 0;
     for (int n = -offset_; n <= offset_; ++n)
       if (chance_to_move(n) == 1) slips += law[static_cast<std::size_t>(n + offset_)];
-    least_ = 1e-3 * slips / std::pow(span(), static_cast<double>(values_.size()));
+    min_chance_ = 1e-3 * slips / std::pow(span(), static_cast<double>(values_.size()));
   }
 
   double chance_to_move(std::ptrdiff_t n) const {
@@ -536,7 +536,7 @@ class Chain {
   int slots_;
   bool mirrored_ = true;         ///< the mirror image of each motion is as likely
   bool drifting_;                ///< the grid is of u, else of v
-  double least_ = 0;             ///< chance of a combination of batches
+  double min_chance_ = 0;        ///< chance of a combination of batches
   std::vector<int> values_{};    ///< of the slots of a pulse
   std::vector<double> still_{};  ///< velocity to come from the rest of a pulse, from slot i on
   double unit_ = 1;
@@ -548,8 +548,8 @@ class Chain {
 };
 
 template <std::size_t Order>
-std::vector<Slot> Chain::solve(const std::function<void()>& heartbeat) const {
-  constexpr int most_slots = 20'000;
+std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
+  constexpr int max_slots = 20'000;
   const auto reach = static_cast<std::ptrdiff_t>(batch_.reach);
   const std::size_t width = static_cast<std::size_t>(span()), nodes = size(), past = values_.size() - 1;
   std::size_t heads = 1;  // of the past batches, all but the oldest
@@ -600,9 +600,9 @@ std::vector<Slot> Chain::solve(const std::function<void()>& heartbeat) const {
   std::vector<Slot> slots;
   int steady = 0;
   for (int slot = 0; steady < 2; ++slot) {
-    if (slot == most_slots)
-      throw ConvergenceError("PulseChain: not stationary after " + std::to_string(most_slots) + " slots");
-    if (heartbeat) heartbeat();
+    if (slot == max_slots)
+      throw ConvergenceError("PulseChain: not stationary after " + std::to_string(max_slots) + " slots");
+    if (progress) progress();
     Sums sums;
     double total = 0;
     Slot found;
@@ -625,7 +625,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& heartbeat) const {
         Sums part;
         for (std::size_t oldest = 0; oldest < width; ++oldest) {
           const std::size_t tuple = head * width + oldest;
-          if (chances[tuple] * std::abs(chance) < least_) continue;
+          if (chances[tuple] * std::abs(chance) < min_chance_) continue;
           const std::size_t kind =
               drifting_
                   ? k * tuples + tuple
@@ -759,8 +759,8 @@ void Chain::add_slips(std::vector<Slot>& slots) const {
 /// Above this sigma / a the answers are those without friction less a part that falls as a / sigma: growth right to 3 %
 /// where pulses are one to a step at most, or friction next to nothing.
 constexpr double strongest = 256;
-constexpr double weakest = 0.05, least_refined = 0.12;
-constexpr double most_arrivals = 50;
+constexpr double weakest = 0.05, min_refined_sigma = 0.12;
+constexpr double max_arrivals = 50;
 /// With levels or amplitudes that differ both ways nothing is known beyond these.
 constexpr double strongest_drift = 20, greatest_ratio = 4;
 
@@ -1006,8 +1006,7 @@ Problem::Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses)
             "PulseChain: where sigma exceeds 3 times the smaller slip level the other one must be at most 4 times it",
             other / level);
   }
-  require(arrivals.rate <= most_arrivals, "PulseChain: pulses to a step of the pulse must be at most 50",
-          arrivals.rate);
+  require(arrivals.rate <= max_arrivals, "PulseChain: pulses to a step of the pulse must be at most 50", arrivals.rate);
   if (sigma > strongest)
     require(arrivals.rate <= 1 || sigma >= 1000 * std::exp(3 * arrivals.rate),
             "PulseChain: with " + shortest(arrivals.rate) +
@@ -1101,10 +1100,10 @@ class Growth {
 /// @tparam Order  how many cumulants of the displacement there are
 /// @param slots   to a step
 template <std::size_t Order>
-ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<void()>& heartbeat) {
+ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<void()>& progress) {
   const Steps steps = steps_of(problem.shape, slots);
   const Chain chain(problem.block, steps, problem.arrivals, slots, problem.drifting());
-  std::vector<Slot> solution = chain.solve<Order>(heartbeat);
+  std::vector<Slot> solution = chain.solve<Order>(progress);
   if (Order > 2) chain.add_slips(solution);
   Correction correction;
   if (!problem.drifting()) correction = {chain.pairs().table(slots, false), problem.arrivals.rate, solution, slots};
@@ -1122,19 +1121,19 @@ ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<
 }
 
 /// Two slots to a step: above, their coarser grid errs by more than one slot does; below they take minutes.
-bool two_slots(double sigma, bool refined) { return refined && sigma >= least_refined && sigma <= 1; }
+bool two_slots(double sigma, bool refined) { return refined && sigma >= min_refined_sigma && sigma <= 1; }
 
 /// Weight of Richardson's extrapolation: what three pulses and more do errs as the square of the slot. Full where they
 /// are what slips, none where grids err as much.
 double extrapolation(double sigma) { return std::clamp((0.5 - sigma) / (0.5 - 1.0 / 3), 0.0, 1.0) / 3; }
 
 template <std::size_t Order>
-Growth growth_of(const Problem& problem, bool refined, const std::function<void()>& heartbeat) {
+Growth growth_of(const Problem& problem, bool refined, const std::function<void()>& progress) {
   Growth growth;
   const bool two = two_slots(problem.sigma, refined);
   const double more = two ? extrapolation(problem.sigma) : -1;
-  if (more != 0) growth.add(-more, chain_growth<Order>(problem, 1, heartbeat));
-  if (two) growth.add(1 + more, chain_growth<Order>(problem, 2, heartbeat));
+  if (more != 0) growth.add(-more, chain_growth<Order>(problem, 1, progress));
+  if (two) growth.add(1 + more, chain_growth<Order>(problem, 2, progress));
   return growth;
 }
 
@@ -1152,10 +1151,10 @@ void PulseChain::check(const Slider<Coulomb>& slider, const PoissonPulses& pulse
 namespace {
 
 /// Of the displacement at a time [s], by the chain's cumulants.
-detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& heartbeat) {
+detail::Slips slips_of(const Problem& problem, double time, bool refined, const std::function<void()>& progress) {
   if (problem.sigma < weakest || time == 0) return {};
   require(
-      problem.sigma >= least_refined,
+      problem.sigma >= min_refined_sigma,
       "PulseChain: a distribution is known for sigma of at least 0.12 slip levels, or below 0.05 where nothing slips",
       problem.sigma);
   require(problem.arrivals.rate <= 4, "PulseChain: a distribution is known for at most 4 pulses to a step of the pulse",
@@ -1164,7 +1163,7 @@ detail::Slips slips_of(const Problem& problem, double time, bool refined, const 
   require(time >= length,
           "PulseChain: a distribution is known at time 0 and from the length of a pulse on, " + shortest(length) + " s",
           time, "s");
-  const Growth growth = growth_of<orders>(problem, refined, heartbeat);
+  const Growth growth = growth_of<orders>(problem, refined, progress);
   const double t = time / problem.step, unit = problem.acceleration() * problem.step * problem.step;
   std::array<double, orders> found;
   double power = 1;
@@ -1175,10 +1174,10 @@ detail::Slips slips_of(const Problem& problem, double time, bool refined, const 
 }  // namespace
 
 double PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
-                        const std::function<void()>& heartbeat) const {
+                        const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   require(probability > 0 && probability < 1, "PulseChain: probability must lie in (0, 1)", probability);
-  const detail::Slips slips = slips_of(problem, pulses.duration(), refined_, heartbeat);
+  const detail::Slips slips = slips_of(problem, pulses.duration(), refined_, progress);
   if (slips.count == 0) return 0;
   const Steps steps = steps_of(problem.shape, 1);
   const Chain chain(problem.block, steps, problem.arrivals, 1, problem.drifting());
@@ -1188,14 +1187,14 @@ double PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& puls
 }
 
 DisplacementDistribution PulseChain::distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
-                                                  double time, const std::function<void()>& heartbeat) const {
+                                                  double time, const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   require(std::isfinite(time) && time >= 0, "PulseChain: time must be finite and at least 0", time, "s");
-  return DisplacementDistribution(slips_of(problem, time, refined_, heartbeat));
+  return DisplacementDistribution(slips_of(problem, time, refined_, progress));
 }
 
 Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
-                            const std::function<void()>& heartbeat) const {
+                            const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   const auto& [step, push, sigma, block, arrivals, chance, shape] = problem;
   const PoissonOptions& options = pulses.options();
@@ -1216,7 +1215,7 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     return moments;
   }
 
-  const Growth growth = growth_of<2>(problem, refined_, heartbeat);
+  const Growth growth = growth_of<2>(problem, refined_, progress);
   const double v_unit = problem.acceleration() * step, x_unit = v_unit * step;
   for (std::size_t i = 0; i < count; ++i) {
     const double t = times[i] / step, drift = growth.rate(0, t);
@@ -1259,9 +1258,9 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
 }
 
 double PulseChain::final_rms(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
-                             const std::function<void()>& heartbeat) const {
+                             const std::function<void()>& progress) const {
   const double end[] = {pulses.duration()};
-  const Moments moments = predict(slider, pulses, end, heartbeat);
+  const Moments moments = predict(slider, pulses, end, progress);
   return std::hypot(std::sqrt(moments.displacement_variance.value[0]), moments.displacement_mean.value[0]);
 }
 

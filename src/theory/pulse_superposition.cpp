@@ -224,8 +224,8 @@ struct History {
 class Pulses {
  public:
   Pulses(const detail::PulseSystem& system, const PoissonPulses& pulses, Overlap overlap,
-         const std::function<void()>& heartbeat)
-      : system_(system), pulses_(pulses), overlap_(overlap), heartbeat_(heartbeat) {}
+         const std::function<void()>& progress)
+      : system_(system), pulses_(pulses), overlap_(overlap), progress_(progress) {}
 
   /// The law of the amplitudes of rms `sigma` at x, where thresholds lie, and how many such pulses come in a second.
   struct Law {
@@ -282,7 +282,7 @@ class Pulses {
     const Law law = this->law(0, sigma);
     for (const auto& [b, weight] : nodes(law, sigma)) {
       if (weight == 0) continue;
-      if (heartbeat_) heartbeat_();
+      if (progress_) progress_();
       const std::vector<detail::PulseKnot> knots = system_.motion(b);
       const double w = law.rate * weight;
       double sum = 0, square = 0, velocity_square = 0;  // integrals up to knot k
@@ -319,13 +319,13 @@ class Pulses {
 
   /// At x, with amplitudes of rms `sigma`.
   Rates rates(double x, double sigma) const {
-    if (heartbeat_) heartbeat_();
+    if (progress_) progress_();
     const Law law = this->law(x, sigma);
     const double rate = law.rate;
     Rates rates;
     for (const auto& [b, weight] : nodes(law, sigma)) {
       if (weight == 0) continue;
-      if (heartbeat_ && !system_.constant_level) heartbeat_();  // an event loop takes 20 us and more
+      if (progress_ && !system_.constant_level) progress_();  // an event loop takes 20 us and more
       const detail::PulseEffect effect = system_.effect(b, x);
       if (!std::isfinite(effect.offset)) {
         rates.lost += weight;
@@ -342,7 +342,7 @@ class Pulses {
   const detail::PulseSystem& system_;
   const PoissonPulses& pulses_;
   Overlap overlap_;
-  const std::function<void()>& heartbeat_;
+  const std::function<void()>& progress_;
 };
 
 /// Rates by position, computed where they are asked for and interpolated by cubics.
@@ -403,12 +403,12 @@ struct Overlaps {
 };
 
 Overlaps overlaps_of(const PulseSuperposition& theory, const detail::PulseSystem& system, const PoissonPulses& pulses,
-                     const std::function<void()>& heartbeat) {
+                     const std::function<void()>& progress) {
   Overlaps found;
   try {
     const Slider block(Coulomb(system.level(0, Direction::forward), system.level(0, Direction::backward)));
-    found.growth = PulseChain().predict(block, pulses, {}, heartbeat).growth_rate.value;
-    found.own = theory.predict(block, pulses, {}, heartbeat).growth_rate.value;
+    found.growth = PulseChain().predict(block, pulses, {}, progress).growth_rate.value;
+    found.own = theory.predict(block, pulses, {}, progress).growth_rate.value;
     found.factor = found.growth == found.own ? 1 : std::sqrt(found.growth / found.own);
   } catch (const std::invalid_argument& refusal) {
     found.reason = refusal.what();
@@ -440,9 +440,9 @@ std::string PulseSuperposition::name() const {
 void PulseSuperposition::check(bool constant_level, const PoissonPulses& pulses) const {
   const double overlap = pulses.rate() * pulses.half_width();
   if (overlap_ != Overlap::none) {
-    require(overlap <= most_overlap,
+    require(overlap <= max_overlap,
             "PulseSuperposition: a series of overlaps means nothing where rate x half_width is above " +
-                shortest(most_overlap),
+                shortest(max_overlap),
             overlap);
     if (pulses.options().quantile)
       throw std::invalid_argument(
@@ -454,12 +454,12 @@ void PulseSuperposition::check(bool constant_level, const PoissonPulses& pulses)
 }
 
 Moments PulseSuperposition::predict(const detail::PulseSystem& system, const PoissonPulses& pulses,
-                                    std::span<const double> times, const std::function<void()>& heartbeat) const {
+                                    std::span<const double> times, const std::function<void()>& progress) const {
   const double dt = pulses.half_width(), sigma = pulses.sigma(), overlap = pulses.rate() * dt;
   const PoissonOptions& options = pulses.options();
   for (const double time : times)
     require(std::isfinite(time) && time >= 0, "PulseSuperposition: times must be finite and at least 0", time, "s");
-  const Pulses law(system, pulses, overlap_, heartbeat);
+  const Pulses law(system, pulses, overlap_, progress);
   const Rates rest = law.rates(0, sigma);
   const double per_composite = overlap_ == Overlap::none ? 1 : 1 + overlap;  // at most: the mean square
   if (rest.lost > 1e-3)
@@ -522,7 +522,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
               " % of the pulses, which make up the variance");
     const std::string outgrows = "its rms displacement exceeds four times " + halves;
     if (std::isfinite(reach) && std::sqrt(rest.growth * end) > 4 * reach) escapes(outgrows);
-    const Overlaps overlaps = overlaps_of(*this, system, pulses, heartbeat);
+    const Overlaps overlaps = overlaps_of(*this, system, pulses, progress);
     if (!overlaps.reason.empty()) {
       remark(moments, "The effect of overlapping pulses is unknown: " + overlaps.reason + ".");
     } else {
@@ -565,7 +565,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
     const auto advance_to = [&](double time) {
       double most = infinity;
       while (now < time) {
-        if (heartbeat) heartbeat();
+        if (progress) progress();
         const Slopes k1 = slopes(mean, variance);
         const double step =
             std::min({time - now, most, scale * reach / std::abs(k1.variance), scale / std::abs(k1.mean)});
@@ -624,10 +624,10 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
 }
 
 Moments PulseSuperposition::from_rest(const detail::PulseSystem& system, const PoissonPulses& pulses,
-                                      std::span<const double> times, const std::function<void()>& heartbeat) const {
+                                      std::span<const double> times, const std::function<void()>& progress) const {
   if (pulses.options().envelope)
     throw std::invalid_argument("PulseSuperposition: from_rest does not cover an envelope, predict does");
-  Moments moments = predict(system, pulses, {}, heartbeat);  // the growth rate, and what is refused
+  Moments moments = predict(system, pulses, {}, progress);  // the growth rate, and what is refused
   std::vector<std::size_t> order(times.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return times[i]; });
@@ -638,7 +638,7 @@ Moments PulseSuperposition::from_rest(const detail::PulseSystem& system, const P
     ascending.push_back(times[i]);
   }
   const std::vector<History> histories =
-      Pulses(system, pulses, overlap_, heartbeat).histories(ascending, pulses.sigma());
+      Pulses(system, pulses, overlap_, progress).histories(ascending, pulses.sigma());
   moments.time.assign(times.begin(), times.end());
   const auto fill = [&](Estimates& estimates, double History::*part, double factor) {
     estimates.value.resize(times.size());
@@ -678,17 +678,17 @@ DisplacementDistribution PulseSuperposition::distribution(const detail::PulseSys
                                                           const PoissonPulses& pulses, double time) const {
   const double overlap = pulses.rate() * pulses.half_width();
   require(std::isfinite(time) && time >= 0, "PulseSuperposition: time must be finite and at least 0", time, "s");
-  require(overlap <= most_overlap_of_distribution,
+  require(overlap <= max_overlap_of_distribution,
           "PulseSuperposition: a distribution is for rare pulses, rate x half_width at most " +
-              shortest(most_overlap_of_distribution),
+              shortest(max_overlap_of_distribution),
           overlap);
   if (!system.constant_level)
     throw std::invalid_argument("PulseSuperposition: a distribution is covered for constant slip levels only");
   if (pulses.options().envelope)
     throw std::invalid_argument("PulseSuperposition: a distribution under an envelope is not covered");
 
-  const std::function<void()> no_heartbeat;
-  const Pulses pulse(system, pulses, overlap_, no_heartbeat);
+  const std::function<void()> no_progress;
+  const Pulses pulse(system, pulses, overlap_, no_progress);
   const Pulses::Law law = pulse.law(0, pulses.sigma());
   const double expected = law.rate * time;
   const auto offset = [&](double b) {

@@ -27,9 +27,9 @@ const std::string noun = "EquivalentLinearization";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // x, x' and the states of the filter. Their room is in the object.
-constexpr int most_states = 18;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_states, most_states>;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_states, 1>;
+constexpr int max_states = 18;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_states, max_states>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_states, 1>;
 constexpr int x = 0, v = 1, f = 2;
 
 double squared(double value) { return value * value; }
@@ -196,7 +196,7 @@ Course course(const std::optional<Envelope>& envelope) {
   if (!envelope) return {};
   if (!envelope->time().empty())
     return {{envelope->time().front(), envelope->time().back()}, *std::ranges::max_element(envelope->factor())};
-  return {{envelope->build_up(), envelope->build_up() + envelope->strong()}, 1};
+  return {{envelope->build_up(), envelope->build_up() + envelope->strong_duration()}, 1};
 }
 
 }  // namespace
@@ -209,7 +209,7 @@ double motion_ratio(const ShapedProblem& problem) {
 }
 
 ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double> times,
-                            const std::function<void()>& heartbeat) {
+                            const std::function<void()>& progress) {
   check_times(noun, times);
   ShapedSolution solution;
   if (times.empty()) return solution;
@@ -257,8 +257,8 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   OdeOptions ode{.relative_tolerance = tolerance,
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
                  .method = method,
-                 .most_steps = 300'000,
-                 .heartbeat = heartbeat};
+                 .max_steps = 300'000,
+                 .progress = progress};
   pack(tolerance * scale * scale.transpose(), columns, ode.absolute_tolerance.data());
 
   Matrix start = Matrix::Zero(n, n);

@@ -35,7 +35,7 @@ struct ShapedProblem {
 
 /// @throws ConvergenceError with the time reached
 ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double> times,
-                            const std::function<void()>& heartbeat = {});
+                            const std::function<void()>& progress = {});
 
 /// @throws std::invalid_argument where the velocity has no stationary solution, with the reason
 StationaryState solve_stationary(const ShapedProblem& problem);

@@ -24,7 +24,7 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 const std::string noun = "ShapingFilter";
-constexpr int most_sections = 8;
+constexpr int max_sections = 8;
 
 double squared(double x) { return x * x; }
 
@@ -231,7 +231,7 @@ double improve(const Family& family, const Grid& grid, const Band& band, Vector&
 
 ShapingFilter fitted(const std::function<double(double)>& spectrum, double low, double high,
                      std::span<const double> cuts, const ShapingFilter::Fit& fit) {
-  require(fit.order >= 2 && fit.order <= 2 * most_sections && fit.order % 2 == 0,
+  require(fit.order >= 2 && fit.order <= 2 * max_sections && fit.order % 2 == 0,
           noun + ": order must be 2, 4, ... or 16", fit.order);
   require(fit.max_misfit > 0, noun + ": max_misfit must be above 0", fit.max_misfit);
   const int sections = fit.order / 2;
@@ -305,7 +305,7 @@ ShapingFilter::ShapingFilter(double s0, std::vector<Section> sections, double mi
     : s0_(s0), sections_(std::move(sections)), misfit_(misfit) {
   require(std::isfinite(misfit) && misfit >= 0, noun + ": misfit must be finite and at least 0", misfit);
   require(std::isfinite(s0) && s0 > 0, noun + ": s0 must be positive and finite", s0, "m^2/s^3");
-  require(sections_.size() <= most_sections, noun + ": must have at most 8 sections",
+  require(sections_.size() <= max_sections, noun + ": must have at most 8 sections",
           static_cast<double>(sections_.size()));
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     const Section& s = sections_[i];

@@ -10,8 +10,8 @@
 namespace stickslip::detail {
 namespace {
 
-constexpr int half = 150;            ///< nodes of the grid either side of 0
-constexpr double most_steps = 1000;  ///< of the walk; more slips go several to a step
+constexpr int half = 150;           ///< nodes of the grid either side of 0
+constexpr double max_steps = 1000;  ///< of the walk; more slips go several to a step
 
 /// The walk within -L to L.
 class Walk {
@@ -80,7 +80,7 @@ class Walk {
 double slip_walk_peak(const Slips& slips, const std::function<double(double)>& farthest, double probability) {
   if (!(slips.count > 0 && slips.moments[1] > 0) || std::exp(-slips.count) >= probability) return 0;
   double together = 1;
-  while (slips.count / together > most_steps) together *= 2;
+  while (slips.count / together > max_steps) together *= 2;
   // Between its steps a walk of many goes farther by as much again as a step has: D. Siegmund's 0.583.
   const double between = together > 1 ? 0.5826 * std::sqrt(slips.moments[1] * together / slips.count) : 0;
   const auto enough = [&](double bound) {

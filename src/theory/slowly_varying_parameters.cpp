@@ -27,7 +27,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double round_off = std::numeric_limits<double>::epsilon();
 
 // How a law is searched of which it is not known that its curves fold once at most.
-constexpr double search_ratio = 1.0905077326652577;  // of neighbouring amplitudes, 2^(1/8)
+constexpr double search_ratio = 1.0905077326652577;  // of neighboring amplitudes, 2^(1/8)
 constexpr double search_reaches = 1e12;
 
 void check_force(double B) {
@@ -258,7 +258,7 @@ struct SlowlyVaryingParameters::Balance {
 
   /// Amplitudes between which there is one fold at most, from below the smallest solution to above the largest.
   std::vector<double> amplitudes() const {
-    const double least = svp.least_amplitude(B), smallest = (*this)(0) < 0 ? 0 : 1e-6 * svp.reach_;
+    const double least = svp.min_amplitude(B), smallest = (*this)(0) < 0 ? 0 : 1e-6 * svp.reach_;
     const double low = least > 0 ? least / 2 : smallest, length = svp.reach_ > 0 ? svp.reach_ : 1;
     double high = svp.law_.one_fold ? 4 * least : search_reaches * length;  // at resonance
     if (omega != svp.natural_frequency_) {
@@ -339,7 +339,7 @@ Branches SlowlyVaryingParameters::stability_boundary(double amplitude) const {
   return {clipped(middle - distance), clipped(middle + distance)};  // (2.41), from (2.19)
 }
 
-double SlowlyVaryingParameters::least_amplitude(double B) const {
+double SlowlyVaryingParameters::min_amplitude(double B) const {
   check_force(B);
   if (surplus(B, 0, mean_[0]) >= 0) return 0;
   if (std::isinf(reach_)) return infinity;
@@ -374,9 +374,9 @@ struct Point {
 
 double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// The angle by which `centre` sees a point go from `a` to `b`, from -pi to pi.
-double angle_seen(Point centre, Point a, Point b) {
-  const Point from = a - centre, to = b - centre;
+/// The angle by which `center` sees a point go from `a` to `b`, from -pi to pi.
+double angle_seen(Point center, Point a, Point b) {
+  const Point from = a - center, to = b - center;
   return std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
 }
 
@@ -384,14 +384,14 @@ double angle_seen(Point centre, Point a, Point b) {
 /// has turned about the point once, the other points where it stands still being outside, will never leave.
 class Turn {
  public:
-  Turn(Point centre, std::vector<Point> others, Point start)
-      : centre_(centre), others_(std::move(others)), near_(1e300), start_(start), last_(start), seen_(others_.size()) {
-    for (const Point other : others_) near_ = std::min(near_, 1e-3 * distance(centre_, other));
+  Turn(Point center, std::vector<Point> others, Point start)
+      : center_(center), others_(std::move(others)), near_(1e300), start_(start), last_(start), seen_(others_.size()) {
+    for (const Point other : others_) near_ = std::min(near_, 1e-3 * distance(center_, other));
   }
 
   bool caught(Point p) {
-    if (distance(centre_, p) < near_) return true;
-    angle_ += angle_seen(centre_, last_, p);
+    if (distance(center_, p) < near_) return true;
+    angle_ += angle_seen(center_, last_, p);
     bool clear = true;  // whether what the others saw is beyond doubt
     for (std::size_t i = 0; i < others_.size(); ++i) {
       const double seen = angle_seen(others_[i], last_, p);
@@ -410,7 +410,7 @@ class Turn {
   }
 
  private:
-  Point centre_;
+  Point center_;
   std::vector<Point> others_;
   double near_;
   Point start_, last_;
@@ -427,11 +427,11 @@ constexpr double at_rest = 1e-9;  // an amplitude that is none
 class SlowlyVaryingParameters::Plane {
  public:
   Plane(const SlowlyVaryingParameters& theory, double force, double frequency, double amplitude, double phase,
-        const std::function<void()>& heartbeat)
+        const std::function<void()>& progress)
       : balance_(theory, force, frequency),
         length_(force / frequency / frequency),
         rests_(theory.rests(force)),
-        heartbeat_(heartbeat) {
+        progress_(progress) {
     check_cycle(amplitude);
     require(std::isfinite(phase), "SlowlyVaryingParameters: phase must be finite", phase, "rad");
     const double start = amplitude / length_;
@@ -478,7 +478,7 @@ class SlowlyVaryingParameters::Plane {
  private:
   // A' = (S - B sin(phi)) / (2 omega), A phi' = (C - omega^2 A - B cos(phi)) / (2 omega)
   void rate(std::span<const double> y, std::span<double> slope) {
-    if (heartbeat_ && ++rates_ % 4096 == 0) heartbeat_();
+    if (progress_ && ++rates_ % 4096 == 0) progress_();
     const double a = std::hypot(y[0], y[1]), amplitude = a * length_;
     if (rests({y[0], y[1]})) {
       slope[0] = slope[1] = 0;
@@ -494,7 +494,7 @@ class SlowlyVaryingParameters::Plane {
   Balance balance_;
   double length_;
   bool rests_;
-  const std::function<void()>& heartbeat_;
+  const std::function<void()>& progress_;
   long rates_ = 0;
   Point at_{};
   double passed_ = 0;  // omega t
@@ -503,8 +503,8 @@ class SlowlyVaryingParameters::Plane {
 
 HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, double amplitude, double phase,
                                                      std::span<const double> times,
-                                                     const std::function<void()>& heartbeat) const {
-  Plane plane(*this, B, omega, amplitude, phase, heartbeat);
+                                                     const std::function<void()>& progress) const {
+  Plane plane(*this, B, omega, amplitude, phase, progress);
   std::vector<double> angles;
   for (std::size_t i = 0; i < times.size(); ++i) {
     require(std::isfinite(times[i]) && times[i] >= 0 && (i == 0 || times[i] > times[i - 1]),
@@ -523,14 +523,14 @@ HarmonicTransient SlowlyVaryingParameters::transient(double B, double omega, dou
 }
 
 Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span<const double> times,
-                                         const std::function<void()>& heartbeat) const {
+                                         const std::function<void()>& progress) const {
   const double omega = motion.omega();
-  const double phase = centre_ > 0 ? pi : 0;
-  const HarmonicTransient path = transient(motion.amplitude(), omega, std::abs(centre_), phase, times, heartbeat);
+  const double phase = center_ > 0 ? pi : 0;
+  const HarmonicTransient path = transient(motion.amplitude(), omega, std::abs(center_), phase, times, progress);
   Moments moments = detail::moments_at(times);
-  const bool stays = rests(motion.amplitude());  // at x = 0, which friction holds as well as the centre
+  const bool stays = rests(motion.amplitude());  // at x = 0, which friction holds as well as the center
   for (std::size_t i = 0; i < times.size(); ++i) {
-    moments.displacement_mean.value[i] = stays ? 0 : centre_;
+    moments.displacement_mean.value[i] = stays ? 0 : center_;
     if (stays || path.amplitude[i] == 0) continue;  // its phase is NaN
     const double angle = motion.phase(times[i]) + path.phase[i];
     moments.displacement_mean.value[i] += path.amplitude[i] * std::cos(angle);
@@ -541,9 +541,9 @@ Moments SlowlyVaryingParameters::predict(const HarmonicMotion& motion, std::span
 }
 
 HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, double amplitude, double phase,
-                                                     const std::function<void()>& heartbeat) const {
-  constexpr int samples = 64, most_turns = 100'000;
-  Plane plane(*this, B, omega, amplitude, phase, heartbeat);
+                                                     const std::function<void()>& progress) const {
+  constexpr int samples = 64, max_turns = 100'000;
+  Plane plane(*this, B, omega, amplitude, phase, progress);
   const Balance& balance = plane.balance();
   const std::vector<HarmonicSolution> solutions = response(B, omega);
   const double largest = solutions.empty() ? 0 : solutions.back().amplitude;
@@ -565,7 +565,7 @@ HarmonicSolution SlowlyVaryingParameters::settles_on(double B, double omega, dou
   const double detuning = std::max(std::abs(balance.stiffness) / omega / omega, 0.01);
   std::array<double, samples> angles;
   for (int i = 0; i < samples; ++i) angles[static_cast<std::size_t>(i)] = 4 * pi / detuning * (i + 1) / samples;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < max_turns; ++turn) {
     const HarmonicSolution* end = nullptr;
     plane.follow(angles, [&](Point p) {
       if (plane.rests(p)) end = &ends[turns.size()];

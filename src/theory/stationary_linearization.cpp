@@ -420,14 +420,14 @@ std::array<double, 3> from_rest(const Spectrum& spectrum, double zeta, double wn
 
 }  // namespace
 
-Moments StationaryPrediction::transient(std::span<const double> times, const std::function<void()>& heartbeat) const {
+Moments StationaryPrediction::transient(std::span<const double> times, const std::function<void()>& progress) const {
   for (const double time : times)
     detail::require(std::isfinite(time) && time >= 0, "StationaryPrediction: times must be finite and at least 0", time,
                     "s");
   Moments moments;
   moments.time.assign(times.begin(), times.end());
   for (const double time : times) {
-    if (heartbeat) heartbeat();
+    if (progress) progress();
     const auto [v, x, xv] = time == 0 || std::isinf(damping) ? std::array<double, 3>{}
                                                              : from_rest(spectrum, damping, natural_frequency, time);
     moments.velocity_variance.value.push_back(v);

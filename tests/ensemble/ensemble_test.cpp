@@ -432,7 +432,7 @@ TEST_CASE("more members than are kept are counted, to 0.05 %", "[ensemble]") {
   CHECK_THROWS_AS(counted.residual(), std::domain_error);
 }
 
-TEST_CASE("what a heartbeat throws ends the run, and nothing that it was shown is lost", "[ensemble]") {
+TEST_CASE("what a progress callback throws ends the run, and nothing that it was shown is lost", "[ensemble]") {
   // The first block takes a third of a second, the whole would take a minute on two threads.
   constexpr std::uint64_t all = 24'000;
   std::atomic<bool> hurry = false;
@@ -441,7 +441,7 @@ TEST_CASE("what a heartbeat throws ends the run, and nothing that it was shown i
   EnsembleOptions o = options(all);
   std::optional<Ensemble> kept;
   std::uint64_t shown = 0;
-  o.heartbeat = [&](const EnsembleProgress& progress) {
+  o.progress = [&](const EnsembleProgress& progress) {
     CHECK(progress.members == all);
     CHECK(progress.done == progress.so_far.members());
     if (progress.done == 0) return;
@@ -456,7 +456,7 @@ TEST_CASE("what a heartbeat throws ends the run, and nothing that it was shown i
 
   hurry = true;
   std::uint64_t first_done = 0, last_done = 0;
-  o.heartbeat = [&](const EnsembleProgress& progress) {
+  o.progress = [&](const EnsembleProgress& progress) {
     if (first_done == 0) first_done = progress.done;
     last_done = progress.done;
   };
@@ -466,10 +466,10 @@ TEST_CASE("what a heartbeat throws ends the run, and nothing that it was shown i
   CHECK(last_done == all);
 }
 
-TEST_CASE("a heartbeat is called at the end of a run however short", "[ensemble]") {
+TEST_CASE("a progress callback is called at the end of a run however short", "[ensemble]") {
   EnsembleOptions o = options(3);
   std::uint64_t done = 0;
-  o.heartbeat = [&](const EnsembleProgress& progress) { done = progress.done; };
+  o.progress = [&](const EnsembleProgress& progress) { done = progress.done; };
   run_ensemble(Coulomb(1), shaking(5), o);
   CHECK(done == 3);
 }

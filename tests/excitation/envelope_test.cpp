@@ -19,7 +19,7 @@ TEST_CASE("a motion builds up, stays strong, decays", "[envelope]") {
   CHECK(envelope(16) == std::exp(-1.0));
   CHECK(envelope(infinity) == 0);
   CHECK(envelope(std::nextafter(4.0, 0.0)) == Approx(1).epsilon(1e-15));
-  CHECK((envelope.build_up() == 4 && envelope.strong() == 10 && envelope.decay_rate() == 0.5));
+  CHECK((envelope.build_up() == 4 && envelope.strong_duration() == 10 && envelope.decay_rate() == 0.5));
 }
 
 TEST_CASE("phases may be missing", "[envelope]") {
@@ -51,7 +51,7 @@ TEST_CASE("envelopes are equal where they are the same, and can be written down"
   CHECK_FALSE(Envelope(4, 10, 0.5) == Envelope(4, 10, 0.25));
   CHECK_FALSE(Envelope(0, 0, 0) == Envelope::from_table({0, 1}, {1, 1}));
   CHECK(Envelope(4, 10, 0.1).configuration() ==
-        R"({"kind": "jennings", "build_up": 4, "strong": 10, "decay_rate": 0.1})");
+        R"({"kind": "jennings", "build_up": 4, "strong_duration": 10, "decay_rate": 0.1})");
   CHECK(Envelope::from_table({0, 0.1}, {1, 1e-5}).configuration() ==
         R"({"kind": "table", "time": [0, 0.1], "factor": [1, 1e-05]})");
 }
@@ -59,7 +59,7 @@ TEST_CASE("envelopes are equal where they are the same, and can be written down"
 TEST_CASE("what is no envelope is refused by name", "[envelope][errors]") {
   CHECK_THROWS_WITH(Envelope(-1, 1, 1), "Envelope: build_up must be finite and at least 0, got -1 s");
   CHECK_THROWS_WITH(Envelope(infinity, 1, 1), "Envelope: build_up must be finite and at least 0, got inf s");
-  CHECK_THROWS_WITH(Envelope(1, not_a_number, 1), "Envelope: strong must be at least 0, got nan s");
+  CHECK_THROWS_WITH(Envelope(1, not_a_number, 1), "Envelope: strong_duration must be at least 0, got nan s");
   CHECK_THROWS_WITH(Envelope(1, 1, -0.5), "Envelope: decay_rate must be finite and at least 0, got -0.5 1/s");
   CHECK_THROWS_WITH(Envelope::from_table({0, 1}, {1}), "Envelope: needs as many factor as time values, got 1 for 2");
   CHECK_THROWS_WITH(Envelope::from_table({0}, {1}), "Envelope: a table needs at least two points, got 1");

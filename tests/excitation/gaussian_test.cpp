@@ -382,7 +382,7 @@ TEST_CASE("lines that meet an edge of the band but for round-off are in it", "[g
   }
 }
 
-TEST_CASE("a gap in a table costs a phase, not its neighbours'", "[gaussian]") {
+TEST_CASE("a gap in a table costs a phase, not its neighbors'", "[gaussian]") {
   const Spectrum gap = Spectrum::from_table({1, 2, 2.1, 3, 3.1, 4}, {1, 1, 0, 0, 1, 1});
   const GaussianExcitation excitation(gap, 0.1, 1024, options(false));
   CHECK(excitation.lines() < 50);

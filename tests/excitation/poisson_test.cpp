@@ -130,7 +130,7 @@ TEST_CASE("the number of pulses is Poisson", "[poisson]") {
 TEST_CASE("gaps are exponential, amplitudes Gaussian, and they know nothing of each other", "[poisson]") {
   const PoissonPulses excitation(2, 0.1, 2.5, 25);
   std::vector<double> gaps, amplitudes;
-  double product = 0, neighbours = 0;
+  double product = 0, neighbors = 0;
   for (std::uint64_t member = 0; member < 4000; ++member) {
     const Pulses p = pulses_of(excitation, 2, member);
     REQUIRE(p.arrivals.size() >= 6);  // of 50 expected: so the duration does not cut these gaps, which would bias them
@@ -138,14 +138,14 @@ TEST_CASE("gaps are exponential, amplitudes Gaussian, and they know nothing of e
       gaps.push_back(p.arrivals[k] - (k == 0 ? 0 : p.arrivals[k - 1]));
       amplitudes.push_back(p.amplitudes[k]);
       product += (2 * gaps.back() - 1) * p.amplitudes[k] / 2.5;
-      neighbours += p.amplitudes[k] * p.amplitudes[k + 1] / (2.5 * 2.5);
+      neighbors += p.amplitudes[k] * p.amplitudes[k + 1] / (2.5 * 2.5);
     }
   }
   CHECK(kolmogorov(gaps, [](double gap) { return -std::expm1(-2 * gap); }) < once_in_1000);
   CHECK(kolmogorov(amplitudes, [](double b) { return normal_cdf(b / 2.5); }) < once_in_1000);
   const double n = static_cast<double>(gaps.size());
-  CHECK(std::abs(product) < 3.29 * std::sqrt(n));     // products of variance 1: once in 1000
-  CHECK(std::abs(neighbours) < 3.29 * std::sqrt(n));  // once in 1000
+  CHECK(std::abs(product) < 3.29 * std::sqrt(n));    // products of variance 1: once in 1000
+  CHECK(std::abs(neighbors) < 3.29 * std::sqrt(n));  // once in 1000
 }
 
 TEST_CASE("a motion begins at zero, ends at its duration and is held between times that increase", "[poisson]") {
@@ -517,7 +517,7 @@ TEST_CASE("a rate, a width, an amplitude or a duration that is not positive is r
     CHECK_THROWS_WITH(PoissonPulses::from_earthquake(bad, 1, 1),
                       "PoissonPulses: rms_acceleration" + rule + got + " m/s^2");
     CHECK_THROWS_WITH(PoissonPulses::from_earthquake(1, bad, 1),
-                      "PoissonPulses: centre_frequency_hz" + rule + got + " Hz");
+                      "PoissonPulses: center_frequency_hz" + rule + got + " Hz");
     CHECK_THROWS_WITH(PoissonPulses::from_earthquake(1, 1, bad), "PoissonPulses: duration" + rule + got + " s");
     CHECK_THROWS_WITH(PoissonPulses::from_earthquake(1, 1, 1, bad), "PoissonPulses: overlap" + rule + got);
   }

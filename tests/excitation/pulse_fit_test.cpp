@@ -44,7 +44,7 @@ TEST_CASE("pulses are found from their own spectrum", "[pulse_fit]") {
     CHECK(fit.half_width == Approx(event.half_width()).epsilon(1e-5));
     CHECK(fit.intensity == Approx(event.rate() * event.sigma() * event.sigma()).epsilon(1e-5));
     CHECK(fit.rms_acceleration == Approx(std::sqrt(event.variance())).epsilon(1e-5));
-    CHECK(fit.centre_frequency_hz == Approx(1 / (2 * event.half_width())).epsilon(1e-5));
+    CHECK(fit.center_frequency_hz == Approx(1 / (2 * event.half_width())).epsilon(1e-5));
     CHECK(fit.misfit < 1e-5);
     CHECK(fit.half_width_error == 0);
   }

@@ -153,7 +153,7 @@ constexpr std::size_t many = 1'000'000;
 const double root_many = std::sqrt(static_cast<double>(many));
 }  // namespace
 
-TEST_CASE("uniform numbers are uniform, and no two neighbours know of each other", "[random][statistics]") {
+TEST_CASE("uniform numbers are uniform, and no two neighbors know of each other", "[random][statistics]") {
   const auto u = draw(&uniforms, {1, 2, 3}, many);
   CHECK(*std::ranges::min_element(u) > 0);
   CHECK(*std::ranges::max_element(u) < 1);
@@ -233,8 +233,8 @@ TEST_CASE("phasors are spread evenly over the circle", "[random][statistics]") {
     CHECK(std::abs(sum.real()) < bound * root_many / std::sqrt(2.0));
     CHECK(std::abs(sum.imag()) < bound * root_many / std::sqrt(2.0));
   }
-  std::complex<double> neighbours = 0;
-  for (std::size_t i = 1; i < many; ++i) neighbours += p[i] * std::conj(p[i - 1]);
-  CHECK(std::abs(neighbours.real()) < bound * root_many / std::sqrt(2.0));
-  CHECK(std::abs(neighbours.imag()) < bound * root_many / std::sqrt(2.0));
+  std::complex<double> neighbors = 0;
+  for (std::size_t i = 1; i < many; ++i) neighbors += p[i] * std::conj(p[i - 1]);
+  CHECK(std::abs(neighbors.real()) < bound * root_many / std::sqrt(2.0));
+  CHECK(std::abs(neighbors.imag()) < bound * root_many / std::sqrt(2.0));
 }

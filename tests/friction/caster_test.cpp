@@ -152,7 +152,7 @@ TEST_CASE("a caster pushed beyond its escape speed never comes to rest", "[caste
 }
 
 TEST_CASE("a caster that shoots through its well pays the well's whole work", "[caster]") {
-  // v^2 / 2 falls by pi a reach in all; half of it at the centre. One segment, or many: the same.
+  // v^2 / 2 falls by pi a reach in all; half of it at the center. One segment, or many: the same.
   const double a = 1, reach = 0.5, start = -400 * reach;
   const double well = std::numbers::pi * a * reach;
   for (const double speed : {std::sqrt(2 * well * 1.01), 3.0, 30.0, 3e3, 3e6}) {
@@ -176,7 +176,7 @@ TEST_CASE("a caster that shoots through its well pays the well's whole work", "[
 }
 
 TEST_CASE("a caster driven back from afar into its well feels it", "[caster]") {
-  // At 800 reaches the level has underflowed to nothing; the ground then pushes it back and beyond the centre.
+  // At 800 reaches the level has underflowed to nothing; the ground then pushes it back and beyond the center.
   const double reach = 0.5, start = 800 * reach, push = 1;
   const double lasting = std::sqrt(2 * 1.5 * start / push);
   const Response r = integrate(Caster(1, reach), held(push, lasting), from(start));

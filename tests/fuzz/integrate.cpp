@@ -113,7 +113,7 @@ void close(const Problem& p, const char* who, std::size_t i, double x, double v,
 /// What `advance` tells of a motion; ends it where it does not come to an end.
 struct Watcher {
   const Problem& problem;
-  std::size_t segment = 0, most_slides = 1000;
+  std::size_t segment = 0, max_slides = 1000;
   struct Seen {
     std::size_t segment;
     double time;
@@ -130,9 +130,9 @@ struct Watcher {
     at_once = slip.duration > 0 ? 0 : at_once + 1;
     const auto where = [&] { return " in segment " + std::to_string(segment); };
     if (at_once > 100 && !extreme) fail(problem, "slips of no duration without end" + where());
-    if (++slides <= most_slides) return;
+    if (++slides <= max_slides) return;
     if (extreme) throw Skip();
-    fail(problem, "more than " + std::to_string(most_slides) + " slips" + where());
+    fail(problem, "more than " + std::to_string(max_slides) + " slips" + where());
   }
   void event(EventKind kind, double time, const State& state) { events.push_back({segment, time, state, kind}); }
 };
@@ -167,8 +167,8 @@ Slider<Law> slider_of(const Problem& p) {
 IntegrateOptions options_of(const Problem& p) {
   IntegrateOptions options;
   options.displacement = p.displacement, options.velocity = p.velocity, options.settle = p.settle;
-  options.heartbeat = [&p, beats = 0]() mutable {
-    if (++beats > 100) fail(p, "no end after 100 heartbeats");
+  options.progress = [&p, calls = 0]() mutable {
+    if (++calls > 100) fail(p, "no end after 100 progress calls");
   };
   return options;
 }
@@ -257,7 +257,7 @@ class Check {
     watcher_.begin(i);
     const double swings = p_.natural_frequency * segment.duration;
     if (swings > (p_.caster ? 100 : 1e4)) throw Skip();
-    watcher_.most_slides = (p_.caster ? 20'000 : 20) + static_cast<std::size_t>(2 * swings);
+    watcher_.max_slides = (p_.caster ? 20'000 : 20) + static_cast<std::size_t>(2 * swings);
     watcher_.extreme = extreme(segment, std::abs(state.velocity));
     try {
       advance(slider_, segment, state, watcher_);
@@ -282,7 +282,7 @@ class Check {
 
   IndependentSlider compare_samples() {
     IndependentSlider independent = p_.independent();
-    independent.most_steps = 1'000'000;
+    independent.max_steps = 1'000'000;
     at_sample(independent);
     for (std::size_t i = 0; i < motion_.segments(); ++i) {
       const Segment s = p_.segment(i);

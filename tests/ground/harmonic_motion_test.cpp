@@ -318,16 +318,16 @@ TEST_CASE("a harmonic motion names what it refuses", "[harmonic_motion][errors]"
   CHECK_THROWS_AS(HarmonicMotion(1, 1e10, 1e10), std::invalid_argument);
 }
 
-TEST_CASE("a heartbeat is felt in a long harmonic motion, were it of one sample", "[harmonic_motion]") {
+TEST_CASE("a progress callback is felt in a long harmonic motion, were it of one sample", "[harmonic_motion]") {
   IntegrateOptions options;
-  int beats = 0;
-  options.heartbeat = [&] {
-    if (++beats == 3) throw std::runtime_error("enough");
+  int calls = 0;
+  options.progress = [&] {
+    if (++calls == 3) throw std::runtime_error("enough");
   };
   for (const double samples : {8.0, 1e-9}) {
-    beats = 0;
+    calls = 0;
     CHECK_THROWS_WITH(integrate(Coulomb(1), cycles(0.5, 1, 1e5, samples), options), "enough");
-    beats = 0;
+    calls = 0;
     CHECK_THROWS_WITH(integrate(Slider(Coulomb(1), 50), cycles(3, 0.01, 1e5, samples), options), "enough");
   }
 }

@@ -44,7 +44,7 @@ TEST_CASE("a level that is held has its intensity spread evenly", "[strong_motio
   // the pulses to come are not many on either side.
   CHECK(s.rms_velocity == Approx(std::sqrt(0.75)).epsilon(1e-4));
   // sqrt(3) / Dt = 3 / sqrt(0.75): Dt = 1 / 2, which is 1 Hz, less what a line takes away of pulses, 3 / (2 f T).
-  CHECK(s.centre_frequency_hz == Approx(1 / std::sqrt(1 + 1.5 / 180)).epsilon(2e-4));
+  CHECK(s.center_frequency_hz == Approx(1 / std::sqrt(1 + 1.5 / 180)).epsilon(2e-4));
 }
 
 TEST_CASE("a sine has the frequency that its ground velocity tells", "[strong_motion]") {
@@ -52,7 +52,7 @@ TEST_CASE("a sine has the frequency that its ground velocity tells", "[strong_mo
   const StrongMotion s = strong_motion(sine(2, 5, 60));
   CHECK(s.rms_acceleration == Approx(std::sqrt(2.0)).epsilon(1e-3));
   CHECK(s.rms_velocity == Approx(std::sqrt(2.0) / (10 * pi)).epsilon(1e-3));
-  CHECK(s.centre_frequency_hz ==
+  CHECK(s.center_frequency_hz ==
         Approx(10 * pi / (2 * std::sqrt(3.0)) / std::sqrt(1 + 1.5 / (9.07 * 54))).epsilon(1e-3));
   CHECK(s.duration == Approx(54).epsilon(1e-2));
 }
@@ -74,7 +74,7 @@ TEST_CASE("lines and steps are integrated exactly, however they are cut", "[stro
   CHECK(a.end == Approx(b.end).epsilon(1e-12));
   CHECK(a.rms_acceleration == Approx(b.rms_acceleration).epsilon(1e-12));
   CHECK(a.rms_velocity == Approx(b.rms_velocity).epsilon(1e-11));
-  CHECK(a.centre_frequency_hz == Approx(b.centre_frequency_hz).epsilon(1e-11));
+  CHECK(a.center_frequency_hz == Approx(b.center_frequency_hz).epsilon(1e-11));
 }
 
 TEST_CASE("units of strength and time go through", "[strong_motion]") {
@@ -83,23 +83,23 @@ TEST_CASE("units of strength and time go through", "[strong_motion]") {
   for (const double factor : {-1.0, 1e-30, 1e90}) {
     const StrongMotion s = strong_motion(motion.scaled(factor));
     CHECK(s.duration == Approx(one.duration).epsilon(1e-13));
-    CHECK(s.centre_frequency_hz == Approx(one.centre_frequency_hz).epsilon(1e-12));
+    CHECK(s.center_frequency_hz == Approx(one.center_frequency_hz).epsilon(1e-12));
     CHECK(s.rms_acceleration == Approx(std::abs(factor) * one.rms_acceleration).epsilon(1e-13));
     CHECK(s.arias_intensity == Approx(factor * factor * one.arias_intensity).epsilon(1e-13));
   }
   const std::vector<double> n(motion.acceleration().begin(), motion.acceleration().end());
   const StrongMotion slow = strong_motion(GroundMotion(n, 50 * motion.dt()));
   CHECK(slow.duration == Approx(50 * one.duration).epsilon(1e-13));
-  CHECK(slow.centre_frequency_hz == Approx(one.centre_frequency_hz / 50).epsilon(1e-12));
+  CHECK(slow.center_frequency_hz == Approx(one.center_frequency_hz / 50).epsilon(1e-12));
   CHECK(slow.rms_velocity == Approx(50 * one.rms_velocity).epsilon(1e-12));
 }
 
-TEST_CASE("a constant error of the acceleration does not change the centre frequency", "[strong_motion]") {
+TEST_CASE("a constant error of the acceleration does not change the center frequency", "[strong_motion]") {
   // It moves the strong part's ends a little, hence the tolerance.
   std::vector<double> n = gaussian(9, 4000, 1, true);
-  const double clean = strong_motion(GroundMotion(n, 0.01)).centre_frequency_hz;
+  const double clean = strong_motion(GroundMotion(n, 0.01)).center_frequency_hz;
   for (double& value : n) value += 0.05;
-  CHECK(strong_motion(GroundMotion(n, 0.01)).centre_frequency_hz == Approx(clean).epsilon(0.01));
+  CHECK(strong_motion(GroundMotion(n, 0.01)).center_frequency_hz == Approx(clean).epsilon(0.01));
 }
 
 TEST_CASE("pulses give back the earthquake that they were made from", "[strong_motion]") {
@@ -114,7 +114,7 @@ TEST_CASE("pulses give back the earthquake that they were made from", "[strong_m
     constexpr int members = 1000;
     for (std::uint64_t i = 0; i < members; ++i) {
       const StrongMotion s = strong_motion(pulses.sample(1, i));
-      const double f = s.centre_frequency_hz * 2 * pulses.half_width();
+      const double f = s.center_frequency_hz * 2 * pulses.half_width();
       frequency += f / members;
       square += f * f / members;
       acceleration += s.rms_acceleration / std::sqrt(pulses.variance()) / members;
@@ -139,9 +139,9 @@ TEST_CASE("a real record has strong motion, and pulses of its intensity", "[stro
   CHECK(s.rms_acceleration < record.peak_acceleration());
   CHECK(s.rms_acceleration > record.peak_acceleration() / 20);
   CHECK((s.duration > 1 && s.duration < record.duration()));
-  CHECK((s.centre_frequency_hz > 0.3 && s.centre_frequency_hz < 20));
+  CHECK((s.center_frequency_hz > 0.3 && s.center_frequency_hz < 20));
   // The pulses made from it have 90 % of its intensity.
-  const PoissonPulses pulses = PoissonPulses::from_earthquake(s.rms_acceleration, s.centre_frequency_hz, s.duration);
+  const PoissonPulses pulses = PoissonPulses::from_earthquake(s.rms_acceleration, s.center_frequency_hz, s.duration);
   CHECK(pi / (2 * standard_gravity) * pulses.variance() * pulses.duration() ==
         Approx(0.9 * s.arias_intensity).epsilon(1e-12));
 }

@@ -389,12 +389,12 @@ TEST_CASE("continuation follows the closed form of a block", "[orbits][continuat
 TEST_CASE("continuation goes from Den Hartog's orbits to those that stop", "[orbits][continuation]") {
   const Slider slider(Coulomb(1), std::sqrt(0.5));
   ContinuationOptions options;
-  options.largest_amplitude = 100;
+  options.max_amplitude = 100;
   const OrbitBranch branch = continuation(slider, orbits(slider, 1.3, 2)[0], 0.1, 3, options);
   CHECK(branch.orbits.front().amplitude > 80);  // towards resonance
-  int beats = 0;
-  options.heartbeat = [&] {
-    if (++beats == 5) throw std::runtime_error("enough");
+  int calls = 0;
+  options.progress = [&] {
+    if (++calls == 5) throw std::runtime_error("enough");
   };
   CHECK_THROWS_WITH(continuation(slider, branch.orbits[0], 0.1, 3, options), "enough");
   std::size_t stopping = 0;
@@ -413,7 +413,7 @@ TEST_CASE("a block of unequal levels on a spring does not drift: it swings about
   const std::vector<Orbit> found = orbits(slider, 3, 1);
   REQUIRE(found.size() == 1);
   const Orbit& orbit = found[0];
-  CHECK(orbit.centre == Approx(0.3 / 0.49).epsilon(1e-14));
+  CHECK(orbit.center == Approx(0.3 / 0.49).epsilon(1e-14));
   CHECK(orbit.state.displacement == Approx(-3.20727285142).epsilon(1e-11));  // by another program, at every period
   CHECK(orbit.stable);
   CHECK(!orbit.mean_arbitrary);
@@ -421,7 +421,7 @@ TEST_CASE("a block of unequal levels on a spring does not drift: it swings about
   const Orbit mean = orbits(Slider(Coulomb(1.3), 0.7), 3, 1)[0];
   CHECK(orbit.amplitude == mean.amplitude);
   CHECK(orbit.dissipated == mean.dissipated);
-  CHECK(orbit.state.displacement - orbit.centre == Approx(mean.state.displacement).epsilon(1e-14));
+  CHECK(orbit.state.displacement - orbit.center == Approx(mean.state.displacement).epsilon(1e-14));
   // `integrate` stays on it, and comes to it from rest.
   const double period = orbit.period();
   const HarmonicMotion motion(3, 1, 200 * period, period / 64);
@@ -431,24 +431,24 @@ TEST_CASE("a block of unequal levels on a spring does not drift: it swings about
   const std::size_t last = stays.displacement.size() - 1;
   CHECK(stays.displacement[last] == Approx(orbit.state.displacement).epsilon(1e-9));
   CHECK(comes.displacement[last] == Approx(orbit.state.displacement).epsilon(1e-9));
-  // Half a period later it is as far on the other side of the centre.
+  // Half a period later it is as far on the other side of the center.
   const std::vector<State> states = states_at(slider, orbit, {0.3, 0.3 + period / 2});
-  CHECK(states[0].displacement - orbit.centre == Approx(orbit.centre - states[1].displacement).epsilon(1e-11));
+  CHECK(states[0].displacement - orbit.center == Approx(orbit.center - states[1].displacement).epsilon(1e-11));
   CHECK(states[0].velocity == Approx(-states[1].velocity).epsilon(1e-11));
   // The branch holds the orbits that are found one by one.
   const OrbitBranch branch = continuation(slider, orbit, 0.95, 1.05);
   REQUIRE(branch.orbits.size() > 2);
   for (const Orbit& other : branch.orbits) {
     const Orbit alone = orbits(slider, 3, other.omega)[0];
-    CHECK(other.centre == Approx(orbit.centre).epsilon(1e-14));
+    CHECK(other.center == Approx(orbit.center).epsilon(1e-14));
     CHECK(other.amplitude == Approx(alone.amplitude).epsilon(1e-9));
     CHECK(other.state.displacement == Approx(alone.state.displacement).epsilon(1e-9));
   }
-  // A weak load lets it rest: at the centre, among other places.
+  // A weak load lets it rest: at the center, among other places.
   const Orbit rest = orbits(slider, 1.2, 1)[0];
   CHECK(rest.at_rest());
-  CHECK(rest.centre == orbit.centre);
-  CHECK(states_at(slider, rest, {1.0})[0].displacement == orbit.centre);
+  CHECK(rest.center == orbit.center);
+  CHECK(states_at(slider, rest, {1.0})[0].displacement == orbit.center);
   CHECK_THROWS_WITH(orbits(Slider(Coulomb(1, infinity), 0.7), 3, 1), ContainsSubstring("finite alone"));
 }
 
@@ -469,8 +469,8 @@ TEST_CASE("orbits and continuation name what they refuse", "[orbits][errors]") {
   CHECK_THROWS_AS(continuation(Coulomb(1), orbit, not_a_number, 2), std::invalid_argument);
   CHECK_THROWS_AS(continuation(Coulomb(1), orbit, 0.5, infinity), std::invalid_argument);
   ContinuationOptions options;
-  options.largest_step = 0;
-  CHECK_THROWS_WITH(continuation(Coulomb(1), orbit, 0.5, 2, options), ContainsSubstring("largest_step"));
+  options.max_step = 0;
+  CHECK_THROWS_WITH(continuation(Coulomb(1), orbit, 0.5, 2, options), ContainsSubstring("max_step"));
 }
 
 TEST_CASE("a law's slope is the derivative of its level, by whatever functions it is written", "[orbits][dual]") {

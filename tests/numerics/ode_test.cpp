@@ -110,12 +110,12 @@ TEST_CASE("what is thrown inside comes out", "[ode]") {
   for (const OdeMethod method : {OdeMethod::adams, OdeMethod::bdf, OdeMethod::runge_kutta}) {
     OdeOptions options{.absolute_tolerance = {1e-10}, .method = method};
     CHECK_THROWS_AS(solve_ode(thrower, 0, start, times, options), Stop);
-    int beats = 0;
-    options.heartbeat = [&] {
-      if (++beats == 3) throw Stop();
+    int calls = 0;
+    options.progress = [&] {
+      if (++calls == 3) throw Stop();
     };
     CHECK_THROWS_AS(solve_ode(oscillator, 0, start, times, options), Stop);
-    CHECK(beats == 3);
+    CHECK(calls == 3);
   }
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("a solver that gives up says how far it came", "[ode]") {
                     ContainsSubstring("reached t = 1.4") || ContainsSubstring("reached t = 1.5"));
   const std::array<double, 2> two = {1, 0};
   const std::array<double, 1> late = {1e9};
-  CHECK_THROWS_WITH(solve_ode(oscillator, 0, two, late, {.absolute_tolerance = {1e-10}, .most_steps = 2000}),
+  CHECK_THROWS_WITH(solve_ode(oscillator, 0, two, late, {.absolute_tolerance = {1e-10}, .max_steps = 2000}),
                     ContainsSubstring("2000 steps done"));
 }
 

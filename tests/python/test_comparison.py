@@ -107,7 +107,7 @@ def test_an_envelope_leaves_linearization_in_time():
         0.02,
         1024,
         zero_frequency=True,
-        envelope=ss.Envelope(build_up=4, strong=10, decay_rate=0.5),
+        envelope=ss.Envelope(build_up=4, strong_duration=10, decay_rate=0.5),
     )
     cart = ss.Slider(ss.Caster(slip_level=0.5, reach=0.3), natural_frequency=2.0)
     c = ss.compare(cart, fading, [4.0, 12.0], members=640, seed=1)

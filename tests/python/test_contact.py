@@ -377,7 +377,7 @@ def test_what_has_no_sensitivity_is_refused_with_the_reason():
         "got a pendulum": (ss.FrictionPendulum(radius=2, mu=0.05), record, "mu"),
         "must not leave the ground": (ss.Coulomb(mu=0.1), shaken(5), "mu"),
         r"motion.sampled\(dt\)": (ss.Coulomb(mu=0.1), ss.HarmonicMotion(2, 3, 4), "mu"),
-        "must be one of 'mu', .*, got 'colour'": (ss.Coulomb(mu=0.1), record, "colour"),
+        "must be one of 'mu', .*, got 'color'": (ss.Coulomb(mu=0.1), record, "color"),
     }
     for reason, (slider, motion, parameter) in refused.items():
         with pytest.raises(ValueError, match=reason):

@@ -40,7 +40,7 @@ def slide(files, strong, coefficients):
         record, s = ss.read_record(file), strong[file.stem]
         like_it = ss.PoissonPulses.from_earthquake(
             rms_acceleration=s.rms_acceleration,
-            centre_frequency_hz=s.centre_frequency_hz,
+            center_frequency_hz=s.center_frequency_hz,
             duration=s.duration,
         )
         for mu in coefficients:
@@ -133,7 +133,7 @@ def test_the_table_is_what_comes_out(trials, strong):
         s = strong[stem]
         assert cells[:3] == [
             f"{s.rms_acceleration:.2f}",
-            f"{s.centre_frequency_hz:.2f}",
+            f"{s.center_frequency_hz:.2f}",
             f"{s.duration:.1f}",
         ]
         three = [t for t in trials if t.record == stem]

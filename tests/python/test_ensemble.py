@@ -137,7 +137,7 @@ def test_a_velocity_that_is_not_stationary_is_said_wherever_its_variance_is(ense
         dt=0.1,
         samples=256,
         period=1024,
-        envelope=ss.Envelope(build_up=2, strong=2, decay_rate=0.2),
+        envelope=ss.Envelope(build_up=2, strong_duration=2, decay_rate=0.2),
     )
     comparison = ss.compare(BLOCK, dying, members=500, seed=1, theories=[Anything()])
     e = comparison.ensemble

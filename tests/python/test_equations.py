@@ -27,7 +27,7 @@ def test_slowly_varying_parameters():
     assert svp.frequency(load, amplitude)[1] ** 4 == close(w4, rel=1e-13)  # (2.35)
     edge = (4 / (pi * y**2)) ** 2 * gd * (gd - y / cosh(y)) * a**2 / r**2
     assert svp.stability_boundary(amplitude)[1] ** 4 == close(edge, rel=1e-13)  # (2.41)
-    least = svp.least_amplitude(1.5) / r
+    least = svp.min_amplitude(1.5) / r
     assert least == close(4 * a / (pi * 1.5) * 2 * atan(tanh(least / 2)), rel=1e-13)  # (2.37)
     corner = svp.stability_boundary(1e-4 * r)[1] * sqrt(r / a)
     assert corner == close(sqrt(4 / (sqrt(3) * pi)), rel=1e-7)  # (2.42)

@@ -78,7 +78,7 @@ def test_01_one_record(run, capsys):
     assert r.motion.name.startswith("Kobe")
     assert r.at_rest
     assert abs(r.residual) <= r.peak <= r.sliding_distance
-    # All that the ground put in went into friction, mu g for each metre of way.
+    # All that the ground put in went into friction, mu g for each meter of way.
     assert r.energy.dissipated == pytest.approx(0.2 * G * r.sliding_distance, rel=1e-12)
     assert abs(r.energy.imbalance) < 1e-12 * r.energy.input
     assert f"peak displacement      {100 * r.peak:7.2f} cm" in capsys.readouterr().out

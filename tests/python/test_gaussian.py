@@ -99,7 +99,7 @@ def test_options_do_what_they_say():
     random = ss.GaussianExcitation(SOIL, **plain, random_amplitudes=True)
     assert np.ptp(variances(random)) > 0.05 * random.variance
 
-    envelope = ss.Envelope(build_up=2, strong=3, decay_rate=0.5)
+    envelope = ss.Envelope(build_up=2, strong_duration=3, decay_rate=0.5)
     shaped = ss.GaussianExcitation(SOIL, **plain, envelope=envelope)
     t = np.arange(256) * 0.05
     assert shaped.envelope == envelope
@@ -226,7 +226,7 @@ EXCITATIONS = [
         correct_interpolation=False,
         random_amplitudes=True,
         zero_frequency=True,
-        envelope=ss.Envelope(build_up=1, strong=2, decay_rate=0.5),
+        envelope=ss.Envelope(build_up=1, strong_duration=2, decay_rate=0.5),
     ),
     ss.GaussianExcitation(SOIL, dt=0.02, samples=300).refined(3),
     ss.GaussianExcitation(ss.Spectrum.from_function(decaying, high=20.0), dt=0.1, samples=512),
@@ -257,7 +257,7 @@ def test_a_configuration_is_all_that_the_motions_depend_on():
     assert c["excitation"] == "GaussianExcitation"
     assert c["spectrum"] == {"kind": "kanai_tajimi", "s0": 1, "frequency": 15, "damping": 0.6}
     assert (c["dt"], c["samples"], c["period"], c["refinement"]) == (0.02, 300, 300, 1)
-    assert c["envelope"]["strong"] == 2
+    assert c["envelope"]["strong_duration"] == 2
     assert len({e.configuration for e in EXCITATIONS}) == len(EXCITATIONS)
 
 

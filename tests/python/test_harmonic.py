@@ -211,10 +211,10 @@ def test_orbits_and_continuation_refuse_what_they_cannot_answer():
 def test_unequal_levels_on_a_spring_swing_about_another_place():
     slider = ss.Slider(ss.Coulomb(slip_level=1.0, backward=1.6), natural_frequency=0.7)
     (orbit,) = ss.harmonic.orbits(slider, 3.0, 1.0)
-    assert orbit.centre == pytest.approx(0.3 / 0.49, rel=1e-14)
+    assert orbit.center == pytest.approx(0.3 / 0.49, rel=1e-14)
     assert orbit.displacement == pytest.approx(-3.20727285142, rel=1e-11)  # by another program
     x, _ = orbit.histories([0.4, 0.4 + orbit.period / 2])
-    assert x.mean() == pytest.approx(orbit.centre, rel=1e-10)
-    assert ss.theory.SlowlyVaryingParameters(slider).centre == pytest.approx(orbit.centre)
+    assert x.mean() == pytest.approx(orbit.center, rel=1e-10)
+    assert ss.theory.SlowlyVaryingParameters(slider).center == pytest.approx(orbit.center)
     with pytest.raises(ValueError, match="drifts"):
         ss.theory.SlowlyVaryingParameters(ss.Coulomb(slip_level=1.0, backward=1.6))

@@ -344,4 +344,4 @@ def test_laws_do_not_change():
     with pytest.raises(AttributeError):
         law.slip_level = 1.0
     with pytest.raises(AttributeError):
-        law.colour = "red"
+        law.color = "red"

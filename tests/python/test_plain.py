@@ -128,7 +128,7 @@ OBJECTS = [
     ss.integrate(BLOCK, QUAKE),
     ss.response_spectrum(QUAKE, [1]),
     ss.strong_motion(QUAKE),
-    ss.Envelope(build_up=1, strong=2, decay_rate=3),
+    ss.Envelope(build_up=1, strong_duration=2, decay_rate=3),
     ss.Spectrum.white(s0=1),
     PULSES,
     ss.GaussianExcitation(ss.Spectrum.band_pass(s0=1, low=1, high=2), 0.1, 4096),

@@ -96,10 +96,10 @@ def test_table_5_1():
 
 
 def test_an_earthquake_is_its_rms_acceleration_and_frequency():
-    e = ss.PoissonPulses.from_earthquake(rms_acceleration=2.5, centre_frequency_hz=3, duration=60)
+    e = ss.PoissonPulses.from_earthquake(rms_acceleration=2.5, center_frequency_hz=3, duration=60)
     assert e == ss.PoissonPulses.event("great very near field")
     e = ss.PoissonPulses.from_earthquake(
-        rms_acceleration=2, centre_frequency_hz=4, duration=60, overlap=2, shape=([0, 1], [1])
+        rms_acceleration=2, center_frequency_hz=4, duration=60, overlap=2, shape=([0, 1], [1])
     )
     assert e.variance == pytest.approx(4)
     assert e.rate * e.half_width == pytest.approx(2)
@@ -238,7 +238,7 @@ def test_it_says_what_it_is(excitation):
 
 
 def test_an_envelope_weighs_pulses_where_they_arrive():
-    envelope = ss.Envelope(build_up=4, strong=5, decay_rate=0.3)
+    envelope = ss.Envelope(build_up=4, strong_duration=5, decay_rate=0.3)
     shaped, plain = ss.PoissonPulses(**USUAL, envelope=envelope), ss.PoissonPulses(**USUAL)
     assert shaped.envelope == envelope
     t, b = shaped.pulses(seed=6, member=0)

@@ -34,7 +34,7 @@ def test_pulses_by_a_spectrum_have_it():
 
 
 def test_pulses_by_a_spectrum_start_and_swell_as_others_do():
-    envelope = ss.Envelope(build_up=1, strong=5, decay_rate=1)
+    envelope = ss.Envelope(build_up=1, strong_duration=5, decay_rate=1)
     pulses = ss.PoissonPulses.from_spectrum(
         SOIL, rate=3, duration=20, dt=0.05, stationary_start=True, envelope=envelope
     )
@@ -81,7 +81,7 @@ def test_a_fit_finds_the_pulses_that_made_a_motion(name):
 def test_a_fit_shows_what_it_found():
     fit = ss.fit_pulses(ss.PoissonPulses.event("great near field").sample(seed=1, member=0))
     assert "misfit" in repr(fit)
-    assert fit.centre_frequency_hz == pytest.approx(1 / (2 * fit.half_width))
+    assert fit.center_frequency_hz == pytest.approx(1 / (2 * fit.half_width))
     with pytest.raises(TypeError, match="must be a GroundMotion or a Spectrum"):
         ss.fit_pulses([1, 2, 3])
     with pytest.raises(TypeError, match="must be a GroundMotion or a Spectrum"):
@@ -101,7 +101,7 @@ def test_records_have_a_fit(pyslammer_files):
     for file in pyslammer_files:
         record = ss.read_record(file)
         fit, strong = ss.fit_pulses(record), ss.strong_motion(record)
-        ratios[file.name] = fit.centre_frequency_hz / strong.centre_frequency_hz
+        ratios[file.name] = fit.center_frequency_hz / strong.center_frequency_hz
         misfits.append(fit.misfit)
         assert ss.fit_pulses(record.scaled(-3)).half_width == pytest.approx(
             fit.half_width, rel=1e-5

@@ -234,7 +234,7 @@ def test_in_the_thesiss_events_the_chain_is_as_far_off_as_the_page_says(row):
         # The table's simulation has been rounded, to less than half of its error.
         assert rms / simulated == pytest.approx(found[0], abs=0.001 + 0.6 * found[1])
     # Another seed, 5 standard errors of the difference: a false alarm in 2 million for each, if
-    # Gaussian. Below a millimetre few members move, and it is not.
+    # Gaussian. Below a millimeter few members move, and it is not.
     e = ss.run_ensemble(block, quake, members=50_000, seed=12, velocity_spectrum=False)
     rms = 100 * np.sqrt(np.mean(e.residual**2))
     assert abs(rms - simulated) < 5 * error * np.sqrt(1 + 1e6 / 50_000)

@@ -132,7 +132,11 @@ def test_kanai_tajimi_errors_are_those_of_the_table(name, strength):
         ),
         # An envelope: while it is strong. Later friction holds what no damper holds.
         (
-            shaking("Kanai-Tajimi", 3, envelope=ss.Envelope(build_up=4, strong=6, decay_rate=0.3)),
+            shaking(
+                "Kanai-Tajimi",
+                3,
+                envelope=ss.Envelope(build_up=4, strong_duration=6, decay_rate=0.3),
+            ),
             (1 / ss.STANDARD_GRAVITY, math.inf),
             [5.0, 10.0],
             ((0.61, 0.79), (0.83, 0.89), (0.92, 1.05), (1.03, 1.07)),
@@ -177,7 +181,12 @@ def test_compare_asks_linearization_about_any_of_these():
     cart = ss.Slider(ss.Caster(slip_level=1.0, reach=0.3), natural_frequency=2.0)
     for slider, excitation in (
         (cart, shaking("Kanai-Tajimi", 2)),
-        (LAW, shaking("band-pass", 2, envelope=ss.Envelope(build_up=9, strong=9, decay_rate=0.2))),
+        (
+            LAW,
+            shaking(
+                "band-pass", 2, envelope=ss.Envelope(build_up=9, strong_duration=9, decay_rate=0.2)
+            ),
+        ),
         (
             ss.Slider(ss.Coulomb(mu=0.06), natural_frequency=2 * math.pi / 3),
             ss.PoissonPulses.event("moderate near field"),

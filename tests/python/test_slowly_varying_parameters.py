@@ -93,11 +93,11 @@ def test_a_caster_below_four_over_pi_has_two_solutions_up_to_its_fold():
     assert not unstable.stable
     assert stable.stable
     assert svp.response(1.0, 1.001 * fold) == []
-    assert svp.least_amplitude(1.0) == pytest.approx(1.360590103585858371543901, rel=1e-14)
-    assert svp.least_amplitude(1.3) == 0
+    assert svp.min_amplitude(1.0) == pytest.approx(1.360590103585858371543901, rel=1e-14)
+    assert svp.min_amplitude(1.3) == 0
     assert svp.rests(1.0)
     assert not svp.rests(1.3)
-    assert SVP(BLOCK).least_amplitude(1.0) == INF
+    assert SVP(BLOCK).min_amplitude(1.0) == INF
 
 
 def test_frequencies_come_in_the_shape_of_the_amplitudes():
@@ -113,7 +113,7 @@ def test_frequencies_come_in_the_shape_of_the_amplitudes():
         assert f([0.5, 1])[0].shape == (2,)
         assert f([])[0].shape == (0,)
     lower, upper = svp.frequency(1.25, amplitude)
-    least = svp.least_amplitude(1.25)
+    least = svp.min_amplitude(1.25)
     assert np.array_equal(np.isnan(upper), amplitude < least)
     for f in (svp.dissipative, svp.dissipative_slope, svp.in_phase, svp.in_phase_slope):
         assert f(amplitude).shape == (4, 6)
@@ -125,7 +125,7 @@ def test_the_least_amplitude_agrees_with_brentq():
     svp = SVP(WHEEL)
     for B in (0.1, 0.9, 1.2):
         expected = brentq(lambda a, b: -svp.dissipative(a) - b, 1e-6, 1e3, (B,), xtol=1e-14)
-        assert svp.least_amplitude(B) == pytest.approx(expected, rel=1e-12)
+        assert svp.min_amplitude(B) == pytest.approx(expected, rel=1e-12)
 
 
 def test_the_averaged_equations_are_solved():
@@ -201,7 +201,7 @@ def test_what_is_out_of_range_is_named():
         with pytest.raises(ValueError, match="amplitude must be positive and finite"):
             svp.stability_boundary(bad)
         with pytest.raises(ValueError, match="B must be positive and finite"):
-            svp.least_amplitude(bad)
+            svp.min_amplitude(bad)
     for bad in (-1.0, INF, NAN):
         with pytest.raises(ValueError, match="amplitude must be finite and at least 0"):
             svp.transient(1.0, 1.0, bad, 0.0, [1.0])

@@ -148,8 +148,8 @@ def test_a_spectrum_has_no_constructor_and_takes_names():
 # ---- envelopes
 
 ENVELOPES = [
-    ss.Envelope(build_up=4, strong=10, decay_rate=0.5),
-    ss.Envelope(build_up=0, strong=INF, decay_rate=0),
+    ss.Envelope(build_up=4, strong_duration=10, decay_rate=0.5),
+    ss.Envelope(build_up=0, strong_duration=INF, decay_rate=0),
     ss.Envelope.from_table([1, 2, 4], [0.5, 2, 0]),
 ]
 
@@ -163,8 +163,8 @@ def test_an_envelope_builds_up_stays_and_decays():
 
 def test_an_envelope_tells_its_numbers():
     e, table = ENVELOPES[0], ENVELOPES[2]
-    assert (e.build_up, e.strong, e.decay_rate, e.table) == (4, 10, 0.5, None)
-    assert (table.build_up, table.strong, table.decay_rate) == (None, None, None)
+    assert (e.build_up, e.strong_duration, e.decay_rate, e.table) == (4, 10, 0.5, None)
+    assert (table.build_up, table.strong_duration, table.decay_rate) == (None, None, None)
     assert np.array_equal(table.table, [[1, 2, 4], [0.5, 2, 0]])
     assert repr(table) == "<Envelope: table of 3 points, 1 to 4 s>"
     for e in ENVELOPES[:2]:
@@ -183,9 +183,15 @@ def test_an_envelope_survives_pickling_and_copying(e):
 @pytest.mark.parametrize(
     "make, message",
     [
-        (lambda: ss.Envelope(build_up=-1, strong=1, decay_rate=1), "build_up .* got -1 s"),
-        (lambda: ss.Envelope(build_up=1, strong=NAN, decay_rate=1), "strong .* got nan s"),
-        (lambda: ss.Envelope(build_up=1, strong=1, decay_rate=INF), "decay_rate .* got inf 1/s"),
+        (lambda: ss.Envelope(build_up=-1, strong_duration=1, decay_rate=1), "build_up .* got -1 s"),
+        (
+            lambda: ss.Envelope(build_up=1, strong_duration=NAN, decay_rate=1),
+            "strong_duration .* got nan s",
+        ),
+        (
+            lambda: ss.Envelope(build_up=1, strong_duration=1, decay_rate=INF),
+            "decay_rate .* got inf 1/s",
+        ),
         (lambda: ss.Envelope.from_table([0, 0], [1, 1]), r"time\[1\] must come after 0 s, got 0 s"),
         (lambda: ss.Envelope.from_table([0, 1], [1, NAN]), r"factor\[1\] .* got nan"),
         (lambda: ss.Envelope.from_table([0], [1]), "at least two points, got 1"),

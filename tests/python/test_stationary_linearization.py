@@ -138,7 +138,7 @@ def test_what_is_not_covered_is_refused():
         METHOD.predict(ss.Coulomb(slip_level=1.0, backward=2.0), band())
     with pytest.raises(ValueError, match="same both ways"):
         METHOD.threshold(ss.Coulomb(slip_level=4.0, backward=5.7), band())
-    envelope = ss.Envelope(build_up=1, strong=2, decay_rate=3)
+    envelope = ss.Envelope(build_up=1, strong_duration=2, decay_rate=3)
     with pytest.raises(ValueError, match="envelope must be None"):
         METHOD.predict(block(), ss.GaussianExcitation(band(), 0.1, 1024, envelope=envelope))
     with pytest.raises(TypeError):

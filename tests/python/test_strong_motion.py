@@ -10,7 +10,7 @@ import stickslip as ss
 def pulses_like(s):
     return ss.PoissonPulses.from_earthquake(
         rms_acceleration=s.rms_acceleration,
-        centre_frequency_hz=s.centre_frequency_hz,
+        center_frequency_hz=s.center_frequency_hz,
         duration=s.duration,
     )
 
@@ -36,7 +36,7 @@ def test_it_says_what_numpy_says():
     v -= np.polyval(np.polyfit(t[inside], v, 1), t[inside])
     assert s.rms_velocity == pytest.approx(v.std(), rel=1e-2)
     raw = s.rms_acceleration / (2 * math.sqrt(3) * s.rms_velocity)
-    assert s.centre_frequency_hz == pytest.approx(raw / math.sqrt(1 + 1.5 / (raw * s.duration)))
+    assert s.center_frequency_hz == pytest.approx(raw / math.sqrt(1 + 1.5 / (raw * s.duration)))
 
 
 @pytest.mark.parametrize("name", ss.PoissonPulses.events())
@@ -44,7 +44,7 @@ def test_pulses_give_back_what_made_them(name):
     # 200 motions, fixed seed; the mean scatters by 0.5 % at most, and is off by 1 % at most.
     event = ss.PoissonPulses.event(name, stationary_start=True)
     found = [ss.strong_motion(event.sample(seed=2, member=i)) for i in range(200)]
-    ratio = np.array([s.centre_frequency_hz for s in found]) * 2 * event.half_width
+    ratio = np.array([s.center_frequency_hz for s in found]) * 2 * event.half_width
     assert ratio.mean() == pytest.approx(1, abs=0.025)
     assert 0.02 < ratio.std() < 0.09
     rms = np.mean([s.rms_acceleration for s in found])
@@ -66,13 +66,13 @@ def check_record(record):
     s = ss.strong_motion(record)
     assert 0 < s.rms_acceleration < record.peak_acceleration
     assert record.time[0] <= s.begin < s.end <= record.time[-1]
-    assert 0.1 < s.centre_frequency_hz < 30
+    assert 0.1 < s.center_frequency_hz < 30
     pulses = pulses_like(s)  # of 90 % of its intensity
     assert pulses.variance * pulses.duration * math.pi / (2 * ss.STANDARD_GRAVITY) == pytest.approx(
         0.9 * s.arias_intensity, rel=1e-12
     )
-    assert ss.strong_motion(record.scaled(-2)).centre_frequency_hz == pytest.approx(
-        s.centre_frequency_hz, rel=1e-9
+    assert ss.strong_motion(record.scaled(-2)).center_frequency_hz == pytest.approx(
+        s.center_frequency_hz, rel=1e-9
     )
 
 

@@ -71,7 +71,7 @@ soil = ss.Spectrum.from_table([0, 1, 2], np.ones(3))
 soil = ss.Spectrum.from_function(lambda omega: 1 / (1 + omega**2), high=50)
 level: float = soil(3) + soil.variance + soil.band_variance(low=1)
 levels: NDArray[np.float64] = soil(np.linspace(0, 9, 10))
-envelope = ss.Envelope(build_up=4, strong=10, decay_rate=0.5)
+envelope = ss.Envelope(build_up=4, strong_duration=10, decay_rate=0.5)
 factors: NDArray[np.float64] = ss.Envelope.from_table([0, 1], [0, 1])([0.5, 0.7])
 shaking = ss.GaussianExcitation(soil, 0.01, 4096, period=np.int64(8192), envelope=envelope)
 shaking = ss.GaussianExcitation(soil, dt=0.01, samples=4096, interpolation="constant").refined(2)
@@ -126,7 +126,7 @@ r = ss.integrate(damper, quake)
 e = ss.run_ensemble(damper, shaking, members=10, seed=1)
 strong = ss.strong_motion(quake)
 seconds: float = strong.mean_period + strong.duration_5_75
-seconds = strong.duration + strong.centre_frequency_hz
+seconds = strong.duration + strong.center_frequency_hz
 linearized = ss.theory.StationaryLinearization().predict(block, soil)
 linearized = ss.theory.StationaryLinearization().predict(ss.Slider(block, 2), soil)
 spread: float = linearized.velocity_std + linearized.velocity_spectrum(3)

@@ -104,8 +104,8 @@ EXAMPLES = {
     ],
     ss.HarmonicMotion: [ss.HarmonicMotion(2, 3, 4), ss.HarmonicMotion(2, 3, 4, dt=0.1)],
     ss.Envelope: [
-        ss.Envelope(build_up=1, strong=float("inf"), decay_rate=1 / 3),
-        ss.Envelope(build_up=2, strong=2, decay_rate=3),
+        ss.Envelope(build_up=1, strong_duration=float("inf"), decay_rate=1 / 3),
+        ss.Envelope(build_up=2, strong_duration=2, decay_rate=3),
         ss.Envelope.from_table([0, 1 / 3], [1, 0]),
     ],
     ss.Spectrum: [
@@ -186,7 +186,7 @@ EXAMPLES = {
     ],
     harmonic.OrbitBranch: [
         BRANCH,
-        harmonic.continuation(WHEEL, BRANCH[0], 0.9, 1.1, largest_step=0.1),
+        harmonic.continuation(WHEEL, BRANCH[0], 0.9, 1.1, max_step=0.1),
     ],
     theory.Coverage: [
         theory.Coverage(),

@@ -13,7 +13,7 @@
 #include "support/catch.hpp"
 
 using namespace stickslip;
-using detail::most_lanes;
+using detail::max_lanes;
 using test::Watch;
 
 namespace {
@@ -34,20 +34,20 @@ TEST_CASE("casters in lanes move as single ones, step by step, on every instruct
       constexpr std::size_t steps = 150;
       std::mt19937_64 generator(7);
       std::normal_distribution<double> normal(0, c.deviation);
-      std::vector<double> ground((steps + 1) * most_lanes), x(most_lanes), v(most_lanes), peak(most_lanes);
+      std::vector<double> ground((steps + 1) * max_lanes), x(max_lanes), v(max_lanes), peak(max_lanes);
       for (double& n : ground) n = normal(generator);
       const Caster law(c.slip_level, c.reach);
       const Slider<Caster> slider(law);
       double worst_x = 0, worst_v = 0;
       int events = 0, wrong_peaks = 0;
       for (std::size_t k = 0; k < steps; ++k) {
-        const double* const start = &ground[k * most_lanes];
-        const double* const end = start + most_lanes;
+        const double* const start = &ground[k * max_lanes];
+        const double* const end = start + max_lanes;
         const std::vector<double> x0 = x, v0 = v;
-        for (std::size_t i = 0; i < most_lanes; ++i) peak[i] = std::abs(x[i]);
-        detail::advance_lanes(detail::CasterLanes{law, c.duration}, most_lanes, start, end,
+        for (std::size_t i = 0; i < max_lanes; ++i) peak[i] = std::abs(x[i]);
+        detail::advance_lanes(detail::CasterLanes{law, c.duration}, max_lanes, start, end,
                               {x.data(), v.data(), peak.data()});
-        for (std::size_t i = 0; i < most_lanes; ++i) {
+        for (std::size_t i = 0; i < max_lanes; ++i) {
           State state = State::at(x0[i], v0[i]);
           Watch watch{std::abs(x0[i])};
           advance(slider, Segment{c.duration, start[i], end[i]}, state, watch);
@@ -75,19 +75,19 @@ TEST_CASE("after a thousand steps casters in lanes are within 1e-9 of single one
   constexpr std::size_t steps = 1000;
   std::mt19937_64 generator(11);
   std::normal_distribution<double> normal(0, 1);
-  std::vector<double> ground((steps + 1) * most_lanes), x(most_lanes), v(most_lanes), peak(most_lanes);
-  for (std::size_t i = 0; i < most_lanes; ++i) {  // an autoregressive motion, of standard deviation 2
+  std::vector<double> ground((steps + 1) * max_lanes), x(max_lanes), v(max_lanes), peak(max_lanes);
+  for (std::size_t i = 0; i < max_lanes; ++i) {  // an autoregressive motion, of standard deviation 2
     double last = 0;
-    for (std::size_t k = 0; k <= steps; ++k) ground[k * most_lanes + i] = last = 0.8 * last + 1.2 * normal(generator);
+    for (std::size_t k = 0; k <= steps; ++k) ground[k * max_lanes + i] = last = 0.8 * last + 1.2 * normal(generator);
   }
   const Caster law(1, 1);
   for (std::size_t k = 0; k < steps; ++k)
-    detail::advance_lanes(detail::CasterLanes{law, 0.1}, most_lanes, &ground[k * most_lanes],
-                          &ground[(k + 1) * most_lanes], {x.data(), v.data(), peak.data()});
-  for (std::size_t i = 0; i < most_lanes; ++i) {
+    detail::advance_lanes(detail::CasterLanes{law, 0.1}, max_lanes, &ground[k * max_lanes],
+                          &ground[(k + 1) * max_lanes], {x.data(), v.data(), peak.data()});
+  for (std::size_t i = 0; i < max_lanes; ++i) {
     State state;
     for (std::size_t k = 0; k < steps; ++k)
-      advance(Slider<Caster>(law), Segment{0.1, ground[k * most_lanes + i], ground[(k + 1) * most_lanes + i]}, state);
+      advance(Slider<Caster>(law), Segment{0.1, ground[k * max_lanes + i], ground[(k + 1) * max_lanes + i]}, state);
     CHECK(std::abs(x[i] - state.displacement) < 1e-9 * std::max(1.0, std::abs(state.displacement)));
   }
 }

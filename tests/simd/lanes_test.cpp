@@ -25,7 +25,7 @@ using namespace test;
 using detail::CoulombLanes;
 using detail::LaneAccount;
 using detail::LaneEvent;
-using detail::most_lanes;
+using detail::max_lanes;
 
 namespace {
 
@@ -93,16 +93,16 @@ double compare(const Case& c, std::size_t segments, Hard& hard) {
   const Slider<Coulomb> slider(Coulomb(c.forward * c.scale, c.backward * c.scale));
   const CoulombLanes lanes{slider.law().forward(), slider.law().backward(), c.duration};
   std::vector<std::vector<double>> ground;
-  for (std::uint64_t lane = 0; lane < most_lanes; ++lane) ground.push_back(hard_ground(lane, segments + 1, c));
+  for (std::uint64_t lane = 0; lane < max_lanes; ++lane) ground.push_back(hard_ground(lane, segments + 1, c));
 
-  std::array<State, most_lanes> state{};
-  std::array<double, most_lanes> x{}, v{}, peak{}, start{}, end{}, work{};
-  std::array<std::array<LaneEvent, LaneAccount::most_events>, most_lanes> events{};
-  std::array<LaneEvent*, most_lanes> next{};
-  constexpr std::array<double, most_lanes> no_work{};
+  std::array<State, max_lanes> state{};
+  std::array<double, max_lanes> x{}, v{}, peak{}, start{}, end{}, work{};
+  std::array<std::array<LaneEvent, LaneAccount::max_events>, max_lanes> events{};
+  std::array<LaneEvent*, max_lanes> next{};
+  constexpr std::array<double, max_lanes> no_work{};
   double worst = 0;
   for (std::size_t i = 0; i < segments; ++i) {
-    for (std::size_t lane = 0; lane < most_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < max_lanes; ++lane) {
       start[lane] = ground[lane][i];
       end[lane] = c.held ? start[lane] : ground[lane][i + 1];
       x[lane] = peak[lane] = state[lane].displacement;
@@ -110,14 +110,14 @@ double compare(const Case& c, std::size_t segments, Hard& hard) {
       peak[lane] = std::abs(peak[lane]);
     }
     auto with_x = x, with_v = v;
-    detail::advance_lanes(lanes, most_lanes, start.data(), end.data(), {x.data(), v.data(), peak.data()});
-    for (std::size_t lane = 0; lane < most_lanes; ++lane) next[lane] = events[lane].data();
+    detail::advance_lanes(lanes, max_lanes, start.data(), end.data(), {x.data(), v.data(), peak.data()});
+    for (std::size_t lane = 0; lane < max_lanes; ++lane) next[lane] = events[lane].data();
     LaneAccount account{static_cast<std::uint32_t>(i), next.data(), no_work.data(), work.data(), 0};
     auto told_x = with_x, told_v = with_v, told_peak = peak;
     detail::advance_lanes(lanes, start.data(), end.data(), {with_x.data(), with_v.data(), told_peak.data()},
                           {told_x.data(), told_v.data(), told_peak.data()}, &account);
     if (told_x != x || told_v != v) worst = infinity;  // who looks on changes nothing
-    for (std::size_t lane = 0; lane < most_lanes; ++lane) {
+    for (std::size_t lane = 0; lane < max_lanes; ++lane) {
       const State before = state[lane];
       Watch watch{.peak = std::abs(before.displacement)};
       advance(slider, Segment{c.duration, start[lane], end[lane]}, state[lane], watch);
@@ -158,7 +158,7 @@ double compare(const Case& c, std::size_t segments, Hard& hard) {
 
 /// One segment for one block; the other lanes are empty.
 State one(const CoulombLanes& slider, double velocity, double start, double end, double* peak = nullptr) {
-  std::array<double, most_lanes> x{}, v{velocity}, largest{}, from{start}, to{end};
+  std::array<double, max_lanes> x{}, v{velocity}, largest{}, from{start}, to{end};
   detail::advance_lanes(slider, detail::row_padding, from.data(), to.data(), {x.data(), v.data(), largest.data()});
   if (peak) *peak = largest[0];
   return State::at(x[0], v[0]);

@@ -16,7 +16,7 @@
 using namespace stickslip;
 using namespace test;
 using detail::LaneStates;
-using detail::most_lanes;
+using detail::max_lanes;
 using detail::SeriesLanes;
 
 namespace {
@@ -54,17 +54,17 @@ void compare(const char* name, const Slider<Law>& slider, double duration, doubl
     constexpr std::size_t steps = 150;
     std::mt19937_64 generator(7);
     std::normal_distribution<double> normal(0, deviation);
-    std::vector<double> ground((steps + 1) * most_lanes), x(most_lanes), v(most_lanes), peak(most_lanes);
+    std::vector<double> ground((steps + 1) * max_lanes), x(max_lanes), v(max_lanes), peak(max_lanes);
     for (double& n : ground) n = normal(generator);
     double worst_x = 0, worst_v = 0, worst_peak = 0;
     int events = 0;
     for (std::size_t k = 0; k < steps; ++k) {
-      const double *const start = &ground[k * most_lanes], *const end = start + most_lanes;
+      const double *const start = &ground[k * max_lanes], *const end = start + max_lanes;
       const std::vector<double> x0 = x, v0 = v;
-      for (std::size_t i = 0; i < most_lanes; ++i) peak[i] = std::abs(x[i]);
-      advance_lanes(SeriesLanes<Law>(slider, duration), most_lanes, start, end,
+      for (std::size_t i = 0; i < max_lanes; ++i) peak[i] = std::abs(x[i]);
+      advance_lanes(SeriesLanes<Law>(slider, duration), max_lanes, start, end,
                     LaneStates{x.data(), v.data(), peak.data()});
-      for (std::size_t i = 0; i < most_lanes; ++i) {
+      for (std::size_t i = 0; i < max_lanes; ++i) {
         State state = State::at(x0[i], v0[i]);
         Watch watch{std::abs(x0[i])};
         advance(slider, Segment{duration, start[i], end[i]}, state, watch);

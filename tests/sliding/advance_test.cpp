@@ -210,7 +210,7 @@ TEST_CASE("nothing rough makes a slider hang, vanish, gain energy or lose its or
     if (state.mode != Mode::stuck) witness.events.push_back(EventKind::breakaway);
     const double k = slider.stiffness();
     const double before = v * v / 2 + k * x * x / 2;
-    double n = 0, most = std::abs(x), most_speed = std::abs(v);
+    double n = 0, most = std::abs(x), max_speed = std::abs(v);
     const bool joined = bits() % 2 == 0;
     std::string input = name + ", wn " + detail::shortest(slider.natural_frequency()) + ", x " + detail::shortest(x) +
                         ", v " + detail::shortest(v) + ":";
@@ -226,11 +226,11 @@ TEST_CASE("nothing rough makes a slider hang, vanish, gain energy or lose its or
       advance(slider, segment, state, witness);
       fine = fine && fits(state);
       work += std::max(std::abs(start), std::abs(n)) * (witness.way - way);
-      most = std::max(most, std::abs(state.displacement)), most_speed = std::max(most_speed, std::abs(state.velocity));
+      most = std::max(most, std::abs(state.displacement)), max_speed = std::max(max_speed, std::abs(state.velocity));
     }
     const double after = state.velocity * state.velocity / 2 + k * state.displacement * state.displacement / 2;
     // Each of at most some hundred slips rounds its accounts by a few 1e-16 of their terms.
-    const double terms = work + witness.dissipated + before + after + most_speed * most_speed + k * most * most;
+    const double terms = work + witness.dissipated + before + after + max_speed * max_speed + k * most * most;
     INFO(input);
     CHECK(fine);
     CHECK(witness.sound);
@@ -368,7 +368,7 @@ TEST_CASE("a motion beyond the range of doubles is an error, also one segment at
   CHECK(state.velocity == 2);
 }
 
-TEST_CASE("a caster far from its centre answers the smallest of loads", "[advance][range]") {
+TEST_CASE("a caster far from its center answers the smallest of loads", "[advance][range]") {
   // Its level there underflows, so it slides under any load; under this one not visibly.
   State state = State::at(-0x1.0624dd2f1a9fcp-30, 0);
   advance(Slider(Caster(0x1p-20, 0x1.bff2ee48e053p-353)), Segment{2, -0.0, 0x1p-1074}, state);

@@ -32,14 +32,14 @@ double difference(const Slider& slider, const GroundMotion& motion) {
   const Histories result = histories(slider, motion);
   REQUIRE(result.displacement.size() == motion.samples());
   REQUIRE(result.velocity.size() == motion.samples());
-  double most_x = 0, most_v = 0, scale_x = 1e-300, scale_v = 1e-300;
+  double max_x = 0, max_v = 0, scale_x = 1e-300, scale_v = 1e-300;
   for (std::size_t i = 0; i < motion.samples(); ++i) {
-    most_x = std::max(most_x, std::abs(result.displacement[i] - response.displacement[i]));
-    most_v = std::max(most_v, std::abs(result.velocity[i] - response.velocity[i]));
+    max_x = std::max(max_x, std::abs(result.displacement[i] - response.displacement[i]));
+    max_v = std::max(max_v, std::abs(result.velocity[i] - response.velocity[i]));
     scale_x = std::max(scale_x, std::abs(response.displacement[i]));
     scale_v = std::max(scale_v, std::abs(response.velocity[i]));
   }
-  return std::max(most_x / scale_x, most_v / scale_v);
+  return std::max(max_x / scale_x, max_v / scale_v);
 }
 
 // Round-off of the displacement adds up over the samples like a random walk, in both: 2^-52 sqrt(samples), with room.
@@ -86,7 +86,7 @@ TEST_CASE("what leaves the range of doubles is refused", "[histories]") {
   CHECK_THROWS_AS(histories(Coulomb(0), GroundMotion(std::vector<double>(10000, 1e100), 1e103)), std::overflow_error);
 }
 
-TEST_CASE("a heartbeat can end the work", "[histories]") {
+TEST_CASE("a progress callback can end the work", "[histories]") {
   struct Enough {};
   CHECK_THROWS_AS(histories(Coulomb(1), shaking(1000000, 2), [] { throw Enough(); }), Enough);
   CHECK_THROWS_AS(histories(Slider(Coulomb(1), 1.0), shaking(10000, 2), [] { throw Enough(); }), Enough);

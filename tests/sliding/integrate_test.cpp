@@ -309,25 +309,26 @@ TEST_CASE("in the memory of another response the answer is the same to the bit",
   }
 }
 
-TEST_CASE("a heartbeat is felt, and may end the work", "[integrate]") {
+TEST_CASE("a progress callback is felt, and may end the work", "[integrate]") {
   IntegrateOptions options;
-  int beats = 0;
-  options.heartbeat = [&] { ++beats; };
+  int calls = 0;
+  options.progress = [&] { ++calls; };
   const GroundMotion calm(std::vector<double>(200'001, 0.0), 0.01);
   integrate(Coulomb(1), calm, options);
-  CHECK(beats == 12);  // 16,384 segments each
-  options.heartbeat = [] { throw std::runtime_error("enough"); };
+  CHECK(calls == 12);  // 16,384 segments each
+  options.progress = [] { throw std::runtime_error("enough"); };
   CHECK_THROWS_WITH(integrate(Coulomb(1), calm, options), "enough");
 }
 
-TEST_CASE("a heartbeat is felt within one segment, and more events than anyone can use are refused", "[integrate]") {
+TEST_CASE("a progress callback is felt within one segment, and more events than anyone can use are refused",
+          "[integrate]") {
   // 1e6 s at 50 rad/s under a growing load: a reversal or a graze every 63 ms.
   const Slider slider(Coulomb(0.001), 50);
   IntegrateOptions options{.displacement = 1e6};
   CHECK_THROWS_WITH(integrate(slider, held(0, 1e6), options), ContainsSubstring("more than 1000008 events"));
-  int beats = 0;
-  options.heartbeat = [&] {
-    if (++beats == 3) throw std::runtime_error("enough");
+  int calls = 0;
+  options.progress = [&] {
+    if (++calls == 3) throw std::runtime_error("enough");
   };
   CHECK_THROWS_WITH(integrate(slider, held(0, 1e6), options), "enough");
 }

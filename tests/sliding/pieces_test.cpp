@@ -151,7 +151,7 @@ TEST_CASE("integrate by pieces refuses what it refuses in order, and can be stop
   CHECK_THROWS_AS(integrate(Coulomb(1), GroundMotion(std::vector<double>(10000, 1e100), 1e103)), std::overflow_error);
   CHECK_THROWS_AS(integrate(Coulomb(1e-90), motion, from(0, 1, true)), ConvergenceError);
   struct Enough {};
-  CHECK_THROWS_AS(integrate(Coulomb(1), motion, {.heartbeat = [] { throw Enough(); }}), Enough);
+  CHECK_THROWS_AS(integrate(Coulomb(1), motion, {.progress = [] { throw Enough(); }}), Enough);
 }
 
 TEST_CASE("memory of another response is used again in pieces", "[pieces]") {

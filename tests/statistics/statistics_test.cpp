@@ -244,7 +244,7 @@ TEST_CASE("moments of any number of times merge, on every instruction set", "[st
     const auto random = gaussian(count, 2 * Tally::moments * count, 1);
     std::vector<double> left(random.begin(), random.begin() + static_cast<std::ptrdiff_t>(Tally::moments * count));
     const std::vector<double> right(random.begin() + static_cast<std::ptrdiff_t>(left.size()), random.end());
-    // One by one they do not know of their neighbours.
+    // One by one they do not know of their neighbors.
     std::vector<double> one_by_one = left;
     for (std::size_t i = 0; i < count; ++i) {
       std::array<double, Tally::moments> l{}, r{};

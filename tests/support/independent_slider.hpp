@@ -51,7 +51,7 @@ class IndependentSlider {
   Real x_error = 0, v_error = 0;  // the latter of sqrt(v^2 + wn^2 x^2)
   Real peak_error = 0, path_error = 0, input_error = 0, dissipated_error = 0, imbalance = 0;
   Real largest = 0;  // of all that must fit into a double
-  int steps = 0, most_steps = 1'000;
+  int steps = 0, max_steps = 1'000;
 
   /// The ground acceleration runs straight from `start` to `end`; `look(k)` sees the state at the k-th of the `times`
   /// in this segment, in order.
@@ -98,7 +98,7 @@ class IndependentSlider {
         continue;
       }
       if (!std::exchange(known, false)) acceleration_ = load_ - w_ * w_ * x - Real(direction) * level(x, direction);
-      if (++steps > most_steps) throw TooLong();
+      if (++steps > max_steps) throw TooLong();
       const bool stops = step(duration - now);
       while (seen(now + h_)) {
         const Real from_x = x, from_v = v, from_error = x_error;
@@ -154,7 +154,7 @@ class IndependentSlider {
   bool step(Real left) {
     h_ = left;
     if (w_ > 0) h_ = std::min(h_, 2 / w_);
-    if (!std::isinf(reach_)) {  // towards the centre no jump over it
+    if (!std::isinf(reach_)) {  // towards the center no jump over it
       const Real ahead = std::max(reach_, std::abs(x)) * (Real(direction) * x < 0 ? 0.125L : 2);
       if (v != 0) h_ = std::min(h_, ahead / std::abs(v));
       if (acceleration_ != 0) h_ = std::min(h_, std::sqrt(ahead / std::abs(acceleration_)));
@@ -174,13 +174,13 @@ class IndependentSlider {
                           vanishes_up_to(terms_, level_, std::abs(level_[0]) + std::abs(level_[1])))) {
         const bool keeps_sign = std::abs(c_[first]) > rest;
         if (keeps_sign && s * c_[first] <= 0) throw std::logic_error("the independent slider goes backward");
-        least_speed_ = std::abs(c_[0]) - rest;
-        if (keeps_sign && first > 0) least_speed_ = s * velocity(1);
-        if (keeps_sign && least_speed_ > 0) return false;
+        min_speed_ = std::abs(c_[0]) - rest;
+        if (keeps_sign && first > 0) min_speed_ = s * velocity(1);
+        if (keeps_sign && min_speed_ > 0) return false;
         if (first == 0 && std::abs(c_[1]) > slopes) {
-          least_speed_ = std::min(std::abs(c_[0]), s * velocity(1));
-          if (least_speed_ > 0) return false;
-          least_speed_ = never;
+          min_speed_ = std::min(std::abs(c_[0]), s * velocity(1));
+          if (min_speed_ > 0) return false;
+          min_speed_ = never;
           shorten(stop());
           return true;
         }
@@ -305,7 +305,7 @@ class IndependentSlider {
     imbalance += v_rounding * (fastest + v_rounding) + a * (x_rounding + round_off * distance);
     largest = std::max({largest, std::abs(x) + distance, fastest * fastest, a * a, a * distance, std::abs(input), path,
                         w_ * w_ * x * x, a, a * duration_, gain / h_, w_ * w_ * fastest});
-    if (least_speed_ <= 4 * v_error) clear = false;
+    if (min_speed_ <= 4 * v_error) clear = false;
   }
 
   // Largest slope of the level on the way of this step, whose ends are at most a reach apart.
@@ -360,7 +360,7 @@ class IndependentSlider {
 
   Real forward_, backward_, reach_, w_;
   Real duration_ = 0, rate_ = 0, load_ = 0, acceleration_ = 0;
-  Real h_ = 0, least_speed_ = 0, stop_error_ = 0, saved_error_ = 0;
+  Real h_ = 0, min_speed_ = 0, stop_error_ = 0, saved_error_ = 0;
   int terms_ = order;
   Series c_{}, level_{};
 };

@@ -238,15 +238,15 @@ TEST_CASE("a combination that fails is not a number and says why, and the others
   CHECK(table.peak[table.at(1, 1)] == 0);
 }
 
-TEST_CASE("a sweep tells how far it is, and ends with what its heartbeat throws", "[sweep]") {
+TEST_CASE("a sweep tells how far it is, and ends with what its progress callback throws", "[sweep]") {
   const std::vector<GroundMotion> motions(3, quake(1));
   SweepProgress last{};
-  sweep(std::vector{Coulomb(1), Coulomb(2)}, motions, {.heartbeat = [&](const SweepProgress& p) { last = p; }});
+  sweep(std::vector{Coulomb(1), Coulomb(2)}, motions, {.progress = [&](const SweepProgress& p) { last = p; }});
   CHECK(last.done == 12);
   CHECK(last.combinations == 12);
   struct Enough {};
   const std::vector<Caster> casters(2000, Caster(0.5, 0.05));
-  CHECK_THROWS_AS(sweep(casters, motions, {.heartbeat = [](const SweepProgress&) { throw Enough{}; }}), Enough);
+  CHECK_THROWS_AS(sweep(casters, motions, {.progress = [](const SweepProgress&) { throw Enough{}; }}), Enough);
 }
 
 TEST_CASE("a sweep of nothing is refused", "[sweep]") {

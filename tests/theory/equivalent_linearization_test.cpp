@@ -464,11 +464,11 @@ TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
   // A spring that swings on for ever at this rate.
   CHECK_THROWS_WITH(by_gauss.predict(Slider(Coulomb(1e-3), 10), 1.0, std::array<double, 1>{1e9}),
                     ContainsSubstring("reached "));
-  int beats = 0;
+  int calls = 0;
   struct Stop {};
   CHECK_THROWS_AS(by_gauss.predict(Slider(Coulomb(1e-3), 10), 1.0, std::array<double, 1>{1e9},
                                    [&] {
-                                     if (++beats == 2) throw Stop();
+                                     if (++calls == 2) throw Stop();
                                    }),
                   Stop);
 }

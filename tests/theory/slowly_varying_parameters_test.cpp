@@ -147,8 +147,8 @@ TEST_CASE("rolling resistance of a caster is Coulomb friction beside its own", "
     }
   // On a spring in resonance it holds what a caster without it does not.
   const Slider plain(Caster(1, 0.5), 2), rolling(Caster(1, 0.5, 0.3), 2);
-  CHECK(std::isfinite(Theory(plain).least_amplitude(0.3)));
-  CHECK(std::isinf(Theory(rolling).least_amplitude(0.3)));  // B < 4 rolling / pi
+  CHECK(std::isfinite(Theory(plain).min_amplitude(0.3)));
+  CHECK(std::isinf(Theory(rolling).min_amplitude(0.3)));  // B < 4 rolling / pi
   CHECK(Theory(rolling).response(0.3, 2).empty());
   const Theory svp(rolling);
   for (const double omega : {0.5, 1.7, 2.0, 3.0})
@@ -225,14 +225,14 @@ TEST_CASE("Coulomb friction answers at every frequency once B exceeds 4 a / pi, 
     };
     check(free, r.amplitude, r.phase);
     check(spring, r.amplitude_spring, r.phase_spring);
-    CHECK(free.least_amplitude(r.B) == 0);
+    CHECK(free.min_amplitude(r.B) == 0);
   }
   for (const double B : {0.1, 1.0, 1.27}) {
     CHECK(free.response(B, 1).empty());
     CHECK(spring.response(B, half).empty());
     CHECK(std::isnan(free.frequency(B, 1).upper));
     CHECK(free.rests(B));
-    CHECK(free.least_amplitude(B) == infinity);
+    CHECK(free.min_amplitude(B) == infinity);
   }
 }
 
@@ -296,7 +296,7 @@ TEST_CASE("solutions keep their digits where B is next to 4 a / pi", "[svp]") {
 TEST_CASE("a curve of the caster folds where its frequency is highest", "[svp]") {
   const Theory svp(Caster(1, 1));
   const auto& fold = reference::caster_fold;
-  CHECK(relative(svp.least_amplitude(1), fold.least) <= 1e-15);
+  CHECK(relative(svp.min_amplitude(1), fold.least) <= 1e-15);
   CHECK(relative(svp.frequency(1, fold.amplitude).upper, fold.omega) <= 1e-15);
   CHECK(relative(svp.stability_boundary(fold.amplitude).upper, fold.omega) <= 1e-15);
   CHECK(svp.stability_boundary(fold.amplitude).lower == 0);
@@ -353,14 +353,14 @@ TEST_CASE("a caster has one solution above 4 a / pi; below, two or none, and at 
         CHECK(found.size() == expected);
         if (expected == 2) {
           CHECK_FALSE(found[0].stable);
-          CHECK(found[0].amplitude >= svp->least_amplitude(b * a));
+          CHECK(found[0].amplitude >= svp->min_amplitude(b * a));
         }
         if (expected > 0) CHECK(found.back().stable);
       }
     }
   const auto resonant = spring.response(a, wn);
   REQUIRE(resonant.size() == 1);
-  CHECK(relative(resonant[0].amplitude, spring.least_amplitude(a)) <= 1e-14);
+  CHECK(relative(resonant[0].amplitude, spring.min_amplitude(a)) <= 1e-14);
   CHECK_FALSE(resonant[0].stable);
   CHECK(resonant[0].phase == -pi / 2);
   CHECK(spring.response(2 * a, wn).empty());
@@ -370,7 +370,7 @@ TEST_CASE("the branches of a caster on a spring begin and end where 40 digits sa
   const Theory svp(Slider(Caster(1, 1), half));
   for (const auto& r : reference::caster_branches) {
     INFO("B = " << r.B);
-    CHECK(std::abs(svp.least_amplitude(r.B) - r.least) <= 1e-15 * r.least * (1 + r.B / std::abs(4 / pi - r.B)));
+    CHECK(std::abs(svp.min_amplitude(r.B) - r.least) <= 1e-15 * r.least * (1 + r.B / std::abs(4 / pi - r.B)));
     if (r.least > 0) {
       CHECK(std::isnan(svp.frequency(r.B, r.least * (1 - 1e-13)).upper));
       CHECK(svp.frequency(r.B, r.least * (1 + 1e-13)).upper == Approx(half).epsilon(1e-5));
@@ -424,15 +424,15 @@ TEST_CASE("the least amplitude is where friction's first harmonic is B", "[svp]"
   const Theory svp(Caster(2, 0.3)), own(OwnCaster{2, 0.3});
   for (const double b : {1e-12, 1e-3, 0.5, 1.0, 1.27, 1.27323}) {
     INFO("b = " << b);
-    const double least = svp.least_amplitude(2 * b);
+    const double least = svp.min_amplitude(2 * b);
     CHECK(relative(-svp.dissipative(least), 2 * b) <= 1e-15);
-    if (b >= 1e-3) CHECK(relative(own.least_amplitude(2 * b), least) <= 2e-10 * (1 + b / (4 / pi - b)));
+    if (b >= 1e-3) CHECK(relative(own.min_amplitude(2 * b), least) <= 2e-10 * (1 + b / (4 / pi - b)));
   }
-  CHECK(own.least_amplitude(2e-12) == infinity);  // beyond the 1e12 reaches that are searched
-  CHECK(svp.least_amplitude(2 * 1.2733) == 0);
-  CHECK(svp.least_amplitude(1e9) == 0);
+  CHECK(own.min_amplitude(2e-12) == infinity);  // beyond the 1e12 reaches that are searched
+  CHECK(svp.min_amplitude(2 * 1.2733) == 0);
+  CHECK(svp.min_amplitude(1e9) == 0);
   // (2.37) from far out is y = 2 a / B of all the work pi a reach there is
-  CHECK(svp.least_amplitude(1e-6) == Approx(2 * 2 * 0.3 / 1e-6).epsilon(1e-12));
+  CHECK(svp.min_amplitude(1e-6) == Approx(2 * 2 * 0.3 / 1e-6).epsilon(1e-12));
 }
 
 // ---- what holds for all
@@ -505,7 +505,7 @@ TEST_CASE("without friction the mass swings with B / |omega^2 - wn^2|", "[svp]")
     }
     CHECK(svp.response(3, 2).empty());
     CHECK_FALSE(svp.rests(1e-300));
-    CHECK(svp.least_amplitude(1e-300) == 0);
+    CHECK(svp.min_amplitude(1e-300) == 0);
   }
 }
 
@@ -552,9 +552,9 @@ TEST_CASE("without friction amplitude and phase turn about the response", "[svp]
   for (int i = 0; i <= 40; ++i) times.push_back(2.5 * i);
   const auto found = svp.transient(B, omega, 0.7, 0.4, times);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const double turned = stiffness * times[i] / (2 * omega), centre = B / stiffness;
-    const double p0 = 0.7 * std::cos(0.4) - centre, r0 = 0.7 * std::sin(0.4);
-    const double p = centre + p0 * std::cos(turned) - r0 * std::sin(turned);
+    const double turned = stiffness * times[i] / (2 * omega), center = B / stiffness;
+    const double p0 = 0.7 * std::cos(0.4) - center, r0 = 0.7 * std::sin(0.4);
+    const double p = center + p0 * std::cos(turned) - r0 * std::sin(turned);
     const double r = p0 * std::sin(turned) + r0 * std::cos(turned);
     // local errors of 1e-10, some ten a unit of time
     CHECK(std::abs(found.amplitude[i] * std::cos(found.phase[i]) - p) <= 1e-7);
@@ -630,7 +630,7 @@ TEST_CASE("from below the unstable solution a caster comes to rest, from above i
     CHECK(svp.settles_on(1, omega, 1.1 * solutions[1].amplitude, solutions[1].phase).amplitude ==
           solutions[1].amplitude);
   }
-  // Started larger still, it turns about the stable solution so widely that it passes the centre, where friction is.
+  // Started larger still, it turns about the stable solution so widely that it passes the center, where friction is.
   const auto wide = svp.response(1, 0.5)[1];
   CHECK(svp.settles_on(1, 0.5, 1.5 * wide.amplitude, wide.phase).amplitude == 0);
   // On a spring at resonance: for ever outward, or to rest.
@@ -660,19 +660,19 @@ TEST_CASE("small disturbances of a stable solution die down at the rate of the a
 
 TEST_CASE("unequal levels on a spring are those of their mean about another place", "[svp]") {
   const Theory unequal(Slider(Coulomb(1, 1.6), 0.7)), mean(Slider(Coulomb(1.3), 0.7));
-  CHECK(unequal.centre() == Approx(0.3 / 0.49).epsilon(1e-15));
-  CHECK(mean.centre() == 0);
+  CHECK(unequal.center() == Approx(0.3 / 0.49).epsilon(1e-15));
+  CHECK(mean.center() == 0);
   CHECK(unequal.response(10.4, 1.1).at(0).amplitude == mean.response(10.4, 1.1).at(0).amplitude);
   // The exact orbit, at B / a = 8 and within the 0.7 % that are off there without a spring.
   const Slider slider(Coulomb(1, 1.6), 0.7);
   const double exact = orbits(slider, 10.4, 1.1).at(0).amplitude;
   CHECK(unequal.response(10.4, 1.1).at(0).amplitude == Approx(exact).epsilon(0.007));
-  // It begins where it lies, at x = 0, and comes to swing about the centre.
+  // It begins where it lies, at x = 0, and comes to swing about the center.
   const HarmonicMotion motion(10.4, 1.1, 2000);
   const std::vector<double> times{0, 1900, 1900 + pi / 1.1};
   const Moments m = unequal.predict(motion, times);
   CHECK(m.displacement_mean.value[0] == Approx(0).margin(1e-12));
-  CHECK((m.displacement_mean.value[1] + m.displacement_mean.value[2]) / 2 == Approx(unequal.centre()).epsilon(1e-3));
+  CHECK((m.displacement_mean.value[1] + m.displacement_mean.value[2]) / 2 == Approx(unequal.center()).epsilon(1e-3));
   CHECK(unequal.predict(HarmonicMotion(0.5, 1.1, 100), std::vector<double>{50}).displacement_mean.value[0] == 0);
 }
 
@@ -695,7 +695,7 @@ TEST_CASE("SlowlyVaryingParameters names what it refuses", "[svp][errors]") {
                       "SlowlyVaryingParameters: amplitude must be positive and finite, got " + text + " m");
     CHECK_THROWS_AS(svp.frequency(bad, 1), std::invalid_argument);
     CHECK_THROWS_AS(svp.stability_boundary(bad), std::invalid_argument);
-    CHECK_THROWS_AS(svp.least_amplitude(bad), std::invalid_argument);
+    CHECK_THROWS_AS(svp.min_amplitude(bad), std::invalid_argument);
     CHECK_THROWS_AS(svp.rests(bad), std::invalid_argument);
     if (bad != 0) {
       CHECK_THROWS_AS(svp.dissipative(bad), std::invalid_argument);

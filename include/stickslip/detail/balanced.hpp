@@ -15,10 +15,10 @@ namespace stickslip::detail {
 template <FrictionLaw Law>
 struct Balanced {
   Slider<Law> slider;
-  double centre;
+  double center;
 };
 
-/// With x = centre + y, centre = (backward - forward) / (2 wn^2), a block whose levels differ is one of their mean,
+/// With x = center + y, center = (backward - forward) / (2 wn^2), a block whose levels differ is one of their mean,
 ///     y'' + (forward + backward)/2 sgn(y') + c y' + wn^2 y = -n,
 /// which also holds at rest what that one holds. Without a spring, with an infinite level, and under any other law the
 /// slider stays as it is, about 0.
@@ -26,9 +26,9 @@ template <FrictionLaw Law>
 Balanced<Law> balanced(const Slider<Law>& slider) {
   if constexpr (std::same_as<Law, Coulomb>) {
     const double forward = slider.law().forward(), backward = slider.law().backward();
-    const double centre = (backward - forward) / 2 / slider.stiffness();
-    if (!equal(forward, backward) && std::isfinite(centre))
-      return {Slider(Coulomb(forward / 2 + backward / 2), slider.natural_frequency(), slider.damping()), centre};
+    const double center = (backward - forward) / 2 / slider.stiffness();
+    if (!equal(forward, backward) && std::isfinite(center))
+      return {Slider(Coulomb(forward / 2 + backward / 2), slider.natural_frequency(), slider.damping()), center};
   }
   return {slider, 0};
 }

@@ -19,7 +19,8 @@ namespace stickslip {
 
 namespace detail {
 
-/// Shows events at times of a whole segment, from within a part of it that begins at `begin` [s].
+/// Passes the events of a part of a segment to the observer, with times measured from the start of the whole segment.
+/// The part starts at `begin` [s].
 template <class Observer>
 struct WithinSegment {
   Observer& observer;
@@ -38,7 +39,7 @@ struct WithinSegment {
   { observer.lose(energy); }
 };
 
-/// A law as it is at one place.
+/// A law evaluated at a fixed displacement.
 template <MemorylessLaw Law>
 struct AtPlace {
   static constexpr bool numeric = NumericLaw<Law>;
@@ -52,8 +53,8 @@ struct AtPlace {
   }
 };
 
-/// The speed that friction's impulse of `impulse` [m/s] of normal force leaves of `speed`: d|v|/dJ = -mu(|v|), which is
-/// a slide of J / g under the weight g and no load.
+/// The speed that remains of `speed` after a normal impulse J of `impulse` [m/s]: d|v|/dJ = -mu(|v|). This is a slide
+/// of duration J / g under weight g and no load.
 template <MemorylessLaw Law>
 double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
   if constexpr (SpeedLaw<Law>) {
@@ -67,7 +68,7 @@ double after_impulse(const Law& law, double displacement, Direction direction, d
   }
 }
 
-/// The first `time` of a segment, which ends under a given normal force; the rest is left.
+/// Remove and return the first `time` [s] of a segment; the normal force at its end is given.
 inline LoadSegment take(LoadSegment& segment, double time, double normal) noexcept {
   const double load = segment.load(time);
   const LoadSegment taken{time, segment.load_start, load, segment.normal_start, normal};
@@ -75,25 +76,25 @@ inline LoadSegment take(LoadSegment& segment, double time, double normal) noexce
   return taken;
 }
 
-/// When a slider in flight lands within a segment [s]; `never` where it does not.
+/// Time at which a slider in flight lands within a segment [s]; `never` if it does not land.
 inline double landing(const LoadSegment& s, double gap, double gap_velocity) noexcept {
   const double square = s.duration * s.duration;
   const double w[] = {gap, gap_velocity * s.duration, -s.normal_start * square / 2,
                       -(s.normal_end - s.normal_start) * square / 6};
-  int leading = 0;  // zeros: it has just left the ground
+  int leading = 0;  // leading zeros: the slider has just left the ground
   while (leading < 3 && equal(w[leading], 0)) ++leading;
   if (w[leading] < 0) return 0;
   const double root = leading < 3 ? FirstRoot(w + leading, 3 - leading).find() : never;
   return root < never ? root * s.duration : never;
 }
 
-/// The event loop over a segment in which the slider may leave the ground and land.
+/// The event loop over a segment in which the slider can leave the ground and land.
 template <FrictionLaw Law, class Flows, MotionObserver Observer>
 void advance(const Law& law, const Flows& flows, LoadSegment segment, const Bounds& bounds, Contact contact,
              State& state, Observer& observer) {
   const double duration = segment.duration;
   const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
-  // Moves over the first `time` of what is left.
+  // Integrates over the first `time` of the rest of the segment.
   const auto go = [&](double time, double normal, bool touching) {
     const double begin = duration - segment.duration;
     const LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});

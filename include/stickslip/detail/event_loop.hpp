@@ -1,4 +1,4 @@
-// The event loop: one slider over one segment.
+// The event loop: integrate one slider over one segment.
 #pragma once
 
 #include <cmath>
@@ -20,15 +20,15 @@
 
 namespace stickslip::detail {
 
-/// Counts steps that take no time off what is left of a segment, and ends an event loop that makes no others.
+/// Counts steps too short to change the time left in a segment, and stops an event loop that makes too many of them.
 class Standstill {
  public:
   void count(double taken, double left, double duration) {
-    if (!(left - taken < left) && ++steps_ > most) refuse(duration);
+    if (!(left - taken < left) && ++steps_ > max_steps) refuse(duration);
   }
 
  private:
-  static constexpr int most = 1'000'000;
+  static constexpr int max_steps = 1'000'000;
 
   [[noreturn, gnu::noinline]] static void refuse(double duration) {
     throw ConvergenceError("advance: in a segment of " + shortest(duration) +
@@ -39,13 +39,13 @@ class Standstill {
   int steps_ = 0;
 };
 
-/// No stops; slides both ways.
+/// No stops; the slider can move both ways.
 struct Unbounded {
   static constexpr double room(Direction, double) noexcept { return never; }
   static constexpr double bound(Direction, double, double level) noexcept { return level; }
 };
 
-/// The bounds of a way.
+/// The bounds on displacement: stops, and sliding that is restricted to one direction.
 struct Bounds {
   Stops stops;
   bool one_way;
@@ -53,19 +53,20 @@ struct Bounds {
   double wall(Direction direction) const noexcept {
     return direction == Direction::forward ? stops.forward() : -stops.backward();
   }
-  /// How far it is to the wall [m].
+  /// Distance to the wall [m].
   double room(Direction direction, double x) const noexcept { return sign(direction) * (wall(direction) - x); }
-  /// What holds at x: a level, or at a wall anything.
+  /// The load that can be held at x: the friction level, or any load at a wall.
   double bound(Direction direction, double x, double level) const noexcept {
     return room(direction, x) <= 0 || (one_way && direction == Direction::backward) ? never : level;
   }
 };
 
 /// The bounces of a slider that leaves a stop at speed u while a constant net load q pushes it back, against friction
-/// of a < q: their speeds fall by rho = e sqrt((q - a) / (q + a)) each, and infinitely many take a finite time.
+/// a < q. Each bounce multiplies the speed by rho = e sqrt((q - a) / (q + a)), so that infinitely many take a finite
+/// time.
 struct Bounces {
-  double time;      ///< that all take [s]
-  double distance;  ///< that all go [m]
+  double time;      ///< total time of all bounces [s]
+  double distance;  ///< total distance of all bounces [m]
 
   Bounces(double u, double q, double a, double restitution) noexcept {
     const double k = std::sqrt((q - a) / (q + a)), rho = restitution * k;
@@ -74,7 +75,7 @@ struct Bounces {
   }
 };
 
-/// A piece that knows its weight.
+/// A segment with a normal force, expressed as a weight N/g.
 template <class Piece>
 concept LoadedPiece = requires(const Piece& piece) {
   piece.weight(0.0);
@@ -130,7 +131,8 @@ Departure heated_departure(const Law& law, const Piece& segment, State& state, d
   }
 }
 
-/// The event loop, over a piece of any kind (segment.hpp); `flows` makes the flows of the law under its load.
+/// The event loop over a segment of any kind (segment.hpp). `flows` makes the flows of the law under the segment's
+/// load.
 template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, class Within = Unbounded>
 [[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const Piece& segment, State& state,
                                            Observer& observer, const Within& within = {}) {
@@ -138,7 +140,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   if (!(segment.duration > 0)) return;
   double left = segment.duration;
   Standstill standstill;
-  // What friction is multiplied by, `until_end` before the end, and the spring's pull.
+  // The factor on friction at time `until_end` before the end of the segment, and the pull of the spring.
   const auto weigh = [&](double until_end, double level) {
     if constexpr (loaded) return Piece::weigh(segment.weight(until_end), level);
     return level;
@@ -152,10 +154,10 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   const auto count_step = [&](double taken) {
     if constexpr (bounded || !requires { Flows::stops_twice_at_most; }) standstill.count(taken, left, segment.duration);
   };
-  double load = segment.first_load() - pull();  // all but friction
-  Mode stopped = Mode::stuck;                   // the mode of a slip that stopped just now,
+  double load = segment.first_load() - pull();  // all forces but friction
+  Mode stopped = Mode::stuck;                   // the mode of a slip that has just stopped,
   bool instant = false;                         // and whether it took no time
-  // Since an impact the way from that stop is known to all digits.
+  // After an impact, the distance from that stop is tracked separately, without cancellation.
   Direction struck = Direction::forward;
   double from_stop = -1;
   const auto law_then = [&](double until_end) -> decltype(auto) {
@@ -171,8 +173,8 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   const auto room_ahead = [&](Direction direction) {
     return from_stop >= 0 && direction == struck ? from_stop : within.room(direction, state.displacement);
   };
-  // Net, in the direction of sliding. From rest it is what the load is above what resists: nothing, to the last bit,
-  // where that held it until the load grew to it.
+  // Net acceleration in the direction of sliding. From rest it is the excess of the load over the resistance: exactly
+  // zero if the slider was held until the load reached the level.
   const auto acceleration = [&](Direction direction) {
     const double speed = std::abs(state.velocity);
     return sign(direction) * load - weigh(left, resist(law_now(), state.displacement, direction, speed)) -
@@ -181,19 +183,21 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
 
   for (;;) {
     if (state.mode == Mode::stuck) {
-      // It slips when the load outgrows what holds it: at once, or later in this segment. At the level itself it holds.
+      // A slip begins when the load exceeds the holding level, at once or later in this segment. A load equal to the
+      // level is held.
       const auto holds = [&](Direction direction) {
         return within.bound(direction, state.displacement, hold(law_now(), state.displacement, direction));
       };
       const double holds_forward = holds(Direction::forward), holds_backward = holds(Direction::backward);
       const double forward = weigh(left, holds_forward), backward = weigh(left, holds_backward);
       double delay = 0;
-      // A slip slows down as it stops: what its load is above the level then is round-off, unless the stop is a graze.
+      // A slip decelerates as it stops, so any excess of the load over the level is round-off, unless the speed only
+      // touched zero.
       if (stopped != Mode::stuck) {
-        const double most = instant ? never : 0x1p-44 * (std::abs(load) + 2 * std::abs(pull()));
-        if (stopped == Mode::forward && load - forward <= most)
+        const double tolerance = instant ? never : 0x1p-44 * (std::abs(load) + 2 * std::abs(pull()));
+        if (stopped == Mode::forward && load - forward <= tolerance)
           load = std::min(load, forward);
-        else if (stopped == Mode::backward && -load - backward <= most)
+        else if (stopped == Mode::backward && -load - backward <= tolerance)
           load = std::max(load, -backward);
       }
       if (load > forward) {
@@ -221,7 +225,8 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
         }
       }
 
-      // A reversal is a stick of no length. Where it goes on the way it came, it only grazed the zero of velocity.
+      // A reversal is a stick of zero duration. If motion resumes in the same direction, the velocity merely touched
+      // zero.
       const bool sticks = state.mode == Mode::stuck || delay > 0;
       if (sticks && stopped != Mode::stuck)
         observer.event(EventKind::arrest, segment.duration - left,
@@ -267,7 +272,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
                           start.work(flow, s * ground_load, gain, taken, end)});
     };
     if constexpr (bounded || MemoryLaw<Law>) {
-      // Without a zero of velocity x runs one way: it passes a stop, or where the law changes, where it ends beyond it.
+      // Until the velocity is zero, x is monotonic: it passes a stop, or a change of the law, if it ends beyond it.
       const double to_stop = room_ahead(direction), to_change = [&]() -> double {
         if constexpr (MemoryLaw<Law>) return law.ahead(state, direction);
         return never;
@@ -303,8 +308,8 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
           load = load_now();
           const Direction back = opposite(direction);
           double speed = within.bound(back, state.displacement, 0) < never ? within.stops.restitution() * end.speed : 0;
-          // Infinitely many bounces are over at once where all of them go no way that matters, under a load that stays
-          // as it is meanwhile.
+          // Skip infinitely many bounces if their total distance is below round-off and the load is practically
+          // constant meanwhile.
           const double q = s * load, a = weigh(left, resist(law_now(), state.displacement, direction, speed));
           if (speed > 0 && q > a && left > 0) {
             const Bounces bounces(speed, q, a, within.stops.restitution());
@@ -327,7 +332,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       }
       if (from_stop >= 0) from_stop += direction == struck ? -way : way;
     }
-    // Two accounts that differ in little: as one, the way that nearly every piece goes would be 5 to 10 % slower.
+    // These branches are kept separate on purpose: merging them slows the common case by 5 to 10 %.
     if (equal(stop, never)) {
       const double taken = flow.horizon();
       const Progress end = flow.at_horizon();
@@ -341,7 +346,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       count_step(taken);
       left -= taken;
       load = ground_load + s * gain - pull();
-      // Where the loads balance to the last digit a slip too slow to move x would never end.
+      // If the loads balance to the last digit, a slip too slow to change x would never end.
       if (std::abs(state.velocity) < std::numeric_limits<double>::min() && acceleration(direction) <= 0) {
         state.velocity = 0;
         stopped = std::exchange(state.mode, Mode::stuck);

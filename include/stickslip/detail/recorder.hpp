@@ -19,12 +19,12 @@
 
 namespace stickslip::detail {
 
-/// Events that a motion may have; without a spring one has five a segment at most.
+/// Maximum number of events in a motion. Without a spring there are at most five per segment.
 constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'000 + 8 * segments; }
 
-[[noreturn, gnu::noinline]] inline void refuse_more_events(std::size_t most_events,
+[[noreturn, gnu::noinline]] inline void refuse_more_events(std::size_t event_limit,
                                                            double time = std::numeric_limits<double>::quiet_NaN()) {
-  throw ConvergenceError("more than " + std::to_string(most_events) + " events" +
+  throw ConvergenceError("more than " + std::to_string(event_limit) + " events" +
                          (std::isnan(time) ? "" : " up to " + shortest(time) + " s") +
                          ": the spring is too stiff, or the slip level too low, for segments this long");
 }
@@ -35,41 +35,42 @@ concept FlowWithDamper = requires(const Flow& flow, double time) {
   flow.damped_work(time);
 };
 
-/// Sums up slips and keeps events.
-/// @tparam in_steps  slips come in many steps, of which a segment may have so many that they must beat
-/// @tparam loaded    the normal force may vary, and there may be stops: the event loop tells the work against friction
+/// Accumulates the sums over slips and stores the events.
+/// @tparam in_steps  slips come in steps, possibly so many per segment that they must report progress themselves
+/// @tparam loaded    normal force may vary, and there may be stops: the event loop supplies the work against friction
 template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>, bool loaded = false>
 class Recorder {
  public:
-  static constexpr std::uint32_t work_a_beat = 16384;  // segments, events or steps, each far below a millisecond
+  static constexpr std::uint32_t work_per_report = 16384;  // segments, events or steps, each far below a millisecond
 
   /// @param from         x at the start [m]
-  /// @param most_events  more are refused
-  /// @param heartbeat    called now and then, see `work_a_beat`; may throw
+  /// @param event_limit  limit on the number of events; an event beyond it throws
+  /// @param progress     called after each `work_per_report` segments, events or steps; may throw
   /// @param storage      memory for the events
-  Recorder(const Law& law, double from, std::size_t most_events, const std::function<void()>& heartbeat,
+  Recorder(const Law& law, double from, std::size_t event_limit, const std::function<void()>& progress,
            std::vector<Event> storage)
       : law_(law),
         slip_from_(from),
         peak_(std::abs(from)),
         events_(std::move(storage)),
-        most_events_(most_events),
-        heartbeat_(heartbeat) {
+        event_limit_(event_limit),
+        progress_(progress) {
     events_.clear();
   }
 
-  /// @param begin, end  times of the segment that is next [s]
+  /// @param begin, end  times of the next segment [s]
   void begin_segment(double begin, double end) noexcept {
     segment_begins_ = begin;
     segment_ends_ = end;
   }
 
-  /// For the loop over segments, now and then; long segments beat by themselves, with events and steps of Taylor flows.
-  void heartbeat() const {
-    if (heartbeat_) heartbeat_();
+  /// Call the progress callback. The loop over segments does so regularly; within long segments, events and steps of
+  /// Taylor flows do.
+  void report_progress() const {
+    if (progress_) progress_();
   }
 
-  /// Work that only a flow knows: on a damper, and against friction that depends on more than the place.
+  /// Add the work that only a flow can compute: on a damper, and against friction that depends on more than x.
   template <class Flow>
   requires(!PositionLaw<Law> || FlowWithDamper<Flow>) void follow(const Flow& flow, double taken) {
     if constexpr (FlowWithDamper<Flow>) damped_ += flow.damped_work(taken);
@@ -81,7 +82,7 @@ class Recorder {
   void lose(double energy) requires loaded { impact_ += energy; }
 
   void slide(const Slip& slip) {
-    if constexpr (in_steps) beat();
+    if constexpr (in_steps) count_work();
     slip_direction_ = slip.direction;
     slip_distance_ += slip.distance;
     time_sliding_ += slip.duration;
@@ -91,28 +92,28 @@ class Recorder {
   }
 
   void event(EventKind kind, double time, const State& state) {
-    beat();
-    if (events_.size() >= most_events_) refuse_more_events(most_events_, segment_begins_ + time);
-    // The sum can be rounded past the end, where the next segment begins.
+    count_work();
+    if (events_.size() >= event_limit_) refuse_more_events(event_limit_, segment_begins_ + time);
+    // Rounding may move the sum past the end of the segment.
     const double when = std::min(segment_begins_ + time, segment_ends_);
     events_.push_back({when, state.displacement, state.velocity, kind});
-    peak_ = std::max(peak_, std::abs(state.displacement));  // between events x runs one way
+    peak_ = std::max(peak_, std::abs(state.displacement));  // x is monotonic between events
     sliding_distance_ += slip_distance_;
     if constexpr (LawWithWork<Law> && !loaded) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
     slip_from_ = state.displacement;
     slip_distance_ = 0;
   }
 
-  /// Many at once, from a rest on: as `slide` and `event` would tell of them one by one, but for the work of the
-  /// ground.
+  /// Add many events at once, starting from rest. Equivalent to calls of `slide` and `event`, except that the work of
+  /// the ground is not added.
   /// @param event  the k-th of `count`, in order
   template <class Generate>
   void events(std::size_t count, Generate&& event) requires ConstantLevelLaw<Law> {
-    if (events_.size() + count > most_events_) refuse_more_events(most_events_, segment_begins_);
+    if (events_.size() + count > event_limit_) refuse_more_events(event_limit_, segment_begins_);
     events_.resize(events_.size() + count);
     Event* const added = events_.data() + (events_.size() - count);
     double x = slip_from_, time = 0, forward = 0, backward = 0, time_sliding = 0, peak = peak_;
-    double slides = 0;  // 0 or 1: without a jump, which would be a gamble
+    double slides = 0;  // 0 or 1: avoids an unpredictable branch
     for (std::size_t k = 0; k < count; ++k) {
       const Event e = added[k] = event(k);
       forward += std::max(e.displacement - x, 0.0);
@@ -149,44 +150,44 @@ class Recorder {
   }
 
  private:
-  void beat() {
-    if (++beats_ % work_a_beat == 0) heartbeat();
+  void count_work() {
+    if (++work_ % work_per_report == 0) report_progress();
   }
 
   const Law& law_;
   double segment_begins_ = 0, segment_ends_ = 0;
-  double slip_from_;  // x where the slip at hand began
+  double slip_from_;  // x at the start of the current slip
   double slip_distance_ = 0;
   Direction slip_direction_ = Direction::forward;
   double peak_;
   double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0, damped_ = 0, impact_ = 0;
   std::vector<Event> events_;
-  std::size_t most_events_;
-  std::uint32_t beats_ = 0;
-  const std::function<void()>& heartbeat_;
+  std::size_t event_limit_;
+  std::uint32_t work_ = 0;
+  const std::function<void()>& progress_;
 };
 
-/// In the place of a recorder, where nothing is asked but the motion.
+/// Replaces a recorder if only the motion is needed.
 class NoRecorder : public NoObserver {
  public:
-  static constexpr std::uint32_t work_a_beat = 4096;  // segments or events
+  static constexpr std::uint32_t work_per_report = 4096;  // segments or events
 
-  explicit NoRecorder(std::size_t most_events, const std::function<void()>& heartbeat)
-      : most_events_(most_events), heartbeat_(heartbeat) {}
+  explicit NoRecorder(std::size_t event_limit, const std::function<void()>& progress)
+      : event_limit_(event_limit), progress_(progress) {}
 
   void begin_segment(double, double) const noexcept {}
-  void heartbeat() const {
-    if (heartbeat_) heartbeat_();
+  void report_progress() const {
+    if (progress_) progress_();
   }
   void event(EventKind, double, const State&) {
-    if (++events_ % work_a_beat != 0) return;
-    heartbeat();
-    if (events_ > most_events_) refuse_more_events(most_events_);
+    if (++events_ % work_per_report != 0) return;
+    report_progress();
+    if (events_ > event_limit_) refuse_more_events(event_limit_);
   }
 
  private:
-  std::size_t most_events_, events_ = 0;
-  const std::function<void()>& heartbeat_;
+  std::size_t event_limit_, events_ = 0;
+  const std::function<void()>& progress_;
 };
 
 }  // namespace stickslip::detail

@@ -1,4 +1,4 @@
-// A slider through a whole motion of the ground, piece by piece.
+// Integrate a slider over a whole ground motion, segment by segment.
 #pragma once
 
 #include <cmath>
@@ -18,11 +18,11 @@
 
 namespace stickslip::detail {
 
-/// The motion at the samples.
+/// Where the response at the samples is written.
 struct HistorySpans {
   std::span<double> displacement, velocity;
-  std::span<double> gap{};  // empty where the slider cannot leave the ground
-  std::span<double> temperature{};
+  std::span<double> gap{};          // empty if the slider cannot leave the ground
+  std::span<double> temperature{};  // empty if friction does not depend on it
 
   template <FrictionLaw Law>
   void keep(std::size_t sample, const Law& law, const State& state) const noexcept {
@@ -33,48 +33,49 @@ struct HistorySpans {
   }
 };
 
-/// Under a harmonic motion slips of any law but Coulomb's without a spring come in steps.
+/// Under a harmonic motion, slips come in several steps for every law but Coulomb friction without a spring.
 template <Motion M, FrictionLaw Law>
 using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
 
-/// Walks over the pieces of a motion: `go(i, begin, end, segment)` for each of its segments, which last from `begin` to
-/// `end` [s], and `beat()` after each `segments_a_beat` of them but the last.
-template <class Pieces, class Go, class Beat>
-[[gnu::always_inline]] inline void walk(const Pieces& pieces, std::size_t count, std::size_t segments_a_beat, Go&& go,
-                                        Beat&& beat) {
+/// Iterate over the segments of a motion: call `go(i, begin, end, segment)` for each segment, from `begin` to `end`
+/// [s], and `report()` after every `segments_per_report` segments, except after the last one.
+template <class Pieces, class Go, class Report>
+[[gnu::always_inline]] inline void walk(const Pieces& pieces, std::size_t count, std::size_t segments_per_report,
+                                        Go&& go, Report&& report) {
   double begin = pieces.time(0);
   for (std::size_t i = 0; i < count;) {
-    for (const std::size_t next = std::min(i + segments_a_beat, count); i < next; ++i) {
+    for (const std::size_t next = std::min(i + segments_per_report, count); i < next; ++i) {
       const double end = pieces.time(i + 1);
       go(i, std::exchange(begin, end), end, pieces.segment(i));
     }
-    if (i < count) beat();
+    if (i < count) report();
   }
 }
 
-template <class Go, class Beat>
-[[gnu::always_inline]] inline void walk(const GroundMotion& motion, std::size_t segments_a_beat, Go&& go, Beat&& beat) {
-  walk(GroundMotion::Pieces(motion), motion.segments(), segments_a_beat, go, beat);
+template <class Go, class Report>
+[[gnu::always_inline]] inline void walk(const GroundMotion& motion, std::size_t segments_per_report, Go&& go,
+                                        Report&& report) {
+  walk(GroundMotion::Pieces(motion), motion.segments(), segments_per_report, go, report);
 }
 
-/// Slides through all segments, one by one.
-/// @tparam Recording  a RecorderFor the motion and law, or NoRecorder
-template <FrictionLaw Law, class Flows, class Recording>
+/// Integrate over all segments in order.
+/// @tparam RecorderType  a RecorderFor the motion and law, or NoRecorder
+template <FrictionLaw Law, class Flows, class RecorderType>
 [[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          Recording& recorder, const HistorySpans& histories) {
+                          RecorderType& recorder, const HistorySpans& histories) {
   State moving = state;
   walk(
-      GroundMotion::Pieces(motion), motion.segments(), Recording::work_a_beat,
+      GroundMotion::Pieces(motion), motion.segments(), RecorderType::work_per_report,
       [&](std::size_t i, double begin, double end, const Segment& segment) {
         recorder.begin_segment(begin, end);
         detail::advance(law, flows, segment, moving, recorder);
         histories.keep(i + 1, law, moving);
       },
-      [&] { recorder.heartbeat(); });
+      [&] { recorder.report_progress(); });
   state = moving;
 }
 
-/// Calls `work` with the flows that fit the slider under a motion.
+/// Call `work` with the flows that suit the slider under a motion.
 template <FrictionLaw Law, class Work>
 void with_flows(const Slider<Law>& slider, const GroundMotion& motion, Work&& work) {
   with_flows(slider, motion.dt(), std::forward<Work>(work));
@@ -84,7 +85,8 @@ void with_flows(const Slider<Law>& slider, const HarmonicMotion& motion, Work&& 
   with_harmonic_flows(slider, motion.omega(), motion.dt(), std::forward<Work>(work));
 }
 
-/// How many pieces a motion has at least: one a period, so that phases stay small.
+/// Minimum number of segments into which a motion is split: for a harmonic motion at least one per period, so that
+/// phases stay small.
 inline std::size_t pieces(const GroundMotion& motion) noexcept { return motion.segments(); }
 inline std::size_t pieces(const HarmonicMotion& motion) noexcept {
   return std::max(motion.segments(), static_cast<std::size_t>(motion.duration() / motion.period()));
@@ -95,14 +97,14 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
          RecorderFor<HarmonicMotion, Law>& recorder, const HistorySpans& histories) {
   std::uint32_t pieces = 0;
   const auto piece = [&](double begin, double end, double duration, double phase) {
-    if (++pieces % RecorderFor<HarmonicMotion, Law>::work_a_beat == 0) recorder.heartbeat();
+    if (++pieces % RecorderFor<HarmonicMotion, Law>::work_per_report == 0) recorder.report_progress();
     recorder.begin_segment(begin, end);
     detail::advance(law, flows, HarmonicSegment{duration, motion.amplitude(), motion.omega(), phase}, state, recorder);
   };
   const bool short_steps = motion.dt() <= motion.period();
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     const double begin = motion.time(i), end = motion.time(i + 1);
-    if (short_steps && i + 1 < motion.segments()) {  // all of one length, as if times were not rounded
+    if (short_steps && i + 1 < motion.segments()) {  // all of equal length, as if times were not rounded
       piece(begin, end, motion.dt(), motion.phase(begin, std::fma(static_cast<double>(i), motion.dt(), -begin)));
     } else {
       for (double time = begin; time < end;) {
@@ -115,7 +117,7 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
   }
 }
 
-/// A ground motion as a slider on a slope feels it.
+/// The load and normal force of a slider on a slope under a ground motion.
 class LoadPieces {
  public:
   LoadPieces(const GroundMotion& motion, double slope) noexcept
@@ -137,7 +139,7 @@ class LoadPieces {
   double slope_;
 };
 
-/// Whether the event loop must be asked for loads and normal forces.
+/// Whether the motion needs the event loop with load and normal force.
 template <FrictionLaw Law>
 bool loaded(const Slider<Law>& slider, const GroundMotion& motion) noexcept {
   return !slider.plain() || motion.has_vertical();
@@ -157,7 +159,7 @@ inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
   return false;
 }
 
-/// Refuses a motion in which the ground falls freely, or faster, to its end: the slider would never land.
+/// Throw if the ground falls freely, or faster, at the end of the motion: the slider would never land.
 inline void check_landing(const GroundMotion& motion, double slope) {
   const std::size_t last = motion.segments() - 1;
   const LoadSegment segment = LoadPieces(motion, slope).segment(last);
@@ -167,10 +169,10 @@ inline void check_landing(const GroundMotion& motion, double slope) {
           segment.normal_end, "m/s^2");
 }
 
-/// Slides through all segments of load and normal force, one by one.
-template <FrictionLaw Law, class Flows, class Recording>
+/// Integrate over all segments of load and normal force in order.
+template <FrictionLaw Law, class Flows, class RecorderType>
 [[gnu::flatten]] void run_loaded(const Slider<Law>& slider, const Flows& flows, const GroundMotion& motion,
-                                 Contact contact, State& state, Recording& recorder, const HistorySpans& histories) {
+                                 Contact contact, State& state, RecorderType& recorder, const HistorySpans& histories) {
   const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
   const LoadPieces pieces(motion, slider.slope());
   const auto go = [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
@@ -179,19 +181,20 @@ template <FrictionLaw Law, class Flows, class Recording>
     histories.keep(i + 1, slider.law(), state);
     if (!histories.gap.empty()) histories.gap[i + 1] = state.gap;
   };
-  walk(pieces, motion.segments(), Recording::work_a_beat, go, [&] { recorder.heartbeat(); });
+  walk(pieces, motion.segments(), RecorderType::work_per_report, go, [&] { recorder.report_progress(); });
 }
 
-/// The same with the flows that fit the slider.
-template <FrictionLaw Law, Motion M, class Recording>
-void run_in_order(const Slider<Law>& slider, const M& motion, State& state, Recording& recorder,
+/// The same with the flows that suit the slider.
+template <FrictionLaw Law, Motion M, class RecorderType>
+void run_in_order(const Slider<Law>& slider, const M& motion, State& state, RecorderType& recorder,
                   const HistorySpans& histories) {
   with_flows(slider, motion, [&](const auto& flows) { run(slider.law(), flows, motion, state, recorder, histories); });
 }
 
-/// The same by the quickest way there is.
-template <FrictionLaw Law, Motion M, class Recording>
-void run(const Slider<Law>& slider, const M& motion, State& state, Recording& recorder, const HistorySpans& histories) {
+/// The same by the fastest available method.
+template <FrictionLaw Law, Motion M, class RecorderType>
+void run(const Slider<Law>& slider, const M& motion, State& state, RecorderType& recorder,
+         const HistorySpans& histories) {
 #ifdef STICKSLIP_LIBRARY
   if constexpr (std::same_as<Law, Coulomb> && std::same_as<M, GroundMotion>)
     if (worth_pieces(slider, motion)) return run_by_pieces(slider.law(), motion, state, recorder, histories);

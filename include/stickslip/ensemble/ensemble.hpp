@@ -55,13 +55,13 @@ class Ensemble {
     bool ground_acceleration = false;
     detail::TallyTree tallies;
     std::map<std::uint64_t, std::size_t> cut;  ///< blocks that are not whole, and how many members they have
-    std::map<std::uint64_t, Kept> kept;        ///< by the block's number; empty once there are more than `most_kept`
+    std::map<std::uint64_t, Kept> kept;        ///< by the block's number; empty once there are more than `max_kept`
     detail::Sketch peaks;                      ///< then this counts them
     friend bool operator==(const Parts&, const Parts&) = default;
   };
 
   /// Of more members than these no single peak and residual is kept; peaks are then counted in bins 0.1 % wide.
-  static constexpr std::uint64_t most_kept = std::uint64_t{1} << 24;
+  static constexpr std::uint64_t max_kept = std::uint64_t{1} << 24;
 
   /// Times of the statistics there may be.
   static constexpr std::size_t max_times = std::size_t{1} << 24;
@@ -107,7 +107,7 @@ class Ensemble {
   VelocitySpectrum velocity_spectrum() const;
 
   /// Largest |x| of each member [m], between samples too, in the order of the members.
-  /// @throws std::domain_error where there are more than `most_kept`
+  /// @throws std::domain_error where there are more than `max_kept`
   std::vector<double> peak() const;
   /// Last x of each member [m].
   std::vector<double> residual() const;

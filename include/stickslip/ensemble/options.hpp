@@ -30,7 +30,7 @@ struct EnsembleOptions {
   /// sample.
   bool ground_acceleration = false;
   /// Called every tenth of a second or so, in the thread that called; may throw to end the work.
-  std::function<void(const EnsembleProgress&)> heartbeat{};
+  std::function<void(const EnsembleProgress&)> progress{};
 };
 
 }  // namespace stickslip

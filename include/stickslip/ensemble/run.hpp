@@ -1,4 +1,4 @@
-// Slides through many members and takes their statistics.
+// Simulate many members and compute their statistics.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace stickslip {
 
 namespace detail {
 
-/// The fastest there is; all solve the same equations.
+/// The fastest simulator for a source; all of them solve the same equations.
 template <MemberSource Source>
 std::unique_ptr<Simulator> simulator(const Source& source, const EnsembleOptions& options) {
   return std::make_unique<MemberSimulator<Source>>(source, options.seed, options.settle, options.contact);
@@ -36,8 +36,8 @@ std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, const En
   return std::make_unique<MemberSimulator<PairedMembers<S, M>>>(source, options.seed, options.settle, options.contact);
 }
 
-/// Also gives the block what the ground does: it makes each motion once more, so that all simulators can, and those
-/// that are not asked do nothing for it.
+/// Adds ground accelerations to the block by generating each motion a second time. This works with every simulator and
+/// costs nothing if the accelerations are not requested.
 template <MemberSource Source>
 class GroundSimulator final : public Simulator {
  public:
@@ -47,7 +47,7 @@ class GroundSimulator final : public Simulator {
   void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
     sliders_->simulate(first_member, members, block);
     for (std::size_t i = 0; i < members; ++i) {
-      block.beat();
+      block.check_stopped();
       const auto& member = source_.member(seed_, first_member + i);
       accelerations(member.motion, block.times(), acceleration_);
       block.ground(acceleration_);
@@ -63,27 +63,28 @@ class GroundSimulator final : public Simulator {
 
 }  // namespace detail
 
-/// Slides through many members and takes the statistics of displacement and velocity over them.
+/// Simulate many members and compute the statistics of their displacement and velocity.
 ///
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t)                                               thesis 4.4, 5.4
 ///
-/// from rest at x = 0, slider and n(t) those of `source.member(seed, index)`. Each member is solved exactly between
+/// from rest at x = 0, with the slider and n(t) of `source.member(seed, index)`. Each member is solved exactly between
 /// events, as by `integrate`.
 ///
-/// @param source   of members, see MemberSource; is referred to
+/// @param source   of members, see MemberSource; held by reference
 /// @param options  members, seed, threads, times of the statistics
-/// @param start    part of the same ensemble: its members are not simulated again. An ensemble that was cut off and
-///                 goes on from what was kept ends with the same bits
-/// @return statistics over the members `first_member` to `first_member + members - 1`, and those of `start`
-/// @throws std::invalid_argument  an option out of its range (names it); a `start` of another configuration; a `dt`
-///                                where ground motions differ in duration
+/// @param start    part of the same ensemble, whose members are not simulated again. A run that is stopped and later
+///                 resumed from its saved ensemble gives the same bits as an uninterrupted one
+/// @return statistics over the members `first_member` to `first_member + members - 1` and those of `start`
+/// @throws std::invalid_argument  an option out of its range (the message names it); a `start` with a different
+///                                configuration; a `dt` where ground motions differ in duration
 /// @throws std::overflow_error    displacements or velocities beyond 1e34 [m, m/s], whose statistics could leave the
-///                                range of doubles; says which member or block
-/// @throws ConvergenceError       a member does not settle, or its law has no power series; says which member
-/// What `heartbeat` throws ends the work; what it was shown before is whole and can be gone on from.
+///                                range of doubles; the message names the member or block
+/// @throws ConvergenceError       a member does not settle, or its law has no power series; the message names the
+/// member An exception from `progress` stops the work; the partial ensemble passed to it remains valid and can be
+/// resumed.
 ///
-/// Cost on one thread: for each member what `integrate` takes, and some 10 ns for each time of the statistics. Memory:
-/// 1 kB for each time of the statistics and thread, 16 bytes a member.
+/// Cost on one thread: that of `integrate` per member, and about 10 ns per time of the statistics. Memory: 1 kB per
+/// time of the statistics and thread, 16 bytes per member.
 template <MemberSource Source>
 Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {}, const Ensemble* start = nullptr) {
   const EnsembleTimes times = detail::ensemble_times(options.dt, source.time_base());
@@ -106,24 +107,25 @@ Ensemble run_ensemble(const Source& source, const EnsembleOptions& options = {},
   });
 }
 
-/// The same for members by index: one slider, or one of a source of sliders, under the motions of a source.
+/// The same, with members paired by index: one slider, or the sliders of a source, under the motions of a source.
 ///
 ///     run_ensemble(Coulomb(2), GaussianExcitation(...), {.members = 10'000});
 ///     run_ensemble(RandomSlider([](double mu) { return Coulomb::from_friction(mu); }, Lognormal(0.3, 0.3)),
 ///                  OneOf(std::vector{kobe, chi_chi}), {.members = 1000});
 ///
-/// @param sliders  a Slider with any law, spring and damper; a law alone; or a SliderSource: a RandomSlider, OneOf
-///                 a list
-/// @param motions  an Excitation, or OneOf<GroundMotion>. Where motions differ in duration, there are no statistics by
+/// @param sliders  a Slider with any law, spring and damper; a law alone; or a SliderSource: a RandomSlider, or OneOf
+///                 for a list
+/// @param motions  an Excitation, or OneOf<GroundMotion>. If motions differ in duration, there are no statistics in
 ///                 time
 ///
-/// Cost on one thread, the motions and the statistics included (2.5 GHz, AVX2): one slider for all under Gaussian
-/// excitation goes in vector lanes: Coulomb friction alone 6 to 7 ns a sample, with a spring or a damper 25, spring and
-/// damper without friction 9 (with steps of less than 1 / wn), casters alone 70, any other law, with or without spring
-/// and damper, 100 to 250. Coulomb friction takes 10 ns a step under pulses. All else goes as by `integrate`, and some
-/// 10 ns. In lanes, laws whose resistance changes while they slide are within 1e-9 of `integrate`, by series of
-/// tolerance 1e-14 a step; the rest is exact to round-off. A law that changes much within a step leaves its members to
-/// the event loop, one by one, and costs what `integrate` costs, or up to twice that.
+/// Cost on one thread, including motions and statistics (2.5 GHz, AVX2): one slider for all members under Gaussian
+/// excitation is integrated in SIMD lanes: Coulomb friction alone takes 6 to 7 ns per sample, with a spring or a damper
+/// 25, spring and damper without friction 9 (with steps of less than 1 / wn), casters alone 70, any other law, with or
+/// without spring and damper, 100 to 250. Coulomb friction takes 10 ns per step under pulses. All other cases cost what
+/// `integrate` does, plus about 10 ns. In lanes, laws whose resistance changes while they slide agree with `integrate`
+/// to 1e-9, from series with a tolerance of 1e-14 per step; the rest is exact to round-off. If the resistance of a law
+/// changes much within a step, the event loop integrates its members one by one, at the cost of `integrate` or up to
+/// twice that.
 template <class S, MotionSource M>
 requires(!FrictionLaw<S>) Ensemble run_ensemble(const S& sliders, const M& motions, const EnsembleOptions& options = {},
                                                 const Ensemble* start = nullptr) {

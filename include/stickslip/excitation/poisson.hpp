@@ -65,24 +65,24 @@ class PoissonPulses {
   using Options = PoissonOptions;
 
   /// A motion with more steps than this on average, 4.8 GB, is refused.
-  static constexpr double most_steps = 3e8;
+  static constexpr double max_steps = 3e8;
 
   /// @param rate        lambda, pulses per second, positive and finite
   /// @param half_width  Dt [s], positive and finite; the unit of the shape's times
   /// @param sigma       rms amplitude of the pulses [m/s^2], positive and finite
   /// @param duration    of the motion [s], positive and finite
-  /// @throws std::invalid_argument naming the value refused; also for more than `most_steps` steps (rate x duration x
+  /// @throws std::invalid_argument naming the value refused; also for more than `max_steps` steps (rate x duration x
   ///         the times of the shape) and for an `Options::quantile` that is not finite or whose mean square is not 1
   PoissonPulses(double rate, double half_width, double sigma, double duration, Options options = {});
 
   /// Pulses like the strong motion of an earthquake, thesis 5.6:
   /// Dt = pi / omega_c = 1 / (2 f_c), (5.60); sigma = sigma_n / sqrt(2 lambda Dt), (5.61).
   /// @param rms_acceleration     sigma_n [m/s^2], positive and finite
-  /// @param centre_frequency_hz  f_c [Hz], positive and finite. It is a definition, not the peak of the spectrum, which
+  /// @param center_frequency_hz  f_c [Hz], positive and finite. It is a definition, not the peak of the spectrum, which
   ///                             is at 0.742 f_c (errata, 5.60)
   /// @param duration             of the strong motion [s], positive and finite
   /// @param overlap              lambda Dt, positive and finite; 0.5 leaves few gaps, and a peak of 3 to 4 sigma_n
-  static PoissonPulses from_earthquake(double rms_acceleration, double centre_frequency_hz, double duration,
+  static PoissonPulses from_earthquake(double rms_acceleration, double center_frequency_hz, double duration,
                                        double overlap = 0.5, Options options = {});
 
   /// One of the four events of thesis, Table 5.1, with overlap 0.5.

@@ -9,13 +9,13 @@ namespace stickslip {
 
 /// Symmetric rectangular pulses whose spectrum is the nearest to one that is given: what `fit_pulses` returns.
 ///
-///     PoissonPulses::from_earthquake(fit.rms_acceleration, fit.centre_frequency_hz, duration);
+///     PoissonPulses::from_earthquake(fit.rms_acceleration, fit.center_frequency_hz, duration);
 struct PulseFit {
   double half_width;           ///< Dt [s]
   double half_width_error;     ///< its standard error [s]; 0 where a spectrum was given, which is not estimated
   double intensity;            ///< lambda sigma^2 [m^2/s^5], which alone counts: a spectrum does not tell the two apart
   double rms_acceleration;     ///< sigma_n of the pulses [m/s^2], (5.61)
-  double centre_frequency_hz;  ///< f_c = 1 / (2 Dt) [Hz], (5.60)
+  double center_frequency_hz;  ///< f_c = 1 / (2 Dt) [Hz], (5.60)
   double misfit;               ///< the integral of |S - S of the pulses| over that of S, below 1
 };
 

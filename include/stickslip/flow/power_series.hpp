@@ -17,24 +17,24 @@
 
 namespace stickslip {
 
-/// A polynomial on [0, 1] whose value at 0 is positive, asked for its first root.
+/// Finds the first root on [0, 1] of a polynomial that is positive at 0.
 ///
-/// Its Bernstein coefficients on an interval change sign as often as it has roots there, or more often by an even
-/// number (Descartes' rule). No change, no root; one change, one root, which Newton's method finds inside its bracket;
-/// else the interval is halved. A double root, which no halving parts, is a graze: the speed touches zero and rises
-/// again.
+/// The number of sign changes of its Bernstein coefficients on an interval is the number of its roots there, or exceeds
+/// it by an even number (Descartes' rule). Without a change there is no root; with one change there is one root, which
+/// Newton's method finds inside its bracket; otherwise the interval is halved. A double root, which bisection cannot
+/// separate, is a graze: the speed touches zero and rises again.
 class FirstRoot {
  public:
   /// @param w  coefficients of t^0 .. t^degree, w[0] > 0
   FirstRoot(const double* w, int degree) noexcept : w_(w), degree_(degree) {}
 
-  /// In (0, 1]; `never` where there is none.
+  /// The first root, in (0, 1]; `never` if there is none.
   double find() const noexcept {
     double fall = 0;
     for (int k = 1; k <= degree_; ++k) fall += std::min(w_[k], 0.0);
     if (w_[0] + fall > 0) return never;
 
-    // Closer bounds of the value and the slope, by Horner's rule with t at its worst, 0 or 1, at each step.
+    // Tighter bounds on the value and the slope, by Horner's rule with the worse of t = 0 and t = 1 at each step.
     double lowest = 0, steepest = 0, last = 0, order = degree_;
     for (int k = degree_; k >= 1; --k, --order) {
       lowest = w_[k] + std::min(lowest, 0.0);
@@ -43,7 +43,7 @@ class FirstRoot {
     }
     last += w_[0];
     if (w_[0] + std::min(lowest, 0.0) > 0) return never;
-    if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it falls all the way
+    if (steepest < 0) return last > 0 ? never : polish(0, 1);  // it decreases throughout
 
     Bernstein coefficients;
     double* const b = coefficients.data();
@@ -55,7 +55,7 @@ class FirstRoot {
     for (int i = 1; i <= degree_; ++i)
       for (int k = degree_; k >= i; --k) b[k] += b[k - 1];
     const double last_value = b[degree_], root = search(b, 0, 1);
-    return detail::equal(root, never) && last_value <= 0 ? 1 : root;  // at the end, but for rounding
+    return detail::equal(root, never) && last_value <= 0 ? 1 : root;  // at the end, up to rounding
   }
 
  private:
@@ -77,14 +77,14 @@ class FirstRoot {
     return root < never ? root : search(b, left + width / 2, width / 2);
   }
 
-  // Newton's method, as the slope comes with the value, from where a parabola through the start would be zero; even
-  // and odd powers go apart, as an addition must wait for what it adds.
+  // Newton's method: the slope costs little once the value is computed. It starts at the zero of the parabola through
+  // the start. Even and odd powers are summed separately, to shorten the chain of dependent additions.
   double polish(double low, double high) const noexcept {
     const double guess = degree_ < 2 ? 1 : first_root(w_[0], w_[1], 2 * w_[2]);
     double t = guess > low && guess < high ? guess : low + (high - low) / 2;
     for (int steps = 0;; ++steps) {
       const double z = t * t;
-      double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // slopes by z
+      double even = 0, odd = 0, even_slope = 0, odd_slope = 0;  // derivatives with respect to z
       for (int k = degree_ & ~1; k >= 0; k -= 2) {
         even_slope = even_slope * z + even;
         even = even * z + w_[k];
@@ -109,7 +109,7 @@ class FirstRoot {
 
 namespace detail {
 
-/// What a load gains from the start of a flow, as a power series: linear.
+/// The change of a load since the start of a flow, as a power series: linear in time.
 class GainSeries {
  public:
   GainSeries(const Start& start, double duration) noexcept : rate_(start.gain / duration) {}
@@ -117,7 +117,7 @@ class GainSeries {
   /// The longest step over which the series keeps its digits [s].
   double reach(double /*natural_frequency*/) const noexcept { return never; }
 
-  /// Coefficients of time in units of h, to be asked for in order from k = 1 [m/s^2].
+  /// Coefficients for time in units of h, to be called in order from k = 1 [m/s^2].
   auto coefficients(double h) const noexcept {
     return [first = rate_ * h](int k) { return k == 1 ? first : 0.0; };
   }
@@ -130,8 +130,8 @@ class GainSeries {
   double rate_;
 };
 
-/// A cosine's. Its orders rise to exp(omega h) before they fall: over two radians, of it or of the spring, a digit is
-/// lost, and both are as if there were one frequency; resonance is nothing special.
+/// The change of a sinusoidal load. Its terms rise to exp(omega h) before they fall: over two radians of the load or of
+/// the spring, one digit is lost. Both are treated alike, so resonance needs no special case.
 class SinusoidalGainSeries {
  public:
   SinusoidalGainSeries(const SinusoidalStart& start, double /*duration*/) noexcept
@@ -155,7 +155,7 @@ class SinusoidalGainSeries {
 
  private:
   SinusoidalStart start_;
-  double derivatives_[2];  // the load and its derivative by the phase at the start [m/s^2]
+  double derivatives_[2];  // the load and its derivative with respect to the phase, at the start [m/s^2]
 };
 
 inline GainSeries gain_series(const Start& start, double duration) noexcept { return {start, duration}; }
@@ -168,7 +168,8 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 
 }  // namespace detail
 
-/// What follows from the coefficients of a slip, however they are found: its first stop, where it is at a time, works.
+/// A slip whose acceleration is a power series in time, however its coefficients are found: its first stop, its motion
+/// and the work done.
 template <class SlipStart>
 class PowerSeriesFlow {
  protected:
@@ -180,7 +181,7 @@ class PowerSeriesFlow {
   Progress at(double t) const noexcept { return at_part(t / horizon_); }
   Progress at_horizon() const noexcept { return end_; }
 
-  /// Net, at the start [m/s^2].
+  /// Net acceleration at the start [m/s^2].
   double acceleration() const noexcept { return start_.acceleration; }
 
   /// Work on the damper within t [m^2/s^2].
@@ -189,7 +190,8 @@ class PowerSeriesFlow {
     return mounting_.damping * integral(t, [](const Progress& at, double) { return at.speed * at.speed; });
   }
 
-  /// Work of a normal force that is not g on a pendulum, within t [m^2/s^2]: the integral of wn^2 (1 - w) x x'.
+  /// Work that the deviation of the normal force from g does on a pendulum within t [m^2/s^2]: the integral of
+  /// wn^2 (1 - w) x x'.
   double pendulum_work(double t) const noexcept requires loaded {
     if (!mounting_.pendulum) return 0;
     return stiffness() * integral(t, [&](const Progress& at, double part) {
@@ -197,7 +199,7 @@ class PowerSeriesFlow {
            });
   }
 
-  /// Work of what the load has gained since the start [m^2/s^2]: the integral of the product of two series.
+  /// Work of the change of the load since the start [m^2/s^2]: the integral of the product of two series.
   double work_of_gain(double t) const noexcept {
     const double s = t / horizon_;
     auto gain = gain_.coefficients(horizon_ * s);
@@ -225,21 +227,21 @@ class PowerSeriesFlow {
 
   double stiffness() const noexcept { return mounting_.natural_frequency * mounting_.natural_frequency; }
 
-  // Of a function of the motion, within t: Gauss-Legendre quadrature of 20 points is exact for products of two series
-  // that have come down to round-off at their ends.
+  // The integral of a function of the motion within t. 20-point Gauss-Legendre quadrature is exact for products of two
+  // series whose last terms are below round-off.
   template <class Function>
   double integral(double t, Function&& of) const {
     return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s), s); });
   }
 
   double find_first_stop() const noexcept {
-    // Roots at the start are taken out by leaving out leading zeros.
+    // Skipping leading zeros removes roots at the start.
     int leading = 0;
     while (leading < order_ && detail::equal(speed_[leading], 0)) ++leading;
-    // All of them underflow where a slip that does begin is too slow for doubles.
+    // All coefficients underflow if a slip does begin but is too slow for doubles.
     const double gain = [&] {
       if constexpr (loaded)
-        return start_.gain;  // that of the load less friction's
+        return start_.gain;  // change of the load minus change of friction
       else
         return start_.gain_within(horizon_, horizon_);
     }();
@@ -251,7 +253,7 @@ class PowerSeriesFlow {
     return root < never ? root * horizon_ : never;
   }
 
-  // N/g at a part of the horizon, and its rate [1/s].
+  // N/g at a fraction of the horizon, and its rate [1/s].
   double weight(double part) const noexcept {
     if constexpr (loaded)
       return start_.weight + weight_rate_ * horizon_ * part;
@@ -265,8 +267,8 @@ class PowerSeriesFlow {
       return 0;
   }
 
-  // Even and odd powers apart, as an addition must wait for what it adds; the start, the largest by far, comes last and
-  // as it was given.
+  // Even and odd powers are summed separately, to shorten the chain of dependent additions. The value at the start, by
+  // far the largest term, is added last and unrounded.
   Progress at_part(double s) const noexcept {
     struct Sums {
       double distance = 0, speed = 0, acceleration = 0, mean = 0;
@@ -289,7 +291,7 @@ class PowerSeriesFlow {
             s * (distance_[0] / 2 + gained(odd.mean, even.mean))};
   }
 
-  // `order` is the highest of the distance. Sums in pairs find zeros beyond.
+  // `order` is the highest order of the distance. Zeros are stored above it for sums taken in pairs.
   void end_series(int order) noexcept {
     order_ = order;
     distance_[order] = speed_[order] = acceleration_[order] = acceleration_[order - 1] = 0;
@@ -310,8 +312,8 @@ class PowerSeriesFlow {
   double weight_rate_;  // of N/g [1/s]
   double horizon_;
   int order_ = 0;
-  // Coefficients, for time in units of the horizon: of the distance over that time [m], of the speed [m/s] and of the
-  // acceleration [m/s^2].
+  // Coefficients, for time in units of the horizon, of the distance divided by that time [m], of the speed [m/s] and of
+  // the acceleration [m/s^2].
   double distance_[series::highest_order + 1], speed_[series::highest_order + 1],
       acceleration_[series::highest_order + 1];
   Progress end_{};  // at the horizon

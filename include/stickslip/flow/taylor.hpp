@@ -1,4 +1,4 @@
-// Friction that varies with position or speed, by a Taylor series of high order.
+// The motion under friction that varies with position or speed, as a Taylor series of high order.
 #pragma once
 
 #include <array>
@@ -20,13 +20,14 @@
 
 namespace stickslip {
 
-/// Friction that varies with position or speed: the distance slid is a Taylor series in time, with the coefficients of
+/// A slip under friction that varies with position or speed. The distance slid d is a Taylor series in time that solves
 ///     d'' = a + g(t) - wn^2 d - c (d' - u) - [resist(x0 +- d, d') - resist(x0, u)],      thesis (2.27), (2.50)
-/// where g is what the load gains, linear in time or a cosine's; found order by order (series.hpp). Where the normal
-/// force varies, a weight w = N/g that is linear in time multiplies the resistance, and a pendulum's spring.
+/// where g is the change of the load, linear in time or sinusoidal; the coefficients are found order by order
+/// (series.hpp). Under a variable normal force, a weight w = N/g that is linear in time multiplies the resistance and
+/// the spring of a pendulum.
 ///
-/// Orders are added until they are below round-off at the far end of the step; there the equation of motion is checked
-/// against the law itself. Where `highest_order` does not suffice, the step (the horizon) is shortened.
+/// Orders are added until they are below round-off at the end of the step, where the equation of motion is then checked
+/// against the law itself. If `highest_order` is not enough, the step (the horizon) is shortened.
 template <FrictionLaw Law, class SlipStart = Start>
 class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   using Base = PowerSeriesFlow<SlipStart>;
@@ -41,8 +42,8 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
       : Base(slider.mounting(), direction, displacement, start, duration, longest),
         slider_(slider),
         level_here_(resist(slider.law(), displacement, direction, start.speed)) {
-    // Where the level has all but underflowed its series says nothing of what lies ahead: towards the centre, go half
-    // the way at most.
+    // If the level has nearly underflowed, its series does not show how the level rises toward the center: cover at
+    // most half of that distance.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
         resist(slider.law(), 0.0, direction, start.speed) > vanishing)
       horizon_ = std::min(horizon_, time_to_half_way());
@@ -107,8 +108,8 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   }
 
  private:
-  // A level that changes fast at low speeds only says nothing of that where the speed is high: the equation of motion
-  // must hold where the speed is least, too.
+  // A level that changes fast only at low speeds does not show this at high speed. The equation of motion must
+  // therefore also hold at the minimum of the speed.
   bool balanced_where_slowest() {
     double slowest = stop_ < never ? stop_ / horizon_ : 1;
     if (detail::equal(slowest, 1) && start_.acceleration < 0 && end_.acceleration > 0)
@@ -120,11 +121,12 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     return holds;
   }
 
-  // Finds the coefficients, for time in units of the horizon: 1, or the part of the horizon that they may reach.
+  // Computes the coefficients, for time in units of the horizon. Returns 1, or the fraction of the horizon over which a
+  // series can converge.
   double expand() {
     const double s = sign(direction_), h = horizon_, stiffness = slider_.stiffness(), damping = slider_.damping();
     series::Coefficients x;
-    series::Coefficients v;  // of the speed, where the law asks for it
+    series::Coefficients v;  // of the speed, if the law depends on it
     auto level = as_series(resist(slider_.law(), series::Variable{&x}, direction_, series::Variable{&v}));
     x[0] = displacement_;
     speed_[0] = start_.speed;
@@ -137,7 +139,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     fastest_ = speed_[0];
     double term = speed_[0];
     auto gain = gain_.coefficients(h);
-    // Of a product with the weight, a series of two terms.
+    // The weight, a series of two terms, for products with it.
     const double weight_now = weight(0), weight_gains = weight_rate_ * h;
     const bool pendulum = loaded && slider_.mounting().pendulum;
     for (int k = 0; k + 2 <= series::highest_order; ++k) {
@@ -162,11 +164,11 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
       fastest_ = std::max(fastest_, term);
       if (k < 2 || std::max(term, previous) > round_off * fastest_) continue;
       end_series(k + 2);
-      // On breaking away x is a cubic, and two of three coefficients of the level are zero. A linear level is as good
-      // as the speed.
+      // Just after breakaway x is cubic in time, and two of three coefficients of the level are zero. A linear level
+      // converges as fast as the speed.
       const double recent_level =
           LinearLaw<Law> ? 0 : std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
-      // From rest, or nearly so, x may also come back to its start at the horizon, where nothing would then be noticed.
+      // From rest, or nearly so, x may also return to its start at the horizon, where the check would then see nothing.
       const bool fast = start_.speed > fastest_ / 16;
       if (recent_level <= largest_level && (fast || balanced(0.6)) && balanced(1)) return 1;
     }
@@ -177,7 +179,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     return part > 0x1p-20 ? std::min(part, 0.75) : 0x1p-20;  // also where the coefficients overflowed
   }
 
-  // Whether the equation of motion holds at a part of the horizon, to the round-off of its terms and of the series.
+  // Whether the equation of motion holds at a fraction of the horizon, up to the round-off of its terms and the series.
   bool balanced(double part) {
     end_ = at_part(part);
     const double level_there =
@@ -195,7 +197,8 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
   }
 
-  // The slip is at most this fast: d <= u t + (|a| + |j| t) t^2, so each of three terms may use a third of the way.
+  // The distance is bounded by d <= u t + (|a| + |j| t) t^2: each of the three terms may use a third of it (of half of
+  // |x|).
   double time_to_half_way() const noexcept {
     const double third = std::abs(displacement_) / 6;
     return std::min(std::min(third / start_.speed, std::sqrt(third / std::abs(start_.acceleration))),
@@ -208,7 +211,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     return level;
   }
 
-  static constexpr double vanishing = 1e-290;  // a slip level that is none, and near to losing digits [m/s^2]
+  static constexpr double vanishing = 1e-290;  // a negligible slip level, about to lose digits by underflow [m/s^2]
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
   const Slider<Law>& slider_;
@@ -221,7 +224,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
 template <FrictionLaw Law>
 struct Taylor {
   const Slider<Law>& slider;
-  mutable double last_step = never;  // that a flow was shortened to, where pieces of motion are long [s]
+  mutable double last_step = never;  // to which a flow was last shortened, for long segments of motion [s]
 
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
   double drag(double speed) const noexcept { return slider.damping() * speed; }

@@ -1,4 +1,4 @@
-// What a friction law is.
+// The concepts that a friction law satisfies.
 #pragma once
 
 #include <concepts>
@@ -9,13 +9,14 @@
 
 namespace stickslip {
 
-/// A friction law answers two questions, both with a friction force per unit mass [m/s^2] that is not negative:
+/// A friction law defines one or two functions. Each returns a non-negative friction force per unit mass [m/s^2]:
 ///
-///     resist(x, direction) or resist(x, direction, speed)    // what resists sliding at x [m] that way, at |x'| [m/s]
-///     hold(x, direction)                                     // what holds it at rest against sliding that way
+///     resist(x, direction) or resist(x, direction, speed)    // resistance to sliding at x [m] and speed |x'| [m/s]
+///     hold(x, direction)                                     // largest friction at rest against sliding that way
 ///
-/// A law without `hold` holds what resists at no speed. `resist` is a template over its scalars, so that one line
-/// serves doubles, power series, and several of either side by side; it names none of these types and returns `auto`:
+/// Without `hold`, friction at rest is limited by the resistance at zero speed. `resist` is a template over its
+/// scalars: one line serves doubles, power series, and several of either in SIMD lanes. It names none of these types
+/// and returns `auto`:
 ///
 ///     struct Bump {                            // a slip level that decays as exp(-(x/reach)^2)
 ///       double slip_level, reach;
@@ -32,7 +33,7 @@ concept PositionLaw = std::copy_constructible<Law> && requires(const Law& law, d
   { law.resist(x, direction) } -> std::convertible_to<double>;
 };
 
-/// A law whose resistance depends on the speed, too.
+/// A law whose resistance also depends on the speed.
 template <class Law>
 concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
   { law.resist(x, direction, x) } -> std::convertible_to<double>;
@@ -41,23 +42,23 @@ concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, doub
 template <class Law>
 concept MemorylessLaw = PositionLaw<Law> || SpeedLaw<Law>;
 
-/// A law of numbers alone, such as a table or a function of another language, said by `static constexpr bool numeric =
-/// true;` its `resist` need be no template. It must be continuous in x and speed; its flows are found by collocation,
-/// to 1e-10 of the scale.
+/// A law that is defined by numbers only, such as a table or a function of another language. It declares `static
+/// constexpr bool numeric = true;`, and its `resist` need not be a template. It must be continuous in x and speed. The
+/// motion is computed by collocation, to 1e-10 of the scale.
 template <class Law>
 concept NumericLaw = MemorylessLaw<Law> && requires {
   requires Law::numeric;
 };
 
-/// A law with memory, whose level depends on how far it has slid, State::sliding_distance. It answers both questions
-/// through another law:
+/// A law with memory: its slip level depends on State::sliding_distance. It defines its friction through another law:
 ///
-///     at(state)                // the law as it goes on from a state, in x and the speed
-///     ahead(state, direction)  // the way in a direction for which that holds [m], positive; infinite: for good
-///     pass(state, direction)   // moves a state to the end of that way: x and the sliding distance
+///     at(state)                // the law in x and speed that applies from this state on
+///     ahead(state, direction)  // distance in a direction over which that law applies [m], positive; infinite: always
+///     pass(state, direction)   // moves a state to the end of that distance: x and the sliding distance
 ///
-/// There the level must not jump. A law `at` that is linear in x says its rate, `slope(direction)`, the derivative
-/// of what resists by the distance slid that way [1/s^2]: its motion is then known in closed form.
+/// The level must be continuous there. If the law that `at` returns is linear in x, it defines `slope(direction)`,
+/// the derivative of the resistance with respect to the distance slid that way [1/s^2]. The motion is then known in
+/// closed form.
 template <class Law>
 concept MemoryLaw = std::copy_constructible<Law> &&
     requires(const Law& law, const State& state, State& there, Direction direction) {
@@ -88,7 +89,8 @@ concept HeatedLaw = MemoryLaw<Law> && requires(const Law& law, const State& stat
 template <class Law>
 concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
 
-/// The law as it goes on from a state under a normal force of `weight` times g: itself, unless it has a memory.
+/// The law that applies from a state on, under a normal force of `weight` times g: `law.at(...)` for a law with memory,
+/// else the law itself.
 template <FrictionLaw Law>
 decltype(auto) law_at(const Law& law, const State& state, double weight = 1) {
   if constexpr (HeatedLaw<Law>)
@@ -105,13 +107,13 @@ concept LinearLaw = PositionLaw<Law> && requires(const Law& law, Direction direc
   { law.slope(direction) } -> std::convertible_to<double>;
 };
 
-/// A law that holds more at rest than what resists at no speed.
+/// A law that can hold more at rest than its resistance at zero speed.
 template <class Law>
 concept LawWithHold = FrictionLaw<Law> && requires(const Law& law, double x, Direction direction) {
   { law.hold(x, direction) } -> std::convertible_to<double>;
 };
 
-/// What resists sliding, by any law without memory, of numbers or of power series [m/s^2].
+/// Resistance to sliding of any law without memory, for numbers or power series [m/s^2].
 template <MemorylessLaw Law, class X, class Speed>
 auto resist(const Law& law, const X& x, Direction direction, const Speed& speed) {
   if constexpr (SpeedLaw<Law>)
@@ -120,8 +122,8 @@ auto resist(const Law& law, const X& x, Direction direction, const Speed& speed)
     return law.resist(x, direction);
 }
 
-/// What any law without memory holds at rest [m/s^2]; at least what resists at no speed, for a slip that it could not
-/// begin would end where it begins.
+/// Largest friction at rest of any law without memory [m/s^2]. It is at least the resistance at zero speed: otherwise a
+/// slip could begin under a load too small to sustain it, and would end where it began.
 template <MemorylessLaw Law>
 double hold(const Law& law, double x, Direction direction) {
   const double resists = resist(law, x, direction, 0.0);
@@ -131,29 +133,29 @@ double hold(const Law& law, double x, Direction direction) {
     return resists;
 }
 
-/// A law whose resistance does not change while it slides one way, said by `static constexpr bool
-/// constant_while_sliding = true;` its motion between events is known in closed form.
+/// A law whose resistance is constant while the slider moves one way. The law declares this with
+/// `static constexpr bool constant_while_sliding = true;`. Its motion between events is known in closed form.
 template <class Law>
 concept ConstantLevelLaw = FrictionLaw<Law> && requires {
   requires Law::constant_while_sliding;
 };
 
-/// A law that resists both ways alike, said by `static constexpr bool symmetric = true;` it saves ensembles half of the
-/// work. (A law that is derived from one and resists otherwise says `false`.)
+/// A law with equal resistance in both directions. The law declares this with `static constexpr bool symmetric =
+/// true;`, which saves ensembles half of the work. (A derived law that is not symmetric declares `false`.)
 template <class Law>
 concept SymmetricLaw = FrictionLaw<Law> && requires {
   requires Law::symmetric;
 };
 
-/// A law that knows the work against it in closed form, `work(from, distance, direction)` [m^2/s^2], distance >= 0 slid
-/// from `from`: the integral of the resistance over the way.
+/// A law with a closed form of the work against friction, `work(from, distance, direction)` [m^2/s^2]: the integral of
+/// the resistance over a distance >= 0 slid from `from`.
 template <class Law>
 concept LawWithWork = PositionLaw<Law> && requires(const Law& law, double x, Direction direction) {
   { law.work(x, x, direction) } -> std::convertible_to<double>;
 };
 
-/// The work against a law of position; by Gauss-Legendre quadrature of ten points where it is not known, so over short
-/// ways.
+/// The work against friction of a law of position [m^2/s^2]. Without a closed form it is computed by ten-point
+/// Gauss-Legendre quadrature, which is accurate over short distances only.
 template <PositionLaw Law>
 double friction_work(const Law& law, double from, double distance, Direction direction) {
   if constexpr (LawWithWork<Law>) {

@@ -18,7 +18,7 @@ namespace stickslip {
 class Stribeck {
  public:
   static constexpr bool symmetric = true;
-  static constexpr int largest_exponent = 31;
+  static constexpr int max_exponent = 31;
 
   /// @param static_level   a_static, force per unit mass at rest [m/s^2], finite and at least the kinetic one
   /// @param kinetic_level  a_kinetic, that at high speed [m/s^2], finite and at least 0
@@ -34,8 +34,8 @@ class Stribeck {
                         detail::shortest(kinetic_level) + " m/s^2",
                     static_level, "m/s^2");
     detail::require(velocity > 0, "Stribeck: velocity must be positive", velocity, "m/s");
-    detail::require(exponent >= 1 && exponent <= largest_exponent,
-                    "Stribeck: exponent must be a whole number from 1 to 31", exponent);
+    detail::require(exponent >= 1 && exponent <= max_exponent, "Stribeck: exponent must be a whole number from 1 to 31",
+                    exponent);
   }
 
   double static_level() const noexcept { return static_; }

@@ -42,7 +42,7 @@ inline const char* name_of(Component component) noexcept {
 /// share a time (a piece of no length); lines may not.
 class GroundMotion {
  public:
-  static constexpr double largest_acceleration = 1e100;  ///< [m/s^2]
+  static constexpr double max_acceleration = 1e100;  ///< [m/s^2]
 
   /// Samples at times 0, dt, 2 dt, ...
   /// @param acceleration  n at the samples [m/s^2], at least two, finite
@@ -224,7 +224,7 @@ class GroundMotion {
                                   " must have as many samples as acceleration, " + std::to_string(samples()) +
                                   ", got " + std::to_string(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(std::abs(values[i]) <= largest_acceleration))
+      if (!(std::abs(values[i]) <= max_acceleration))
         detail::refuse("GroundMotion: " + element(array, i) + " must be finite and at most 1e100 m/s^2 in magnitude",
                        values[i], "m/s^2");
   }

@@ -30,7 +30,7 @@ class HarmonicMotion {
       : amplitude_(amplitude), omega_(omega), duration_(duration), dt_(dt) {
     check();
     detail::require(std::isfinite(dt) && dt > 0, "HarmonicMotion: dt must be positive and finite", dt, "s");
-    detail::require(duration / dt <= most_samples,
+    detail::require(duration / dt <= max_samples,
                     "HarmonicMotion: dt must leave at most 2^40 samples of " + detail::shortest(duration) + " s", dt,
                     "s");
     // A duration that is a whole number of dt but for its rounding has no short last step.
@@ -77,7 +77,7 @@ class HarmonicMotion {
   /// @param step  time between samples [s], positive; the last may come after the end
   /// @throws std::invalid_argument as GroundMotion
   GroundMotion sampled(double step) const {
-    detail::require(std::isfinite(step) && step > 0 && duration_ / step <= most_samples,
+    detail::require(std::isfinite(step) && step > 0 && duration_ / step <= max_samples,
                     "HarmonicMotion: step must be positive and leave at most 2^40 samples", step, "s");
     std::vector<double> n(static_cast<std::size_t>(std::max(std::ceil(duration_ / step * (1 - 0x1p-50)), 1.0)) + 1);
     for (std::size_t i = 0; i < n.size(); ++i) n[i] = acceleration(static_cast<double>(i) * step);
@@ -85,16 +85,16 @@ class HarmonicMotion {
   }
 
  private:
-  static constexpr double most_samples = 0x1p40, most_periods = 0x1p45;
+  static constexpr double max_samples = 0x1p40, max_periods = 0x1p45;
 
   void check() const {
-    detail::require(amplitude_ > 0 && amplitude_ <= GroundMotion::largest_acceleration,
+    detail::require(amplitude_ > 0 && amplitude_ <= GroundMotion::max_acceleration,
                     "HarmonicMotion: amplitude must be positive and at most 1e100 m/s^2", amplitude_, "m/s^2");
     detail::require(omega_ > 0 && std::isfinite(omega_ * omega_) && std::isfinite(period()),
                     "HarmonicMotion: omega must be positive, its square and its period finite", omega_, "rad/s");
     detail::require(duration_ > 0 && std::isfinite(duration_), "HarmonicMotion: duration must be positive and finite",
                     duration_, "s");
-    detail::require(duration_ / period() <= most_periods, "HarmonicMotion: duration must be at most 2^45 periods",
+    detail::require(duration_ / period() <= max_periods, "HarmonicMotion: duration must be at most 2^45 periods",
                     duration_, "s");
   }
 

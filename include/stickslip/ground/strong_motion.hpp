@@ -19,16 +19,16 @@ struct StrongMotion {
   double duration_5_75;        ///< from `begin` to when 75 % of it have come [s], the significant duration D5-75
   double rms_acceleration;     ///< within it [m/s^2]
   double rms_velocity;         ///< of the ground within it, about a straight line [m/s]
-  double centre_frequency_hz;  ///< f_c [Hz], of the pulses with these rms values
+  double center_frequency_hz;  ///< f_c [Hz], of the pulses with these rms values
 };
 
-/// Computes the intensity measures of a record and estimates strong-motion duration, rms acceleration and centre
+/// Computes the intensity measures of a record and estimates strong-motion duration, rms acceleration and center
 /// frequency from a record, for the pulse process of thesis 5.6:
 ///
 ///     const StrongMotion s = strong_motion(record);
-///     PoissonPulses::from_earthquake(s.rms_acceleration, s.centre_frequency_hz, s.duration);
+///     PoissonPulses::from_earthquake(s.rms_acceleration, s.center_frequency_hz, s.duration);
 ///
-/// The strong part is that between 5 % and 95 % of the Arias intensity. The centre frequency is that of the pulses
+/// The strong part is that between 5 % and 95 % of the Arias intensity. The center frequency is that of the pulses
 /// whose ground moves as fast for its acceleration as the record's: by (5.46), (5.61) and (5.60)
 ///
 ///     sigma_n / sigma_v = sqrt(3) / Dt,   f_c = 1 / (2 Dt) = sigma_n / (2 sqrt(3) sigma_v).

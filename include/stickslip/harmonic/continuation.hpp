@@ -31,10 +31,10 @@ struct OrbitBranch {
 };
 
 struct ContinuationOptions {
-  double largest_step = 0.05;  ///< part by which state and frequency may change from orbit to orbit, up to 0.5
-  double largest_amplitude = std::numeric_limits<double>::infinity();  ///< the branch is left beyond it [m]
-  std::size_t most_orbits = 10'000;                                    ///< each way
-  std::function<void()> heartbeat{};  ///< called at each orbit; may throw to end the work
+  double max_step = 0.05;  ///< part by which state and frequency may change from orbit to orbit, up to 0.5
+  double max_amplitude = std::numeric_limits<double>::infinity();  ///< the branch is left beyond it [m]
+  std::size_t max_orbits = 10'000;                                 ///< each way
+  std::function<void()> progress{};                                ///< called at each orbit; may throw to end the work
 };
 
 namespace detail {
@@ -52,13 +52,13 @@ class BranchFollower {
     OrbitBranch branch;
     Point last = point_on(first);
     Vector direction = tangent(last, {0, 0, way});
-    double step = options_.largest_step / 16;
-    while (branch.orbits.size() < options_.most_orbits) {
-      if (options_.heartbeat) options_.heartbeat();
+    double step = options_.max_step / 16;
+    while (branch.orbits.size() < options_.max_orbits) {
+      if (options_.progress) options_.progress();
       const auto next = try_correct(last, direction, step);
       if (!next) {
         step /= 2;
-        if (step < shortest_step * options_.largest_step) break;  // here the branch ends, or is not to be followed
+        if (step < shortest_step * options_.max_step) break;  // here the branch ends, or is not to be followed
         continue;
       }
       const double omega = next->omega();
@@ -68,10 +68,10 @@ class BranchFollower {
         break;
       }
       Orbit orbit = describe(*next);
-      if (!(orbit.amplitude > 0 && orbit.amplitude <= options_.largest_amplitude)) break;
+      if (!(orbit.amplitude > 0 && orbit.amplitude <= options_.max_amplitude)) break;
       const Vector onward = tangent(*next, direction);
       const double bend = dot(onward, direction);
-      if (bend < 0.95 && step > 0x1p-6 * options_.largest_step) {
+      if (bend < 0.95 && step > 0x1p-6 * options_.max_step) {
         step /= 2;
         continue;
       }
@@ -88,7 +88,7 @@ class BranchFollower {
       const Point moved = point_on(orbit);
       direction = tangent(moved, secant(last, moved));
       last = moved;
-      if (bend > 0.99) step = std::min(1.5 * step, options_.largest_step);
+      if (bend > 0.99) step = std::min(1.5 * step, options_.max_step);
     }
     return branch;
   }
@@ -256,9 +256,9 @@ class BranchFollower {
   }
 
   bool close(const Orbit& one, const Orbit& other) const noexcept {
-    return std::abs(std::log(one.omega / other.omega)) < options_.largest_step / 2 &&
-           std::abs(one.amplitude / other.amplitude - 1) < options_.largest_step / 2 &&
-           std::abs(std::remainder(one.phase - other.phase, 2 * std::numbers::pi)) < options_.largest_step / 2;
+    return std::abs(std::log(one.omega / other.omega)) < options_.max_step / 2 &&
+           std::abs(one.amplitude / other.amplitude - 1) < options_.max_step / 2 &&
+           std::abs(std::remainder(one.phase - other.phase, 2 * std::numbers::pi)) < options_.max_step / 2;
   }
 
   const Slider<Law>& slider_;
@@ -292,10 +292,10 @@ OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double lo
                   "rad/s");
   detail::require(std::isfinite(high * high) && high >= from.omega,
                   "continuation: high must be finite and at least the orbit's omega", high, "rad/s");
-  detail::require(options.largest_step > 0 && options.largest_step <= 0.5,
-                  "continuation: largest_step must be positive and at most 0.5", options.largest_step);
+  detail::require(options.max_step > 0 && options.max_step <= 0.5,
+                  "continuation: max_step must be positive and at most 0.5", options.max_step);
   const detail::BranchFollower<Law> follower(balanced.slider, from.load, low, high, options);
-  const Orbit start = detail::moved(from, -balanced.centre);
+  const Orbit start = detail::moved(from, -balanced.center);
   OrbitBranch falling = follower.follow(start, -1), rising = follower.follow(start, 1), branch;
   const std::size_t before = falling.orbits.size();
   for (const std::size_t fold : falling.folds) branch.folds.push_back(before - 1 - fold);
@@ -305,7 +305,7 @@ OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double lo
   branch.orbits.push_back(start);
   for (const std::size_t fold : rising.folds) branch.folds.push_back(before + 1 + fold);
   std::ranges::move(rising.orbits, std::back_inserter(branch.orbits));
-  for (Orbit& orbit : branch.orbits) orbit = detail::moved(std::move(orbit), balanced.centre);
+  for (Orbit& orbit : branch.orbits) orbit = detail::moved(std::move(orbit), balanced.center);
   return branch;
 }
 

@@ -12,13 +12,13 @@
 
 namespace stickslip {
 
-/// A periodic motion under -n(t) = B cos(omega t), thesis (2.28), symmetric about a centre c:
+/// A periodic motion under -n(t) = B cos(omega t), thesis (2.28), symmetric about a center c:
 /// x(t + T/2) - c = c - x(t), T = 2 pi / omega.
 struct Orbit {
   double load;       ///< B, amplitude of the load [m/s^2]
   double omega;      ///< [rad/s]
-  double amplitude;  ///< half the way from the lowest x to the highest [m]; 0 for the rest at the centre
-  double phase;  ///< of x - centre = amplitude cos(omega t + phase): -omega times the time at which x first comes to
+  double amplitude;  ///< half the peak-to-peak displacement [m]; 0 for the rest at the center
+  double phase;  ///< of x - center = amplitude cos(omega t + phase): -omega times the time at which x first comes to
                  ///< its highest value, in (-pi, pi] [rad]; NaN at rest. Thesis (2.2), (2.17) as corrected
 
   int stops_per_cycle;      ///< arrests: times it sticks
@@ -38,7 +38,7 @@ struct Orbit {
   bool mean_arbitrary;
 
   /// c [m]: (backward - forward) / (2 wn^2) for Coulomb friction of unequal levels on a spring, else 0.
-  double centre;
+  double center;
 
   State state;                ///< at t = 0; `integrate` started from it stays on the orbit
   std::vector<Event> events;  ///< of one period from t = 0, without an end

@@ -208,7 +208,7 @@ class OrbitFinder {
   static constexpr double close_enough = 1e-11;  // a miss, of the amplitude: beyond it Newton's method goes on
 
   /// The symmetric orbits that have been found, by amplitude.
-  std::vector<Orbit> find(const std::function<void()>& heartbeat) const {
+  std::vector<Orbit> find(const std::function<void()>& progress) const {
     std::vector<Orbit> found;
     if (load_ <= level(0)) found.push_back(rest());
     if constexpr (ConstantLevelLaw<Law>) {
@@ -219,7 +219,7 @@ class OrbitFinder {
       }
       if (equal(slider_.stiffness(), 0)) return {with_stops()};
     }
-    search(found, heartbeat);
+    search(found, progress);
     std::ranges::sort(found, {}, &Orbit::amplitude);
     return found;
   }
@@ -279,7 +279,7 @@ class OrbitFinder {
   // laid on a grid; where its two parts are both zero on a triangle, as if it were linear, Newton's method goes on. On
   // the beginning of the arc x' is missed by nothing, and x alone must change sign. Two orbits next to a fold may be
   // closer than the grid: so where the miss is less than all around, they are sought too.
-  void search(std::vector<Orbit>& found, const std::function<void()>& heartbeat) const {
+  void search(std::vector<Orbit>& found, const std::function<void()>& progress) const {
     const auto [least, largest] = amplitudes();
     const double usual = load_ / (omega_ * omega_ + slider_.stiffness());
     const double begin = std::max(least, 1e-5 * usual);
@@ -288,11 +288,11 @@ class OrbitFinder {
     std::vector<Row> rows;
     if (equal(least, 0)) rows.push_back({.free = load_ > level(0), .misses = {{{-1, 0}}}});
     for (double amplitude = begin; amplitude < largest * step; amplitude *= step) {
-      if (heartbeat) heartbeat();
+      if (progress) progress();
       rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));  // so far goes a slip without stops
     }
     for (std::size_t i = 1; i < rows.size(); ++i) {
-      if (heartbeat) heartbeat();
+      if (progress) progress();
       search_beginning(rows[i - 1], rows[i], found);
       if (rows[i - 1].columns == columns && rows[i].columns == columns) search_between(rows[i - 1], rows[i], found);
       if (i + 1 < rows.size()) search_dips(rows[i - 1], rows[i], rows[i + 1], found);
@@ -467,7 +467,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
   require_plain_mounting(slider, who);
   require(equal(slider.damping(), 0), who + ": a slider with a damper is not covered, damping must be 0",
           slider.damping(), "1/s");
-  require(load > 0 && load <= GroundMotion::largest_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
+  require(load > 0 && load <= GroundMotion::max_acceleration, who + ": B must be positive and at most 1e100 m/s^2",
           load, "m/s^2");
   require(omega > 0 && std::isfinite(omega * omega) && std::isfinite(2 * std::numbers::pi / omega),
           who + ": omega must be positive, its square and its period finite", omega, "rad/s");
@@ -495,7 +495,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
 /// The same orbit about a place that lies farther by `distance` [m].
 inline Orbit moved(Orbit orbit, double distance) {
   if (equal(distance, 0)) return orbit;
-  orbit.centre += distance;
+  orbit.center += distance;
   orbit.state.displacement += distance;
   for (Event& event : orbit.events) event.displacement += distance;
   return orbit;
@@ -515,14 +515,14 @@ inline Orbit moved(Orbit orbit, double distance) {
 /// by Newton's method on the half-period map. The rest at x = 0 is entered, with amplitude 0, where B is at most the
 /// slip level there. Orbits that are not symmetric are not looked for.
 ///
-/// Coulomb friction of unequal levels on a spring: with x = centre + y, centre = (backward - forward) / (2 wn^2), it is
-/// that of the mean level, a = (forward + backward) / 2; its orbits lie about the centre.
+/// Coulomb friction of unequal levels on a spring: with x = center + y, center = (backward - forward) / (2 wn^2), it is
+/// that of the mean level, a = (forward + backward) / 2; its orbits lie about the center.
 ///
 /// @param slider  a law with equal levels both ways, and an optional spring; or Coulomb friction of any finite levels
 ///                on a spring
 /// @param load    B [m/s^2], positive and at most 1e100
 /// @param omega   [rad/s], positive, with a finite square
-/// @param heartbeat  called some times a second; may throw to end the work; optional
+/// @param progress  called some times a second; may throw to end the work; optional
 /// @return orbits in order of amplitude
 /// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring
 ///                                (the slider drifts)
@@ -532,18 +532,18 @@ inline Orbit moved(Orbit orbit, double distance) {
 /// friction, Trans. ASME 53 (1931).
 template <FrictionLaw Law>
 std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega,
-                          const std::function<void()>& heartbeat = {}) {
+                          const std::function<void()>& progress = {}) {
   const auto balanced = detail::balanced(slider);
   detail::check_orbit_arguments(balanced.slider, load, omega, "orbits");
   std::vector<Orbit> found =
-      detail::with_finder(balanced.slider, load, omega, [&](const auto& finder) { return finder.find(heartbeat); });
-  for (Orbit& orbit : found) orbit = detail::moved(std::move(orbit), balanced.centre);
+      detail::with_finder(balanced.slider, load, omega, [&](const auto& finder) { return finder.find(progress); });
+  for (Orbit& orbit : found) orbit = detail::moved(std::move(orbit), balanced.center);
   return found;
 }
 
 template <FrictionLaw Law>
-std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::function<void()>& heartbeat = {}) {
-  return orbits(Slider<Law>(law), load, omega, heartbeat);
+std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::function<void()>& progress = {}) {
+  return orbits(Slider<Law>(law), load, omega, progress);
 }
 
 /// Where the slider is on its orbit.
@@ -552,7 +552,7 @@ std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::
 /// @return the state at each time
 template <FrictionLaw Law>
 std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, const std::vector<double>& times) {
-  std::vector<State> states(times.size(), State::at(orbit.centre, 0));
+  std::vector<State> states(times.size(), State::at(orbit.center, 0));
   if (orbit.at_rest() || times.empty()) return states;
   for (const double time : times) detail::require(std::isfinite(time), "states_at: times must be finite", time, "s");
   const HarmonicMotion motion(orbit.load, orbit.omega, orbit.period());

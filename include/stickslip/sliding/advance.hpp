@@ -1,4 +1,4 @@
-// One slider over one segment of ground motion: for codes with a time loop of their own.
+// Integrate one slider over one segment of ground motion, for codes with their own time loop.
 #pragma once
 
 #include <cmath>
@@ -27,8 +27,8 @@
 namespace stickslip {
 namespace detail {
 
-/// What `work` gives with the flows that fit the slider: closed forms where what resists is constant or linear in the
-/// distance slid, else Taylor series.
+/// Return the result of `work` with the flows that suit the slider: closed forms if the resistance is constant or
+/// linear in the distance slid, else Taylor series.
 template <FrictionLaw Law, class Work>
 auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
@@ -59,15 +59,15 @@ State advanced(const Law& law, const Flows& flows, const Piece& segment, State s
   return state;
 }
 
-/// The same with a damper, kept out of line so that what is more common stays small; all by value, which can then stay
-/// in registers there.
+/// The same with a damper. It is out of line to keep the common case small, and takes everything by value, so that the
+/// values can stay in registers.
 template <FrictionLaw Law, class Piece, MotionObserver Observer>
 [[gnu::noinline]] State advanced(Law law, Damped flows, Piece segment, State state, Observer& observer) {
   advance(law, flows, segment, state, observer);
   return state;
 }
 
-/// Whether all are finite, by their sum: numbers near the largest double count as infinite.
+/// Whether all numbers are finite, judged by their sum: numbers near the largest double count as infinite.
 template <class... Numbers>
 bool finite(Numbers... numbers) noexcept {
   return (std::abs(numbers) + ...) <= std::numeric_limits<double>::max();
@@ -100,7 +100,7 @@ inline std::string description(const State& state) {
   return "x = " + shortest(state.displacement) + " m, x' = " + shortest(state.velocity) + " m/s";
 }
 
-// By value: a state whose address is known here would be kept in memory by the event loop.
+// Takes its arguments by value: with a reference to the state, the event loop would keep the state in memory.
 template <class Piece>
 [[noreturn, gnu::noinline]] void refuse(Piece segment, State state) {
   throw std::invalid_argument("advance: segment and state must be finite, got " + description(segment) + ", " +
@@ -110,7 +110,7 @@ template <class Piece>
   throw std::overflow_error("advance: the motion leaves the range of doubles, at " + description(state));
 }
 
-/// The state after a segment of a slider that is not plain, or under a normal force that varies; out of line, as above.
+/// The state after a segment for a slider that is not plain, or under a variable normal force. Out of line, as above.
 template <FrictionLaw Law, MotionObserver Observer>
 [[gnu::noinline]] State advanced(const Slider<Law>& slider, const LoadSegment& segment, Contact contact,
                                  double usual_duration, State state, Observer& observer) {
@@ -120,7 +120,7 @@ template <FrictionLaw Law, MotionObserver Observer>
   return state;
 }
 
-/// Refuses what no state of a law with memory can be.
+/// Throw if the sliding distance is invalid for a law with memory.
 template <FrictionLaw Law>
 void check_memory(const State& state) {
   if constexpr (MemoryLaw<Law>)
@@ -142,7 +142,7 @@ void advance_plain(const Slider<Law>& slider, const Segment& segment, State& sta
   state = moved;
 }
 
-/// Refuses a start beyond a stop or against one way.
+/// Throw if the slider starts beyond a stop, or moves backward although it is one-way.
 template <FrictionLaw Law>
 void check_start(const Slider<Law>& slider, const State& state, const char* function) {
   const Mounting& mounting = slider.mounting();
@@ -157,14 +157,14 @@ void check_start(const Slider<Law>& slider, const State& state, const char* func
 
 }  // namespace detail
 
-/// Moves a slider over one segment of load and normal force,
+/// Integrate the motion of a slider over one segment of load and normal force,
 ///     x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t),
-/// with all events, also those of stops and of lost contact.
+/// with all events, including impacts on stops and loss of contact.
 ///
-/// @param slider    any; its slope has vanished into the load and the normal force
-/// @param segment   finite; where its duration is not positive nothing happens
-/// @param state     as below; also holds the gap while the slider flies
-/// @param observer  sees slips and events; optional
+/// @param slider    any; its slope is already contained in the load and the normal force
+/// @param segment   finite; the state is unchanged if its duration is not positive
+/// @param state     as below; it also holds the gap while the slider is in flight
+/// @param observer  receives slips and events; optional
 /// @param contact   what happens where N < 0
 /// @throws as below; also std::invalid_argument for a state beyond a stop
 /// Exact to round-off with constant friction and without a pendulum, else to near round-off.
@@ -182,23 +182,24 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
   state = moved;
 }
 
-/// Moves a slider over one segment of ground motion:
+/// Integrate the motion of a slider over one segment of ground motion:
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),  n from segment.start to segment.end,
 /// thesis (4.51) to (4.53), (2.50), (4.2),
-/// with every breakaway, reversal and arrest within it. For codes that have a time loop of their own: nothing is
-/// allocated, nothing is remembered but the state.
+/// with every breakaway, reversal and arrest within it. For codes with their own time loop: the function allocates
+/// nothing and keeps no state except `state`.
 ///
-/// @param slider    the law and the spring
-/// @param segment   finite; where its duration is not positive nothing happens
-/// @param state     at the beginning, finite; becomes the state at the end. `State::at(x, v)` makes one
-/// @param observer  sees slips and events; optional
-/// @throws std::invalid_argument a number of the segment or the state is not finite; says all of them, changes nothing
-/// @throws std::overflow_error   the motion leaves the range of doubles; `state` stays as it was, as by all errors
+/// @param slider    the law, spring and damper
+/// @param segment   finite; the state is unchanged if its duration is not positive
+/// @param state     state at the start, finite; replaced by the state at the end. `State::at(x, v)` makes one
+/// @param observer  receives slips and events; optional
+/// @throws std::invalid_argument a number of the segment or the state is not finite; the message lists all of them
+/// @throws std::overflow_error   the motion leaves the range of doubles
 /// @throws ConvergenceError      events follow each other faster than the time within the segment can be resolved (a
-///         spring of far more than 1e15 cycles a segment); a law has no finite power series where it is needed (Caster
-///         only under extreme accelerations or stiffness)
-/// Constant friction is exact to round-off (with a damper, or linear in the distance slid, to 1e-12 of the scale),
-/// other laws to near round-off. Takes 12 to 30 ns without spring and damper, some 0.2 us with a damper.
+///         spring with far more than 1e15 cycles per segment); a law has no finite power series where one is needed
+///         (for Caster only under extreme accelerations or stiffness)
+/// On any error `state` is unchanged. Constant friction is exact to round-off (with a damper, or linear in the distance
+/// slid, to 1e-12 of the scale), other laws to near round-off. Cost: 12 to 30 ns without spring and damper, about
+/// 0.2 us with a damper.
 template <FrictionLaw Law, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Segment& segment, State& state, Observer&& observer = {},
              Contact contact = Contact::flight) {
@@ -207,8 +208,8 @@ void advance(const Slider<Law>& slider, const Segment& segment, State& state, Ob
   detail::advance_plain(slider, segment, state, observer);
 }
 
-/// The same over a piece of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
-/// piece in bare braces is a Segment.)
+/// The same over a segment of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
+/// braced initializer list is a Segment.)
 template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
   detail::require_plain_mounting(slider, "advance over a HarmonicSegment");

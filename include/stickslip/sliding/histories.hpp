@@ -27,19 +27,18 @@ struct Histories {
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t).
 /// @param slider     any law, with or without a spring and a damper
 /// @param motion     the ground acceleration
-/// @param heartbeat  called at least every second or so; may throw to end the work; optional
+/// @param progress  called at least every second or so; may throw to end the work; optional
 /// @throws std::invalid_argument  a vertical motion under which the slider never lands
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
 /// @throws ConvergenceError     a law without power series; more events than `integrate` allows
 /// Accuracy as by `integrate`, of which the last bits may differ. Coulomb friction without a spring takes 9 to 14 ns a
 /// sample at even steps, new arrays included, where `integrate` takes 20 to 42 (AVX2).
 template <FrictionLaw Law>
-Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
-                    const std::function<void()>& heartbeat = {}) {
+Histories histories(const Slider<Law>& slider, const GroundMotion& motion, const std::function<void()>& progress = {}) {
   Histories result{std::vector<double>(motion.samples()), std::vector<double>(motion.samples())};
   const detail::HistorySpans spans{result.displacement, result.velocity};
   State state;
-  detail::NoRecorder none(detail::max_events(motion.segments()), heartbeat);
+  detail::NoRecorder none(detail::max_events(motion.segments()), progress);
   if (detail::loaded(slider, motion)) {
     detail::check_landing(motion, slider.slope());
     detail::with_flows(slider, motion, [&](const auto& flows) {
@@ -56,8 +55,8 @@ Histories histories(const Slider<Law>& slider, const GroundMotion& motion,
 }
 
 template <FrictionLaw Law>
-Histories histories(const Law& law, const GroundMotion& motion, const std::function<void()>& heartbeat = {}) {
-  return histories(Slider<Law>(law), motion, heartbeat);
+Histories histories(const Law& law, const GroundMotion& motion, const std::function<void()>& progress = {}) {
+  return histories(Slider<Law>(law), motion, progress);
 }
 
 }  // namespace stickslip

@@ -1,4 +1,4 @@
-// One slider through one ground motion.
+// Integrate one slider under one ground motion.
 #pragma once
 
 #include <cmath>
@@ -22,18 +22,19 @@ struct IntegrateOptions {
   double displacement = 0;  ///< x at the start [m], finite
   double velocity = 0;      ///< x' at the start [m/s], finite
   bool settle = false;      ///< continue under zero ground acceleration after the last sample until the slider rests
-  Contact contact = Contact::flight;  ///< what it does where the ground falls away from under it
-  std::function<void()> heartbeat{};  ///< called at least every second or so; may throw to end the work
-  double sliding_distance = 0;        ///< slid before the start [m], finite and at least 0; for laws that depend on it
-  SurfaceHeat heat{};                 ///< left at the surface at the start, for laws that depend on its temperature
+  Contact contact = Contact::flight;  ///< what the slider does while the ground falls away from under it
+  std::function<void()> progress{};   ///< called about once per second or more often; may throw to stop the work
+  double sliding_distance = 0;  ///< sliding distance before the start [m], finite and at least 0; used by laws that
+                                ///< depend on it
+  SurfaceHeat heat{};           ///< of the sliding surface at the start; used by laws that depend on its temperature
 };
 
 namespace detail {
 
-/// Goes on without ground acceleration until the slider rests; `go(duration)` moves it.
+/// Continue without ground acceleration until the slider comes to rest; `go(duration)` integrates its motion.
 template <FrictionLaw Law, class Go>
 void settle(const Slider<Law>& slider, const State& state, Go&& go) {
-  double longest = 0x1p40;  // [s], some 35,000 years
+  double longest = 0x1p40;  // [s], about 35,000 years
   if constexpr (ConstantLevelLaw<Law>) {
     const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };
     if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
@@ -50,11 +51,12 @@ void settle(const Slider<Law>& slider, const State& state, Go&& go) {
       " m/s^2 there; use settle = false");
 }
 
-/// Adds the samples from the end of a motion to those at or after a rest: at most nine times as many as the motion has.
-/// @param move  `move(segment, state)` moves it
+/// Append samples from the end of a motion up to the first at or after the final rest, but at most nine times as many
+/// as the motion has.
+/// @param move  `move(segment, state)` integrates the motion over a segment
 /// @param from  the state at the end of the motion
-/// @param rest  when the slider comes to rest for good [s], at `residual` [m]
-/// @return whether the rest was reached
+/// @param rest  time of the final rest [s], at `residual` [m]
+/// @return whether the samples reach the final rest
 template <FrictionLaw Law, Motion M, class Move>
 bool add_samples(const Law& law, const M& motion, Move&& move, State from, double rest, double residual,
                  Response& response) {
@@ -75,7 +77,7 @@ bool add_samples(const Law& law, const M& motion, Move&& move, State from, doubl
   return true;
 }
 
-/// `integrate`, where `run(state, recorder, histories)` moves the slider through the motion and
+/// `integrate`, where `run(state, recorder, histories)` integrates over the ground motion and
 /// `move(segment, state, observer)` over a segment.
 template <class RecorderType, FrictionLaw Law, Motion M, class Run, class Move>
 Response integrate_by(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
@@ -103,7 +105,7 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   response.displacement[0] = state.displacement;
   response.velocity[0] = state.velocity;
   response.energy.initial = kinetic() + elastic();
-  RecorderType recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.heartbeat,
+  RecorderType recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.progress,
                         std::move(response.events));
   recorder.begin_segment(motion.time(0), motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
@@ -172,7 +174,7 @@ Response integrate_loaded(const Slider<Law>& slider, const GroundMotion& motion,
   return integrate_by<LoadedRecorder>(slider, motion, options, std::move(storage), run, move);
 }
 
-/// `integrate`, where `run` moves a plain slider.
+/// `integrate`, where `run` integrates a plain slider.
 template <FrictionLaw Law, Motion M, class Run>
 Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
                    Run&& run) {
@@ -184,7 +186,7 @@ Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOp
   return integrate_plain(slider, motion, options, std::move(storage), run);
 }
 
-/// `integrate` by the event loop, segment after segment: what the header-only core does.
+/// `integrate` by the event loop, segment by segment, as the header-only core does.
 template <FrictionLaw Law, Motion M>
 Response integrate_in_order(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                             Response storage = {}) {
@@ -196,34 +198,34 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 
 }  // namespace detail
 
-/// Slides through a whole motion of the ground:
+/// Integrate the motion of a slider under a ground motion:
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),     thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28)
-/// with all breakaways, reversals and arrests, up to two reversals within one straight piece of n(t).
+/// with all breakaways, reversals and arrests, up to two reversals within one straight segment of n(t).
 ///
-/// @param slider   a law, an optional spring and an optional damper; a law alone is a slider without them
+/// @param slider   a law with an optional spring and an optional damper; a law alone is a slider without them
 /// @param motion   the ground acceleration: a GroundMotion or a HarmonicMotion. A transverse component does not act
-/// @param options  state at the start, and whether to go on until the slider rests
-/// @param storage  a response that is no longer needed, for its memory, which can cost as much time as the motion
-/// @return the motion at the samples, its events, peak and energy. Where it settles, samples continue up to
+/// @param options  state at the start, and whether to continue until the slider rests
+/// @param storage  a discarded response whose buffers are reused (allocation can cost as much as the integration)
+/// @return the response at the samples, with its events, peak and energy. With `settle`, the samples continue up to
 ///         the first at or after the final rest (see Response::displacement), and the last event (`end`) and the
 ///         residual are those of the final rest
-/// @throws std::invalid_argument  a start that is not finite, beyond a stop, or against an infinite slip level or one
-///                                way; a vertical motion under which the slider never lands; under a HarmonicMotion a
-///                                slope, stops or a pendulum
+/// @throws std::invalid_argument  a start that is not finite, that is beyond a stop, or whose velocity points against
+///                                an infinite slip level or backward on a one-way slider; a vertical motion under which
+///                                the slider never lands; under a HarmonicMotion a slope, stops or a pendulum
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
-/// @throws ConvergenceError       asked to settle, and the slider does not come to rest (no friction; a caster that has
-///                                escaped); more than 1,000,000 events and eight a segment, or period of a harmonic
-///                                motion (a spring that swings that often within the pieces of the motion)
-/// Constant friction: exact to round-off, 1e-13 of the scale of x; 20 to 42 ns a sample, 30 to 61 with a spring; with a
-/// damper 1e-12 and some 0.3 us. With the compiled library a block without spring and damper takes 12 to 30 ns a sample
-/// under a record of even steps and 8192 samples or more, which is cut in pieces that move side by side in vector lanes
-/// (AVX-512, AVX2, SSE4, NEON, as the processor has), and up to 7 MB of memory meanwhile; the last bits may differ from
-/// the header-only core's, and with them whether a velocity that only touches zero stops there. Friction that is linear
-/// in the distance slid (Degrading) is in closed form under horizontal motion, to 1e-12 of the scale; 0.13 us a sample.
-/// Other laws: Taylor series, to near round-off; 200 to 850 ns a sample. Under a harmonic motion constant friction
-/// without spring and damper is in closed form, all else in power series: 1.5 us a cycle with Coulomb friction, 6 us
-/// with a spring, 50 us for other laws; each sample adds 0.1 to 0.2 us. A power series takes steps of some 3 / c where
-/// there is a damper c.
+/// @throws ConvergenceError       with `settle`, the slider does not come to rest (no friction; a caster that has
+///                                escaped); more events than 1,000,000 plus eight per segment, or per period of a
+///                                harmonic motion (a spring that oscillates that often within a segment)
+/// Constant friction: exact to round-off, 1e-13 of the scale of x; 20 to 42 ns per sample, 30 to 61 ns with a spring;
+/// with a damper, exact to 1e-12, about 0.3 us per sample. The compiled library splits a record with a constant time
+/// step and at least 8192 samples into pieces, and integrates a block without spring and damper over them in parallel
+/// SIMD lanes (AVX-512, AVX2, SSE4 or NEON, whichever the processor has): 12 to 30 ns per sample, and up to 7 MB of
+/// memory. The last bits may differ from those of the header-only core; whether a velocity that only touches zero
+/// counts as a stop may therefore also differ. Friction that is linear in the distance slid (Degrading) has a closed
+/// form under horizontal motion, exact to 1e-12 of the scale; 0.13 us per sample. Other laws use Taylor series, exact
+/// to near round-off; 200 to 850 ns per sample. Under a harmonic motion, constant friction without spring and damper
+/// has a closed form; all else uses power series: 1.5 us per cycle with Coulomb friction, 6 us with a spring, 50 us for
+/// other laws; each sample adds 0.1 to 0.2 us. With a damper c, a power series takes steps of about 3 / c.
 template <FrictionLaw Law, Motion M>
 Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                    Response storage = {}) {
@@ -240,7 +242,7 @@ Response integrate(const Law& law, const M& motion, const IntegrateOptions& opti
 
 }  // namespace stickslip
 
-#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 

@@ -1,4 +1,4 @@
-// What comes of a slider and a ground motion.
+// The response of a slider to a ground motion.
 #pragma once
 
 #include <cstdint>

@@ -41,7 +41,7 @@ namespace stickslip::theory {
 ///
 ///     E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) dd),      cumulants kappa_n = int d^n nu(d) dd
 ///
-/// the thesis's programme at the end of 5.3: all moments, by them the characteristic function, by it the density. There
+/// the thesis's program at the end of 5.3: all moments, by them the characteristic function, by it the density. There
 /// is an atom at x = 0, the chance exp(-int nu) that nothing slips; the rest has a density. Made by
 /// `PulseSuperposition::distribution` from what single pulses do; `PulseChain::distribution` fits slips of
 /// gamma-distributed lengths to four cumulants and the atom.
@@ -59,7 +59,7 @@ class DisplacementDistribution {
   static constexpr std::size_t nodes = std::size_t{1} << 17;
 
   /// Quantiles of probabilities nearer to 0 or 1 are refused: the FFT leaves an error of 1e-13.
-  static constexpr double least_probability = 1e-9;
+  static constexpr double min_probability = 1e-9;
 
   explicit DisplacementDistribution(const detail::Slips& slips);
 

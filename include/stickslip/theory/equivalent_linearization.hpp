@@ -128,7 +128,7 @@ class EquivalentLinearization {
   /// @param noise      level S0 of white ground acceleration, two-sided [m^2/s^3], a Spectrum, a ShapingFilter, a
   ///                   GaussianExcitation, whose sampling and duration do not matter, or PoissonPulses
   /// @param times      [s], finite, at least 0, increasing
-  /// @param heartbeat  called every thousand steps; may throw to end the work; optional
+  /// @param progress  called every thousand steps; may throw to end the work; optional
   /// @returns also the growth rate where the velocity becomes stationary: pi^5 S0^3 / (2 a^4) for Coulomb friction
   /// under white noise, (3.47), and 0 with a spring that holds the displacement; NaN where it does not, under an
   /// envelope, or for other laws. The remark has the misfit of a filter that is not exact
@@ -138,15 +138,15 @@ class EquivalentLinearization {
   /// Cost: 1 ms under white noise, otherwise 1 to 200 ms, and the fit of the filter.
   template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, const ShapedNoise& noise, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const {
+                  const std::function<void()>& progress = {}) const {
     detail::require_one_level(slider, "EquivalentLinearization");
     return predict(detail::linearized_law(slider.law()), slider.natural_frequency(), slider.damping(), noise, times,
-                   heartbeat);
+                   progress);
   }
   template <PositionLaw Law>
   Moments predict(const Law& law, const ShapedNoise& noise, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const {
-    return predict(Slider<Law>(law), noise, times, heartbeat);
+                  const std::function<void()>& progress = {}) const {
+    return predict(Slider<Law>(law), noise, times, progress);
   }
 
   /// The stationary moments, A Q + (A Q)^T + 2 pi S0 b b^T = 0 with the A that Q asks for, at one time, infinity.
@@ -180,7 +180,7 @@ class EquivalentLinearization {
  private:
   void check(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) const;
   Moments predict(const detail::LinearizedLaw& law, double natural_frequency, double damping, const ShapedNoise& noise,
-                  std::span<const double> times, const std::function<void()>& heartbeat) const;
+                  std::span<const double> times, const std::function<void()>& progress) const;
   Moments stationary(const detail::LinearizedLaw& law, double natural_frequency, double damping,
                      const ShapedNoise& noise) const;
   LinearFriction coefficients(const detail::LinearizedLaw& law, double q11, double q12, double q22) const;

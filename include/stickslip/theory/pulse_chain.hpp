@@ -67,13 +67,13 @@ class PulseChain {
   /// @param slider  no spring; the levels may differ
   /// @param pulses  the excitation, without an envelope; from rest as if no pulse had arrived before time zero
   /// @param times   where to answer [s], finite, at least 0
-  /// @param heartbeat  called now and then; what it throws ends the work
+  /// @param progress  called now and then; what it throws ends the work
   /// @return moments from rest on. `remark` says where the theory is outside of its range, and where nothing slips
   /// @throws std::invalid_argument naming what is not covered or the value refused
   /// @throws ConvergenceError if the chain does not become stationary within its steps
   /// Takes 3 to 100 ms.
   Moments predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const;
+                  const std::function<void()>& progress = {}) const;
 
   /// The distribution of the displacement at a time, by closure: the chain's first four cumulants, and its chance that
   /// nothing has slipped yet, are those of a compound Poisson law of slips of gamma-distributed lengths,
@@ -85,13 +85,13 @@ class PulseChain {
   /// @param pulses  as for `predict`
   /// @param time    [s], finite, 0 or at least the length of a pulse; sigma / a must be at least 0.12 (or below 0.05,
   ///                where nothing slips) and pulses to a step at most 4
-  /// @param heartbeat  called now and then; what it throws ends the work
+  /// @param progress  called now and then; what it throws ends the work
   /// @throws std::invalid_argument naming what is not covered or the value refused; also where the kurtosis is below
   ///         what a sum of slips can have by more than 0.1
   /// @throws ConvergenceError if the chain does not become stationary within its steps
   /// Takes 15 to 250 ms, refined up to some seconds.
   DisplacementDistribution distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double time,
-                                        const std::function<void()>& heartbeat = {}) const;
+                                        const std::function<void()>& progress = {}) const;
 
   /// An estimate of the largest |x| up to the end of the motion that a block does not exceed with a probability [m]:
   /// that of a walk whose steps are the slips of `distribution`, as many as Poisson's law has it, solved on a grid of
@@ -104,16 +104,16 @@ class PulseChain {
   /// @param slider  as for `predict`
   /// @param pulses  as for `predict`; over `pulses.duration()`
   /// @param probability  that the peak is not exceeded, in (0, 1)
-  /// @param heartbeat  called now and then; what it throws ends the work
+  /// @param progress  called now and then; what it throws ends the work
   /// @return 0 where that many do not slip at all
   /// @throws as `distribution`, and std::invalid_argument for the probability
   /// Takes 60 to 350 ms, refined up to 10 s.
   double peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
-              const std::function<void()>& heartbeat = {}) const;
+              const std::function<void()>& progress = {}) const;
 
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m]: thesis figure 5.7.
   double final_rms(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
-                   const std::function<void()>& heartbeat = {}) const;
+                   const std::function<void()>& progress = {}) const;
 
  private:
   void check(const Slider<Coulomb>& slider, const PoissonPulses& pulses) const;

@@ -111,7 +111,7 @@ inline double coast(const Slider<Coulomb>& slider, Ride& ride) {
 template <FrictionLaw Law>
 double coast(const Slider<Law>& slider, Ride& ride) {
   constexpr double never_stops = std::numeric_limits<double>::infinity();
-  constexpr int most_doublings = 30;
+  constexpr int max_doublings = 30;
   // To where it stops under the level here; but not so far beyond x = 0, where the level may be all there is, that the
   // times of events would lose their digits.
   const auto first_step = [&] {
@@ -123,7 +123,7 @@ double coast(const Slider<Law>& slider, Ride& ride) {
   double time = 0, step = 0;
   for (int i = 0; ride.state.mode != Mode::stuck; ++i) {
     step = i == 0 ? first_step() : 2 * step;
-    if (i > most_doublings || !std::isfinite(step)) {
+    if (i > max_doublings || !std::isfinite(step)) {
       ride.state.displacement *= never_stops;
       return never_stops;
     }

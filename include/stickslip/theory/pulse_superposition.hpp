@@ -79,7 +79,7 @@ enum class Overlap {
 class PulseSuperposition {
  public:
   /// Above this lambda dt the overlap series describes one never-ending composite, and is refused.
-  static constexpr double most_overlap = 1e6;
+  static constexpr double max_overlap = 1e6;
 
   explicit PulseSuperposition(Overlap overlap = Overlap::renewal) : overlap_(overlap) {}
 
@@ -97,7 +97,7 @@ class PulseSuperposition {
   /// @param slider  without a spring
   /// @param pulses  the excitation
   /// @param times   where to answer [s], finite, at least 0
-  /// @param heartbeat  called now and then; what it throws ends the work
+  /// @param progress  called now and then; what it throws ends the work
   /// @return moments; velocities are stationary, `growth_rate` NaN under an envelope. `remark` says where times are too
   ///         short, where nothing slips and why, by how much overlaps are missed for a caster, and which share of the
   ///         pulses would carry it off
@@ -107,9 +107,9 @@ class PulseSuperposition {
   /// far.
   template <PositionLaw Law>
   Moments predict(const Slider<Law>& slider, const PoissonPulses& pulses, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const {
+                  const std::function<void()>& progress = {}) const {
     check(slider, pulses);
-    return predict(system(slider, pulses), pulses, times, heartbeat);
+    return predict(system(slider, pulses), pulses, times, progress);
   }
 
   /// Moments at any time from rest on, Campbell's theorem: with z(u, b) the response to a pulse that began u ago,
@@ -121,17 +121,17 @@ class PulseSuperposition {
   /// @param slider  Coulomb friction without a spring, unequal slip levels too
   /// @param pulses  without an envelope, from rest as if no pulse had arrived before time zero
   /// @param times   where to answer [s], finite, at least 0
-  /// @param heartbeat  called now and then; what it throws ends the work
+  /// @param progress  called now and then; what it throws ends the work
   /// @throws std::invalid_argument naming what is not covered or the value refused
   /// Integrals over time in closed form, over the amplitudes to 1e-5; 0.1 to 1 ms, and some 10 us for each time.
   Moments from_rest(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
-                    const std::function<void()>& heartbeat = {}) const {
+                    const std::function<void()>& progress = {}) const {
     check(slider, pulses);
-    return from_rest(system(slider, pulses), pulses, times, heartbeat);
+    return from_rest(system(slider, pulses), pulses, times, progress);
   }
 
   /// Above this lambda dt `distribution` is refused.
-  static constexpr double most_overlap_of_distribution = 0.1;
+  static constexpr double max_overlap_of_distribution = 0.1;
 
   /// The distribution of the displacement at a time: pulses come independently, each that exceeds the slip level adds
   /// its offset, so that x is a compound Poisson sum. With its mean and variance those of `predict`,
@@ -153,9 +153,9 @@ class PulseSuperposition {
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m], thesis 5.6 and figure 5.7.
   template <PositionLaw Law>
   double final_rms(const Slider<Law>& slider, const PoissonPulses& pulses,
-                   const std::function<void()>& heartbeat = {}) const {
+                   const std::function<void()>& progress = {}) const {
     const double end[] = {pulses.duration()};
-    const Moments moments = predict(slider, pulses, end, heartbeat);
+    const Moments moments = predict(slider, pulses, end, progress);
     return std::hypot(std::sqrt(moments.displacement_variance.value[0]), moments.displacement_mean.value[0]);
   }
 
@@ -193,9 +193,9 @@ class PulseSuperposition {
   }
   void check(bool constant_level, const PoissonPulses& pulses) const;
   Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
-                  const std::function<void()>& heartbeat) const;
+                  const std::function<void()>& progress) const;
   Moments from_rest(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,
-                    const std::function<void()>& heartbeat) const;
+                    const std::function<void()>& progress) const;
   DisplacementDistribution distribution(const detail::PulseSystem& system, const PoissonPulses& pulses,
                                         double time) const;
 

@@ -91,7 +91,7 @@ namespace theory {
 struct HarmonicSolution {
   double amplitude;  ///< A [m]
   double phase;      ///< phi [rad], from -pi to pi; NaN where the amplitude is 0
-  bool stable;       ///< whether it is come back to after a small disturbance
+  bool stable;       ///< true if stable under small perturbations
 };
 
 /// Two frequencies [rad/s], lower and upper.
@@ -115,7 +115,7 @@ struct HarmonicTransient {
 /// the levels at +-A. Where the level does not depend on the direction, C = wn^2 A. A law that does not know its work
 /// is integrated by quadrature, so that any law with a power series is covered; one that resists the two directions
 /// differently is not, because its mass drifts. On a spring it does not: Coulomb friction of unequal levels is then
-/// that of their mean about `centre`, and all below is about that place.
+/// that of their mean about `center`, and all below is about that place.
 ///
 /// Where it holds: B well above the slip level. For Coulomb friction without a spring it is 0.7 % off at B/a = 8, 3 %
 /// at 4, 25 % at 2, and finds no motion from B = a, where motion begins, to 4 a / pi; see the exact orbits. It takes
@@ -141,9 +141,9 @@ class SlowlyVaryingParameters {
            detail::AnalyticLaw<Law>) explicit SlowlyVaryingParameters(const Law& law)
       : SlowlyVaryingParameters(Slider<Law>(law)) {}
 
-  /// Where the motion swings about, x = centre + A cos(omega t + phi) [m]: (backward - forward) / (2 wn^2) for Coulomb
+  /// Where the motion swings about, x = center + A cos(omega t + phi) [m]: (backward - forward) / (2 wn^2) for Coulomb
   /// friction of unequal levels on a spring, which is exactly that of their mean about this place; else 0.
-  double centre() const noexcept { return centre_; }
+  double center() const noexcept { return center_; }
 
   /// S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): what dissipates, at most 0.
   /// @param amplitude  A [m], finite and at least 0; at 0, the limit
@@ -206,7 +206,7 @@ class SlowlyVaryingParameters {
   /// @param B  [m/s^2], positive and finite
   /// @return [m]
   /// @throws std::invalid_argument naming the value
-  double least_amplitude(double B) const;
+  double min_amplitude(double B) const;
 
   /// Whether a small motion dies down to rest: B <= -S(0), which is 4 a / pi. The exact motion rests only for B <= a;
   /// from there to 4 a / pi it is a small one that sticks twice a cycle.
@@ -216,14 +216,14 @@ class SlowlyVaryingParameters {
   /// stays at rest where `rests`.
   /// @param B, omega   as for `response`
   /// @param amplitude  at t = 0 [m], finite and at least 0
-  /// @param phase      at t = 0 [rad], finite: x(0) - centre() = A cos(phi), x'(0) = -omega A sin(phi)
+  /// @param phase      at t = 0 [rad], finite: x(0) - center() = A cos(phi), x'(0) = -omega A sin(phi)
   /// @param times      [s], increasing, from 0 on
-  /// @param heartbeat  called at times; may throw to end the work; optional
+  /// @param progress  called at times; may throw to end the work; optional
   /// @throws std::invalid_argument  naming the value
   /// @throws ConvergenceError       with the time reached, after a million steps
   /// By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B / omega^2.
   HarmonicTransient transient(double B, double omega, double amplitude, double phase, std::span<const double> times,
-                              const std::function<void()>& heartbeat = {}) const;
+                              const std::function<void()>& progress = {}) const;
 
   /// The solution that a motion comes to in the end: one of `response`, or rest (amplitude 0), or, at resonance, an
   /// infinite amplitude. Without friction, the one about which it turns for ever.
@@ -234,12 +234,12 @@ class SlowlyVaryingParameters {
   /// @throws ConvergenceError  where that is not decided after a hundred thousand turns: within round-off of the
   ///                           boundary between two solutions
   HarmonicSolution settles_on(double B, double omega, double amplitude, double phase,
-                              const std::function<void()>& heartbeat = {}) const;
+                              const std::function<void()>& progress = {}) const;
 
   /// x and x' by time from rest at x = 0, by `transient`, whose parameters and exceptions they are: means without
   /// scatter.
   Moments predict(const HarmonicMotion& motion, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const;
+                  const std::function<void()>& progress = {}) const;
 
   /// As a `Theory`, of any slider, whatever this one is of.
   static std::string name() { return "SlowlyVaryingParameters"; }
@@ -258,8 +258,8 @@ class SlowlyVaryingParameters {
   /// As of `SlowlyVaryingParameters(slider)`.
   template <detail::AnalyticLaw Law>
   static Moments predict(const Slider<Law>& slider, const HarmonicMotion& motion, std::span<const double> times,
-                         const std::function<void()>& heartbeat = {}) {
-    return SlowlyVaryingParameters(slider).predict(motion, times, heartbeat);
+                         const std::function<void()>& progress = {}) {
+    return SlowlyVaryingParameters(slider).predict(motion, times, progress);
   }
 
  private:
@@ -271,7 +271,7 @@ class SlowlyVaryingParameters {
   template <class Law>
   explicit SlowlyVaryingParameters(const detail::Balanced<Law>& balanced)
       : SlowlyVaryingParameters(detail::cycled(balanced.slider.law()), balanced.slider.natural_frequency()) {
-    centre_ = balanced.centre;
+    center_ = balanced.center;
   }
 
   // Mean of the levels at +-x, which is the same both ways.
@@ -288,7 +288,7 @@ class SlowlyVaryingParameters {
 
   detail::CycledLaw law_;
   double natural_frequency_;
-  double centre_ = 0;
+  double center_ = 0;
   double reach_ =
       1;  // length over which the level changes [m]; 0 where the power series does not tell, infinite: never
   bool directed_ = false;  // whether the level depends on the direction

@@ -41,11 +41,11 @@ struct StationaryPrediction {
   /// does not: starting from rest it keeps as an offset the ground velocity at the start over zeta, and its variance
   /// goes to displacement_std^2 + (ground velocity variance) / zeta^2.
   /// @param times      [s], finite and at least 0, in any order
-  /// @param heartbeat  called at each time; may throw to end the work; optional
+  /// @param progress  called at each time; may throw to end the work; optional
   /// @throws std::invalid_argument  a time out of its range
   /// @throws ConvergenceError       a spectrum that cannot be integrated
   /// Accuracy 1e-8 of the values at most; cost some 0.3 to 2 ms for each time, however late.
-  Moments transient(std::span<const double> times, const std::function<void()>& heartbeat = {}) const;
+  Moments transient(std::span<const double> times, const std::function<void()>& progress = {}) const;
 };
 
 /// Stationary equivalent linearization of Coulomb friction under stationary Gaussian ground acceleration, thesis 4.3.
@@ -98,8 +98,8 @@ class StationaryLinearization {
 
   /// The linear system from rest, `StationaryPrediction::transient`.
   Moments predict(const Slider<Coulomb>& slider, const StationaryNoise& noise, std::span<const double> times,
-                  const std::function<void()>& heartbeat = {}) const {
-    return predict(slider, noise).transient(times, heartbeat);
+                  const std::function<void()>& progress = {}) const {
+    return predict(slider, noise).transient(times, progress);
   }
 
   /// The factor by which the ground acceleration would have to be multiplied to be at the threshold of motion,

@@ -10,16 +10,16 @@ namespace {
 
 Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t members, std::uint64_t first_member,
              std::uint64_t seed, unsigned threads, double dt, bool settle, const std::string& contact,
-             bool velocity_spectrum, bool ground_acceleration, const Ensemble* start, const py::object& heartbeat,
+             bool velocity_spectrum, bool ground_acceleration, const Ensemble* start, const py::object& progress,
              const py::object& interrupted) {
   EnsembleOptions options{
       members,           first_member,       seed, threads, dt, settle, contact_of(contact, "run_ensemble"),
       velocity_spectrum, ground_acceleration};
   std::atomic<bool> ended = false;
-  options.heartbeat = [&](const EnsembleProgress& progress) {
+  options.progress = [&](const EnsembleProgress& status) {
     const py::gil_scoped_acquire held;
     // The partial ensemble is copied only on request, and only while it does not change.
-    const auto place = std::make_shared<const Ensemble*>(&progress.so_far);
+    const auto place = std::make_shared<const Ensemble*>(&status.so_far);
     const std::unique_ptr<const Ensemble*, void (*)(const Ensemble**)> shut(place.get(),
                                                                             [](const Ensemble** p) { *p = nullptr; });
     const py::cpp_function so_far([place] {
@@ -28,7 +28,7 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
     });
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!heartbeat.is_none()) heartbeat(progress.done, progress.members, so_far);
+      if (!progress.is_none()) progress(status.done, status.members, so_far);
     } catch (const py::error_already_set&) {
       ended = true;
       if (!interrupted.is_none()) interrupted(so_far);
@@ -62,10 +62,10 @@ void bind_run_ensemble(py::module_& m) {
   m.def("run_ensemble", &run, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("members"),
         py::arg("first_member"), py::arg("seed"), py::arg("threads"), py::arg("dt"), py::arg("settle"),
         py::arg("contact"), py::arg("velocity_spectrum"), py::arg("ground_acceleration"), py::arg("start"),
-        py::arg("heartbeat"), py::arg("interrupted"),
+        py::arg("progress"), py::arg("interrupted"),
         R"(Implementation of `stickslip.run_ensemble` (see there).
 
-Calls `heartbeat(done, members, so_far)` ten times a second with the interpreter lock held, and `interrupted(so_far)` if
+Calls `progress(done, members, so_far)` ten times a second with the interpreter lock held, and `interrupted(so_far)` if
 that raised or Ctrl-C was pressed. `so_far()` copies the partial ensemble.)");
   m.def("run_nothing", &run_nothing, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("first_member"),
         py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("contact"), py::arg("velocity_spectrum"),

@@ -27,14 +27,14 @@ void bind_envelope(py::module_& m) {
 It builds up, stays constant, and decays::
 
     e(t) = (t / build_up)^2                            for 0 <= t < build_up
-    e(t) = 1                                           for build_up <= t <= build_up + strong
-    e(t) = exp(-decay_rate (t - build_up - strong))    after that; 0 for t < 0
+    e(t) = 1                                           for build_up <= t <= build_up + strong_duration
+    e(t) = exp(-decay_rate (t - build_up - strong_duration))    after that; 0 for t < 0
 
 Parameters
 ----------
 build_up : float
     Duration of the build-up [s], finite and at least 0; with 0 the motion starts at full strength.
-strong : float
+strong_duration : float
     Duration of the strong phase [s], at least 0, may be inf.
 decay_rate : float
     Rate of the decay [1/s], finite and at least 0.
@@ -47,7 +47,7 @@ ValueError
 References
 ----------
 P. C. Jennings, G. W. Housner, N. C. Tsai, Simulated earthquake motions, Caltech (1968).)")
-      .def(py::init<double, double, double>(), py::kw_only(), py::arg("build_up"), py::arg("strong"),
+      .def(py::init<double, double, double>(), py::kw_only(), py::arg("build_up"), py::arg("strong_duration"),
            py::arg("decay_rate"))
       .def_static(
           "from_table",
@@ -86,7 +86,7 @@ float or ndarray
     Factors, at least 0, of the same shape.)")
       .def_property_readonly("build_up", &unless_table<&Envelope::build_up>,
                              "Duration of the build-up [s]; None for a table.")
-      .def_property_readonly("strong", &unless_table<&Envelope::strong>,
+      .def_property_readonly("strong_duration", &unless_table<&Envelope::strong_duration>,
                              "Duration of the strong phase [s]; None for a table.")
       .def_property_readonly("decay_rate", &unless_table<&Envelope::decay_rate>,
                              "Rate of the decay [1/s]; None for a table.")
@@ -101,7 +101,7 @@ float or ndarray
              if (is_table(e))
                return "<Envelope: table of " + std::to_string(e.time().size()) + " points, " +
                       detail::shortest(e.time().front()) + " to " + detail::shortest(e.time().back()) + " s>";
-             return "Envelope(build_up=" + number(e.build_up()) + ", strong=" + number(e.strong()) +
+             return "Envelope(build_up=" + number(e.build_up()) + ", strong_duration=" + number(e.strong_duration()) +
                     ", decay_rate=" + number(e.decay_rate()) + ")";
            })
       .def(
@@ -109,7 +109,7 @@ float or ndarray
       .def("__hash__", [](const Envelope& e) { return py::hash(py::str(e.configuration())); })
       .def(py::pickle(
           [](const Envelope& e) -> py::tuple {
-            if (!is_table(e)) return py::make_tuple(e.build_up(), e.strong(), e.decay_rate());
+            if (!is_table(e)) return py::make_tuple(e.build_up(), e.strong_duration(), e.decay_rate());
             return py::make_tuple(std::vector<double>(e.time().begin(), e.time().end()),
                                   std::vector<double>(e.factor().begin(), e.factor().end()));
           },

@@ -161,14 +161,14 @@ ValueError
     An unknown name; the message lists the known ones.)")
       .def_static(
           "from_earthquake",
-          [](double rms_acceleration, double centre_frequency_hz, double duration, double overlap,
+          [](double rms_acceleration, double center_frequency_hz, double duration, double overlap,
              bool stationary_start, const std::optional<Shape>& shape, std::optional<py::function> quantile,
              std::optional<Envelope> envelope) {
             return PoissonPulses::from_earthquake(
-                rms_acceleration, centre_frequency_hz, duration, overlap,
+                rms_acceleration, center_frequency_hz, duration, overlap,
                 options_of(stationary_start, shape, std::move(quantile), std::move(envelope)));
           },
-          py::kw_only(), py::arg("rms_acceleration"), py::arg("centre_frequency_hz"), py::arg("duration"),
+          py::kw_only(), py::arg("rms_acceleration"), py::arg("center_frequency_hz"), py::arg("duration"),
           py::arg("overlap") = 0.5, py::arg("stationary_start") = false, py::arg("shape") = py::none(),
           py::arg("quantile") = py::none(), py::arg("envelope") = py::none(),
           R"(Pulses equivalent to the strong motion of an earthquake, thesis 5.6.
@@ -179,7 +179,7 @@ Parameters
 ----------
 rms_acceleration : float
     sigma_n [m/s^2], positive and finite.
-centre_frequency_hz : float
+center_frequency_hz : float
     f_c [Hz], positive and finite, as defined by (5.60); the peak of the spectrum is at 0.742 f_c.
 duration : float
     Duration of the strong motion [s], positive and finite.

@@ -12,7 +12,7 @@ void bind_pulse_fit(py::module_& m) {
       .def_readonly("intensity", &PulseFit::intensity,
                     "lambda sigma^2 [m^2/s^5]; a spectrum determines only this product.")
       .def_readonly("rms_acceleration", &PulseFit::rms_acceleration, "sigma_n of the pulses [m/s^2], thesis (5.61).")
-      .def_readonly("centre_frequency_hz", &PulseFit::centre_frequency_hz, "f_c = 1 / (2 Dt) [Hz], thesis (5.60).")
+      .def_readonly("center_frequency_hz", &PulseFit::center_frequency_hz, "f_c = 1 / (2 Dt) [Hz], thesis (5.60).")
       .def_readonly("misfit", &PulseFit::misfit, "The integral of abs(S - S of the pulses) over that of S, below 1.")
       .def("__repr__", [](const PulseFit& fit) {
         return "<PulseFit: half_width " + detail::shortest(fit.half_width) + " s, intensity " +
@@ -43,7 +43,7 @@ Use the result to define pulses like the record::
     fit = fit_pulses(record)
     PoissonPulses.from_earthquake(
         rms_acceleration=fit.rms_acceleration,
-        centre_frequency_hz=fit.centre_frequency_hz,
+        center_frequency_hz=fit.center_frequency_hz,
         duration=strong_motion(record).duration,
     )
 

@@ -13,10 +13,10 @@
 namespace stickslip::python {
 
 /// Recorded peaks are between these; PGAs above 30 m/s^2 are in other units. (The largest ever recorded is some 4 g.)
-inline constexpr double least_plausible_peak = 0.01, most_plausible_peak = 30;  // [m/s^2]
+inline constexpr double min_plausible_peak = 0.01, max_plausible_peak = 30;  // [m/s^2]
 /// A mean above this fraction of the peak is an offset: in processed records it is below 2e-4, and 0.01 g in a record
 /// of 0.6 g is 1.6e-2.
-inline constexpr double most_plausible_mean = 0.005;
+inline constexpr double max_plausible_mean = 0.005;
 
 /// Motions with fewer samples are examples, not records, and are not checked.
 inline constexpr std::size_t fewest_samples = 100;
@@ -48,13 +48,13 @@ inline void warn_if_implausible(const GroundMotion& motion, const std::string& w
   };
   const double peak = motion.peak_acceleration();
   if (!recorded && peak == 0) return;
-  if (!(peak >= least_plausible_peak && peak <= most_plausible_peak)) {
+  if (!(peak >= min_plausible_peak && peak <= max_plausible_peak)) {
     warn("the largest acceleration, " + rounded(peak) +
          " m/s^2, is not from 0.01 to 30 m/s^2 as in recorded earthquakes; check the units");
     return;
   }
   const double velocity = ground_history(motion).velocity.back(), mean = velocity / motion.duration();
-  if (std::abs(mean) > most_plausible_mean * peak &&
+  if (std::abs(mean) > max_plausible_mean * peak &&
       (recorded || begins_and_ends_at_rest(motion.acceleration(), mean, peak)))
     warn("the mean acceleration, " + rounded(mean) +
          " m/s^2, is more than 0.5 % of the peak and leaves the ground moving at " + rounded(velocity) +

@@ -83,10 +83,10 @@ optional `title=`. Returns the matplotlib Figure.)")
           return response_spectrum(accelerations, std::move(all_periods), std::move(all_damping), which);
         };
         if (py::isinstance<GroundMotion>(motion)) return answer(motion.cast<const GroundMotion&>());
-        if (!py::isinstance<Recording>(motion))
+        if (!py::isinstance<ResponseWithInputs>(motion))
           throw py::type_error("response_spectrum: motion must be a GroundMotion or a Response, got " +
                                py::repr(motion).cast<std::string>());
-        const auto& response = motion.cast<const Recording&>();
+        const auto& response = motion.cast<const ResponseWithInputs&>();
         return answer(with_inputs(response, [&](const auto& slider, const auto& ground) {
           return floor_motion(slider, ground, response.response);
         }));

@@ -30,12 +30,12 @@ void bind_strong_motion(py::module_& m) {
                     "Rms acceleration between begin and end [m/s^2].")
       .def_readonly("rms_velocity", &StrongMotion::rms_velocity,
                     "Rms ground velocity between begin and end, about a straight line [m/s].")
-      .def_readonly("centre_frequency_hz", &StrongMotion::centre_frequency_hz,
+      .def_readonly("center_frequency_hz", &StrongMotion::center_frequency_hz,
                     "Centre frequency f_c of the pulses with these rms values [Hz].")
       .def("__repr__", [](const StrongMotion& s) {
         return "<StrongMotion: from " + detail::shortest(s.begin) + " to " + detail::shortest(s.end) +
-               " s, rms_acceleration " + detail::shortest(s.rms_acceleration) + " m/s^2, centre frequency " +
-               detail::shortest(s.centre_frequency_hz) + " Hz>";
+               " s, rms_acceleration " + detail::shortest(s.rms_acceleration) + " m/s^2, center frequency " +
+               detail::shortest(s.center_frequency_hz) + " Hz>";
       });
 
   m.def("strong_motion", &strong_motion, py::arg("motion"), py::call_guard<py::gil_scoped_release>(),
@@ -50,7 +50,7 @@ The rms acceleration, the center frequency and the duration define the pulse pro
     s = strong_motion(record)
     PoissonPulses.from_earthquake(
         rms_acceleration=s.rms_acceleration,
-        centre_frequency_hz=s.centre_frequency_hz,
+        center_frequency_hz=s.center_frequency_hz,
         duration=s.duration,
     )
 

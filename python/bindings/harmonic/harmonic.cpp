@@ -8,33 +8,33 @@ namespace stickslip::python {
 namespace {
 
 /// An orbit with its slider.
-struct SlidersOrbit {
+struct SliderOrbit {
   Orbit orbit;
   AnySlider slider;
 };
 
-struct SlidersBranch {
+struct SliderBranch {
   std::vector<Orbit> orbits;
   std::vector<std::size_t> folds;
   AnySlider slider;
 };
 
-std::vector<SlidersOrbit> orbits_of(const AnySlider& slider, double load, double omega) {
+std::vector<SliderOrbit> orbits_of(const AnySlider& slider, double load, double omega) {
   std::vector<Orbit> found = [&] {
     const py::gil_scoped_release released;
     return with_position_law(slider, "orbits",
                              [&](const auto& s) { return orbits(s, load, omega, check_for_interrupt); });
   }();
-  std::vector<SlidersOrbit> result;
+  std::vector<SliderOrbit> result;
   for (Orbit& orbit : found) result.push_back({std::move(orbit), slider});
   return result;
 }
 
-SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from, double low, double high,
-                              double largest_step, double largest_amplitude, std::size_t most_orbits) {
+SliderBranch continuation_of(const AnySlider& slider, const SliderOrbit& from, double low, double high, double max_step,
+                             double max_amplitude, std::size_t max_orbits) {
   OrbitBranch branch = [&] {
     const py::gil_scoped_release released;
-    const ContinuationOptions options{largest_step, largest_amplitude, most_orbits, check_for_interrupt};
+    const ContinuationOptions options{max_step, max_amplitude, max_orbits, check_for_interrupt};
     return with_position_law(slider, "continuation",
                              [&](const auto& s) { return continuation(s, from.orbit, low, high, options); });
   }();
@@ -42,7 +42,7 @@ SlidersBranch continuation_of(const AnySlider& slider, const SlidersOrbit& from,
 }
 
 // x and x' at given times.
-py::tuple histories_of(const SlidersOrbit& self, const py::object& times) {
+py::tuple histories_of(const SliderOrbit& self, const py::object& times) {
   const std::vector<double> t = to_vector(times, "Orbit.histories: times", "s");
   for (const double time : t) detail::require(std::isfinite(time), "Orbit.histories: times must be finite", time, "s");
   const auto states =
@@ -57,7 +57,7 @@ py::tuple histories_of(const SlidersOrbit& self, const py::object& times) {
 
 template <class Value>
 auto each(Value&& value) {
-  return [value](const SlidersBranch& branch) {
+  return [value](const SliderBranch& branch) {
     using T = std::remove_cvref_t<decltype(value(branch.orbits[0]))>;
     std::vector<std::conditional_t<std::same_as<T, bool>, std::uint8_t, T>> values;
     for (const Orbit& orbit : branch.orbits) values.push_back(value(orbit));
@@ -74,7 +74,7 @@ auto each() {
 
 template <auto member>
 auto each_pair() {
-  return [](const SlidersBranch& branch) {
+  return [](const SliderBranch& branch) {
     std::vector<std::complex<double>> values;
     for (const Orbit& orbit : branch.orbits)
       values.insert(values.end(), (orbit.*member).begin(), (orbit.*member).end());
@@ -84,32 +84,32 @@ auto each_pair() {
 
 template <auto member>
 auto of_orbit() {
-  return [](const SlidersOrbit& self) { return self.orbit.*member; };
+  return [](const SliderOrbit& self) { return self.orbit.*member; };
 }
 
 }  // namespace
 
 template <>
-inline constexpr auto parts<SlidersOrbit> = std::tuple(&SlidersOrbit::orbit, &SlidersOrbit::slider);
+inline constexpr auto parts<SliderOrbit> = std::tuple(&SliderOrbit::orbit, &SliderOrbit::slider);
 template <>
-inline constexpr auto parts<SlidersBranch> = std::tuple(&SlidersBranch::orbits, &SlidersBranch::folds,
-                                                        &SlidersBranch::slider);
+inline constexpr auto parts<SliderBranch> = std::tuple(&SliderBranch::orbits, &SliderBranch::folds,
+                                                       &SliderBranch::slider);
 
 void bind_harmonic(py::module_& m) {
-  value_class<SlidersOrbit>(
+  value_class<SliderOrbit>(
       m, "Orbit", R"(A periodic response to -n(t) = B cos(omega t), thesis (2.28), as `harmonic.orbits` returns it.
 
 It is symmetric about a center c, x(t + T/2) - c = c - x(t) with T = 2 pi / omega.)")
       .def_property_readonly(
-          "slider", [](const SlidersOrbit& self) { return py::cast(self.slider); }, "The slider.")
+          "slider", [](const SliderOrbit& self) { return py::cast(self.slider); }, "The slider.")
       .def_property_readonly("B", of_orbit<&Orbit::load>(), "Amplitude of the load [m/s^2].")
       .def_property_readonly("omega", of_orbit<&Orbit::omega>(), "Angular frequency [rad/s].")
       .def_property_readonly(
-          "period", [](const SlidersOrbit& self) { return self.orbit.period(); }, "T = 2 pi / omega [s].")
+          "period", [](const SliderOrbit& self) { return self.orbit.period(); }, "T = 2 pi / omega [s].")
       .def_property_readonly("amplitude", of_orbit<&Orbit::amplitude>(),
                              "Half the peak-to-peak displacement [m]; 0 for rest at the center.")
       .def_property_readonly("phase", of_orbit<&Orbit::phase>(),
-                             R"(Phase in x - centre = amplitude cos(omega t + phase), in (-pi, pi] [rad].
+                             R"(Phase in x - center = amplitude cos(omega t + phase), in (-pi, pi] [rad].
 
 It is -omega times the time of the first maximum of x; nan at rest. Thesis (2.2), (2.17), corrected.)")
       .def_property_readonly("stops_per_cycle", of_orbit<&Orbit::stops_per_cycle>(), "Number of arrests in a cycle.")
@@ -131,17 +131,17 @@ spring the mean position is arbitrary, and a slider at rest stays where it is.)"
           "mean_arbitrary", of_orbit<&Orbit::mean_arbitrary>(),
           "Whether the mean position is arbitrary (Coulomb friction without a spring); this orbit is about 0.")
       .def_property_readonly(
-          "centre", of_orbit<&Orbit::centre>(),
+          "center", of_orbit<&Orbit::center>(),
           "Center c: (backward - forward) / (2 wn^2) for unequal levels with a spring, otherwise 0 [m].")
       .def_property_readonly(
-          "displacement", [](const SlidersOrbit& self) { return self.orbit.state.displacement; },
+          "displacement", [](const SliderOrbit& self) { return self.orbit.state.displacement; },
           "x at t = 0 [m]; `integrate` from it and `velocity` stays on the orbit.")
       .def_property_readonly(
-          "velocity", [](const SlidersOrbit& self) { return self.orbit.state.velocity; }, "x' at t = 0 [m/s].")
+          "velocity", [](const SliderOrbit& self) { return self.orbit.state.velocity; }, "x' at t = 0 [m/s].")
       .def_property_readonly("dissipated", of_orbit<&Orbit::dissipated>(),
                              "Work of friction in a period, equal to the input of the ground [m^2/s^2].")
       .def_property_readonly(
-          "events", [](const SlidersOrbit& self) { return events_array(self.orbit.events); },
+          "events", [](const SliderOrbit& self) { return events_array(self.orbit.events); },
           "Events of one period from t = 0, a structured array like `Response.events`, without 'end'.")
       .def("histories", &histories_of, py::arg("times"), R"(Compute displacement and velocity at given times.
 
@@ -156,14 +156,14 @@ displacement : ndarray, shape (N,)
     x [m].
 velocity : ndarray, shape (N,)
     x' [m/s].)")
-      .def("__repr__", [](const SlidersOrbit& self) {
+      .def("__repr__", [](const SliderOrbit& self) {
         const Orbit& o = self.orbit;
         return "<Orbit: amplitude " + detail::shortest(o.amplitude) + " m at " + detail::shortest(o.omega) +
                " rad/s, " + std::to_string(o.stops_per_cycle) + " stops a cycle, " +
                (o.stable ? "stable>" : "unstable>");
       });
 
-  value_class<SlidersBranch>(
+  value_class<SliderBranch>(
       m, "OrbitBranch",
       R"(A branch of the response curve: connected orbits in order, as `harmonic.continuation` returns them.
 
@@ -178,16 +178,16 @@ Arrays are over the orbits, read-only.)")
       .def_property_readonly("half_period_multipliers", each_pair<&Orbit::half_period_multipliers>(),
                              "As `Orbit.half_period_multipliers`, shape (N, 2).")
       .def_property_readonly(
-          "folds", [](const SlidersBranch& b) { return b.folds; },
+          "folds", [](const SliderBranch& b) { return b.folds; },
           "Indices of the orbits at which the curve reverses in frequency.")
-      .def("__len__", [](const SlidersBranch& b) { return b.orbits.size(); })
+      .def("__len__", [](const SliderBranch& b) { return b.orbits.size(); })
       .def("__getitem__",
-           [](const SlidersBranch& b, py::ssize_t i) {
+           [](const SliderBranch& b, py::ssize_t i) {
              const auto size = static_cast<py::ssize_t>(b.orbits.size());
              if (i < -size || i >= size) throw py::index_error("OrbitBranch: no such orbit");
-             return SlidersOrbit{b.orbits[static_cast<std::size_t>(i < 0 ? i + size : i)], b.slider};
+             return SliderOrbit{b.orbits[static_cast<std::size_t>(i < 0 ? i + size : i)], b.slider};
            })
-      .def("__repr__", [](const SlidersBranch& b) {
+      .def("__repr__", [](const SliderBranch& b) {
         return "<OrbitBranch: " + std::to_string(b.orbits.size()) + " orbits, " + std::to_string(b.folds.size()) +
                " folds>";
       });
@@ -236,8 +236,8 @@ References
 J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous friction, Trans. ASME 53 (1931).)");
 
   m.def("continuation", &continuation_of, py::arg("slider"), py::arg("orbit"), py::arg("low"), py::arg("high"),
-        py::kw_only(), py::arg("largest_step") = 0.05,
-        py::arg("largest_amplitude") = std::numeric_limits<double>::infinity(), py::arg("most_orbits") = 10'000,
+        py::kw_only(), py::arg("max_step") = 0.05, py::arg("max_amplitude") = std::numeric_limits<double>::infinity(),
+        py::arg("max_orbits") = 10'000,
         R"(Follow an orbit along the response curve as the frequency changes.
 
 Uses pseudo-arclength continuation over the frequency, which passes folds to the unstable orbits beyond them.
@@ -250,11 +250,11 @@ orbit : Orbit
     Orbit to start from, not at rest.
 low, high : float
     Bounds of the frequency [rad/s], positive; `orbit` must lie between them.
-largest_step : float, optional
+max_step : float, optional
     Maximum relative change of state and frequency from orbit to orbit, positive and at most 0.5.
-largest_amplitude : float, optional
+max_amplitude : float, optional
     Amplitude at which to stop [m]: near resonance a branch may extend to infinity.
-most_orbits : int, optional
+max_orbits : int, optional
     Maximum number of orbits in each direction.
 
 Returns

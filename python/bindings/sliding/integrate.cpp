@@ -7,7 +7,7 @@ namespace stickslip::python {
 namespace {
 
 template <class S, class M>
-Recording integrate_under(const S& slider, const py::object& motion, const IntegrateOptions& options) {
+ResponseWithInputs integrate_under(const S& slider, const py::object& motion, const IntegrateOptions& options) {
   const auto& ground = motion.cast<const M&>();
   Response storage = Storage::take();
   Response response = [&] {
@@ -20,8 +20,8 @@ Recording integrate_under(const S& slider, const py::object& motion, const Integ
   return {std::move(response), py::cast(slider), motion};
 }
 
-Recording integrate_any(const AnySlider& slider, const py::object& motion, double displacement, double velocity,
-                        bool settle, const std::string& contact, double sliding_distance) {
+ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& motion, double displacement,
+                                 double velocity, bool settle, const std::string& contact, double sliding_distance) {
   const IntegrateOptions options{displacement,        velocity,        settle, contact_of(contact, "integrate"),
                                  check_for_interrupt, sliding_distance};
   if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);

@@ -66,36 +66,36 @@ py::object keep(py::object& kept, Make&& make) {
   return kept;
 }
 
-py::object events_of(Recording& recording) {
-  return keep(recording.events, [&] { return events_array(recording.response.events); });
+py::object events_of(ResponseWithInputs& self) {
+  return keep(self.events, [&] { return events_array(self.response.events); });
 }
 
-py::object time_of(Recording& recording) {
-  return keep(recording.time, [&]() -> py::object {
-    const std::size_t samples = recording.response.displacement.size();
-    if (py::len(recording.motion.attr("time")) == samples) return recording.motion.attr("time");
+py::object time_of(ResponseWithInputs& self) {
+  return keep(self.time, [&]() -> py::object {
+    const std::size_t samples = self.response.displacement.size();
+    if (py::len(self.motion.attr("time")) == samples) return self.motion.attr("time");
     const auto times = [&](const auto& motion) {
       std::vector<double> time(samples);
       for (std::size_t i = 0; i < samples; ++i) time[i] = motion.time(i);
       return to_array(time);
     };
-    if (py::isinstance<GroundMotion>(recording.motion)) return times(recording.motion.cast<const GroundMotion&>());
-    return times(recording.motion.cast<const HarmonicMotion&>());
+    if (py::isinstance<GroundMotion>(self.motion)) return times(self.motion.cast<const GroundMotion&>());
+    return times(self.motion.cast<const HarmonicMotion&>());
   });
 }
 
-const Forces& forces_of(Recording& recording) {
-  if (!recording.forces)
-    recording.forces = with_inputs(
-        recording, [&](const auto& slider, const auto& motion) { return forces(slider, motion, recording.response); });
-  return *recording.forces;
+const Forces& forces_of(ResponseWithInputs& self) {
+  if (!self.forces)
+    self.forces = with_inputs(
+        self, [&](const auto& slider, const auto& motion) { return forces(slider, motion, self.response); });
+  return *self.forces;
 }
 
 // A read-only array of `value(forces, i)` at each sample.
 template <class Value>
 auto at_samples(Value&& value) {
-  return [value](Recording& recording) {
-    const Forces& all = forces_of(recording);
+  return [value](ResponseWithInputs& self) {
+    const Forces& all = forces_of(self);
     std::vector<double> values(all.friction.size());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(all, i);
     return array_of(std::move(values));
@@ -104,44 +104,42 @@ auto at_samples(Value&& value) {
 
 template <auto member>
 auto force() {
-  return [](const py::object& self) { return view(forces_of(self.cast<Recording&>()).*member, self); };
+  return [](const py::object& self) { return view(forces_of(self.cast<ResponseWithInputs&>()).*member, self); };
 }
 
 py::object gap_of(const py::object& self) {
-  const Response& response = self.cast<const Recording&>().response;
+  const Response& response = self.cast<const ResponseWithInputs&>().response;
   if (!response.gap.empty()) return view(response.gap, self);
   return array_of(std::vector<double>(response.displacement.size()));
 }
 
-py::array impacts_of(const Recording& recording) {
+py::array impacts_of(const ResponseWithInputs& self) {
   std::vector<Event> impacts;
-  std::ranges::copy_if(recording.response.events, std::back_inserter(impacts),
+  std::ranges::copy_if(self.response.events, std::back_inserter(impacts),
                        [](const Event& e) { return e.kind == EventKind::impact; });
   return events_array(impacts);
 }
 
-std::string remark_of(const Recording& recording) {
+std::string remark_of(const ResponseWithInputs& self) {
   constexpr double most = 0.2;
   return std::visit(
       [&](const auto& slider) -> std::string {
         const double radius = standard_gravity / slider.stiffness();
-        if (!slider.mounting().pendulum || recording.response.peak <= most * radius) return "";
-        return "the displacement reaches " + detail::shortest(recording.response.peak) +
-               " m, beyond 0.2 of the radius of " + detail::shortest(radius) +
-               " m up to which a pendulum is linear to 2 %";
+        if (!slider.mounting().pendulum || self.response.peak <= most * radius) return "";
+        return "the displacement reaches " + detail::shortest(self.response.peak) + " m, beyond 0.2 of the radius of " +
+               detail::shortest(radius) + " m up to which a pendulum is linear to 2 %";
       },
-      recording.slider.cast<const AnySlider&>());
+      self.slider.cast<const AnySlider&>());
 }
 
-Loop loop_of(const Recording& recording) {
-  return with_inputs(recording, [&](const auto& slider, const auto& motion) {
-    return largest_loop(slider, motion, recording.response);
-  });
-}
-
-Margins margins_of(const Recording& recording) {
+Loop loop_of(const ResponseWithInputs& self) {
   return with_inputs(
-      recording, [&](const auto& slider, const auto& motion) { return margins(slider, motion, recording.response); });
+      self, [&](const auto& slider, const auto& motion) { return largest_loop(slider, motion, self.response); });
+}
+
+Margins margins_of(const ResponseWithInputs& self) {
+  return with_inputs(self,
+                     [&](const auto& slider, const auto& motion) { return margins(slider, motion, self.response); });
 }
 
 struct NamedParameter {
@@ -160,19 +158,19 @@ constexpr NamedParameter parameters[] = {{"mu", stickslip::Parameter::slip_level
                                          {"slope_degrees", stickslip::Parameter::slope, 1},
                                          {"scale", stickslip::Parameter::scale, 1}};
 
-Sensitivity sensitivity_of(const Recording& recording, const std::string& name) {
+Sensitivity sensitivity_of(const ResponseWithInputs& self, const std::string& name) {
   std::string known;
   for (const NamedParameter& p : parameters) {
     if (name != p.name) {
       known += (known.empty() ? "'" : ", '") + std::string(p.name) + "'";
       continue;
     }
-    return with_inputs(recording, [&](const auto& slider, const auto& motion) -> Sensitivity {
+    return with_inputs(self, [&](const auto& slider, const auto& motion) -> Sensitivity {
       if constexpr (std::same_as<std::decay_t<decltype(motion)>, HarmonicMotion>) {
         throw std::invalid_argument(
             "sensitivity: covers a GroundMotion, got a HarmonicMotion; integrate motion.sampled(dt)");
       } else {
-        const Sensitivity one = sensitivity(slider, motion, recording.response, p.parameter);
+        const Sensitivity one = sensitivity(slider, motion, self.response, p.parameter);
         return {p.factor * one.peak, p.factor * one.residual, p.factor * one.velocity};
       }
     });
@@ -187,18 +185,19 @@ auto in_python(const char* module, const char* function) {
 
 template <auto member>
 auto history() {
-  return [](const py::object& self) { return view(self.cast<const Recording&>().response.*member, self); };
+  return [](const py::object& self) { return view(self.cast<const ResponseWithInputs&>().response.*member, self); };
 }
 
 template <auto member>
 auto number() {
-  return [](const Recording& recording) { return recording.response.*member; };
+  return [](const ResponseWithInputs& self) { return self.response.*member; };
 }
 
 }  // namespace
 
 template <>
-inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recording::slider, &Recording::motion);
+inline constexpr auto parts<ResponseWithInputs> = std::tuple(&ResponseWithInputs::response, &ResponseWithInputs::slider,
+                                                             &ResponseWithInputs::motion);
 
 void bind_response(py::module_& m) {
   value_class<Sensitivity>(m, "Sensitivity",
@@ -235,14 +234,15 @@ wn^2 (1 - N+/g) x x' dt.)")
                ", impact=" + detail::shortest(e.impact) + ")";
       });
 
-  value_class<Recording>(m, "Response", R"(The response of a slider to a ground motion, as `integrate` returns it.
+  value_class<ResponseWithInputs>(m, "Response",
+                                  R"(The response of a slider to a ground motion, as `integrate` returns it.
 
 Displacement and velocity are relative to the ground. The arrays are read-only; displacement and velocity are not
 copied.)")
       .def_property_readonly(
-          "slider", [](const Recording& r) { return r.slider; }, "The slider.")
+          "slider", [](const ResponseWithInputs& r) { return r.slider; }, "The slider.")
       .def_property_readonly(
-          "motion", [](const Recording& r) { return r.motion; }, "The ground motion.")
+          "motion", [](const ResponseWithInputs& r) { return r.motion; }, "The ground motion.")
       .def_property_readonly("time", &time_of, R"(Times of the samples [s], shape (N,).
 
 The times of the ground motion. With `settle=True`, if the slider still moves at the last of them, samples continue with
@@ -281,7 +281,7 @@ max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 in flight.)")
 The force per unit mass between the mass and the ground, such as that of an isolator; positive for positive
 displacement.)")
       .def_property_readonly(
-          "stuck", [](Recording& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
+          "stuck", [](ResponseWithInputs& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
           "Whether the slider sticks at `time` (bool), shape (N,); just after the sample if that changes there.")
       .def_property_readonly("truncated", number<&Response::truncated>(),
                              R"(Whether the samples end before the slider comes to rest (bool).
@@ -293,12 +293,12 @@ motion up to rest.)")
 
 'axis': along the axis of the slider; 'axis + vertical'. A transverse component never acts.)")
       .def_property_readonly(
-          "contact", [](const Recording& r) { return name_of(r.response.contact); },
+          "contact", [](const ResponseWithInputs& r) { return name_of(r.response.contact); },
           "What happens at a loss of contact, 'flight' or 'clipped'; see `integrate`.")
       .def_property_readonly("remark", &remark_of,
                              "A sentence about limits of the result; empty if there are none (str).")
       .def_property_readonly(
-          "margin", [](const Recording& r) { return margins_of(r).load; },
+          "margin", [](const ResponseWithInputs& r) { return margins_of(r).load; },
           R"(Smallest |load - level| / level at which stick or slip was decided; infinite if there was no decision.
 
 The load is q = p - wn^2 x, the level is that of the law times N+/g. The decisions are
@@ -313,7 +313,7 @@ friction, the smallest change of the input may then give a different response; w
 continuous. A velocity that almost reaches zero without an event is not a decision, nor is a landing. One pass over
 events and samples.)")
       .def_property_readonly(
-          "impact_margin", [](const Recording& r) { return margins_of(r).impact; },
+          "impact_margin", [](const ResponseWithInputs& r) { return margins_of(r).impact; },
           R"(Smallest distance by which a stop was missed or exceeded, over the distance of the stop from x = 0.
 
 At the end of a slip, the remaining distance to the stop; at an impact at speed v under a load that slows the slider
@@ -368,16 +368,16 @@ an impact is that before it; a rebound from a stop is not a reversal.)")
       .def_property_readonly("peak", number<&Response::peak>(), "Largest |x| over all time, not only at samples [m].")
       .def_property_readonly("residual", number<&Response::residual>(), "x at the end [m]; final if the slider rests.")
       .def_property_readonly(
-          "at_rest", [](const Recording& r) { return r.response.state.mode == Mode::stuck; },
+          "at_rest", [](const ResponseWithInputs& r) { return r.response.state.mode == Mode::stuck; },
           "Whether the slider is at rest at the end.")
       .def_property_readonly(
-          "state", [](const Recording& r) { return r.response.state; },
+          "state", [](const ResponseWithInputs& r) { return r.response.state; },
           "The `State` at the end; another run can continue from it.")
       .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(),
                              "Total sliding distance (path length) [m].")
       .def_property_readonly(
           "slips",
-          [](const Recording& r) {
+          [](const ResponseWithInputs& r) {
             return std::ranges::count_if(r.response.events, [](const Event& e) {
               return e.kind == EventKind::breakaway || e.kind == EventKind::reversal;
             });
@@ -386,14 +386,14 @@ an impact is that before it; a rebound from a stop is not a reversal.)")
       .def_property_readonly("time_sliding", number<&Response::time_sliding>(), "Time spent sliding [s].")
       .def_property_readonly("energy", number<&Response::energy>(), "Energy balance, per unit mass [m^2/s^2].")
       .def_property_readonly(
-          "effective_period", [](const Recording& r) { return loop_of(r).period(); },
+          "effective_period", [](const ResponseWithInputs& r) { return loop_of(r).period(); },
           R"(2 pi / sqrt(k_eff) of the hysteresis loop with the largest displacement [s].
 
 k_eff = F / D, where D is `peak` and F the force of spring and friction there, just before the slider reverses or stops.
 With Coulomb friction k_eff = wn^2 + slip_level / D. ValueError without a spring, because there is no restoring force;
 if the slider never slips; if |x| is largest at the start, or at the end of an unfinished slip.)")
       .def_property_readonly(
-          "effective_damping", [](const Recording& r) { return loop_of(r).damping(); },
+          "effective_damping", [](const ResponseWithInputs& r) { return loop_of(r).damping(); },
           R"(E_d / (2 pi k_eff D^2) of the same loop, a fraction of critical damping.
 
 The loops of an earthquake response do not close. E_d is therefore defined for a cycle from D to -D and back: 4 D times
@@ -465,7 +465,7 @@ str
     with one value per sample; `events`, each with `time` [s], `displacement` [m], `velocity` [m/s] and `kind`. Every
     number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
       .def("_repr_html_", in_python("stickslip._tables", "response_html"))
-      .def("__repr__", [](const Recording& r) {
+      .def("__repr__", [](const ResponseWithInputs& r) {
         return "<Response: peak " + detail::shortest(r.response.peak) + " m, residual " +
                detail::shortest(r.response.residual) + " m, " + std::to_string(r.response.events.size()) + " events" +
                (r.response.truncated ? ", samples end before rest>" : ">");

@@ -23,10 +23,10 @@ class Storage {
   }
 
   static void give_back(Response&& response) {
-    constexpr std::size_t most_responses = 2, most_bytes = 64 << 20;
+    constexpr std::size_t max_responses = 2, max_bytes = 64 << 20;
     const std::size_t bytes = (response.displacement.capacity() + response.velocity.capacity()) * sizeof(double) +
                               response.events.capacity() * sizeof(Event);
-    if (bytes > 0 && bytes <= most_bytes && spare().size() < most_responses) spare().push_back(std::move(response));
+    if (bytes > 0 && bytes <= max_bytes && spare().size() < max_responses) spare().push_back(std::move(response));
   }
 
  private:
@@ -39,29 +39,28 @@ class Storage {
 /// Events as a structured array, that of `Response.events`.
 py::array events_array(const std::vector<Event>& events);
 
-struct Recording {
+struct ResponseWithInputs {
   Response response;
   py::object slider;
   py::object motion;
   py::object time{}, events{};     // arrays, made on first access
   std::optional<Forces> forces{};  // likewise
 
-  Recording(Response&& answer, py::object what, py::object under)
+  ResponseWithInputs(Response&& answer, py::object what, py::object under)
       : response(std::move(answer)), slider(std::move(what)), motion(std::move(under)) {}
-  Recording(Recording&&) = default;
-  ~Recording() { Storage::give_back(std::move(response)); }
+  ResponseWithInputs(ResponseWithInputs&&) = default;
+  ~ResponseWithInputs() { Storage::give_back(std::move(response)); }
 };
 
 /// Calls `work` with the slider and the motion in their static types.
 template <class Work>
-auto with_inputs(const Recording& recording, Work&& work) {
+auto with_inputs(const ResponseWithInputs& self, Work&& work) {
   return std::visit(
       [&](const auto& slider) {
-        if (py::isinstance<GroundMotion>(recording.motion))
-          return work(slider, recording.motion.cast<const GroundMotion&>());
-        return work(slider, recording.motion.cast<const HarmonicMotion&>());
+        if (py::isinstance<GroundMotion>(self.motion)) return work(slider, self.motion.cast<const GroundMotion&>());
+        return work(slider, self.motion.cast<const HarmonicMotion&>());
       },
-      recording.slider.cast<const AnySlider&>());
+      self.slider.cast<const AnySlider&>());
 }
 
 }  // namespace stickslip::python

@@ -20,12 +20,12 @@ py::array_t<T> shaped(const SweepTable& table, std::vector<T> values) {
 }
 
 py::dict run(const py::sequence& sliders, const py::sequence& motions, const std::string& polarity, bool settle,
-             const std::string& contact, unsigned threads, const py::object& heartbeat) {
+             const std::string& contact, unsigned threads, const py::object& progress) {
   SweepOptions options{polarity_of(polarity), settle, contact_of(contact, "sweep"), threads};
-  options.heartbeat = [&](const SweepProgress& progress) {
+  options.progress = [&](const SweepProgress& status) {
     const py::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!heartbeat.is_none()) heartbeat(progress.done, progress.combinations);
+    if (!progress.is_none()) progress(status.done, status.combinations);
   };
   std::vector<AnySlider> these;
   for (const py::handle item : sliders) {
@@ -65,10 +65,10 @@ py::dict run(const py::sequence& sliders, const py::sequence& motions, const std
 
 void bind_sweep(py::module_& m) {
   m.def("sweep", &run, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("polarity"), py::arg("settle"),
-        py::arg("contact"), py::arg("threads"), py::arg("heartbeat"),
+        py::arg("contact"), py::arg("threads"), py::arg("progress"),
         R"(Implementation of `stickslip.sweep` (see there).
 
-Calls `heartbeat(done, combinations)` ten times a second with the interpreter lock held. Returns the arrays of the table
+Calls `progress(done, combinations)` ten times a second with the interpreter lock held. Returns the arrays of the table
 by name, and its failures.)");
 }
 

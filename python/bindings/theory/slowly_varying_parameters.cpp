@@ -87,7 +87,7 @@ Parameters
 ----------
 slider : Slider, Coulomb or Caster, optional
     A law alone is a slider without spring and damper. Coulomb friction with equal levels, or with any finite levels and
-    a spring, which is equivalent to their mean level about `centre`. Default: a slip level of 1 m/s^2 without a spring.
+    a spring, which is equivalent to their mean level about `center`. Default: a slip level of 1 m/s^2 without a spring.
 
 Raises
 ------
@@ -110,7 +110,7 @@ N. M. Krylov, N. N. Bogoliubov, Introduction to Non-Linear Mechanics (1947).)")
           .def_property_readonly(
               "slider", [](const SlowlyVaryingParameters& self) { return self.slider; }, "The slider.")
           .def_property_readonly(
-              "centre", [](const SlowlyVaryingParameters& self) { return self.centre(); },
+              "center", [](const SlowlyVaryingParameters& self) { return self.center(); },
               "Center of the motion [m]: (backward - forward) / (2 wn^2) with a spring, otherwise 0.")
           .def("dissipative", &by_amplitude<&SlowlyVaryingParameters::dissipative>, py::arg("amplitude"),
                R"(S(A) = (1/pi) int f sin(theta) dtheta over a cycle, thesis (2.12), (2.22), (2.30): dissipation.
@@ -269,7 +269,7 @@ Raises
 ------
 ValueError
     An amplitude out of range.)")
-          .def("least_amplitude", &SlowlyVaryingParameters::least_amplitude, py::arg("B"),
+          .def("min_amplitude", &SlowlyVaryingParameters::min_amplitude, py::arg("B"),
                R"(Minimum amplitude over all frequencies: -S(A) = B, thesis (2.36), (2.37), by bracketing.
 
 Parameters

@@ -30,7 +30,7 @@ def _run_part(
         first_member=first,
         threads=1,
         start=None,
-        heartbeat=None,
+        progress=None,
         interrupted=None,
         **options,
     )

@@ -200,7 +200,7 @@ def _run_here(
     show: Progress,
     keeper: Checkpoint,
 ) -> Ensemble:
-    def heartbeat(done: int, total: int, so_far: Callable[[], Ensemble]) -> None:
+    def report(done: int, total: int, so_far: Callable[[], Ensemble]) -> None:
         show(done, total)
         keeper.save_if_due(so_far)
 
@@ -215,7 +215,7 @@ def _run_here(
         first_member=first,
         threads=threads,
         start=start,
-        heartbeat=heartbeat,
+        progress=report,
         interrupted=interrupted,
         **options,
     )

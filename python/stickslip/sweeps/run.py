@@ -154,7 +154,7 @@ def sweep(
     how = {"polarity": polarity, "settle": settle, "contact": contact}
     with shown(progress, who="sweep", things="combinations") as show:
         if executor is None and checkpoint is None:
-            result = _core.sweep(these, those, threads=count, heartbeat=show, **how)
+            result = _core.sweep(these, those, threads=count, progress=show, **how)
             table.put(range(len(those)), result)
         else:
             keeper = Checkpoint(checkpoint, checkpoint_every, these, those, how)
@@ -209,7 +209,7 @@ def _run_here(
             part, todo = todo[:size], todo[size:]
             began = time.monotonic()
             result = _core.sweep(
-                sliders, [motions[i] for i in part], threads=threads, heartbeat=None, **how
+                sliders, [motions[i] for i in part], threads=threads, progress=None, **how
             )
             table.put(part, result)
             show(_combinations(table), table.peak.size)
@@ -229,7 +229,7 @@ def _run_part(
     sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, Any]
 ) -> dict[str, Any]:
     """Run a part. A module function, so that it pickles."""
-    return _core.sweep(sliders, motions, threads=1, heartbeat=None, **how)
+    return _core.sweep(sliders, motions, threads=1, progress=None, **how)
 
 
 def _run_on(

@@ -114,12 +114,12 @@ class Resolution {
     const auto position = [](std::size_t at) { return static_cast<int>(at); };
     const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
     const int places = position(mantissa.size() - std::min(point + 1, mantissa.size()));
-    most_places_ = std::max(most_places_, places - exponent);
+    max_places_ = std::max(max_places_, places - exponent);
     const std::size_t first = mantissa.find_first_of("123456789");
     if (first == std::string_view::npos) return decades_.push_back(std::numeric_limits<int>::min() / 2);
     const int before = position(point) - position(first);  // digits before the point; negative: zeros after it
     decades_.push_back((before > 0 ? before - 1 : before) + exponent);
-    most_digits_ = std::max(most_digits_, (before > 0 ? before : before + 1) + places);
+    max_digits_ = std::max(max_digits_, (before > 0 ? before : before + 1) + places);
   }
 
   /// One unit of the last place of each time [s].
@@ -127,7 +127,7 @@ class Resolution {
     std::vector<double> units;
     units.reserve(decades_.size());
     for (int previous = 0; const int decade : decades_) {
-      const int exponent = std::max(-most_places_, decade + 1 - most_digits_);
+      const int exponent = std::max(-max_places_, decade + 1 - max_digits_);
       units.push_back(!units.empty() && exponent == previous ? units.back() : std::pow(10., exponent));
       previous = exponent;
     }
@@ -135,8 +135,8 @@ class Resolution {
   }
 
  private:
-  int most_places_ = std::numeric_limits<int>::min() / 2;
-  int most_digits_ = 0;
+  int max_places_ = std::numeric_limits<int>::min() / 2;
+  int max_digits_ = 0;
   std::vector<int> decades_{};  // of the first digit of each time
 };
 

@@ -36,7 +36,7 @@ class Block {
   std::span<double> residual() noexcept { return {residual_.data(), width_}; }
 
   /// Ends the work if that is wanted; to be called every millisecond or so.
-  void beat() const {
+  void check_stopped() const {
     if (stopped_.load(std::memory_order_relaxed)) throw Stopped{};
   }
   struct Stopped {};

@@ -63,7 +63,7 @@ class LanesSimulator final : public Simulator {
         naming_member(first_member + error.lane, [&] { throw ConvergenceError(error); });
       }
       if (i % every == 0) block.row(i / every, displacement_.data(), velocity_.data());
-      block.beat();
+      block.check_stopped();
     }
     if (settle_) settle_all(slider_, states, first_member, members, samples - 1, block);
     std::copy_n(displacement_.begin(), width, block.residual().begin());
@@ -79,7 +79,7 @@ class LanesSimulator final : public Simulator {
       records_.resize(row_padding * samples);
     }
     for (std::size_t i = 0; i < width; i += row_padding) {
-      block.beat();
+      block.check_stopped();
       const std::size_t some = std::min(row_padding, members - std::min(members, i));
       for (std::size_t k = 0; k < some; ++k)
         excitation_.sample(seed_, first_member + i + k, {&records_[k * samples], samples}, workspace_);

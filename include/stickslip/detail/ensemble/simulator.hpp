@@ -98,8 +98,8 @@ void go_through(const Pieces& pieces, std::size_t segments, const Block& block, 
       wanted = static_cast<double>(next) * dt;
     }
   };
-  block.beat();
-  walk(pieces, segments, 1024, through, [&] { block.beat(); });
+  block.check_stopped();
+  walk(pieces, segments, 1024, through, [&] { block.check_stopped(); });
   while (next < times) keep();  // a last time that rounding put past the end
 }
 
@@ -118,30 +118,30 @@ inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times
   walk(motion, motion.segments(), read_off, [] {});
 }
 
-/// Takes the largest |x| of a member, and beats.
+/// Computes the largest |x| of a member, and checks regularly whether the work is stopped.
 template <FrictionLaw Law>
 class PeakObserver {
  public:
-  PeakObserver(const Block& block, std::size_t most_events) : block_(block), most_events_(most_events) {}
+  PeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
 
   double peak() const noexcept { return peak_; }
 
   void slide(const Slip& slip) {
-    if constexpr (!ConstantLevelLaw<Law>) beat();
+    if constexpr (!ConstantLevelLaw<Law>) count_work();
     peak_ = std::max(peak_, std::abs(slip.to()));
   }
   void event(EventKind, double, const State&) {
-    beat();
-    if (++events_ > most_events_) refuse_more_events(most_events_);
+    count_work();
+    if (++events_ > event_limit_) refuse_more_events(event_limit_);
   }
 
  private:
-  void beat() {
-    if (++beats_ % Recorder<Law>::work_a_beat == 0) block_.beat();
+  void count_work() {
+    if (++work_ % Recorder<Law>::work_per_report == 0) block_.check_stopped();
   }
   const Block& block_;
-  std::size_t most_events_, events_ = 0;
-  std::uint32_t beats_ = 0;
+  std::size_t event_limit_, events_ = 0;
+  std::uint32_t work_ = 0;
   double peak_ = 0;
 };
 
@@ -157,7 +157,7 @@ template <FrictionLaw Law, class Flows>
 void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, PeakObserver<Law>& observer,
                    const Block& block) {
   settle(slider, state, [&](double duration) {
-    block.beat();
+    block.check_stopped();
     advance_member(slider, flows, Segment{duration, 0, 0}, state, observer);
   });
 }
@@ -193,7 +193,7 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
           [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); }, keep);
     if (settle && under_load)
       detail::settle(slider, state, [&](double duration) {
-        block.beat();
+        block.check_stopped();
         go_loaded(load_segment(Segment{duration, 0, 0}, slider.slope()));
       });
     else if (settle)

@@ -16,7 +16,7 @@ namespace stickslip::detail {
 inline constexpr std::size_t row_padding = 8;
 
 /// Rows are at most this wide, so that a bit for each member fits into one word.
-inline constexpr std::size_t most_lanes = 64;
+inline constexpr std::size_t max_lanes = 64;
 
 /// The sliders' states, padded to a multiple of `row_padding`. The velocity is exactly 0 where a slider is stuck, and
 /// only there: laws without memory need no more.
@@ -28,9 +28,9 @@ struct LaneStates {
 
 /// The members of a row that need more than the rest, packed so that whole vectors can take them.
 struct LaneQueue {
-  alignas(64) double displacement[most_lanes];
-  double velocity[most_lanes], start[most_lanes], end[most_lanes], peak[most_lanes];
-  std::uint8_t lane[most_lanes];
+  alignas(64) double displacement[max_lanes];
+  double velocity[max_lanes], start[max_lanes], end[max_lanes], peak[max_lanes];
+  std::uint8_t lane[max_lanes];
   std::size_t count = 0;  ///< of the members taken; the first is repeated until vectors are full
 
   /// @param members       a bit for each that is taken, at least one

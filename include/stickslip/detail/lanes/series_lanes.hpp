@@ -37,7 +37,7 @@ class SlideOfLanes {
   static constexpr bool both_ways = !SymmetricLaw<Law>;
 
  public:
-  static constexpr int most_orders = 20;
+  static constexpr int max_orders = 20;
 
   SlideOfLanes(const Slider<Law>& slider, const Vector& displacement, const Vector& speed)
       : slider_(slider), forward_(level(Direction::forward)), backward_(level(Direction::backward)) {
@@ -85,7 +85,7 @@ class SlideOfLanes {
       small = max(term, last) <= left_out * fastest;
       last = term;
       orders_ = k + 1;
-      if (k >= 3 && (orders_ == most_orders || all(small | ~wanted))) break;
+      if (k >= 3 && (orders_ == max_orders || all(small | ~wanted))) break;
     }
     x_[orders_ + 1] = to_x * u_[orders_] * series::reciprocal[orders_ + 1];
     converges_ = small;
@@ -107,7 +107,7 @@ class SlideOfLanes {
                            stiffness * abs(x_[0]);
       return abs(off * step - a) <= 20 * left_out * (terms * step + fastest);
     };
-    // Where the level has all but underflowed its series says nothing of what lies ahead, towards the centre.
+    // Where the level has all but underflowed its series says nothing of what lies ahead, towards the center.
     const Mask blind = (here <= 1e-290) & (s * x_[0] < 0.0);
     if (any(blind)) converges_ = converges_ & ~(blind & (resists_now(0.0, u_[0], back) > 1e-290));
     converges_ = converges_ & recent & balanced(1.0);
@@ -140,7 +140,7 @@ class SlideOfLanes {
     Vector part;     ///< of the step, where there is one
   };
   Stops stops(const Mask& from_rest, const Mask& wanted) const {
-    Vector c[most_orders + 1], b[most_orders + 1];
+    Vector c[max_orders + 1], b[max_orders + 1];
     double binomial = 1;
     for (int k = 0; k <= orders_; ++k) {
       c[k] = select(from_rest, k < orders_ ? u_[k + 1] : Vector(0.0), u_[k]);
@@ -378,7 +378,7 @@ template <LawWithLanes Law>
 /// Moves each slider over its segment of ground acceleration, from start[i] to end[i] [m/s^2]:
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t)
 /// with the same events as `advance`; by the instructions that this processor has.
-/// @param members  at most `most_lanes`
+/// @param members  at most `max_lanes`
 template <LawWithLanes Law>
 void advance_lanes(const SeriesLanes<Law>& lanes, std::size_t members, const double* start, const double* end,
                    const LaneStates& states) {
