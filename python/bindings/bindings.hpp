@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "friction/callable_law.hpp"
 #include "stickslip/stickslip.hpp"
 
 namespace py = pybind11;
@@ -20,7 +21,7 @@ namespace stickslip::python {
 
 /// A slider of any law that Python knows. Every function that accepts a slider accepts a law added here.
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
-                               Slider<Degrading>, Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
+                               Slider<Degrading>, Slider<KumarFriction>, Slider<CallableLaw>, Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
                                Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
 
 /// The Python class StaticKinetic.
@@ -41,6 +42,8 @@ void bind_caster(py::module_& m);
 void bind_velocity_dependent(py::module_& m);
 void bind_stribeck(py::module_& m);
 void bind_degrading(py::module_& m);
+void bind_kumar(py::module_& m);
+void bind_callable_law(py::module_& m);
 void bind_static_kinetic(py::module_& m);
 void bind_stops(py::module_& m);
 void bind_slider(py::module_& m);

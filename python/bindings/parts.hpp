@@ -42,6 +42,18 @@ inline constexpr auto parts<Stribeck> = std::tuple(&Stribeck::static_level, &Str
 template <>
 inline constexpr auto parts<Degrading> = std::tuple(&Degrading::distances, &Degrading::levels, &Degrading::backward);
 template <>
+inline constexpr auto parts<KumarFriction::Parameters> =
+    std::tuple(&KumarFriction::Parameters::mu_ref, &KumarFriction::Parameters::static_pressure,
+               &KumarFriction::Parameters::reference_pressure, &KumarFriction::Parameters::contact_radius,
+               &KumarFriction::Parameters::temperature, &KumarFriction::Parameters::rate,
+               &KumarFriction::Parameters::diffusivity, &KumarFriction::Parameters::conductivity);
+template <>
+inline constexpr auto parts<KumarFriction> = std::tuple(&KumarFriction::parameters);
+template <>
+inline constexpr auto parts<CallableLaw> = std::tuple(&CallableLaw::hold_function, &CallableLaw::resist_function);
+template <>
+inline constexpr auto parts<SurfaceHeat> = std::tuple(&SurfaceHeat::values);
+template <>
 inline constexpr auto parts<Stops> = std::tuple(&Stops::forward, &Stops::backward, &Stops::restitution);
 template <>
 inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplitude, &HarmonicMotion::omega,
@@ -49,7 +61,8 @@ inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplit
 
 template <>
 inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::velocity, &State::mode, &State::in_flight,
-                                                &State::gap, &State::gap_velocity, &State::sliding_distance);
+                                                &State::gap, &State::gap_velocity, &State::sliding_distance,
+                                                &State::heat);
 template <>
 inline constexpr auto parts<Event> = std::tuple(&Event::time, &Event::displacement, &Event::velocity, &Event::kind);
 template <>
@@ -63,7 +76,7 @@ inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Res
                                                    &Response::peak, &Response::residual, &Response::sliding_distance,
                                                    &Response::time_sliding, &Response::energy, &Response::gap,
                                                    &Response::truncated, &Response::contact, &Response::components,
-                                                   &Response::state);
+                                                   &Response::state, &Response::temperature);
 template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,

@@ -43,13 +43,17 @@ velocity : float, optional
     x' relative to the ground [m/s]; 0 means at rest.
 sliding_distance : float, optional
     Sliding distance so far, forward and backward alike [m], at least 0; for laws that depend on it, such as
-    `Degrading`.)")
-      .def(py::init([](double displacement, double velocity, double sliding_distance) {
+    `Degrading`.
+heat : SurfaceHeat, optional
+    Heat left in the sliding surface, for laws that depend on its temperature: `KumarFriction`.)")
+      .def(py::init([](double displacement, double velocity, double sliding_distance, const SurfaceHeat& heat) {
              State state = State::at(displacement, velocity);
              state.sliding_distance = sliding_distance;
+             state.heat = heat;
              return state;
            }),
-           py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("sliding_distance") = 0.0)
+           py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("sliding_distance") = 0.0,
+           py::arg("heat") = SurfaceHeat())
       .def_readonly("displacement", &State::displacement, "x [m].")
       .def_readonly("velocity", &State::velocity, "x' [m/s].")
       .def_property_readonly(
@@ -59,6 +63,7 @@ sliding_distance : float, optional
       .def_readonly("gap_velocity", &State::gap_velocity, "Rate of change of the gap, in flight [m/s].")
       .def_readonly("sliding_distance", &State::sliding_distance,
                     "Sliding distance so far [m]; updated if the law depends on it, otherwise the value given.")
+      .def_readonly("heat", &State::heat, "Heat left in the sliding surface; updated if the law depends on it.")
       .def("__repr__", [](const State& state) {
         return "<State: x " + detail::shortest(state.displacement) + " m, x' " + detail::shortest(state.velocity) +
                " m/s, " +

@@ -21,9 +21,10 @@ ResponseWithInputs integrate_under(const S& slider, const py::object& motion, co
 }
 
 ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& motion, double displacement,
-                                 double velocity, bool settle, const std::string& contact, double sliding_distance) {
-  const IntegrateOptions options{displacement,        velocity,        settle, contact_of(contact, "integrate"),
-                                 check_for_interrupt, sliding_distance};
+                                 double velocity, bool settle, const std::string& contact, double sliding_distance,
+                                 const SurfaceHeat& heat) {
+  const IntegrateOptions options{displacement,        velocity,         settle, contact_of(contact, "integrate"),
+                                 check_for_interrupt, sliding_distance, heat};
   if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
   if (py::isinstance<HarmonicMotion>(motion))
     return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
@@ -36,7 +37,7 @@ ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& moti
 void bind_integrate(py::module_& m) {
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
-        py::arg("sliding_distance") = 0.0,
+        py::arg("sliding_distance") = 0.0, py::arg("heat") = SurfaceHeat(),
         R"(Integrate the response of a slider to a ground motion.
 
 x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); on
@@ -65,6 +66,9 @@ contact : 'flight' or 'clipped', optional
 sliding_distance : float, optional
     Sliding distance before the start [m], finite and at least 0, for laws that depend on it:
     `response.state.sliding_distance` of the response before.
+heat : SurfaceHeat, optional
+    Heat left in the sliding surface at the start, for laws that depend on its temperature: `response.state.heat` of the
+    response before.
 
 Returns
 -------
