@@ -106,7 +106,7 @@ class Thesis {
   const ThesisOptions& options() const noexcept { return options_; }
 
   /// An ensemble, remembered under a name of its own.
-  /// @param what  as the progress callback is told
+  /// @param what  as passed to the progress callback
   /// @param run   simulates it with the options given
   const Ensemble& ensemble(const std::string& what, std::uint64_t members, bool velocity_spectrum,
                            const std::function<Ensemble(const EnsembleOptions&)>& run);

@@ -34,7 +34,7 @@ struct OdeOptions {
   std::vector<double> absolute_tolerance = {0};
   OdeMethod method = OdeMethod::adams;
   long max_steps = 1'000'000;
-  std::function<void()> progress{};  ///< called every thousand steps; may throw to end the work; optional
+  std::function<void()> progress{};  ///< called every thousand steps; may throw to stop the work; optional
 };
 
 /// The solver gave up; for callers whose `t` is not the time that users know.
@@ -57,7 +57,7 @@ struct OdeSolution {
 };
 
 /// y(t) at `times`, from y(t0) = `y0`. Local errors are held within the tolerances; the error at a time is some ten
-/// times that. What `right_side` or the progress callback throw comes through; where a slope is not finite a shorter
+/// times that. Exceptions from `right_side` or the progress callback propagate; where a slope is not finite a shorter
 /// step is tried.
 /// @param times  increasing, from t0 on
 /// @throws std::invalid_argument where times, sizes or tolerances make no sense

@@ -31,10 +31,10 @@ struct OrbitBranch {
 };
 
 struct ContinuationOptions {
-  double max_step = 0.05;  ///< part by which state and frequency may change from orbit to orbit, up to 0.5
-  double max_amplitude = std::numeric_limits<double>::infinity();  ///< the branch is left beyond it [m]
-  std::size_t max_orbits = 10'000;                                 ///< each way
-  std::function<void()> progress{};                                ///< called at each orbit; may throw to end the work
+  double max_step = 0.05;  ///< largest relative change of state and frequency from orbit to orbit, up to 0.5
+  double max_amplitude = std::numeric_limits<double>::infinity();  ///< the branch ends beyond it [m]
+  std::size_t max_orbits = 10'000;                                 ///< in each direction
+  std::function<void()> progress{};                                ///< called at each orbit; may throw to stop the work
 };
 
 namespace detail {

@@ -522,7 +522,7 @@ inline Orbit moved(Orbit orbit, double distance) {
 ///                on a spring
 /// @param load    B [m/s^2], positive and at most 1e100
 /// @param omega   [rad/s], positive, with a finite square
-/// @param progress  called some times a second; may throw to end the work; optional
+/// @param progress  called several times per second; may throw to stop the work; optional
 /// @return orbits in order of amplitude
 /// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring
 ///                                (the slider drifts)

@@ -22,12 +22,12 @@ struct Histories {
   std::vector<double> velocity;      ///< x' [m/s]
 };
 
-/// What `integrate` gives as displacement and velocity at the samples, from rest at x = 0, without events, peak and
-/// energy:
+/// Integrate the motion from rest at x = 0 and return only displacement and velocity at the samples, without the
+/// events, peak and energy that `integrate` returns:
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t).
 /// @param slider     any law, with or without a spring and a damper
 /// @param motion     the ground acceleration
-/// @param progress  called at least every second or so; may throw to end the work; optional
+/// @param progress   called about once per second or more often; may throw to stop the work; optional
 /// @throws std::invalid_argument  a vertical motion under which the slider never lands
 /// @throws std::overflow_error  a displacement or velocity beyond the range of doubles
 /// @throws ConvergenceError     a law without power series; more events than `integrate` allows

@@ -1,4 +1,4 @@
-// What can be seen of a motion while it is computed.
+// Observers of a motion while it is computed.
 #pragma once
 
 #include "stickslip/sliding/response.hpp"
@@ -6,26 +6,26 @@
 
 namespace stickslip {
 
-/// A slip or a part of one, in one direction and within one segment, as a watcher of the motion sees it.
+/// A slip or a part of one, in one direction and within one segment, as passed to an observer.
 struct Slip {
   Direction direction;
-  double from;      ///< x where it began [m]
-  double distance;  ///< way slid, at least 0 but for round-off [m]
+  double from;      ///< x at the start [m]
+  double distance;  ///< sliding distance, at least 0 up to round-off [m]
   double duration;  ///< [s]
-  double work;      ///< of the ground on it [m^2/s^2]
+  double work;      ///< work of the ground motion on the slider, per unit mass [m^2/s^2]
 
-  double to() const noexcept { return from + sign(direction) * distance; }  ///< x where it ended [m]
+  double to() const noexcept { return from + sign(direction) * distance; }  ///< x at the end [m]
 };
 
-/// Watches a motion while it is computed: each slip or part of one, and each event. Times count from the beginning of
-/// the segment [s]. One that has `follow(flow, taken)` is also shown each flow and how long it lasts [s].
+/// Receives each slip, or part of one, and each event while a motion is computed. Times are measured from the start of
+/// the segment [s]. An observer with `follow(flow, taken)` also receives each flow and its duration [s].
 template <class Observer>
 concept MotionObserver = requires(Observer& observer, const Slip& slip, double time, EventKind kind, State state) {
   observer.slide(slip);
   observer.event(kind, time, state);
 };
 
-/// Watches nothing.
+/// An observer that ignores everything.
 struct NoObserver {
   void slide(const Slip&) const noexcept {}
   void event(EventKind, double, const State&) const noexcept {}

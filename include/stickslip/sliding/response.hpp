@@ -11,23 +11,22 @@ namespace stickslip {
 
 /// What a slider does where the ground falls away from under it faster than it falls itself, N = g + a_z < 0.
 enum class Contact {
-  /// It flies, the gap y'' = -N, without friction; spring, damper and stops go on to act. It lands where y = 0:
-  /// plastic,
-  /// with the impulse of friction -mu |y'| against x', which stops it at most.
+  /// It is in flight without friction, with the gap y'' = -N; spring, damper and stops continue to act. It lands when
+  /// y = 0, plastically, with a friction impulse -mu |y'| against x' that can stop the slider but not reverse it.
   flight,
   /// It stays on the ground; friction is zero while N < 0.
   clipped
 };
 
-/// What happens at an event.
+/// The kinds of event.
 enum class EventKind : std::uint8_t {
-  breakaway,  ///< a slip begins (also one that is already under way at the start)
-  reversal,   ///< a slip turns into one the other way without a stop
+  breakaway,  ///< a slip begins (or is already in progress at the start)
+  reversal,   ///< the slip changes direction without sticking
   arrest,     ///< a slip ends and the slider sticks
   end,        ///< the motion is over
-  impact,     ///< it comes to a stop; the velocity is that of its arrival
-  liftoff,    ///< it leaves the ground
-  landing     ///< it is back on the ground; the velocity is that before friction's impulse
+  impact,     ///< the slider hits a stop; the velocity is that before the impact
+  liftoff,    ///< the slider leaves the ground
+  landing     ///< the slider lands; the velocity is that before the friction impulse
 };
 
 /// An instant at which the slider changes its mode, and the last one.

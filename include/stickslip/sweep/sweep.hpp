@@ -33,7 +33,7 @@ struct SweepOptions {
   bool settle = false;  ///< continue under zero ground acceleration after the last sample until the slider rests
   Contact contact = Contact::flight;  ///< what a slider does where the ground falls away from under it
   unsigned threads = 0;               ///< at most so many; 0: as many as the machine has
-  std::function<void(const SweepProgress&)> progress{};  ///< called ten times a second; may throw to end the work
+  std::function<void(const SweepProgress&)> progress{};  ///< called ten times a second; may throw to stop the work
 };
 
 /// A combination that has no answer, and why.

@@ -128,7 +128,7 @@ class EquivalentLinearization {
   /// @param noise      level S0 of white ground acceleration, two-sided [m^2/s^3], a Spectrum, a ShapingFilter, a
   ///                   GaussianExcitation, whose sampling and duration do not matter, or PoissonPulses
   /// @param times      [s], finite, at least 0, increasing
-  /// @param progress  called every thousand steps; may throw to end the work; optional
+  /// @param progress  called every thousand steps; may throw to stop the work; optional
   /// @returns also the growth rate where the velocity becomes stationary: pi^5 S0^3 / (2 a^4) for Coulomb friction
   /// under white noise, (3.47), and 0 with a spring that holds the displacement; NaN where it does not, under an
   /// envelope, or for other laws. The remark has the misfit of a filter that is not exact

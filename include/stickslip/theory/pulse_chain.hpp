@@ -67,7 +67,7 @@ class PulseChain {
   /// @param slider  no spring; the levels may differ
   /// @param pulses  the excitation, without an envelope; from rest as if no pulse had arrived before time zero
   /// @param times   where to answer [s], finite, at least 0
-  /// @param progress  called now and then; what it throws ends the work
+  /// @param progress  called regularly; may throw to stop the work; optional
   /// @return moments from rest on. `remark` says where the theory is outside of its range, and where nothing slips
   /// @throws std::invalid_argument naming what is not covered or the value refused
   /// @throws ConvergenceError if the chain does not become stationary within its steps
@@ -85,7 +85,7 @@ class PulseChain {
   /// @param pulses  as for `predict`
   /// @param time    [s], finite, 0 or at least the length of a pulse; sigma / a must be at least 0.12 (or below 0.05,
   ///                where nothing slips) and pulses to a step at most 4
-  /// @param progress  called now and then; what it throws ends the work
+  /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument naming what is not covered or the value refused; also where the kurtosis is below
   ///         what a sum of slips can have by more than 0.1
   /// @throws ConvergenceError if the chain does not become stationary within its steps
@@ -104,7 +104,7 @@ class PulseChain {
   /// @param slider  as for `predict`
   /// @param pulses  as for `predict`; over `pulses.duration()`
   /// @param probability  that the peak is not exceeded, in (0, 1)
-  /// @param progress  called now and then; what it throws ends the work
+  /// @param progress  called regularly; may throw to stop the work; optional
   /// @return 0 where that many do not slip at all
   /// @throws as `distribution`, and std::invalid_argument for the probability
   /// Takes 60 to 350 ms, refined up to 10 s.

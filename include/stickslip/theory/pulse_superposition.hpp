@@ -97,7 +97,7 @@ class PulseSuperposition {
   /// @param slider  without a spring
   /// @param pulses  the excitation
   /// @param times   where to answer [s], finite, at least 0
-  /// @param progress  called now and then; what it throws ends the work
+  /// @param progress  called regularly; may throw to stop the work; optional
   /// @return moments; velocities are stationary, `growth_rate` NaN under an envelope. `remark` says where times are too
   ///         short, where nothing slips and why, by how much overlaps are missed for a caster, and which share of the
   ///         pulses would carry it off
@@ -121,7 +121,7 @@ class PulseSuperposition {
   /// @param slider  Coulomb friction without a spring, unequal slip levels too
   /// @param pulses  without an envelope, from rest as if no pulse had arrived before time zero
   /// @param times   where to answer [s], finite, at least 0
-  /// @param progress  called now and then; what it throws ends the work
+  /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument naming what is not covered or the value refused
   /// Integrals over time in closed form, over the amplitudes to 1e-5; 0.1 to 1 ms, and some 10 us for each time.
   Moments from_rest(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,

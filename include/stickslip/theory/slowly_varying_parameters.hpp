@@ -218,7 +218,7 @@ class SlowlyVaryingParameters {
   /// @param amplitude  at t = 0 [m], finite and at least 0
   /// @param phase      at t = 0 [rad], finite: x(0) - center() = A cos(phi), x'(0) = -omega A sin(phi)
   /// @param times      [s], increasing, from 0 on
-  /// @param progress  called at times; may throw to end the work; optional
+  /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument  naming the value
   /// @throws ConvergenceError       with the time reached, after a million steps
   /// By SUNDIALS CVODE, Adams' formulas in A cos(phi), A sin(phi); local errors 1e-10 of A and 1e-12 B / omega^2.

@@ -41,7 +41,7 @@ struct StationaryPrediction {
   /// does not: starting from rest it keeps as an offset the ground velocity at the start over zeta, and its variance
   /// goes to displacement_std^2 + (ground velocity variance) / zeta^2.
   /// @param times      [s], finite and at least 0, in any order
-  /// @param progress  called at each time; may throw to end the work; optional
+  /// @param progress  called at each time; may throw to stop the work; optional
   /// @throws std::invalid_argument  a time out of its range
   /// @throws ConvergenceError       a spectrum that cannot be integrated
   /// Accuracy 1e-8 of the values at most; cost some 0.3 to 2 ms for each time, however late.

@@ -26,9 +26,9 @@ void bind_envelope(py::module_& m) {
 
 It builds up, stays constant, and decays::
 
-    e(t) = (t / build_up)^2                            for 0 <= t < build_up
-    e(t) = 1                                           for build_up <= t <= build_up + strong_duration
-    e(t) = exp(-decay_rate (t - build_up - strong_duration))    after that; 0 for t < 0
+    e(t) = (t / build_up)^2                                    for 0 <= t < build_up
+    e(t) = 1                                                   for build_up <= t <= build_up + strong_duration
+    e(t) = exp(-decay_rate (t - build_up - strong_duration))   after that; 0 for t < 0
 
 Parameters
 ----------

@@ -12,7 +12,7 @@
 
 namespace stickslip::detail {
 
-/// The members of one block, while they are simulated: takes their motion row by row.
+/// Collects the motion of the members of one block, row by row, while they are simulated.
 class Block {
  public:
   Block(const EnsembleTimes& times, bool velocity_spectrum, bool ground_acceleration, const std::atomic<bool>& stopped);
@@ -21,21 +21,21 @@ class Block {
   Block& operator=(const Block&) = delete;
 
   const EnsembleTimes& times() const noexcept { return times_; }
-  /// Members that a row has room for: a block, padded to whole vectors.
+  /// Capacity of a row, in members: a block, padded to whole SIMD vectors.
   std::size_t width() const noexcept { return width_; }
 
-  /// The motion of all members at one time; each time in turn.
-  /// @param displacement, velocity  `width()` of each; what is past the last member does not count
+  /// Add the motion of all members at one time; call it for each time in order.
+  /// @param displacement, velocity  `width()` values each; values past the last member are ignored
   void row(std::size_t time, const double* displacement, const double* velocity);
 
-  /// The ground acceleration of one member at all times, where it is asked for; each member in turn.
+  /// Add the ground acceleration of one member at all times, if requested; call it for each member in order.
   void ground(std::span<const double> acceleration);
 
-  /// Of each member, set by who simulates.
+  /// Peak and residual per member; written by the simulator.
   std::span<double> peak() noexcept { return {peak_.data(), width_}; }
   std::span<double> residual() noexcept { return {residual_.data(), width_}; }
 
-  /// Ends the work if that is wanted; to be called every millisecond or so.
+  /// Throw `Stopped` if the run has been stopped; call it about every millisecond.
   void check_stopped() const {
     if (stopped_.load(std::memory_order_relaxed)) throw Stopped{};
   }
