@@ -21,7 +21,8 @@ namespace stickslip::python {
 
 /// A slider of any law that Python knows. Every function that accepts a slider accepts a law added here.
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
-                               Slider<Degrading>, Slider<KumarFriction>, Slider<CallableLaw>, Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
+                               Slider<Degrading>, Slider<KumarFriction>, Slider<CallableLaw>,
+                               Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
                                Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
 
 /// The Python class StaticKinetic.

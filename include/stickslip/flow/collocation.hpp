@@ -174,10 +174,10 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         terms = std::max(terms, std::abs(start_.acceleration) + std::abs(back) + std::abs(drag) + std::abs(force[i]));
         if (i == 0) continue;
         const double net = start_.acceleration + gain_.at(h, nodes.nodes[i]) - back - drag - (force[i] - force[0]);
+        if (!std::isfinite(net)) return false;
         change = std::max(change, std::abs(net - a[i]));
         a[i] = net;
       }
-      if (!std::isfinite(change)) return false;
       if (sweep > 0 && (h * change <= convergence * fastest || change <= 4 * round_off * terms)) break;
       if (sweep > 3 && change > previous / 2) return false;
       if (sweep == 60) return false;

@@ -16,7 +16,7 @@ namespace stickslip::numerics {
 template <int degree>
 class Collocation {
  public:
-  static constexpr int points = degree + 1;
+  static constexpr std::size_t points = degree + 1;
   using Values = std::array<double, points>;
   using Matrix = std::array<Values, points>;
 

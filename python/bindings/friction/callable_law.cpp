@@ -44,9 +44,9 @@ Examples
       .def_property_readonly("hold", &CallableLaw::hold_function, "The function of (x, direction), or None.")
       .def_property_readonly("resist", &CallableLaw::resist_function, "The function of (x, speed, direction).")
       .def("__repr__", [](const CallableLaw& law) {
-        const auto name = [](const py::object& f) { return py::repr(f).cast<std::string>(); };
-        return "<Law: " + (law.hold_function().is_none() ? "" : "hold " + name(law.hold_function()) + ", ") +
-               "resist " + name(law.resist_function()) + ">";
+    const auto name = [](const py::object& f) { return py::repr(f).cast<std::string>(); };
+    return "<Law: " + (law.hold_function().is_none() ? "" : "hold " + name(law.hold_function()) + ", ") + "resist " +
+           name(law.resist_function()) + ">";
       });
   explain_constructor(type, "Law: give resist=, a function of (x, speed, direction), and hold= of (x, direction)");
 }

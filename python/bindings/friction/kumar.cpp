@@ -10,8 +10,9 @@
 namespace stickslip::python {
 
 void bind_kumar(py::module_& m) {
-  value_class<SurfaceHeat>(m, "SurfaceHeat",
-                           R"(Heat left in a sliding surface, `State.heat`: the memory of friction that depends on temperature.
+  value_class<SurfaceHeat>(
+      m, "SurfaceHeat",
+      R"(Heat left in a sliding surface, `State.heat`: the memory of friction that depends on temperature.
 
 Parameters
 ----------
@@ -48,14 +49,14 @@ memory of one mode: H is within 6e-7 of its largest value, for heat that lasts f
           "The modes [J/m^2], shape (40,).")
       .def_property_readonly("half_integral", &SurfaceHeat::half_integral, "H [W s^(1/2)/m^2].")
       .def("__repr__", [](const SurfaceHeat& heat) {
-        return heat.half_integral() > 0 ? "<SurfaceHeat: half-integral " + detail::shortest(heat.half_integral()) +
-                                              " W s^(1/2)/m^2>"
-                                        : std::string("<SurfaceHeat: cold>");
+        return heat.half_integral() > 0
+                   ? "<SurfaceHeat: half-integral " + detail::shortest(heat.half_integral()) + " W s^(1/2)/m^2>"
+                   : std::string("<SurfaceHeat: cold>");
       });
 
-  auto type = value_class<KumarFriction>(
-      m, "KumarFriction",
-      R"(Friction of a sliding isolator that depends on pressure, speed and temperature.
+  auto type =
+      value_class<KumarFriction>(m, "KumarFriction",
+                                 R"(Friction of a sliding isolator that depends on pressure, speed and temperature.
 
 mu = mu_ref kp kv kT, with
 
@@ -117,7 +118,7 @@ Examples
            py::kw_only(), py::arg("mu_ref"), py::arg("static_pressure"), py::arg("reference_pressure"),
            py::arg("contact_radius"), py::arg("temperature") = 20.0, py::arg("rate") = 100.0,
            py::arg("diffusivity") = 4.44e-6, py::arg("conductivity") = 18.0);
-  const auto property = [&](const char* name, double KumarFriction::Parameters::* part, const char* doc) {
+  const auto property = [&](const char* name, double KumarFriction::Parameters::*part, const char* doc) {
     type.def_property_readonly(
         name, [part](const KumarFriction& law) { return law.parameters().*part; }, doc);
   };
