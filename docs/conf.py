@@ -37,7 +37,6 @@ nitpicky = True
 default_role = "literal"
 smartquotes_action = "D"  # dashes alone: x'' is a second derivative, not a quotation
 highlight_language = "none"
-pygments_style = "friendly"
 
 # Pages are Markdown that reads on a forge too: ```math is a formula, \tag{5.34} its number.
 myst_enable_extensions = ["dollarmath", "substitution"]

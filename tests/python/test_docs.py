@@ -43,6 +43,29 @@ def test_the_python_of_a_page_runs(page, kobe):
         run(page, fewer, names)
 
 
+# ---- structure
+
+
+def test_headings_quotations_and_pictures_are_blocks_of_their_own():
+    """Where lines of a page are filled anew, these must not end up inside a paragraph."""
+    inside = re.compile(r"\S\s+#{2,6}\s+\S|[.:;)] +> +\S|!\[")
+    picture = re.compile(r"\s*!\[[^\]]*\]\([^()]*\)\s*")
+    found, pictures = [], 0
+    for page in [*PAGES, ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]:
+        text = page.read_text(encoding="utf-8")
+        text = re.sub(r"^( *)(```+).*?^\1\2 *$", "", text, flags=re.MULTILINE | re.DOTALL)
+        text = re.sub(r"`[^`]*`", "code", text)
+        for block in re.split(r"\n\s*\n", text):
+            if picture.fullmatch(block):
+                pictures += 1
+            elif match := inside.search(block):
+                found.append(
+                    f"{page.name}: ...{block[max(match.start() - 30, 0) : match.end() + 30]}"
+                )
+    assert pictures > 15  # else the pages are not read as they are written
+    assert not found
+
+
 # ---- numbers
 
 
