@@ -84,16 +84,14 @@ def flat(motion: ss.GroundMotion) -> ss.GroundMotion:
 
 @dataclass(frozen=True)
 class Pair:
-    """A refined slider and the plain one; what each of them rides on may be changed."""
+    """A refined slider and the plain one, whose ground motion may be changed."""
 
     name: str
     refined: object
     against: str
     plain: object
-    refined_motion: Callable[[ss.GroundMotion], ss.GroundMotion] = lambda motion: motion
     plain_motion: Callable[[ss.GroundMotion], ss.GroundMotion] = lambda motion: motion
-    refined_contact: str = "flight"
-    plain_contact: str = "flight"
+    contact: str = "flight"  # of the refined slider
 
 
 @dataclass(frozen=True)
@@ -109,17 +107,14 @@ class Ratios:
 
 
 def measure(pair: Pair, motions: Iterable[ss.GroundMotion]) -> Ratios:
+    """Both sliders, until they rest."""
     rows = []
     for motion in motions:
-        refined = ss.integrate(
-            pair.refined, pair.refined_motion(motion), settle=True, contact=pair.refined_contact
-        )
-        plain = ss.integrate(
-            pair.plain, pair.plain_motion(motion), settle=True, contact=pair.plain_contact
-        )
+        refined = ss.integrate(pair.refined, motion, settle=True, contact=pair.contact)
+        plain = ss.integrate(pair.plain, pair.plain_motion(motion), settle=True)
         rows.append((refined.peak, plain.peak, abs(refined.residual), abs(plain.residual)))
-    table = np.array(rows)
-    return Ratios(table[:, :2], table[:, 2:])
+    found = np.array(rows)
+    return Ratios(found[:, :2], found[:, 2:])
 
 
 def table(heading: str, rows: Iterable[list[str]]) -> str:
@@ -310,7 +305,7 @@ VERTICAL = (
             ss.Coulomb(mu=0.3),
             "flight",
             ss.Coulomb(mu=0.3),
-            refined_contact="clipped",
+            contact="clipped",
         ),
         1.0,
         2.0,
