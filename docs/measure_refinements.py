@@ -48,20 +48,24 @@ def triples(pga_g: float, ratio: float, count: int = 50) -> tuple[ss.GroundMotio
     peak acceleration pga_g, the vertical one `ratio` times that and twice the frequency.
     """
 
-    def component(frequency: float, pga: float, member: int) -> ss.GroundMotion:
+    dt, samples = 0.01, 2001
+    time = dt * np.arange(samples)
+    envelope = np.minimum(1, (time / 3) ** 2) * np.exp(-0.4 * np.maximum(0, time - 11))
+
+    def component(frequency: float, pga: float, member: int) -> np.ndarray:
         noise = ss.Spectrum.clough_penzien(
             s0=1, frequency=frequency, damping=0.6, filter_frequency=1.5, filter_damping=0.6
         )
-        envelope = ss.Envelope(build_up=3, strong=8, decay_rate=0.4)
-        source = ss.GaussianExcitation(noise, dt=0.01, samples=2001, envelope=envelope)
-        return source.sample(seed=19, member=member).scaled_to(pga_g=pga)
+        stationary = ss.GaussianExcitation(noise, dt=dt, samples=samples)
+        n = envelope * stationary.sample(seed=19, member=member).acceleration
+        return n * (pga * G / np.abs(n).max())
 
     found = []
     for k in range(count):
-        up = component(30, ratio * pga_g, 3 * k + 2).acceleration
+        up = component(30, ratio * pga_g, 3 * k + 2)
         for axis in (0, 1):
             n = component(15, pga_g, 3 * k + axis)
-            found.append(ss.GroundMotion(n.acceleration, dt=n.dt, vertical=up))
+            found.append(ss.GroundMotion(n, dt=dt, vertical=up))
     return tuple(found)
 
 
