@@ -21,6 +21,7 @@ PAGES = [
     DOCS / "ground_motions.md",
     DOCS / "command.md",
     DOCS / "contact.md",
+    DOCS / "refinements.md",
     DOCS / "sweeps.md",
     DOCS / "conventions.md",
     *sorted((DOCS / "guides").glob("*.md")),
@@ -51,7 +52,7 @@ def empty(tmp_path, monkeypatch, pyslammer_files, request):
 
 
 def test_every_guide_has_code():
-    assert len(PAGES) == 13
+    assert len(PAGES) == 14
     kinds = ("python", "cpp", "sh")
     pages = {param.id.rsplit("-", 1)[0] for kind in kinds for param in blocks(kind)}
     assert pages == {page.stem for page in PAGES}
