@@ -135,23 +135,23 @@ ThesisFigure figure_2_1(Thesis&) {
         curve(ratio(b), Kind::thesis, even(0.25, 4, 120), [&](double omega) { return averaged / (omega * omega); }));
     panel.curves.push_back(
         curve(ratio(b), Kind::exact, even(0.25, 4, 120), [&](double omega) { return exact / (omega * omega); }));
-    figure.statements.push_back(
-        about("(2.24)", "amplitude at B/a = " + number(b) + ", Aω²/a", averaged, 0.05 * averaged, {exact},
-              "averaging takes the motion for a cosine that never stops; within 5 % counts as agreed"));
+    figure.statements.push_back(about("(2.24)", "amplitude at B/a = " + number(b) + ", Aω²/a", averaged,
+                                      0.05 * averaged, {exact},
+                                      "averaging assumes a cosine that never sticks; within 5 % counts as agreement"));
   }
   panel.y_limits = {0, 10};
-  figure.statements.push_back(about("after (2.25)",
-                                    "below B/a = 4/π the only solution is A = 0: amplitude at B/a = 1.2, Aω²/a", 0, 0,
-                                    {block_amplitude(block, 1.2, 1.0)},
-                                    "so says averaging; the block moves for every B > a, and sticks "
-                                    "twice a cycle up to B/a = √(1 + π²/4) = 1.8621"));
+  figure.statements.push_back(
+      about("after (2.25)", "below B/a = 4/π the only solution is A = 0: amplitude at B/a = 1.2, Aω²/a", 0, 0,
+            {block_amplitude(block, 1.2, 1.0)},
+            "this holds for the averaged motion only; the block moves for every B > a, and sticks "
+            "twice a cycle up to B/a = √(1 + π²/4) = 1.8621"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }
 
 ThesisFigure figure_2_2(Thesis& thesis) {
   ThesisFigure figure{"2.2",
-                      "Amplitude of a caster against frequency. Dashed: averaged, (2.35); grey: where averaged "
+                      "Amplitude of a caster against frequency. Dashed: averaged, (2.35); gray: where averaged "
                       "solutions are unstable. Solid: exact orbits; dotted: exact, unstable.",
                       ""};
   ThesisPanel panel{"Caster", "$\\omega\\sqrt{3\\ell/a}$", "$A/3\\ell$"};
@@ -168,29 +168,30 @@ ThesisFigure figure_2_2(Thesis& thesis) {
   panel.x_limits = {0, 2};
   panel.y_limits = {0, 8};
   const double boundary = svp.stability_boundary(1e-4).upper;
-  figure.statements.push_back(about("(2.42)", "where the stability boundary meets the axis, ω √(3l/a)",
+  figure.statements.push_back(about("(2.42)", "stability boundary at zero amplitude, ω √(3l/a)",
                                     std::sqrt(4 / (std::sqrt(3.0) * std::numbers::pi)), 1e-6, {boundary}));
   const double moves = numerics::first_where(0.5, 2, [](double b) {
     return integrate(unit_caster, HarmonicMotion(b, 0.7, 2 * std::numbers::pi / 0.7)).peak > 0;
   });
   figure.statements.push_back(
       about("before (2.36)", "rest is stable up to B/a =", four_over_pi, 0.01, {moves},
-            "of the averaged motion; exactly, x = 0 stays at rest up to B = a, and from there to 4/π moves a little"));
+            "for the averaged motion; exactly, x = 0 is at rest up to B = a, and moves slightly from B = a to 4a/π"));
   const std::vector<Orbit> small = orbits(unit_caster, 1.25, 0.7);
   figure.statements.push_back(about("before (2.36)", "small motion at B/a = 1.25, ω √(3l/a) = 0.7: A/3l", 0, 0,
                                     {small.front().at_rest() ? small[1].amplitude : small.front().amplitude},
                                     "sticks twice a cycle; stable"));
-  figure.statements.push_back(about("after (2.43)", "folds of the curve for B/a = 1.3, above 4/π", 0, 0,
-                                    {static_cast<double>(folds)}, "exact curves fold twice, up to B/a = 1.44"));
+  figure.statements.push_back(about("after (2.43)", "number of folds of the curve for B/a = 1.3, above 4/π", 0, 0,
+                                    {static_cast<double>(folds)}, "exact curves have two folds up to B/a = 1.44"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }
 
 ThesisFigure figure_2_3(Thesis& thesis) {
   ThesisFigure figure{"2.3",
-                      "The same in the units of figure 2.1, a = 1 m/s², for three casters (the thesis's own values of "
-                      "a/3l are not in its text). Dashed: averaged; solid: exact, dotted: exact and unstable; thin: "
-                      "the averaged Coulomb block, the lower bound; grey: averaged solutions unstable.",
+                      "Amplitude of three casters against frequency in the units of figure 2.1, a = 1 m/s² (the text "
+                      "of the thesis does not give its "
+                      "a/3l). Dashed: averaged; solid: exact, dotted: exact and unstable; thin: "
+                      "the averaged Coulomb block, the lower bound; gray: averaged solutions unstable.",
                       ""};
   const SlowlyVaryingParameters svp(unit_caster), coulomb(Coulomb(1.0));
   const std::vector<double> loads{1.25, 1.3, 2.0, 4.0};
@@ -226,9 +227,9 @@ ThesisFigure figure_2_3(Thesis& thesis) {
       most = std::max(most, caster * omega * omega / b);
     }
   figure.statements.push_back(
-      at_least("(2.34)", "averaged amplitude over that of the Coulomb block, least", 1, {least}));
-  figure.statements.push_back(at_most("(2.34)", "averaged amplitude over the ground's, most", 1, {most},
-                                      "of these amplitudes; single motions may cross both bounds"));
+      at_least("(2.34)", "minimum of the averaged amplitude over that of the Coulomb block", 1, {least}));
+  figure.statements.push_back(at_most("(2.34)", "maximum of the averaged amplitude over the ground's", 1, {most},
+                                      "holds for averaged amplitudes; exact ones may cross both bounds"));
   return figure;
 }
 
@@ -290,15 +291,15 @@ ThesisFigure figure_2_5(Thesis& thesis) {
     return integrate(resonant, HarmonicMotion(b, 1.0, 2 * std::numbers::pi * cycles)).peak;
   };
   const double early = peak_after(1.3, 200) - peak_after(1.3, 100), late = peak_after(1.3, 800) - peak_after(1.3, 700);
-  figure.statements.push_back(
-      about("after (2.48)",
-            "at resonance the amplitude grows as the square root of time: growth in cycles 700 to 800 over "
-            "that in cycles 100 to 200, B/a = 1.3",
-            (std::sqrt(800) - std::sqrt(700)) / (std::sqrt(200) - std::sqrt(100)), 0.02, {late / early},
-            "it grows in proportion to time, by (B − 4a/π)π/ω² a cycle: input and loss both go with A"));
-  figure.statements.push_back(about("", "growth a cycle at resonance, B/a = 1.3, ω = 1 rad/s [m]",
+  figure.statements.push_back(about(
+      "after (2.48)",
+      "at resonance the amplitude grows as the square root of time: growth in cycles 700 to 800 over "
+      "that in cycles 100 to 200, B/a = 1.3",
+      (std::sqrt(800) - std::sqrt(700)) / (std::sqrt(200) - std::sqrt(100)), 0.02, {late / early},
+      "it grows in proportion to time, by (B − 4a/π)π/ω² per cycle: energy input and loss are both proportional to A"));
+  figure.statements.push_back(about("", "growth per cycle at resonance, B/a = 1.3, ω = 1 rad/s [m]",
                                     (1.3 - four_over_pi) * std::numbers::pi, 1e-4, {late / 100},
-                                    "(B − 4a/π)π/ω², the averaged value after (2.48) corrected"));
+                                    "(B − 4a/π)π/ω², the corrected averaged value after (2.48)"));
   figure.statements.push_back(about(
       "2.3.2", "the peak is unbounded for all parameters: largest |x| at resonance, B/a = 1.2, after 800 cycles [m]",
       std::numeric_limits<double>::infinity(), 0, {peak_after(1.2, 800)}, "bounded for B < 4a/π"));
@@ -310,7 +311,7 @@ ThesisFigure figure_2_6(Thesis& thesis) {
   ThesisFigure figure{
       "2.6",
       "Amplitude of a caster on a spring, squared natural frequency 0.5 a/3l. Dashed: averaged, (2.53); "
-      "grey: averaged solutions unstable. Solid: exact orbits; dotted: exact, unstable.",
+      "gray: averaged solutions unstable. Solid: exact orbits; dotted: exact, unstable.",
       ""};
   ThesisPanel panel{"Caster with a centering device", "$\\omega\\sqrt{3\\ell/a}$", "$A/3\\ell$"};
   const Slider<Caster> cart(unit_caster.law(), sqrt_half);
@@ -329,7 +330,7 @@ ThesisFigure figure_2_6(Thesis& thesis) {
     return spring.response(4, omega).back().amplitude > none.response(4, omega).back().amplitude;
   });
   figure.statements.push_back(about("after (2.48)", "the spring makes the amplitude larger above ω/ω_n =", 1, 0.01,
-                                    {begin}, "already from 1/√2 on"));
+                                    {begin}, "already above 1/√2"));
   figure.panels.push_back(std::move(panel));
   return figure;
 }

@@ -62,13 +62,12 @@ const Measure of_displacement{"$a^6\\,E[x^2]/S_0^4$", "displacement variance", &
                               [](double t) { return 2 * std::numbers::pi * t * t * t / 3; }};  // (3.43)
 
 ThesisFigure transient(Thesis& thesis, const char* number, const Measure& measure) {
-  ThesisFigure figure{
-      number,
-      std::string("White noise on a caster: ") + measure.name +
-          " from rest, γ = S0²/(3l a³). Dashed: equivalent linearization as the thesis has it, (3.32) to "
-          "(3.34). Dash-dotted: with a21 and the law itself. Solid: exact (Coulomb). Points: "
-          "simulation with standard errors. Dotted: no friction.",
-      ""};
+  ThesisFigure figure{number,
+                      std::string("White noise on a caster: ") + measure.name +
+                          " from rest, γ = S0²/(3l a³). Dashed: equivalent linearization as in the thesis, (3.32) to "
+                          "(3.34). Dash-dotted: with a21 and the exact friction law. Solid: exact (Coulomb). Points: "
+                          "simulation with standard errors. Dotted: no friction.",
+                      ""};
   ThesisPanel panel{measure.name, "$a^2 t/S_0$", measure.axis, true, true};
   const std::vector<double> times = geometric(0.1, 1000, 81);
   for (const double gamma : {0.0, 0.001, 0.01, 0.1, 1.0}) {
@@ -125,22 +124,22 @@ ThesisFigure figure_3_1(Thesis& thesis) {
   const WhiteNoise exact(block, 1.0);
   figure.statements.push_back(
       about("(3.45)", "stationary a² E[ẋ²]/S0² by linearization", pi * pi * pi / 2, 1e-6, {stationary}));
-  figure.statements.push_back(about("(3.48)", "linearization is low by, in the variance", 0.20, 0.01,
+  figure.statements.push_back(about("(3.48)", "relative error by which linearization is low, variance", 0.20, 0.01,
                                     {1 - stationary / exact.variance()}, "1 − π/4 = 21.46 %"));
-  figure.statements.push_back(about("(3.48)", "and in the rms", 0.11, 0.005,
+  figure.statements.push_back(about("(3.48)", "relative error by which linearization is low, rms", 0.11, 0.005,
                                     {1 - std::sqrt(stationary / exact.variance())}, "1 − √π/2 = 11.38 %"));
   figure.statements.push_back(
-      about("(3.45)", "velocity variance is stationary for t > 5 S0/a²: at t = 5 it has come to", 1, 0.02,
-            {by_linearization.velocity_variance.value[0] / stationary}, "much later: at t = 10 to 90 %"));
+      about("(3.45)", "velocity variance is stationary for t > 5 S0/a²: fraction of it reached at t = 5 S0/a²", 1, 0.02,
+            {by_linearization.velocity_variance.value[0] / stationary}, "it takes longer: 90 % at t = 10"));
   const double end[] = {100.0};
   figure.statements.push_back(about(
       "3.5", "equivalent linearization over simulation, velocity variance of the caster of γ = 0.01 at t = 100", 1, 0.2,
       over(linearized(0.01, true, end).velocity_variance.value[0],
            last(simulated(thesis, 0.01, 100), &Moments::velocity_variance)),
-      "the thesis did not simulate; the velocity has longer tails than Gaussian, and (3.24) drops a21"));
+      "the thesis has no simulation here; the velocity has heavier tails than a Gaussian, and (3.24) drops a21"));
   figure.statements.push_back(at_most(
-      "3.2", "stationary against generalized linearization, rms velocity, most (Ahmadi)", 0.15,
-      {stationary_damping_off_by(&Moments::velocity_variance)}, "at t = 1.8; at short and long times the same"));
+      "3.2", "maximum relative difference of stationary and generalized linearization, rms velocity (Ahmadi)", 0.15,
+      {stationary_damping_off_by(&Moments::velocity_variance)}, "at t = 1.8; the two agree at short and long times"));
   return figure;
 }
 
@@ -151,15 +150,16 @@ ThesisFigure figure_3_2(Thesis& thesis) {
   const double stationary = by_linearization.covariance.value[1];
   figure.statements.push_back(
       about("(3.46)", "stationary a⁴ E[xẋ]/S0³ by linearization", std::pow(pi, 5) / 4, 1e-4, {stationary}));
-  figure.statements.push_back(about("(3.46)", "the covariance is stationary for t > 5 S0/a²: at t = 5 it has come to",
-                                    1, 0.02, {by_linearization.covariance.value[0] / stationary}));
+  figure.statements.push_back(
+      about("(3.46)", "the covariance is stationary for t > 5 S0/a²: fraction of it reached at t = 5 S0/a²", 1, 0.02,
+            {by_linearization.covariance.value[0] / stationary}));
   figure.statements.push_back(about("after (3.49)", "linearization's covariance over the exact one, Coulomb", 0.49,
                                     0.005, {stationary / (WhiteNoise(block, 1.0).growth_rate() / 2)}, "π²/20"));
   const EquivalentLinearization method;
   figure.statements.push_back(
       about("(3.24)", "a21 = 0: for 3l = a = 1 and q11 = 0.5, q12 = 0.3, q22 = 1.2 [1/s²]", 0, 0,
             {method.coefficients(caster(1.0), 0.5, 0.3, 1.2).a21},
-            "the kernel is odd in x and in v, so even in both together: positive wherever x and v are correlated"));
+            "the kernel is odd in x and in v, so even in (x, v): positive wherever x and v are correlated"));
   return figure;
 }
 
@@ -171,7 +171,7 @@ ThesisFigure figure_3_3(Thesis& thesis) {
   const double growth =
       (by_linearization.displacement_variance.value[1] - by_linearization.displacement_variance.value[0]) / 1e5;
   figure.statements.push_back(about("(3.47)", "growth of a⁴ E[x²]/S0³ by linearization", std::pow(pi, 5) / 2, 0.01,
-                                    {growth}, "half of Ahmadi's value, as the thesis says"));
+                                    {growth}, "half of Ahmadi's value, as the thesis notes"));
   figure.statements.push_back(about("(3.49)", "exact growth", 10 * pi * pi * pi, 1e-6, {exact.growth_rate()}));
   figure.statements.push_back(
       about("after (3.49)", "growth by linearization over the exact one", 0.49, 0.005, {growth / exact.growth_rate()}));
@@ -189,30 +189,30 @@ ThesisFigure figure_3_3(Thesis& thesis) {
     z = caster(0.01).reach() * std::sqrt(q22 / (2 * (q11 * q22 - q12 * q12)));
   }
   const theory::TransitionTime transition = theory::transition_time(caster(0.01), 1.0);
-  figure.statements.push_back(
-      about("(3.51)", "transition time for γ = 0.01, a² t/S0", transition.thesis, 0.1 * transition.thesis,
-            {around[passed - 1]},
-            "when the thesis's own equations come to z = 1; with the intercept that (3.51) drops, " +
-                number(std::round(10 * transition.with_intercept) / 10)));
-  figure.statements.push_back(about("after (3.51)", "the transition comes before 5 S0/a² for γ above", 5e-2, 0.005,
+  figure.statements.push_back(about("(3.51)", "transition time for γ = 0.01, a² t/S0", transition.thesis,
+                                    0.1 * transition.thesis, {around[passed - 1]},
+                                    "when z = 1 in the thesis's own equations; with the intercept that (3.51) drops, " +
+                                        number(std::round(10 * transition.with_intercept) / 10)));
+  figure.statements.push_back(about("after (3.51)", "the transition is earlier than 5 S0/a² for γ above", 5e-2, 0.005,
                                     {1 / std::sqrt(std::pow(pi, 5) * (5 - pi * pi / 4))}));
-  figure.statements.push_back(about("3.4.3", "linearization over simulation, displacement variance, γ = 0.01, t = 100",
-                                    1, 0.2,
-                                    over(linearized(0.01, true, end).displacement_variance.value[0],
-                                         last(simulated(thesis, 0.01, 100), &Moments::displacement_variance)),
-                                    "while it breaks loose; with a21 three times too small instead of five"));
+  figure.statements.push_back(
+      about("3.4.3", "linearization over simulation, displacement variance, γ = 0.01, t = 100", 1, 0.2,
+            over(linearized(0.01, true, end).displacement_variance.value[0],
+                 last(simulated(thesis, 0.01, 100), &Moments::displacement_variance)),
+            "while the caster breaks loose; with a21, a third of the simulated variance instead of a fifth"));
   figure.statements.push_back(about(
-      "", "linearization with a21 and the law itself over simulation, displacement variance, γ = 0.1, t = 100", 1, 0.1,
+      "", "linearization with a21 and the exact friction law over simulation, displacement variance, γ = 0.1, t = 100",
+      1, 0.1,
       over(linearized(0.1, false, end).displacement_variance.value[0],
            last(simulated(thesis, 0.1, 100), &Moments::displacement_variance)),
-      "the caster has broken loose by then"));
+      "by then the caster has broken loose"));
   figure.statements.push_back(about("(3.38)",
-                                    "the start of the thesis, q11(0) = 0.01, over the exact q11(0.1) from rest", 0,
+                                    "the thesis's initial value, q11(0) = 0.01, over the exact q11(0.1) from rest", 0,
                                     0.01, {0.01 / exact.predict(std::vector{0.1}).displacement_variance.value[0]},
-                                    "it should be small in comparison; it outweighs q11 up to t = 0.2"));
-  figure.statements.push_back(
-      at_most("3.2", "stationary against generalized linearization, rms displacement, most (Ahmadi)", 0.15,
-              {stationary_damping_off_by(&Moments::displacement_variance)}, "at t = 3.7; of the velocity it is so"));
+                                    "it should be small in comparison; it exceeds q11 up to t = 0.2"));
+  figure.statements.push_back(at_most(
+      "3.2", "maximum relative difference of stationary and generalized linearization, rms displacement (Ahmadi)", 0.15,
+      {stationary_damping_off_by(&Moments::displacement_variance)}, "at t = 3.7; the bound holds for the velocity"));
   return figure;
 }
 

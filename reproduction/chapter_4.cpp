@@ -140,12 +140,12 @@ ThesisFigure figure_4_1(Thesis&) {
   figure.statements.push_back(
       about("figure 4.1", "the peak value of the graph, σ_X′", 3.67, 0.005, {linearized(0, 2)}, "at Ω1 = 0, ΔΩ = 2"));
   figure.statements.push_back(
-      about("figure 4.1", "in parts of the value for white noise", 0.93, 0.005, {peak / white_noise}));
+      about("figure 4.1", "that peak as a fraction of the value for white noise", 0.93, 0.005, {peak / white_noise}));
   figure.statements.push_back(
       about("(4.36)", "for white noise, σ_X′", white_noise, 1e-6, {linearized(0, 1e9)}, "√(π³/2)"));
-  figure.statements.push_back(about("(4.36)", "and that bounds the block's velocity, σ_X′", white_noise, 0.01,
-                                    {std::sqrt(theory::WhiteNoise(block, 1.0).variance())},
-                                    "it bounds linearization's; exact is √2 π"));
+  figure.statements.push_back(about("(4.36)", "the same value as a bound of the block's velocity, σ_X′", white_noise,
+                                    0.01, {std::sqrt(theory::WhiteNoise(block, 1.0).variance())},
+                                    "it bounds the linearized velocity only; the exact value is √2 π"));
   // (4.22) from below and above.
   const double least = numerics::first_where(0.2, 0.5, [](double width) { return linearized(1, width) > 0; });
   figure.statements.push_back(about("(4.39)", "no motion by linearization below ΔΩ =", 1 / pi, 1e-6, {least}));
@@ -153,13 +153,14 @@ ThesisFigure figure_4_1(Thesis&) {
   for (int i = 0; i < 50; ++i) z = 1 / (pi * std::atan(z * 0.35 / (z * z + 1.35)));
   figure.statements.push_back(about("(4.41)", "50 steps from 1e6 suffice: Z_eq for Ω1 = 1, ΔΩ = 0.35", z, 0.01,
                                     {method.predict(block, band_pass(1, 0.35)).damping},
-                                    "they shrink like (πΔΩ)⁻ⁿ only"));
+                                    "n steps reduce the error only by about (πΔΩ)⁻ⁿ"));
   return figure;
 }
 
 ThesisFigure figure_4_2(Thesis& thesis) {
   ThesisFigure figure{"4.2",
-                      "The same without an upper edge, (4.42). Dashed: equivalent linearization; dotted: its limits "
+                      "Stationary rms velocity of a Coulomb block without an upper band edge, (4.42). Dashed: "
+                      "equivalent linearization; dotted: its limits "
                       "(4.40) and (4.44). Points: ensembles for Ω2 = 20, standard errors within the points.",
                       ""};
   ThesisPanel panel{"No upper edge", "$\\Omega_1$", "$\\sigma_{X'}$"};
@@ -183,9 +184,9 @@ ThesisFigure figure_4_2(Thesis& thesis) {
 ThesisFigure figure_4_3(Thesis&) {
   ThesisFigure figure{
       "4.3",
-      "What straight lines between samples do to the Fourier amplitude (the thesis prints 4.9). Dashed: "
-      "the product (4.57) cut off after K factors; solid: all of it, sinc²(πl/2N); dash-dotted: what "
-      "the spectral density is multiplied by, sinc⁴.",
+      "Effect of linear interpolation between samples on the Fourier amplitude (numbered 4.9 in the thesis). Dashed: "
+      "the product (4.57) truncated after K factors; solid: the infinite product, sinc²(πl/2N); dash-dotted: factor on "
+      "the spectral density, sinc⁴.",
       ""};
   ThesisPanel panel{"Linear interpolation", "$l/N$", "factor"};
   const auto all = [](double l) { return interpolation_loss(Interpolation::linear, pi * l / 2); };
@@ -201,14 +202,15 @@ ThesisFigure figure_4_3(Thesis&) {
   panel.curves.push_back(curve("amplitude", Kind::exact, l, all));
   panel.curves.push_back(curve("density", Kind::theory, l, [&](double x) { return all(x) * all(x); }));
   figure.panels.push_back(std::move(panel));
-  figure.statements.push_back(
-      at_most("after (4.57)", "reduction of the amplitude at l/N = 0.3", 0.10, {1 - all(0.3)}, "of the density: 14 %"));
+  figure.statements.push_back(at_most("after (4.57)", "reduction of the amplitude at l/N = 0.3", 0.10, {1 - all(0.3)},
+                                      "the density is reduced by 14 %"));
   double worst = 0;
   for (const double x : even(0.01, 1, 100)) worst = std::max(worst, std::abs(product(x, 10) / product(x, 100) - 1));
   figure.statements.push_back(
       at_most("after (4.58)", "10 factors against 100, relative", 5e-6, {worst}, "five significant figures"));
   figure.statements.push_back(about("(4.58)", "the density at the Nyquist frequency is multiplied by", all(1), 0.01,
-                                    {all(1) * all(1)}, "the product multiplies amplitudes; a density gets its square"));
+                                    {all(1) * all(1)},
+                                    "the product applies to amplitudes; its square applies to a density"));
   return figure;
 }
 
@@ -233,10 +235,10 @@ ThesisFigure figure_4_4(Thesis& thesis) {
   figure.panels.push_back(std::move(panel));
 
   const Estimate simulated = root(many.stationary().velocity_variance);
-  figure.statements.push_back(about("4.5", "linearization over simulation, within 10 %", 1, 0.1,
+  figure.statements.push_back(about("4.5", "linearization over simulation, rms velocity, within 10 %", 1, 0.1,
                                     {prediction.velocity_std / simulated.value, simulated.error / simulated.value}));
   const Estimate linear_simulated = root(linear.stationary().velocity_variance);
-  figure.statements.push_back(about("4.5", "linear simulation over block", 1, 0.1,
+  figure.statements.push_back(about("4.5", "simulated linear system over simulated block, rms velocity", 1, 0.1,
                                     {linear_simulated.value / simulated.value,
                                      std::hypot(linear_simulated.error, simulated.error) / simulated.value}));
   const double one[] = {1.0};
@@ -245,15 +247,15 @@ ThesisFigure figure_4_4(Thesis& thesis) {
             "the overshoot is caused by the periodicity of the records: linear system at τ = 1 without any "
             "record, σ_X′",
             prediction.velocity_std, 0.01, {std::sqrt(prediction.transient(one).velocity_variance.value[0])},
-            "it is the transient from rest"));
+            "the overshoot is the transient from rest"));
   return figure;
 }
 
 ThesisFigure figure_4_5(Thesis& thesis) {
   ThesisFigure figure{"4.5",
                       "Spectral density of the stationary velocity, linear and logarithmic. Points: simulations, "
-                      "Kaiser-Bessel window, β = 8; dashed: stationary linearization, (4.8). The block has what the "
-                      "linear system has not: velocity outside the band, down to zero.",
+                      "Kaiser-Bessel window, β = 8; dashed: stationary linearization, (4.8). Unlike the linear system, "
+                      "the block has velocity outside the band, down to zero frequency.",
                       hours};
   const Ensemble &many = block_case(thesis, thesis.options().members), &linear = linear_case(thesis);
   const theory::StationaryPrediction prediction = linear_prediction();
@@ -282,7 +284,7 @@ ThesisFigure figure_4_5(Thesis& thesis) {
   while (first_side_lobe(enough) > -70) enough += 0.1;
   figure.statements.push_back(
       at_most("after (4.62)", "first side lobe of the window, β = 8 [dB of the amplitude]", -70, {first_side_lobe(8)},
-              "-70 dB takes β = " + number(enough) + "; and of the density it is as many dB, not 140"));
+              "-70 dB requires β = " + number(enough) + "; in dB, the density has the same value, not 140"));
   return figure;
 }
 
@@ -290,8 +292,8 @@ ThesisFigure figure_4_6(Thesis& thesis) {
   ThesisFigure figure{
       "4.6",
       "Displacement variance from rest. Points: simulations; solid: the linear system, exactly. That of "
-      "the block grows for ever; the linear one is bounded, though not by (4.45): from rest it keeps an "
-      "offset, the ground's velocity at the start over the damping.",
+      "the block grows without bound; that of the linear system is bounded, but not by (4.45): from rest it keeps an "
+      "offset, the initial ground velocity divided by the damping.",
       hours};
   ThesisPanel panel{"Displacement", "$\\tau$", "$\\sigma_X^2$"};
   const Ensemble &many = block_case(thesis, thesis.options().members), &few = block_case(thesis, thesis_members),
@@ -307,12 +309,13 @@ ThesisFigure figure_4_6(Thesis& thesis) {
       line("(4.45)", 0, 102.3, prediction.displacement_std * prediction.displacement_std, Kind::thesis));
   figure.panels.push_back(std::move(panel));
   const double late[] = {1000.0};
-  figure.statements.push_back(about("(4.45)", "the linear system's displacement variance comes to",
+  figure.statements.push_back(about("(4.45)", "limit of the linear system's displacement variance",
                                     prediction.displacement_std * prediction.displacement_std, 0.005,
                                     {prediction.transient(late).displacement_variance.value[0]},
-                                    "from rest, as simulated: more by σ_v_g²/ζ²"));
+                                    "from rest, as simulated, it is larger by σ_v_g²/ζ²"));
   figure.statements.push_back(about("4.5", "growth rate predicted by linearization [S0³/a⁴]", 0, 0,
-                                    many.stationary().growth_rate, "as the thesis says: no linearization has this"));
+                                    many.stationary().growth_rate,
+                                    "as the thesis says, no linearization predicts growth"));
   figure.statements.push_back(about("(4.61)", "scatter of means of 100 records, x² at the end, over σ_f/√100", 1, 0,
                                     scatter_over_predicted(many.residual(), 100)));
   return figure;
@@ -344,11 +347,11 @@ ThesisFigure slice(Thesis& thesis, ThesisFigure figure, ThesisPanel panel, const
     }
     panel.curves.push_back(std::move(simulation.curve));
   }
-  figure.statements.push_back(at_most("4.5",
-                                      "largest error of the rms velocity by linearization above the critical "
-                                      "bandwidth",
-                                      0.20, {worst, error},
-                                      figure.number == "4.8" ? "near the critical bandwidth it is far too low" : ""));
+  figure.statements.push_back(at_most(
+      "4.5",
+      "largest error of the rms velocity by linearization above the critical "
+      "bandwidth",
+      0.20, {worst, error}, figure.number == "4.8" ? "near the critical bandwidth linearization is far too low" : ""));
   figure.panels.push_back(std::move(panel));
   return figure;
 }
@@ -379,7 +382,7 @@ ThesisFigure figure_4_8(Thesis& thesis) {
       [](double x) { return x > 1 / pi; });
   figure.statements.push_back(about("4.5", "σ_X′ by linearization below the critical bandwidth, ΔΩ = 0.3", 0, 0,
                                     rms_velocity(thesis, band, 0.3, thesis.options().members),
-                                    "as the thesis says: the cutoff is spurious, the block moves all the same"));
+                                    "as the thesis says, the cutoff is spurious: the block moves"));
   return figure;
 }
 

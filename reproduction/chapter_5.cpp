@@ -69,20 +69,20 @@ ThesisFigure figure_5_2(Thesis&) {
   for (double w = step / 2; w < last; w += step) sum += 2 * step * 2 * pi * std::pow(printed(w) / amplitude, 2);
   sum += 2 * 2 * pi / last * std::pow(1 / pi, 2) * 3.0 / 8;
   figure.statements.push_back(about("(5.6), (5.20)", "integral of the pulses' density over their variance (5.19)", 1,
-                                    1e-3, {sum / pulses.variance()}, "(5.6) has half of the amplitude"));
+                                    1e-3, {sum / pulses.variance()}, "(5.6) gives half of the amplitude"));
   constexpr double h = 1e-4;
   const double peak =
       numerics::first_where(2, 2.6, [&](double w) { return pulses.density(w + h) <= pulses.density(w - h); });
   figure.statements.push_back(about("(5.60)", "the spectrum's peak, ωΔt", pi, 0.05, {peak},
-                                    "π/Δt is a definition of the center frequency, not its peak"));
+                                    "π/Δt is a definition of the center frequency, not the frequency of the peak"));
   return figure;
 }
 
 ThesisFigure figure_5_3(Thesis&) {
   ThesisFigure figure{
       "5.3",
-      "What the pulse does to a Coulomb block and to a linear system of the same rms velocity. The block "
-      "is left with an offset, the linear system is not. Dashed: (5.15) with its third line as printed.",
+      "Response of a Coulomb block and of a linear system of the same rms velocity to the pulse. The block "
+      "keeps an offset, the linear system does not. Dashed: (5.15) with its third line as printed.",
       ""};
   const theory::PulseResponse whole = theory::pulse_response(block, amplitude, 1);
   const double zeta = theory::viscous_damping_for(whole.velocity_square, amplitude, 1);
@@ -108,7 +108,7 @@ ThesisFigure figure_5_3(Thesis&) {
       about("(5.32)", "integral of v²/(a²Δt³)",
             2.0 / 3 * beta * std::pow(beta - 1, 2) / (beta + 1) * (1 + 4 / std::pow(beta + 1, 2)), 1e-12,
             {whole.velocity_square}));
-  figure.statements.push_back(at_most("5.2", "longest motion of a pulse /Δt, for b = 1000 a", 4,
+  figure.statements.push_back(at_most("5.2", "longest response to a pulse, in Δt, for b = 1000 a", 4,
                                       {theory::pulse_response(block, 1000, 1).stop}));
   const double end[] = {2.0};
   figure.statements.push_back(about("(5.15)", "the linear displacement at 2Δt by its third line",
@@ -204,9 +204,10 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
   const auto alone = [&](double p) { return series(p, Overlap::none); };
   if (sigma < 1) {
     const Stationary dense = simulated(thesis, sigma, 1, thesis.options().members).stationary();
-    figure.statements.push_back(at_most(
-        "5.6", "overlap series: error of the growth rate for λΔt from 0.2 to 1 (also 5.5: within 50 %)", 0.5,
-        worst(measures[1], printed, 0.2, 0.99), "it is too low by an order of magnitude, as 5.5 says elsewhere"));
+    figure.statements.push_back(
+        at_most("5.6", "overlap series: error of the growth rate for λΔt from 0.2 to 1 (also 5.5: within 50 %)", 0.5,
+                worst(measures[1], printed, 0.2, 0.99),
+                "it is too low by an order of magnitude, as another passage of 5.5 says"));
     const double low = measures[1].predicted(printed(1));
     figure.statements.push_back(at_least("5.5", "growth rate simulated over the overlap series', λΔt = 1", 5,
                                          {dense.growth_rate.value / low, dense.growth_rate.error / low},
@@ -236,8 +237,8 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
                                                 : "the pulse chain's largest error of the growth rate",
                                       0.10, worst(measures[1], chain, sigma < 1 ? 0.35 : 0, 2)));
   if (sigma < 1)
-    figure.statements.push_back(at_most("5.5", "share of the pulses that exceed the slip level by themselves", 0.003,
-                                        {std::erfc(1 / (sigma * std::numbers::sqrt2))}));
+    figure.statements.push_back(at_most("5.5", "fraction of the pulses that exceed the slip level without overlap",
+                                        0.003, {std::erfc(1 / (sigma * std::numbers::sqrt2))}));
 
   // What is left out without overlaps.
   const auto times_more = [&](const Measure& measure) {
@@ -298,10 +299,11 @@ Estimate in_centimeters(Estimate e) { return {100 * e.value, 100 * e.error}; }
 }  // namespace
 
 ThesisFigure table_5_1(Thesis& thesis) {
-  ThesisFigure figure{"Table 5.1",
-                      "The four events, as rms displacement of the ground (of a frictionless mass) by time. Solid: "
-                      "(5.49); points: simulations.",
-                      ""};
+  ThesisFigure figure{
+      "Table 5.1",
+      "The four earthquakes, as rms displacement of the ground (of a frictionless mass) by time. Solid: "
+      "(5.49); points: simulations.",
+      ""};
   ThesisPanel panel{"Ground", "$t$ [s]", "$\\sigma_{x_g}$ [cm]"};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::string_view event = PoissonPulses::events()[i];
@@ -323,7 +325,7 @@ ThesisFigure table_5_1(Thesis& thesis) {
     };
     says("σ_b [cm/s²]", row.sigma, 0.5, 100 * pulses.sigma());
     says("λ [1/s]", row.rate, 0.05, pulses.rate());
-    says("Δt [s]", row.half_width, 1e-9, pulses.half_width(), "the column of f_c is ω_c/2π, in Hz");
+    says("Δt [s]", row.half_width, 1e-9, pulses.half_width(), "the column f_c holds ω_c/2π, in Hz");
     says("σ_ẋ_g [cm/s]", row.ground_velocity, row.velocity_digit, 100 * std::sqrt(pulses.ground_velocity_variance()));
     says("σ_x_g(t_d) [cm]", row.ground_displacement, row.displacement_digit,
          100 * std::sqrt(pulses.ground_displacement_variance(pulses.duration())));
@@ -337,9 +339,9 @@ ThesisFigure table_5_1(Thesis& thesis) {
       squares += peak * peak;
     }
     const auto n = static_cast<double>(motions);
-    figure.statements.push_back(at_most("5.6", name + ": peak acceleration in rms values, usually 3 to 4: mean", 4,
+    figure.statements.push_back(at_most("5.6", name + ": mean ratio of peak to rms acceleration, usually 3 to 4", 4,
                                         {sum / n, std::sqrt((squares / n - sum * sum / n / n) / (n - 1))},
-                                        "the more, the more pulses there are"));
+                                        "it increases with the number of pulses"));
     figure.statements.back().members = motions;
   }
   figure.panels.push_back(std::move(panel));
@@ -349,11 +351,11 @@ ThesisFigure table_5_1(Thesis& thesis) {
 ThesisFigure figure_5_7(Thesis& thesis) {
   ThesisFigure figure{
       "5.7",
-      "Final rms displacement against the coefficient of friction for the four events of Table 5.1. "
+      "Final rms displacement against the coefficient of friction for the four earthquakes of Table 5.1. "
       "Dashed: the overlap series as printed; dash-dotted: the pulse chain; points: simulations with standard "
       "errors; marks at μ = 0: the ground. Right: carts on casters (trail 40 mm, wheels 32 mm wide, corrected "
-      "mechanics), dotted the ground, event by event in the same order; in great earthquakes and with μ from 0.3 on "
-      "they end further away than the ground.",
+      "mechanics), dotted: the ground, in the same order; in great earthquakes and for μ of 0.3 and above "
+      "they end further from their start than the ground.",
       ""};
   ThesisPanel panel{"Earthquakes", "coefficient of friction $\\mu$", "final rms displacement [cm]", false, true};
   const std::vector<double> finely = even(0.01, 0.7, 36),
@@ -412,25 +414,28 @@ ThesisFigure figure_5_7(Thesis& thesis) {
   const char* events[] = {"great very near field", "great near field", "moderate very near field",
                           "moderate near field"};
   const auto almost_none = [&](const char* event) { return series(event, 1e-4) / in_ground(event) - 1; };
-  figure.statements.push_back(about("5.6",
-                                    "great events: the series comes to the ground's displacement for μ to 0, off by", 0,
-                                    0.05, {almost_none(events[0])}, "√(1 + λΔt), for all four"));
-  figure.statements.push_back(about("5.6", "moderate events: the series is too high by", 0.5, 0.05,
-                                    {almost_none(events[2])},
-                                    "50 % is that of the variance; of the rms, as of the great ones, 22.5 %"));
+  figure.statements.push_back(
+      about("5.6", "great earthquakes: as μ tends to 0, the series tends to the ground's displacement; relative error",
+            0, 0.05, {almost_none(events[0])}, "the ratio is √(1 + λΔt) in all four earthquakes"));
+  figure.statements.push_back(
+      about("5.6", "moderate earthquakes: relative error by which the series is too high", 0.5, 0.05,
+            {almost_none(events[2])},
+            "50 % is the error of the variance; that of the rms is 22.5 %, as for the great earthquakes"));
   for (const double mu : {0.1, 0.3})
-    figure.statements.push_back(
-        at_least("5.6", "moderate very near field, μ = " + number(mu) + ": \"tens of centimeters\", in cm", 10,
-                 in_centimeters(simulated(events[2], mu)), "of the final rms"));
+    figure.statements.push_back(at_least(
+        "5.6",
+        "moderate very near field, μ = " + number(mu) + ": final rms displacement in \"tens of centimeters\" [cm]", 10,
+        in_centimeters(simulated(events[2], mu)), ""));
   const auto ratio = [&](const char* event, double mu) {
     const Estimate e = in_centimeters(simulated(event, mu));
     const double predicted = series(event, mu);
     return Estimate{e.value / predicted, e.error / predicted};
   };
-  figure.statements.push_back(at_most("5.6",
-                                      "high friction, small displacements: series too low by a factor of, great near "
-                                      "field, μ = 0.5",
-                                      3, ratio(events[1], 0.5)));
+  figure.statements.push_back(
+      at_most("5.6",
+              "high friction, small displacements: factor by which the series is too low, great near "
+              "field, μ = 0.5",
+              3, ratio(events[1], 0.5)));
   double worst = 0, error = 0;
   for (const char* event : events)
     for (const double mu : points) {
@@ -453,7 +458,7 @@ ThesisFigure figure_5_7(Thesis& thesis) {
     const Estimate e = in_centimeters(rolled(event, 0.5));
     of_carts(at_most("5.6", std::string(event) + ", μ = 0.5: a cart's final rms over the ground's", 1,
                      {e.value / in_ground(event), e.error / in_ground(event)},
-                     "beyond a few reaches its friction is gone, and it keeps the velocity that it broke loose with"));
+                     "beyond a few reaches its friction vanishes, and it keeps the velocity at which it broke loose"));
   }
   const Estimate e = in_centimeters(rolled(events[0], 0.5)),
                  block_of_level =

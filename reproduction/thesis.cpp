@@ -263,7 +263,7 @@ std::string thesis_verdict(std::span<const ThesisCheck> checks) {
   const auto off = std::ranges::count(checks, false, &ThesisCheck::holds);
   const auto loose = std::ranges::count(checks, true, &ThesisCheck::loose);
   return std::to_string(checks.size()) + " numbers checked, none skipped; " + std::to_string(loose) +
-         " of so few members that they may be off by more than half; " + std::to_string(off) + " off";
+         " with so few members that they may differ by more than half; " + std::to_string(off) + " off";
 }
 
 }  // namespace stickslip
