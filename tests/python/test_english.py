@@ -1,5 +1,6 @@
 """The pages keep to American spelling and to the terms of the field."""
 
+import ast
 import re
 
 import pytest
@@ -59,6 +60,21 @@ def test_a_page_has_no_word_to_avoid(page):
     found = [
         f"{page.relative_to(ROOT)}:{line}: '{words}', write '{better}'"
         for line, words, better in wrong(page.read_text(encoding="utf-8"))
+    ]
+    assert not found, "\n".join(found)
+
+
+MODULES = sorted((ROOT / "python" / "stickslip").rglob("*.py"))
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.relative_to(ROOT).as_posix())
+def test_a_module_has_no_word_to_avoid_in_its_strings(module):
+    """Docstrings, help texts and messages; names and keywords are not read."""
+    found = [
+        f"{module.relative_to(ROOT)}:{node.lineno}: '{words}', write '{better}'"
+        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        for _, words, better in wrong(node.value)
     ]
     assert not found, "\n".join(found)
 
