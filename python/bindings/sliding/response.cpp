@@ -144,40 +144,17 @@ Margins margins_of(const Recording& recording) {
       recording, [&](const auto& slider, const auto& motion) { return margins(slider, motion, recording.response); });
 }
 
-struct NamedParameter {
-  const char* name;
-  stickslip::Parameter parameter;
-  double factor;  // of its unit
-};
-constexpr NamedParameter parameters[] = {{"mu", stickslip::Parameter::slip_level, standard_gravity},
-                                         {"slip_level", stickslip::Parameter::slip_level, 1},
-                                         {"mu_kinetic", stickslip::Parameter::kinetic, standard_gravity},
-                                         {"kinetic", stickslip::Parameter::kinetic, 1},
-                                         {"mu_static", stickslip::Parameter::static_level, standard_gravity},
-                                         {"static", stickslip::Parameter::static_level, 1},
-                                         {"natural_frequency", stickslip::Parameter::natural_frequency, 1},
-                                         {"damping", stickslip::Parameter::damping, 1},
-                                         {"slope_degrees", stickslip::Parameter::slope, 1},
-                                         {"scale", stickslip::Parameter::scale, 1}};
-
 Sensitivity sensitivity_of(const Recording& recording, const std::string& name) {
-  std::string known;
-  for (const NamedParameter& p : parameters) {
-    if (name != p.name) {
-      known += (known.empty() ? "'" : ", '") + std::string(p.name) + "'";
-      continue;
+  const auto [parameter, factor] = parameter_of(name, "sensitivity");
+  return with_inputs(recording, [&](const auto& slider, const auto& motion) -> Sensitivity {
+    if constexpr (std::same_as<std::decay_t<decltype(motion)>, HarmonicMotion>) {
+      throw std::invalid_argument(
+          "sensitivity: covers a GroundMotion, got a HarmonicMotion; integrate motion.sampled(dt)");
+    } else {
+      const Sensitivity one = sensitivity(slider, motion, recording.response, parameter);
+      return {factor * one.peak, factor * one.residual, factor * one.velocity};
     }
-    return with_inputs(recording, [&](const auto& slider, const auto& motion) -> Sensitivity {
-      if constexpr (std::same_as<std::decay_t<decltype(motion)>, HarmonicMotion>) {
-        throw std::invalid_argument(
-            "sensitivity: covers a GroundMotion, got a HarmonicMotion; integrate motion.sampled(dt)");
-      } else {
-        const Sensitivity one = sensitivity(slider, motion, recording.response, p.parameter);
-        return {p.factor * one.peak, p.factor * one.residual, p.factor * one.velocity};
-      }
-    });
-  }
-  throw std::invalid_argument("sensitivity: parameter must be one of " + known + ", got '" + name + "'");
+  });
 }
 
 // A Python function that takes the response.
@@ -196,6 +173,26 @@ auto number() {
 }
 
 }  // namespace
+
+UnitParameter parameter_of(const std::string& name, const std::string& who) {
+  using enum stickslip::Parameter;
+  constexpr std::pair<const char*, UnitParameter> parameters[] = {{"mu", {slip_level, standard_gravity}},
+                                                                  {"slip_level", {slip_level, 1}},
+                                                                  {"mu_kinetic", {kinetic, standard_gravity}},
+                                                                  {"kinetic", {kinetic, 1}},
+                                                                  {"mu_static", {static_level, standard_gravity}},
+                                                                  {"static", {static_level, 1}},
+                                                                  {"natural_frequency", {natural_frequency, 1}},
+                                                                  {"damping", {damping, 1}},
+                                                                  {"slope_degrees", {slope, 1}},
+                                                                  {"scale", {scale, 1}}};
+  std::string known;
+  for (const auto& [its_name, parameter] : parameters) {
+    if (name == its_name) return parameter;
+    known += (known.empty() ? "'" : ", '") + std::string(its_name) + "'";
+  }
+  throw std::invalid_argument(who + ": parameter must be one of " + known + ", got '" + name + "'");
+}
 
 template <>
 inline constexpr auto parts<Recording> = std::tuple(&Recording::response, &Recording::slider, &Recording::motion);
