@@ -150,6 +150,15 @@ EXAMPLES = {
     ],
     ss.SweepError: [ss.SweepError("no node here", range(2, 4), SWEPT)],
     ss.Energy: [r.energy for r in RESPONSES],
+    ss.WithVertical: [
+        ss.WithVertical(SHAKING),
+        ss.WithVertical(SHAKING, ratio=0.5),
+        ss.WithVertical(PULSES),
+    ],
+    ss.EnsembleSensitivity: [
+        ss.ensemble_sensitivity(BLOCK, SHAKING, name, members=5, seed=1)
+        for name in ("mu", "damping", "scale")
+    ],
     ss.Sensitivity: [RESPONSES[0].sensitivity(name) for name in ("mu", "damping", "scale")],
     ss.Response: RESPONSES,
     ss.ResponseSpectrum: [

@@ -17,6 +17,7 @@ from .._core import (
     StaticKinetic,
     Stribeck,
     VelocityDependent,
+    WithVertical,
 )
 
 
@@ -58,4 +59,4 @@ AnySlider: TypeAlias = (
 )
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
-AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | Excitation | Records"
+AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | WithVertical | Excitation | Records"
