@@ -134,6 +134,8 @@ TEST_CASE("derivatives of statistics are the limits of differences with the same
   check([](double a) { return Slider(Coulomb(a)); }, Parameter::slip_level, 1, 0.1);
   check([](double w) { return Slider(Coulomb(0.5), w, 0.2); }, Parameter::natural_frequency, 3, 0.3);
   check([](double c) { return Slider(Coulomb(0.5), 3, c); }, Parameter::damping, 0.5, 0.1);
+  check([](double degrees) { return Slider(Coulomb(1), {.slope_degrees = degrees, .one_way = true}); },
+        Parameter::slope, 3, 0.3);
 }
 
 TEST_CASE("under white noise the rms displacement falls as the square of the level",

@@ -193,7 +193,7 @@ def test_tables_have_the_normal_force_and_the_gap_where_the_ground_moves_vertica
     assert np.array_equal(frame["normal force [m/s^2]"], r.normal_force)
     assert np.array_equal(frame["gap [m]"], r.gap)
     again = pandas.read_csv(
-        io.StringIO(r.to_csv(tmp_path / "r.csv").read_text()),
+        r.to_csv(tmp_path / "r.csv"),
         index_col=0,
         float_precision="round_trip",
     )

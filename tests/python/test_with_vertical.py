@@ -111,7 +111,9 @@ def test_what_does_not_fit_is_rejected():
         with pytest.raises(ValueError, match=message):
             ss.WithVertical(SHAKING, **arguments)
     longer = ss.GaussianExcitation(BAND, dt=0.02, samples=501)
-    with pytest.raises(ValueError, match="both components must be lines between samples or both"):
+    with pytest.raises(
+        ValueError, match="both held values, got interpolation=.linear. and .constant. .pulses"
+    ):
         ss.WithVertical(longer, PULSES)
     for horizontal in (ss.WithVertical(SHAKING), ss.HarmonicMotion(1, 2, 3), BLOCK):
         with pytest.raises(TypeError, match=r"horizontal must be a GaussianExcitation or"):

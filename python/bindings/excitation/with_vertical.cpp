@@ -61,7 +61,13 @@ segment would never land and is an error: let an `Envelope` end the vertical com
 Theories and `compare` do not cover vertical motion.)")
       .def(py::init([](const py::object& horizontal, const py::object& vertical, double ratio) {
              HeldWithVertical held{horizontal, vertical.is_none() ? horizontal : vertical, ratio};
-             held.excitation().sample(0, 0);  // checks the arguments
+             const auto excitation = held.excitation();  // checks the ratio and the durations
+             if (excitation.horizontal().interpolation() != excitation.vertical().interpolation())
+               throw std::invalid_argument(
+                   "WithVertical: both components must be lines between samples or both held values, got "
+                   "interpolation='" +
+                   std::string(name_of(excitation.horizontal().interpolation())) + "' and '" +
+                   name_of(excitation.vertical().interpolation()) + "' (pulses are held values)");
              return held;
            }),
            py::arg("horizontal"), py::arg("vertical") = py::none(), py::kw_only(), py::arg("ratio") = 1.0)

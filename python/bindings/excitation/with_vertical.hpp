@@ -23,6 +23,10 @@ struct ExcitationReference {
     const auto* const gaussian = std::get_if<const GaussianExcitation*>(&excitation);
     return gaussian ? (*gaussian)->dt() : 0;
   }
+  Interpolation interpolation() const {
+    const auto* const gaussian = std::get_if<const GaussianExcitation*>(&excitation);
+    return gaussian ? (*gaussian)->interpolation() : Interpolation::constant;
+  }
   std::string configuration() const {
     return std::visit([](const auto* one) { return one->configuration(); }, excitation);
   }

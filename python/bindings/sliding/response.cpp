@@ -417,8 +417,9 @@ axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
            R"(Convert the histories to a pandas DataFrame.
 
 The index is 'time [s]'; the names of the columns include units: ground acceleration, displacement, velocity,
-acceleration, friction, spring, damper and force, and 'stuck' (bool). The ground acceleration is 0 after the ground
-motion. ImportError without pandas.)")
+acceleration, friction, spring, damper and force, and 'stuck' (bool). Under vertical motion also the vertical ground
+acceleration, the gap and the normal force; on a slope also the normal force. The ground acceleration is 0 after the
+ground motion. ImportError without pandas.)")
       .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
            R"(Convert the histories to an xarray Dataset over the coordinate `time`.
 
@@ -457,8 +458,8 @@ A line of names with units, then one line per sample; every number reads back as
 Returns
 -------
 str
-    An object: `stickslip` (the version), `slider`, `motion` (its name), `components`, `peak` [m], `residual` [m],
-    `sliding_distance` [m], `at_rest`; `units` of all that follow; `time` and the columns of `to_dataframe`, each a list
+    An object: `stickslip` (the version), `slider`, `motion` (its name), `components`, `contact`, `peak` [m],
+    `residual` [m], `sliding_distance` [m], `at_rest`; `units` of all that follow; `time` and the columns of `to_dataframe`, each a list
     with one value per sample; `events`, each with `time` [s], `displacement` [m], `velocity` [m/s] and `kind`. Every
     number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
       .def("_repr_html_", in_python("stickslip._tables", "response_html"))
