@@ -68,7 +68,7 @@ SLIDERS = {
                 mu_static=0.15,
             )
         ),
-        "static level 0.150 g, slip level 0.100 g, 0.0500 g after 1",
+        "static level 0.150 g, slip level 0.100 g, 0.0500 g after 100 cm, different backward",
         {"law": "Degrading", "static": [0.15 * G] * 2},
     ),
     "pendulum": (
@@ -109,13 +109,13 @@ def case(request):
 def test_an_ensemble_keeps_the_slider_in_its_files(case, tmp_path):
     slider, _, known = case
     for motions in (SHAKING, ss.WithVertical(SHAKING, ratio=0.7), [QUAKE, SHAKEN]):
-        e = ss.run_ensemble(slider, motions, members=20, seed=1, contact="clipped", settle=True)
+        e = ss.run_ensemble(slider, motions, members=20, seed=1, contact="clipped")
         e.save(tmp_path / "e.npz")
         again = ss.Ensemble.load(tmp_path / "e.npz")
         assert again == e
         configuration = json.loads(json.dumps(again.configuration))
         for name, value in known.items():
-            assert configuration["slider"][name] == pytest.approx(value, rel=1e-15), name
+            assert configuration["slider"][name] == value, name
         assert configuration["contact"] == "clipped"
         resumed = ss.run_ensemble(
             slider,
@@ -123,7 +123,6 @@ def test_an_ensemble_keeps_the_slider_in_its_files(case, tmp_path):
             members=20,
             seed=1,
             contact="clipped",
-            settle=True,
             checkpoint=tmp_path / "e.npz",
         )
         assert resumed == e
@@ -158,30 +157,44 @@ def test_the_band_of_accelerations_that_friction_resists_ends_where_slips_begin(
     from stickslip import plotting
 
     slider, _, _ = case
-    r = ss.integrate(slider, QUAKE)
+    fading = ss.GroundMotion(RECORD * np.sin(0.04 * M) ** 2, dt=0.1)  # begins and ends at rest
+    r = ss.integrate(slider, fading)
     starts = r.events[r.events["kind"] == "breakaway"]
     if slider.stops is not None:  # at a stop the load that leaves it is another
         starts = starts[np.abs(starts["displacement"]) < 0.9 * slider.stops.gap]
-    n = np.interp(starts["time"], QUAKE.time, QUAKE.acceleration) / G
+    n = np.interp(starts["time"], fading.time, fading.acceleration) / G
     lower, upper = plotting._held(r, starts["time"], starts["displacement"])
     assert len(starts) > 2
     assert np.minimum(abs(n - lower), abs(n - upper)).max() < 1e-9
 
 
-@pytest.mark.parametrize("name", ["static", "static both ways", "degrading", "static degrading"])
-def test_the_area_of_the_drawn_loop_is_the_dissipated_energy(name):
+FAR = ss.Degrading(distance=[0, 20], mu=[0.1, 0.02], mu_backward=[0.1, 0.05])
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        ss.StaticKinetic(mu_static=0.13, mu_kinetic=0.1),
+        ss.StaticKinetic(static=(0.2 * G, 0.3 * G), kinetic=0.1 * G),
+        FAR,
+        ss.StaticKinetic(FAR, mu_static=0.11),
+    ],
+    ids=["static", "both ways", "degrading", "static degrading"],
+)
+def test_the_area_of_the_drawn_loop_is_the_dissipated_energy(law):
     """Friction that is constant or linear in the distance has a loop of straight lines."""
     pytest.importorskip("matplotlib", reason="pictures need matplotlib")
     from stickslip import plotting
 
-    r = ss.integrate(SLIDERS[name][0], QUAKE, settle=True)
+    r = ss.integrate(law, QUAKE, settle=True)
+    assert 0.5 < r.sliding_distance < 20
     x, force = plotting._force_path(r)
     area = ((force[1:] + force[:-1]) / 2 * np.diff(x)).sum()
     assert area == pytest.approx(r.energy.dissipated, rel=1e-10)
 
 
 def test_tables_have_the_normal_force_and_the_gap_where_the_ground_moves_vertically(tmp_path):
-    pandas = pytest.importorskip("pandas", reason="needs pandas")
+    pytest.importorskip("pandas", reason="needs pandas")
     slider = ss.Slider(ss.Coulomb(mu=0.1), 2, 0.1, stops=STOPS)
     r = ss.integrate(slider, SHAKEN, settle=True)
     assert "liftoff" in r.events["kind"]
@@ -192,13 +205,11 @@ def test_tables_have_the_normal_force_and_the_gap_where_the_ground_moves_vertica
     assert not vertical[n:].any()
     assert np.array_equal(frame["normal force [m/s^2]"], r.normal_force)
     assert np.array_equal(frame["gap [m]"], r.gap)
-    again = pandas.read_csv(
-        r.to_csv(tmp_path / "r.csv"),
-        index_col=0,
-        float_precision="round_trip",
-    )
-    assert list(again.columns) == list(frame.columns)
-    assert np.array_equal(again["gap [m]"], r.gap)
+    path = r.to_csv(tmp_path / "r.csv")
+    rows = np.loadtxt(path, delimiter=",", skiprows=1)
+    names = path.read_text().split("\n")[0].split(",")
+    assert names == ["time [s]", *frame.columns]
+    assert np.array_equal(rows[:, names.index("gap [m]")], r.gap)
     document = json.loads(r.to_json(), parse_constant=pytest.fail)
     assert document["contact"] == "flight"
     assert document["gap"] == r.gap.tolist()

@@ -39,7 +39,9 @@ def test_what_it_holds():
     assert (both.horizontal, both.vertical, both.ratio) == (SHAKING, STRONG, 0.5)
     assert both.duration == SHAKING.duration
     assert ss.WithVertical(PULSES).vertical == PULSES
-    assert eval(repr(both), vars(ss)) == both
+    pulses = ss.WithVertical(PULSES, QUICKER, ratio=2)
+    assert eval(repr(pulses), vars(ss)) == pulses
+    assert repr(ss.WithVertical(PULSES)) == f"WithVertical({PULSES!r}, ratio=1)"
     assert pickle.loads(pickle.dumps(both)).sample(seed=1, member=2) == both.sample(
         seed=1, member=2
     )
@@ -69,7 +71,7 @@ def test_members_are_what_integrate_says_of_their_motions(both, contact):
     assert e.peak == pytest.approx([r.peak for r in alone], rel=1e-12)
     scale = e.peak.max()
     assert e.residual == pytest.approx([r.residual for r in alone], abs=1e-12 * scale)
-    assert any(r.gap.any() for r in alone) == (contact == "flight" and both.horizontal is SHAKING)
+    assert any(r.gap.any() for r in alone) == (contact == "flight")
 
 
 def test_threads_parts_files_and_executors_do_not_matter(tmp_path):
@@ -111,9 +113,7 @@ def test_what_does_not_fit_is_rejected():
         with pytest.raises(ValueError, match=message):
             ss.WithVertical(SHAKING, **arguments)
     longer = ss.GaussianExcitation(BAND, dt=0.02, samples=501)
-    with pytest.raises(
-        ValueError, match="both held values, got interpolation=.linear. and .constant. .pulses"
-    ):
+    with pytest.raises(ValueError, match="both held values, got interpolation='linear' and 'const"):
         ss.WithVertical(longer, PULSES)
     for horizontal in (ss.WithVertical(SHAKING), ss.HarmonicMotion(1, 2, 3), BLOCK):
         with pytest.raises(TypeError, match=r"horizontal must be a GaussianExcitation or"):
