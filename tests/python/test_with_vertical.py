@@ -104,6 +104,20 @@ def test_a_ratio_of_zero_is_horizontal_motion():
     )
 
 
+def test_the_guide_gives_the_effect_of_vertical_motion_on_peaks():
+    both = ss.WithVertical(SHAKING, ratio=2 / 3)
+    e, level = (
+        ss.run_ensemble(BLOCK, motions, members=2000, seed=1, settle=True)
+        for motions in (both, SHAKING)
+    )
+    change = e.peak / level.peak - 1
+    assert change.mean() == pytest.approx(0.021, abs=0.0005)
+    assert change.std() == pytest.approx(0.14, abs=0.005)
+    assert change.std() / np.sqrt(2000) == pytest.approx(0.003, abs=0.0005)
+    alone = ss.integrate(BLOCK, both.sample(seed=1, member=7), settle=True)
+    assert e.peak[7] == pytest.approx(alone.peak, rel=1e-12)
+
+
 def test_what_does_not_fit_is_rejected():
     for arguments, message in (
         ({"ratio": -1}, "ratio must be finite and at least 0, got -1"),
