@@ -1218,11 +1218,9 @@ def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _both_ways(name: str, ahead: float | None, back: float | None) -> Iterator[str]:
-    if back == ahead:
-        yield f"{name} {_in_g(ahead)}"
-        return
-    yield f"{name} {_in_g(ahead)} forward"
-    yield "never backward" if back is None else f"{_in_g(back)} backward"
+    yield f"{name} {_in_g(ahead)}" + ("" if back in (ahead, None) else " forward")
+    if back != ahead:
+        yield "never backward" if back is None else f"{_in_g(back)} backward"
 
 
 def _in_g(level: float | None) -> str:
