@@ -1148,7 +1148,9 @@ def _dot_at_right(axes: Axes, x: float, colour: str) -> None:
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
     name = title or printable(motion.name) or "ground motion"
     # A caller's title may contain math; a dollar sign in a file name is literal.
-    axes.set_title(textwrap.fill(name, 75), pad=18 if below else None, parse_math=bool(title))
+    below = textwrap.fill(below, 85)
+    pad = 6 + 12 * len(below.splitlines()) if below else None
+    axes.set_title(textwrap.fill(name, 75), pad=pad, parse_math=bool(title))
     axes.annotate(
         below,
         (0, 1),
@@ -1304,7 +1306,7 @@ def _with_error(estimate: Estimate, factor: float) -> str:
 
 
 def _entitle_ensemble(figure: FigureBase, ensemble: Ensemble, title: str | None) -> None:
-    title = title or _describe_ensemble(ensemble)
+    title = textwrap.fill(title or _describe_ensemble(ensemble), 95)
     figure.suptitle(title, x=0.01, ha="left", fontsize=10, fontweight="bold")
 
 
