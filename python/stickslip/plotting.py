@@ -963,8 +963,12 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
     ways = np.sign(np.diff(x))  # of slips between events; 0 for sticks
     slid = _slid(response, t)
 
-    def force(k: np.ndarray, way: np.ndarray) -> np.ndarray:
-        at, speed, far = x[k], v[k], slid[k]
+    # An impact keeps the velocity before it.
+    rebound = -slider.stops.restitution if slider.stops is not None else 1.0
+    v_after = np.where(events["kind"] == "impact", rebound * v, v)
+
+    def force(k: np.ndarray, way: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        at, speed, far = x[k], velocity[k], slid[k]
         weight = _normal(response, t[k]) / STANDARD_GRAVITY
         friction = [
             w * slider.resist(one, abs(u), backward=w < 0, sliding_distance=d)
@@ -978,8 +982,8 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
     places = np.concatenate([x[ends], x[begins], response.displacement])
     forces = np.concatenate(
         [
-            force(ends, ways[ends - 1]),
-            force(begins, ways[begins]),
+            force(ends, ways[ends - 1], v),
+            force(begins, ways[begins], v_after),
             response.force,
         ]
     )

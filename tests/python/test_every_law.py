@@ -196,6 +196,23 @@ def test_the_area_of_the_drawn_loop_is_the_dissipated_energy(law):
     assert area == pytest.approx(r.energy.dissipated, rel=1e-10)
 
 
+def test_the_drawn_force_after_an_impact_is_that_of_the_rebound():
+    pytest.importorskip("matplotlib", reason="pictures need matplotlib")
+    from stickslip import plotting
+
+    slider = SLIDERS["stops"][0]
+    r = ss.integrate(slider, QUAKE)
+    x, force = plotting._force_path(r)
+    hits = r.impacts[np.abs(r.impacts["velocity"]) > 0.1]
+    assert len(hits) > 5
+    for hit in hits:
+        at, before = hit["displacement"], hit["velocity"]
+        after, way = -0.5 * before, np.sign(before)
+        for v, s in ((before, way), (after, -way)):
+            expected = s * 0.05 * G + slider.damping * v + slider.natural_frequency**2 * at
+            assert np.abs(force[x == at] - expected).min() < 1e-12
+
+
 def test_tables_have_the_normal_force_and_the_gap_where_the_ground_moves_vertically(tmp_path):
     pytest.importorskip("pandas", reason="needs pandas")
     slider = ss.Slider(ss.Coulomb(mu=0.1), 2, 0.1, stops=STOPS)
