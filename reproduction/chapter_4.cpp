@@ -153,7 +153,7 @@ ThesisFigure figure_4_1(Thesis&) {
   for (int i = 0; i < 50; ++i) z = 1 / (pi * std::atan(z * 0.35 / (z * z + 1.35)));
   figure.statements.push_back(about("(4.41)", "50 steps from 1e6 suffice: Z_eq for Ω1 = 1, ΔΩ = 0.35", z, 0.01,
                                     {method.predict(block, band_pass(1, 0.35)).damping},
-                                    "n steps reduce the error only by about (πΔΩ)⁻ⁿ"));
+                                    "n steps reduce the iterate only by about (πΔΩ)⁻ⁿ"));
   return figure;
 }
 

@@ -38,6 +38,8 @@ PYBIND11_MODULE(_core, m) {
   bind_velocity_dependent(m);
   bind_stribeck(m);
   bind_degrading(m);
+  bind_kumar(m);
+  bind_callable_law(m);
   bind_static_kinetic(m);
   bind_stops(m);
   bind_slider(m);
@@ -53,6 +55,7 @@ PYBIND11_MODULE(_core, m) {
   bind_spectrum(m);
   bind_gaussian(m);
   bind_poisson(m);
+  bind_with_vertical(m);
   bind_moments(m);
   bind_response_spectrum(m);
   bind_strong_motion(m);
@@ -63,6 +66,7 @@ PYBIND11_MODULE(_core, m) {
   bind_velocity_spectrum(m);
   bind_drawn(m);
   bind_ensemble(m);
+  bind_ensemble_sensitivity(m);
   bind_sweep(m);
   bind_build_info(m);
   in("stickslip.harmonic");
@@ -80,6 +84,7 @@ PYBIND11_MODULE(_core, m) {
   bind_pulse_chain(m);
   in(compiled.c_str());
   bind_run_ensemble(m);
+  bind_run_ensemble_sensitivity(m);
   bind_thesis(m);
   m.def(
       "to_vector", [](const py::object& values, const std::string& name) { return to_array(to_vector(values, name)); },

@@ -29,6 +29,7 @@ from ._core import (
     Drawn,
     Energy,
     Ensemble,
+    EnsembleSensitivity,
     Envelope,
     Estimate,
     FrictionPendulum,
@@ -36,6 +37,8 @@ from ._core import (
     GroundMotion,
     HarmonicMotion,
     Interval,
+    KumarFriction,
+    Law,
     Lognormal,
     Moments,
     Normal,
@@ -53,10 +56,12 @@ from ._core import (
     Stops,
     Stribeck,
     StrongMotion,
+    SurfaceHeat,
     Uniform,
     VelocityDependent,
     VelocitySpectrum,
     ViscousSlider,
+    WithVertical,
     __version__,
     advance,
     build_info,
@@ -72,7 +77,7 @@ TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as a
 if TYPE_CHECKING:
     from ._interfaces import interfaces
     from .comparison import Comparison, compare
-    from .ensemble import EnsembleError, Random, run_ensemble
+    from .ensemble import EnsembleError, Random, ensemble_sensitivity, run_ensemble
     from .records import read_record, read_station, record_formats
     from .samples import sample_record, sample_records
     from .suite import Suite
@@ -89,6 +94,7 @@ __all__ = [
     "Energy",
     "Ensemble",
     "EnsembleError",
+    "EnsembleSensitivity",
     "Envelope",
     "Estimate",
     "FrictionPendulum",
@@ -97,6 +103,8 @@ __all__ = [
     "GroundMotion",
     "HarmonicMotion",
     "Interval",
+    "KumarFriction",
+    "Law",
     "Lognormal",
     "Moments",
     "Normal",
@@ -116,16 +124,19 @@ __all__ = [
     "Stribeck",
     "StrongMotion",
     "Suite",
+    "SurfaceHeat",
     "SweepError",
     "SweepTable",
     "Uniform",
     "VelocityDependent",
     "VelocitySpectrum",
     "ViscousSlider",
+    "WithVertical",
     "__version__",
     "advance",
     "build_info",
     "compare",
+    "ensemble_sensitivity",
     "estimate_spectrum",
     "fit_pulses",
     "grid",
@@ -150,7 +161,7 @@ if not TYPE_CHECKING:
 
     def __getattr__(name):
         # Imported on first use: these need NumPy, which takes ten times as long as the rest.
-        if name in ("EnsembleError", "Random", "run_ensemble"):
+        if name in ("EnsembleError", "Random", "ensemble_sensitivity", "run_ensemble"):
             from . import ensemble
 
             return globals().setdefault(name, getattr(ensemble, name))

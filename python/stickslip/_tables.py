@@ -42,6 +42,23 @@ _HISTORIES = (
     ("force", "m/s^2", "sum of friction, spring and damper force per unit mass"),
     ("stuck", "", "whether the slider sticks"),
 )
+# Histories beside these where the normal force is not the weight: under vertical motion, the last
+# also on a slope.
+_LIFTING = (
+    ("vertical ground acceleration", "m/s^2", "vertical ground acceleration, positive upward"),
+    ("gap", "m", "gap between slider and ground"),
+    ("normal force", "m/s^2", "normal force per unit mass"),
+)
+# Beside these where friction depends on it.
+_HEATED = (("temperature", "degC", "temperature of the sliding surface"),)
+
+
+def _histories(response: Response) -> tuple[tuple[str, str, str], ...]:
+    """Name, unit and description of the histories of a response."""
+    vertical = "vertical" in response.components
+    first = 0 if vertical else 2 if response.slider.slope_degrees > 0 else 3
+    heated = () if response.temperature is None else _HEATED
+    return (*_HISTORIES[:-1], *_LIFTING[first:], *heated, _HISTORIES[-1])
 
 
 def to_dataframe(response: Response) -> Any:
@@ -49,7 +66,8 @@ def to_dataframe(response: Response) -> Any:
     pandas = optional("pandas", "tables", "Response.to_dataframe")
     index = pandas.Index(response.time, name="time [s]")
     return pandas.DataFrame(
-        {_heading(name, unit): _history(response, name) for name, unit, _ in _HISTORIES}, index
+        {_heading(name, unit): _history(response, name) for name, unit, _ in _histories(response)},
+        index,
     )
 
 
@@ -62,7 +80,7 @@ def to_xarray(response: Response) -> Any:
             _history(response, name),
             {"long_name": what} | ({"units": unit} if unit else {}),
         )
-        for name, unit, what in _HISTORIES
+        for name, unit, what in _histories(response)
     }
     return xarray.Dataset(
         variables,
@@ -80,8 +98,9 @@ def to_xarray(response: Response) -> Any:
 
 def to_csv(response: Response, path: str | os.PathLike[str]) -> Path:
     """Write the histories of a response to a file; see `Response.to_csv`."""
-    names = ["time [s]", *(_heading(name, unit) for name, unit, _ in _HISTORIES)]
-    columns = [response.time, *(_history(response, name) for name, _, _ in _HISTORIES)]
+    histories = _histories(response)
+    names = ["time [s]", *(_heading(name, unit) for name, unit, _ in histories)]
+    columns = [response.time, *(_history(response, name) for name, _, _ in histories)]
     columns[-1] = columns[-1].astype(int)
     with replacing(path) as stream:
         stream.write((",".join(names) + "\n").encode())
@@ -92,19 +111,20 @@ def to_csv(response: Response, path: str | os.PathLike[str]) -> Path:
 
 def to_json(response: Response) -> str:
     """The results and histories of a response as JSON; see `Response.to_json`."""
-    events = response.events
+    events, histories = response.events, _histories(response)
     document = {
         "stickslip": build_info()["version"],
         "slider": repr(response.slider),
         "motion": response.motion.name,
         "components": response.components,
+        "contact": response.contact,
         "peak": response.peak,
         "residual": response.residual,
         "sliding_distance": response.sliding_distance,
         "at_rest": response.at_rest,
-        "units": {"time": "s"} | {_key(name): unit for name, unit, _ in _HISTORIES if unit},
+        "units": {"time": "s"} | {_key(name): unit for name, unit, _ in histories if unit},
         "time": response.time,
-        **{_key(name): _history(response, name) for name, _, _ in _HISTORIES},
+        **{_key(name): _history(response, name) for name, _, _ in histories},
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
     }
     return json_text(document)
@@ -145,6 +165,12 @@ def response_html(response: Response) -> str:
     ]
     if response.slider.damping > 0:
         rows.append(("dissipated by the damper", f"{energy.damped:.4g} m²/s²"))
+    if response.slider.stops is not None:
+        rows.append(("impacts on stops", f"{len(response.impacts):,}"))
+        rows.append(("lost in impacts", f"{energy.impact:.4g} m²/s²"))
+    if "vertical" in response.components:
+        flights = (response.events["kind"] == "liftoff").sum()
+        rows.append(("contact with the ground", f"{response.contact}, {flights:,} flights"))
     try:
         rows.append(("effective period", f"{response.effective_period:.4g} s"))
         rows.append(("effective damping", f"{100 * response.effective_damping:.3g} %"))
@@ -195,11 +221,13 @@ def _heading(name: str, unit: str) -> str:
 
 def _history(response: Response, name: str) -> NDArray[Any]:
     """A writable copy of a history."""
-    if name == "ground acceleration":
+    if name.endswith("ground acceleration"):
         n = np.zeros(response.time.size)
-        n[: len(response.motion)] = response.motion.acceleration
+        vertical = name.startswith("vertical")
+        motion = response.motion
+        n[: len(motion)] = motion.vertical if vertical else motion.acceleration
         return n
-    return np.array(getattr(response, name))
+    return np.array(getattr(response, _key(name)))
 
 
 def _rows(columns: Sequence[NDArray[Any]]) -> Iterable[Iterable[tuple[float, ...]]]:

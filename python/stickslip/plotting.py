@@ -8,10 +8,11 @@ those of Okabe and Ito, which color-blind readers can distinguish, also in grays
 from __future__ import annotations
 
 import io
+import json
 import os
 import sys
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol, overload
 
@@ -27,6 +28,7 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
+from . import _core
 from ._core import (
     STANDARD_GRAVITY,
     Ensemble,
@@ -959,13 +961,18 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
     slider, events = response.slider, response.events
     t, x, v = (events[name] for name in ("time", "displacement", "velocity"))
     ways = np.sign(np.diff(x))  # of slips between events; 0 for sticks
+    slid = _slid(response, t)
 
-    def force(k: np.ndarray, way: np.ndarray) -> np.ndarray:
-        at, speed = x[k], v[k]
+    # An impact keeps the velocity before it.
+    rebound = -slider.stops.restitution if slider.stops is not None else 1.0
+    v_after = np.where(events["kind"] == "impact", rebound * v, v)
+
+    def force(k: np.ndarray, way: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        at, speed, far = x[k], velocity[k], slid[k]
         weight = _normal(response, t[k]) / STANDARD_GRAVITY
         friction = [
-            w * slider.resist(one, abs(u), backward=w < 0)
-            for one, u, w in zip(at.tolist(), speed.tolist(), way.tolist())
+            w * slider.resist(one, abs(u), backward=w < 0, sliding_distance=d)
+            for one, u, w, d in zip(at.tolist(), speed.tolist(), way.tolist(), far.tolist())
         ]
         spring = slider.natural_frequency**2 * at * (weight if slider.pendulum else 1)
         return np.array(friction) * weight + slider.damping * speed + spring
@@ -975,8 +982,8 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
     places = np.concatenate([x[ends], x[begins], response.displacement])
     forces = np.concatenate(
         [
-            force(ends, ways[ends - 1]),
-            force(begins, ways[begins]),
+            force(ends, ways[ends - 1], v),
+            force(begins, ways[begins], v_after),
             response.force,
         ]
     )
@@ -1013,6 +1020,14 @@ def _normal(response: Response, t: np.ndarray) -> np.ndarray:
     return np.where(flies, 0, np.maximum(normal, 0))
 
 
+def _slid(response: Response, t: np.ndarray) -> np.ndarray:
+    """Sliding distance [m] at given times, exact at samples and events."""
+    times, x, _ = _path(response)
+    slid = np.append(0, np.cumsum(np.abs(np.diff(x))))
+    before = max(response.state.sliding_distance - response.sliding_distance, 0)
+    return before + np.interp(t, times, slid)
+
+
 def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Bounds [g] of the ground acceleration that friction resists at rest, at displacements x [m].
 
@@ -1029,8 +1044,15 @@ def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray,
     heavy = np.maximum(STANDARD_GRAVITY + up, 0)
     if slider.pendulum:
         spring = spring * heavy / STANDARD_GRAVITY
+    slid = _slid(response, t)
     forward, backward = (
-        np.array([slider.hold(at, backward=back) for at in x.tolist()]) / STANDARD_GRAVITY
+        np.array(
+            [
+                slider.hold(at, backward=back, sliding_distance=far)
+                for at, far in zip(x.tolist(), slid.tolist())
+            ]
+        )
+        / STANDARD_GRAVITY
         for back in (False, True)
     )
     lower = (heavy * (sin - forward * cos) - spring) / (cos + forward * sin)
@@ -1062,11 +1084,16 @@ def _note_levels(axes: Axes, response: Response) -> None:
         return
     end = response.events["time"][-1:]
     (lower,), (upper,) = _held(response, end, np.array([x]))
-    ahead, back = (slider.resist(x, backward=b) / STANDARD_GRAVITY for b in (False, True))
+    (slid,) = _slid(response, end).tolist()
+    ahead, back = (
+        slider.hold(x, backward=b, sliding_distance=slid) / STANDARD_GRAVITY for b in (False, True)
+    )
+    kinetic = slider.resist(x, sliding_distance=slid) / STANDARD_GRAVITY
+    name = "static level" if ahead > kinetic else "slip level"
     if ahead == back:
-        notes = [("slip level", ahead, (lower + upper) / 2, "center")]
+        notes = [(name, ahead, (lower + upper) / 2, "center")]
     elif np.isinf(back):
-        notes = [("slip level", ahead, lower, "center")]
+        notes = [(name, ahead, lower, "center")]
     else:
         notes = [("backward", back, upper, "bottom"), ("forward", ahead, lower, "top")]
     for name, level, height, side in notes:
@@ -1125,7 +1152,9 @@ def _dot_at_right(axes: Axes, x: float, color: str) -> None:
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
     name = title or printable(motion.name) or "ground motion"
     # A caller's title may contain math; a dollar sign in a file name is literal.
-    axes.set_title(textwrap.fill(name, 75), pad=18 if below else None, parse_math=bool(title))
+    below = textwrap.fill(below, 85)
+    pad = 6 + 12 * len(below.splitlines()) if below else None
+    axes.set_title(textwrap.fill(name, 75), pad=pad, parse_math=bool(title))
     axes.annotate(
         below,
         (0, 1),
@@ -1142,33 +1171,66 @@ def _has_friction(slider: Any) -> bool:
 
 def _describe(slider: Any) -> str:
     """A short description of a slider, such as 'slip level 0.06 g, period 3 s'."""
-    wn = slider.natural_frequency
-    words = []
-    if slider.damping > 0:
-        words.append(f"viscous damping {_digits(slider.damping)} 1/s")
-    if hasattr(slider.law, "fast"):
-        words.insert(0, _by_speed(slider.law.slow, slider.law.fast))
-    elif not _has_friction(slider):
-        words.insert(0, "no friction")
-    else:
-        ahead, back = (slider.resist(backward=b) / STANDARD_GRAVITY for b in (False, True))
-        levels = [f"slip level {_digits(ahead)} g"]
+    return ", ".join(_in_words(json.loads(_core.describe_slider(slider))))
+
+
+def _in_words(slider: Mapping[str, Any]) -> list[str]:
+    """The same of its configuration, as ensembles keep it."""
+    words = [*_law_in_words(slider)]
+    if "reach" in slider:
+        words.append(f"caster, reach {_digits(slider['reach'] * 100)} cm")
+        if "rolling" in slider:
+            words.append(f"of it rolling {_in_g(slider['rolling'])}")
+    if "damping" in slider:
+        words.append(f"viscous damping {_digits(slider['damping'])} 1/s")
+    if slider.get("natural_frequency"):
+        period = f"period {_digits(2 * np.pi / slider['natural_frequency'])} s"
+        words.append(f"pendulum, {period}" if "pendulum" in slider else period)
+    if "slope_degrees" in slider:
+        words.append(f"slope {_digits(slider['slope_degrees'])}\N{DEGREE SIGN}")
+    if "one_way" in slider:
+        words.append("one way")
+    if "stops" in slider:
+        ahead, back, restitution = slider["stops"]
+        places = f"{_digits(ahead * 100)} cm" if ahead is not None else ""
         if back != ahead:
-            levels[0] += " forward"
-            levels.append("never backward" if np.isinf(back) else f"{_digits(back)} g backward")
-        words = levels + words
-        if hasattr(slider.law, "reach"):
-            words.append(f"caster, reach {_digits(slider.law.reach * 100)} cm")
-            if slider.law.rolling > 0:
-                words.append(f"of it rolling {_digits(slider.law.rolling / STANDARD_GRAVITY)} g")
-    if wn > 0:
-        words.append(f"period {_digits(2 * np.pi / wn)} s")
-    return ", ".join(words)
+            sides = ((ahead, "forward"), (back, "backward"))
+            places = ", ".join(f"{_digits(d * 100)} cm {side}" for d, side in sides if d)
+        words.append(f"stops at {places}, restitution {_digits(restitution)}")
+    return words
 
 
-def _by_speed(slow: float, fast: float) -> str:
-    slow, fast = slow / STANDARD_GRAVITY, fast / STANDARD_GRAVITY
-    return f"slip level {_digits(slow)} g slow, {_digits(fast)} g fast"
+def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
+    if isinstance(law.get("static"), list):
+        yield from _both_ways("static level", *law["static"])
+    if law["law"] == "VelocityDependent":
+        yield f"slip level {_in_g(law['slow'])} slow, {_in_g(law['fast'])} fast"
+    elif law["law"] == "Stribeck":
+        yield f"slip level {_in_g(law['static'])} at rest, {_in_g(law['kinetic'])} fast"
+    elif law["law"] == "Degrading":
+        yield f"slip level {_in_g(law['levels'][0])}"
+        if len(law["levels"]) > 1:
+            length, unit = _unit(law["distances"][-1])
+            distance = f"{_digits(law['distances'][-1] * length)} {unit}"
+            yield f"{_in_g(law['levels'][-1])} after {distance}"
+        if law["backward"] != law["levels"]:
+            yield "different backward"
+    elif law["slip_level"] == 0 == law.get("backward", 0):
+        yield "no friction"
+    else:
+        yield from _both_ways(
+            "slip level", law["slip_level"], law.get("backward", law["slip_level"])
+        )
+
+
+def _both_ways(name: str, ahead: float | None, back: float | None) -> Iterator[str]:
+    yield f"{name} {_in_g(ahead)}" + ("" if back in (ahead, None) else " forward")
+    if back != ahead:
+        yield "never backward" if back is None else f"{_in_g(back)} backward"
+
+
+def _in_g(level: float | None) -> str:
+    return "infinite" if level is None else f"{_digits(level / STANDARD_GRAVITY)} g"
 
 
 def _band(axes: Axes, x: np.ndarray, y: np.ndarray, error: np.ndarray, color: str) -> None:
@@ -1248,41 +1310,25 @@ def _with_error(estimate: Estimate, factor: float) -> str:
 
 
 def _entitle_ensemble(figure: FigureBase, ensemble: Ensemble, title: str | None) -> None:
-    title = title or _describe_ensemble(ensemble)
+    title = textwrap.fill(title or _describe_ensemble(ensemble), 95)
     figure.suptitle(title, x=0.01, ha="left", fontsize=10, fontweight="bold")
 
 
 def _describe_ensemble(ensemble: Ensemble) -> str:
     """A title such as '10,000 members of 60 s, slip level 0.2 g'."""
-    slider, times = ensemble.configuration["slider"], ensemble.time
+    configuration, times = ensemble.configuration, ensemble.time
+    slider, excitation = configuration["slider"], configuration["excitation"]
     words = [f"{ensemble.members:,} members" + (f" of {times[-1]:.4g} s" if times.size else "")]
+    if isinstance(excitation, dict) and excitation.get("excitation") == "WithVertical":
+        words.append("vertical motion")
     if not isinstance(slider, dict):  # the configuration of a user-defined source
-        return words[0]
-    if "random" in slider:
+        pass
+    elif "random" in slider:
         words.append("random sliders")
-    if "one_of" in slider:
+    elif "one_of" in slider:
         words.append(f"{len(slider['one_of'])} sliders")
-    if "damping" in slider:
-        words.append(f"viscous damping {_digits(slider['damping'])} 1/s")
-    if slider.get("slip_level") == 0 == slider.get("backward"):
-        words.append("no friction")
-    elif "fast" in slider:
-        words.append(_by_speed(slider["slow"], slider["fast"]))
-    elif "slip_level" in slider:
-        ahead = slider["slip_level"] / STANDARD_GRAVITY
-        words.append(f"slip level {_digits(ahead)} g")
-        back = slider.get("backward", slider["slip_level"])
-        if back is None:
-            words.append("never backward")
-        elif back != slider["slip_level"]:
-            words[-1] += " forward"
-            words.append(f"{_digits(back / STANDARD_GRAVITY)} g backward")
-    if "reach" in slider:
-        words.append(f"caster, reach {_digits(slider['reach'] * 100)} cm")
-        if "rolling" in slider:
-            words.append(f"rolling {_digits(slider['rolling'] / STANDARD_GRAVITY)} g")
-    if slider.get("natural_frequency"):
-        words.append(f"period {_digits(2 * np.pi / slider['natural_frequency'])} s")
+    elif "law" in slider:
+        words += _in_words(slider)
     return ", ".join(words)
 
 

@@ -110,3 +110,16 @@ TEST_CASE("speed-dependent friction refuses what is no friction", "[velocity_dep
   CHECK_THROWS_AS(VelocityDependent(1, 1, -1), std::invalid_argument);
   CHECK_THROWS_AS(VelocityDependent(1, 1, not_a_number), std::invalid_argument);
 }
+
+TEST_CASE("friction that grows with the speed creeps to rest on a spring", "[velocity_dependent]") {
+  // Overdamped: c = (fast - slow) rate = 9.8 1/s beside wn = 2 rad/s. It approaches x = slow / wn^2, where the spring is
+  // as strong as friction at no speed, and never reaches it.
+  const double slow = 0.05 * standard_gravity;
+  const Slider slider(VelocityDependent(slow, 2 * slow, 20), 2);
+  const Response r = integrate(slider, GroundMotion({0, 0, 0}, 0.05),
+                               {.displacement = 0.19672, .velocity = -0.042568, .settle = true});
+  CHECK(r.residual == Approx(slow / 4).epsilon(1e-14));
+  CHECK(r.state.mode == Mode::stuck);
+  CHECK(r.events[r.events.size() - 2].kind == EventKind::arrest);
+  CHECK(std::abs(r.energy.imbalance()) <= 1e-14 * r.energy.initial);
+}

@@ -847,6 +847,24 @@ def test_an_ensemble_is_exactly_the_librarys(capsys, case, source):
     }
 
 
+@pytest.mark.parametrize("source", SOURCES)
+@pytest.mark.parametrize("contact", ["flight", "clipped"])
+def test_an_ensemble_with_vertical_motion_is_exactly_the_librarys(capsys, contact, source):
+    shaking, excitation = SOURCES[source]
+    more = ["--members", 64, "--seed", 7, "--threads", 1, "--json", "--contact", contact]
+    code, out, err = run_ensemble(capsys, *shaking, "--mu", 0.05, "--vertical-ratio", 0.5, *more)
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    both = ss.WithVertical(excitation, ratio=0.5)
+    e = ss.run_ensemble(ss.Coulomb(mu=0.05), both, members=64, seed=7, contact=contact)
+    assert document["configuration"] == e.configuration
+    assert document["configuration"]["excitation"]["ratio"] == 0.5
+    assert document["configuration"].get("contact", "flight") == contact
+    assert [q["value"] for q in document["peak_m"]] == [
+        e.quantile(p).value for p in (0.5, 0.95, 0.99)
+    ]
+
+
 def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
     code, out, err = run_ensemble(capsys, *QUAKE, "--level", 0.02, 0.05, "--confidence", 0.9)
     assert (code, err) == (0, "")
@@ -895,6 +913,10 @@ REFUSED_ENSEMBLES = {
         "",
     ),
     "a negative seed": ([*QUAKE, "--seed", -1], "seed must be at least 0, got -1"),
+    "a negative ratio": (
+        [*QUAKE, "--vertical-ratio", -0.5],
+        "--vertical-ratio must be finite and at least 0, got -0.5",
+    ),
     "no threads": ([*QUAKE, "--threads", 0], "threads must be at least 1, got 0"),
     "no width": (["--rate", 3, "--mu", 0.1], "--rate needs --half-width, got none"),
     "no samples": (

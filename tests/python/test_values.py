@@ -62,6 +62,23 @@ EXAMPLES = {
         ss.Degrading(distance=[0, 0.1], mu=[0.3, 0.2], mu_backward=[0.4, 0.2]),
         ss.Degrading(distance=[0.1], slip_level=[1]),
     ],
+    ss.KumarFriction: [
+        ss.KumarFriction(
+            mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2
+        ),
+        ss.KumarFriction(
+            mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2, rate=50
+        ),
+        ss.KumarFriction(
+            mu_ref=0.06,
+            static_pressure=50e6,
+            reference_pressure=50e6,
+            contact_radius=float("inf"),
+            conductivity=float("inf"),
+        ),
+    ],
+    ss.Law: [ss.Law(resist=math.hypot), ss.Law(resist=math.hypot, hold=math.fsum)],
+    ss.SurfaceHeat: [ss.SurfaceHeat(), ss.SurfaceHeat(range(40))],
     ss.StaticKinetic: [
         ss.StaticKinetic(static=2, kinetic=1),
         ss.StaticKinetic(static=(2, 3), kinetic=1),
@@ -77,6 +94,7 @@ EXAMPLES = {
         ss.State(),
         ss.State(1.0, 0.5),
         ss.State(1.0, 0.5, 2.0),
+        ss.State(1.0, 0.5, heat=ss.SurfaceHeat(range(40))),
         ss.advance(BLOCK, ss.State(), 0.1, 9, vertical_start=-20),
     ],
     ss.Slider: [
@@ -150,6 +168,15 @@ EXAMPLES = {
     ],
     ss.SweepError: [ss.SweepError("no node here", range(2, 4), SWEPT)],
     ss.Energy: [r.energy for r in RESPONSES],
+    ss.WithVertical: [
+        ss.WithVertical(SHAKING),
+        ss.WithVertical(SHAKING, ratio=0.5),
+        ss.WithVertical(PULSES),
+    ],
+    ss.EnsembleSensitivity: [
+        ss.ensemble_sensitivity(BLOCK, SHAKING, name, members=5, seed=1)
+        for name in ("mu", "damping", "scale")
+    ],
     ss.Sensitivity: [RESPONSES[0].sensitivity(name) for name in ("mu", "damping", "scale")],
     ss.Response: RESPONSES,
     ss.ResponseSpectrum: [

@@ -31,17 +31,30 @@ struct IntegrateOptions {
 
 namespace detail {
 
-/// Continue without ground acceleration until the slider comes to rest; `go(duration)` integrates its motion.
+/// Continue without ground acceleration until the slider comes to rest; `go(duration)` integrates its motion. Where
+/// friction grows with the speed, a slider on a spring may creep: its speed decays exponentially and never reaches zero.
+/// It is at rest when x no longer changes, but by round-off.
+/// @return whether it crept to rest, without an event
 template <FrictionLaw Law, class Go>
-void settle(const Slider<Law>& slider, const State& state, Go&& go) {
+bool settle(const Slider<Law>& slider, State& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
   if constexpr (ConstantLevelLaw<Law>) {
     const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };
     if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
   }
   for (double duration = 1; duration <= longest; duration *= 2) {
+    const double before = state.displacement;
     go(duration);
-    if (state.mode == Mode::stuck) return;
+    if (state.mode == Mode::stuck) return false;
+    if constexpr (!PositionLaw<Law>) {
+      const double x = std::abs(state.displacement);
+      if (std::abs(state.displacement - before) <= 0x1p-50 * x &&
+          std::abs(state.velocity) <= 0x1p-40 * slider.natural_frequency() * x) {
+        state.velocity = 0;
+        state.mode = Mode::stuck;
+        return true;
+      }
+    }
   }
   throw ConvergenceError(
       "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
@@ -120,11 +133,15 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   if (options.settle) {
     const State at_end = state;
     double time = end;
-    settle(slider, state, [&](double duration) {
+    const bool crept = settle(slider, state, [&](double duration) {
       recorder.begin_segment(time, time + duration);
       move(Segment{duration, 0, 0}, state, recorder);
       time += duration;
     });
+    if (crept) {
+      recorder.begin_segment(time, time);
+      recorder.event(EventKind::arrest, 0, state);
+    }
     end = std::max(end, recorder.last_event());
     const auto step = [&](const Segment& segment, State& from) {
       NoObserver none;

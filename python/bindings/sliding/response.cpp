@@ -113,6 +113,11 @@ py::object gap_of(const py::object& self) {
   return array_of(std::vector<double>(response.displacement.size()));
 }
 
+py::object temperature_of(const py::object& self) {
+  const Response& response = self.cast<const ResponseWithInputs&>().response;
+  return response.temperature.empty() ? py::object(py::none()) : py::object(view(response.temperature, self));
+}
+
 py::array impacts_of(const ResponseWithInputs& self) {
   std::vector<Event> impacts;
   std::ranges::copy_if(self.response.events, std::back_inserter(impacts),
@@ -142,40 +147,17 @@ Margins margins_of(const ResponseWithInputs& self) {
                      [&](const auto& slider, const auto& motion) { return margins(slider, motion, self.response); });
 }
 
-struct NamedParameter {
-  const char* name;
-  stickslip::Parameter parameter;
-  double factor;  // of its unit
-};
-constexpr NamedParameter parameters[] = {{"mu", stickslip::Parameter::slip_level, standard_gravity},
-                                         {"slip_level", stickslip::Parameter::slip_level, 1},
-                                         {"mu_kinetic", stickslip::Parameter::kinetic, standard_gravity},
-                                         {"kinetic", stickslip::Parameter::kinetic, 1},
-                                         {"mu_static", stickslip::Parameter::static_level, standard_gravity},
-                                         {"static", stickslip::Parameter::static_level, 1},
-                                         {"natural_frequency", stickslip::Parameter::natural_frequency, 1},
-                                         {"damping", stickslip::Parameter::damping, 1},
-                                         {"slope_degrees", stickslip::Parameter::slope, 1},
-                                         {"scale", stickslip::Parameter::scale, 1}};
-
 Sensitivity sensitivity_of(const ResponseWithInputs& self, const std::string& name) {
-  std::string known;
-  for (const NamedParameter& p : parameters) {
-    if (name != p.name) {
-      known += (known.empty() ? "'" : ", '") + std::string(p.name) + "'";
-      continue;
+  const auto [parameter, factor] = parameter_of(name, "sensitivity");
+  return with_inputs(self, [&](const auto& slider, const auto& motion) -> Sensitivity {
+    if constexpr (std::same_as<std::decay_t<decltype(motion)>, HarmonicMotion>) {
+      throw std::invalid_argument(
+          "sensitivity: covers a GroundMotion, got a HarmonicMotion; integrate motion.sampled(dt)");
+    } else {
+      const Sensitivity one = sensitivity(slider, motion, self.response, parameter);
+      return {factor * one.peak, factor * one.residual, factor * one.velocity};
     }
-    return with_inputs(self, [&](const auto& slider, const auto& motion) -> Sensitivity {
-      if constexpr (std::same_as<std::decay_t<decltype(motion)>, HarmonicMotion>) {
-        throw std::invalid_argument(
-            "sensitivity: covers a GroundMotion, got a HarmonicMotion; integrate motion.sampled(dt)");
-      } else {
-        const Sensitivity one = sensitivity(slider, motion, self.response, p.parameter);
-        return {p.factor * one.peak, p.factor * one.residual, p.factor * one.velocity};
-      }
-    });
-  }
-  throw std::invalid_argument("sensitivity: parameter must be one of " + known + ", got '" + name + "'");
+  });
 }
 
 // A Python function that takes the response.
@@ -194,6 +176,26 @@ auto number() {
 }
 
 }  // namespace
+
+UnitParameter parameter_of(const std::string& name, const std::string& who) {
+  using enum stickslip::Parameter;
+  constexpr std::pair<const char*, UnitParameter> parameters[] = {{"mu", {slip_level, standard_gravity}},
+                                                                  {"slip_level", {slip_level, 1}},
+                                                                  {"mu_kinetic", {kinetic, standard_gravity}},
+                                                                  {"kinetic", {kinetic, 1}},
+                                                                  {"mu_static", {static_level, standard_gravity}},
+                                                                  {"static", {static_level, 1}},
+                                                                  {"natural_frequency", {natural_frequency, 1}},
+                                                                  {"damping", {damping, 1}},
+                                                                  {"slope_degrees", {slope, 1}},
+                                                                  {"scale", {scale, 1}}};
+  std::string known;
+  for (const auto& [its_name, parameter] : parameters) {
+    if (name == its_name) return parameter;
+    known += (known.empty() ? "'" : ", '") + std::string(its_name) + "'";
+  }
+  throw std::invalid_argument(who + ": parameter must be one of " + known + ", got '" + name + "'");
+}
 
 template <>
 inline constexpr auto parts<ResponseWithInputs> = std::tuple(&ResponseWithInputs::response, &ResponseWithInputs::slider,
@@ -270,6 +272,10 @@ max(N, 0), N = (g + a_z) cos(slope) + n sin(slope); 0 in flight.)")
       .def_property_readonly("gap", &gap_of, R"(Gap between slider and ground at `time` [m], shape (N,).
 
 0 except in flight, with contact='flight'.)")
+      .def_property_readonly("temperature", &temperature_of,
+                             R"(Temperature of the sliding surface at `time` [degrees Celsius], shape (N,).
+
+None unless the friction law depends on it, as `KumarFriction` does.)")
       .def_property_readonly("spring", force<&Forces::spring>(),
                              "Force of the spring per unit mass at `time`, wn^2 x, for a pendulum times N+/g [m/s^2], "
                              "shape (N,).")
@@ -420,8 +426,9 @@ axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
            R"(Convert the histories to a pandas DataFrame.
 
 The index is 'time [s]'; the names of the columns include units: ground acceleration, displacement, velocity,
-acceleration, friction, spring, damper and force, and 'stuck' (bool). The ground acceleration is 0 after the ground
-motion. ImportError without pandas.)")
+acceleration, friction, spring, damper and force, and 'stuck' (bool). Under vertical motion also the vertical ground
+acceleration, the gap and the normal force; on a slope also the normal force. The ground acceleration is 0 after the
+ground motion. ImportError without pandas.)")
       .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
            R"(Convert the histories to an xarray Dataset over the coordinate `time`.
 
@@ -460,8 +467,8 @@ A line of names with units, then one line per sample; every number reads back as
 Returns
 -------
 str
-    An object: `stickslip` (the version), `slider`, `motion` (its name), `components`, `peak` [m], `residual` [m],
-    `sliding_distance` [m], `at_rest`; `units` of all that follow; `time` and the columns of `to_dataframe`, each a list
+    An object: `stickslip` (the version), `slider`, `motion` (its name), `components`, `contact`, `peak` [m],
+    `residual` [m], `sliding_distance` [m], `at_rest`; `units` of all that follow; `time` and the columns of `to_dataframe`, each a list
     with one value per sample; `events`, each with `time` [s], `displacement` [m], `velocity` [m/s] and `kind`. Every
     number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
       .def("_repr_html_", in_python("stickslip._tables", "response_html"))

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -35,6 +36,14 @@ class Storage {
     return *spare;
   }
 };
+
+/// A parameter and the factor from its derivative to the derivative by the quantity that a name stands for.
+struct UnitParameter {
+  stickslip::Parameter parameter;
+  double factor;
+};
+/// @throws std::invalid_argument  an unknown name; begins with `who`
+UnitParameter parameter_of(const std::string& name, const std::string& who);
 
 /// Events as a structured array, that of `Response.events`.
 py::array events_array(const std::vector<Event>& events);

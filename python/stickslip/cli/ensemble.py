@@ -8,11 +8,19 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from .. import Ensemble, Estimate, GaussianExcitation, Interval, PoissonPulses, Spectrum
+from .. import (
+    Ensemble,
+    Estimate,
+    GaussianExcitation,
+    Interval,
+    PoissonPulses,
+    Spectrum,
+    WithVertical,
+)
 from .._text import printable
 from .output import FAILURES, check_outputs, check_whole, complain, json_text, reason_of
 from .parser import numbers, text_argument
-from .slider import add_slider, slider_of
+from .slider import add_contact, add_slider, slider_of
 
 __all__ = ["add_ensemble"]
 
@@ -45,8 +53,16 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
     add("--duration", type=float, metavar="S", help="duration [s] (with --rate)")
     add("--dt", type=float, metavar="S", help="time step [s] (with --band)")
     add("--samples", type=int, metavar="N", help="number of samples (with --band)")
+    add(
+        "--vertical-ratio",
+        type=float,
+        metavar="R",
+        help="add a vertical component, drawn independently of the horizontal one like it, and"
+        " times this ratio (V/H, often near 2/3)",
+    )
     add("--mu", type=float, required=True, help="coefficient of friction [-]")
     add_slider(parser)
+    add_contact(parser)
     add(
         "--members", type=int, default=10_000, metavar="N", help="number of members (default 10000)"
     )
@@ -104,6 +120,7 @@ def _ensemble(args: argparse.Namespace) -> str:
             seed=args.seed,
             threads=args.threads,
             settle=args.settle,
+            contact=args.contact,
             progress=sys.stderr is not None and sys.stderr.isatty(),
             checkpoint=args.checkpoint,
         )
@@ -127,8 +144,19 @@ def _ensemble(args: argparse.Namespace) -> str:
     return "\n".join([*_report(args, result), *(f"wrote {printable(name)}" for name in written)])
 
 
-def _excitation(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation:
+def _excitation(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation | WithVertical:
     """The ground motion of the command line."""
+    horizontal = _horizontal(args)
+    if args.vertical_ratio is None:
+        return horizontal
+    if not 0 <= args.vertical_ratio < math.inf:
+        raise ValueError(
+            f"--vertical-ratio must be finite and at least 0, got {args.vertical_ratio:g}"
+        )
+    return WithVertical(horizontal, ratio=args.vertical_ratio)
+
+
+def _horizontal(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation:
     belong = {"rate": ("half_width", "sigma", "duration"), "band": ("dt", "samples"), "event": ()}
     (kind,) = (kind for kind in belong if getattr(args, kind) is not None)
     for other, names in belong.items():

@@ -13,7 +13,7 @@ from .._text import printable
 from .batch import Batch, add_files, add_vertical
 from .output import column, json_text, write_csv
 from .parser import numbers
-from .slider import add_slider, described, heading, slider_of, variations
+from .slider import add_contact, add_slider, described, heading, slider_of, variations
 
 __all__ = ["add_slide"]
 
@@ -76,13 +76,7 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     )
     add_slider(parser, ranges=True)
     add_vertical(parser)
-    add(
-        "--contact",
-        choices=("flight", "clipped"),
-        default="flight",
-        help="where the ground falls faster than the block: it flies and lands (the default), or"
-        " stays on the ground without friction",
-    )
+    add_contact(parser)
     add("--scale", type=numbers, default=1.0, help="factor on the ground acceleration (default 1)")
     add(
         "--both",

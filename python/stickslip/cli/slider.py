@@ -11,7 +11,7 @@ from typing import Any
 from .. import Caster, Coulomb, Slider, StaticKinetic, Stops
 from .parser import numbers
 
-__all__ = ["add_slider", "described", "heading", "slider_of", "variations"]
+__all__ = ["add_contact", "add_slider", "described", "heading", "slider_of", "variations"]
 
 # The options that may be ranges, with their headings in tables and names in legends.
 _VARIED = {
@@ -67,6 +67,17 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
         type=number,
         metavar="E",
         help="speed after an impact on a stop over that before, from 0 to 1; with --stop-gap",
+    )
+
+
+def add_contact(parser: argparse.ArgumentParser) -> None:
+    """Add --contact."""
+    parser.add_argument(
+        "--contact",
+        choices=("flight", "clipped"),
+        default="flight",
+        help="where the ground falls faster than the block: it flies and lands (the default), or"
+        " stays on the ground without friction",
     )
 
 

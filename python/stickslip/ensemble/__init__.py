@@ -8,6 +8,14 @@ for a run that was interrupted and resumed.
 from .error import EnsembleError
 from .random_slider import Random
 from .run import run_ensemble
+from .sensitivity import ensemble_sensitivity
 from .sources import Excitation, SliderSource
 
-__all__ = ["EnsembleError", "Excitation", "Random", "SliderSource", "run_ensemble"]
+__all__ = [
+    "EnsembleError",
+    "Excitation",
+    "Random",
+    "SliderSource",
+    "ensemble_sensitivity",
+    "run_ensemble",
+]

@@ -47,11 +47,11 @@ def run_ensemble(
         A law alone is a slider without spring and damper. From a list of m sliders, member i takes
         number i modulo m; from `Drawn(list)`, a random one. `Random` has random parameters. For
         your own source see `stickslip.ensemble.SliderSource`.
-    motions : GaussianExcitation, PoissonPulses, GroundMotion or list of it, Drawn or Excitation
-        A random source; or records, which may differ in length and time step: from a list of n,
-        member i takes number i modulo n; from `Drawn(list)`, a random one. For your own source see
-        `stickslip.ensemble.Excitation`. If durations differ, there are no statistics by time:
-        `Ensemble.time` is empty.
+    motions : GaussianExcitation, PoissonPulses, WithVertical, GroundMotion or list, Drawn, ...
+        A random source, `WithVertical` also with a vertical component; or records, which may differ
+        in length and time step: from a list of n, member i takes number i modulo n; from
+        `Drawn(list)`, a random one. For your own source see `stickslip.ensemble.Excitation`. If
+        durations differ, there are no statistics by time: `Ensemble.time` is empty.
     members : int
         Number of members, at least 1; at least 2 for standard errors.
     seed : int
@@ -99,8 +99,9 @@ def run_ensemble(
     ------
     ValueError
         A value out of range; parameters of `Random` that the law rejects (names the member and the
-        value); an empty list; a checkpoint that is damaged, of another configuration (names the
-        difference), or with members outside the run.
+        value); a vertical motion under which a slider never lands (names the member); an empty
+        list; a checkpoint that is damaged, of another configuration (names the difference), or with
+        members outside the run.
     TypeError
         An argument of the wrong type.
     OverflowError
@@ -122,19 +123,19 @@ def run_ensemble(
     Times on one thread, including motions and statistics (2.5 GHz, AVX2). Under Gaussian
     excitation: 6 to 7 ns per sample for Coulomb friction without a spring, 9 for spring and damper
     without friction, 70 for casters. Under pulses: 10 ns per step for Coulomb friction. The
-    velocity spectrum: 2 ns per sample. Other sliders, lists and random sliders: as for `integrate`,
-    plus some 10 ns. Memory: 16 bytes per member, and 1 kB per thread and time of the statistics;
-    above 2^24 members, peaks are counted in bins. A call takes 0.1 ms and copies a list of records;
-    so does each part on an executor.
+    velocity spectrum: 2 ns per sample. Other sliders, lists, random sliders and vertical motion: as
+    for `integrate`, plus some 10 ns. Memory: 16 bytes per member, and 1 kB per thread and time of
+    the statistics; above 2^24 members, peaks are counted in bins. A call takes 0.1 ms and copies a
+    list of records; so does each part on an executor.
 
     References
     ----------
     Thesis 4.4, 5.4; P. Pebay, Formulas for robust, one-pass parallel computation of covariances and
     arbitrary-order statistical moments, SAND2008-6212 (2008).
     """
-    total = _whole("members", members, 1)
-    first = _whole("first_member", first_member, 0)
-    count = 0 if threads is None else _whole("threads", threads, 1, 2**16)
+    total = whole_number("members", members, 1)
+    first = whole_number("first_member", first_member, 0)
+    count = 0 if threads is None else whole_number("threads", threads, 1, 2**16)
     if executor is not None and threads is not None:
         raise ValueError(
             f"run_ensemble: give threads or executor, whose parts have one thread, got threads ="
@@ -146,7 +147,7 @@ def run_ensemble(
             f" {type(executor).__name__}"
         )
     options = {
-        "seed": _whole("seed", seed, 0),
+        "seed": whole_number("seed", seed, 0),
         "dt": 0.0 if dt is None else _positive("dt", dt),
         "settle": settle,
         "contact": contact,
@@ -172,14 +173,21 @@ def run_ensemble(
     return whole
 
 
-def _whole(name: str, value: SupportsIndex, least: int, most: int = 2**64 - 1) -> int:
+def whole_number(
+    name: str,
+    value: SupportsIndex,
+    least: int,
+    most: int = 2**64 - 1,
+    who: str = "run_ensemble",
+) -> int:
+    """An integer argument within its bounds."""
     try:
         number = operator.index(value)
     except TypeError:
-        raise TypeError(f"run_ensemble: {name} must be a whole number, got {value!r}") from None
+        raise TypeError(f"{who}: {name} must be a whole number, got {value!r}") from None
     if not least <= number <= most:
         bound = f"at least {least}" if number < least else f"at most {most}"
-        raise ValueError(f"run_ensemble: {name} must be {bound}, got {number}")
+        raise ValueError(f"{who}: {name} must be {bound}, got {number}")
     return number
 
 

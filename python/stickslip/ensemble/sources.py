@@ -12,11 +12,14 @@ from .._core import (
     Drawn,
     GaussianExcitation,
     GroundMotion,
+    KumarFriction,
+    Law,
     PoissonPulses,
     Slider,
     StaticKinetic,
     Stribeck,
     VelocityDependent,
+    WithVertical,
 )
 
 
@@ -54,8 +57,9 @@ class SliderSource(Protocol):
 
 
 AnySlider: TypeAlias = (
-    "Slider | Coulomb | Caster | VelocityDependent | Stribeck | Degrading | StaticKinetic"
+    "Slider | Coulomb | Caster | VelocityDependent | Stribeck | Degrading | KumarFriction | Law"
+    " | StaticKinetic"
 )
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
-AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | Excitation | Records"
+AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | WithVertical | Excitation | Records"

@@ -17,6 +17,8 @@ from .._core import (
     Coulomb,
     Degrading,
     GroundMotion,
+    KumarFriction,
+    Law,
     Slider,
     StaticKinetic,
     Stribeck,
@@ -32,7 +34,17 @@ from .table import SweepTable, parameters_of
 
 Polarity = Literal["both", "as recorded", "flipped"]
 
-_SLIDERS = (Slider, Coulomb, Caster, VelocityDependent, Stribeck, Degrading, StaticKinetic)
+_SLIDERS = (
+    Slider,
+    Coulomb,
+    Caster,
+    VelocityDependent,
+    Stribeck,
+    Degrading,
+    KumarFriction,
+    Law,
+    StaticKinetic,
+)
 _PARTS = 64  # number of parts of the records for an executor
 
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,13 +34,18 @@ class Simulator {
   virtual void simulate(std::uint64_t first_member, std::size_t members, Block& block) = 0;
 };
 
-/// Does the work; a failure to converge says which member it was.
+/// Does the work; an error names the member.
 template <class Work>
-void naming_member(std::uint64_t member, Work&& work) {
+void naming_member(std::uint64_t member, Work&& work, const char* who = "run_ensemble") {
+  const auto named = [&](const std::exception& error) {
+    return who + (": member " + std::to_string(member)) + ": " + error.what();
+  };
   try {
     work();
   } catch (const ConvergenceError& error) {
-    throw ConvergenceError("run_ensemble: member " + std::to_string(member) + ": " + error.what());
+    throw ConvergenceError(named(error));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(named(error));
   }
 }
 
