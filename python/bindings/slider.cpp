@@ -60,11 +60,21 @@ void convert_laws(const std::variant<Slider<Laws>...>*) {
   py::implicitly_convertible<AnyStaticKinetic, AnySlider>();
 }
 
-State slid_to(double displacement, double sliding_distance) {
+// A state at rest; `temperature` [degrees Celsius] matters to laws that depend on it.
+State slid_to(const AnySlider& slider, double displacement, double sliding_distance,
+              std::optional<double> temperature) {
   detail::require(std::isfinite(sliding_distance) && sliding_distance >= 0,
                   "Slider: sliding_distance must be finite and at least 0", sliding_distance, "m");
   State state = State::at(displacement, 0);
   state.sliding_distance = sliding_distance;
+  if (temperature) {
+    detail::require(std::isfinite(*temperature), "Slider: temperature must be finite", *temperature, "degrees Celsius");
+    std::visit(
+        [&]<class Law>(const Slider<Law>& one) {
+          if constexpr (HeatedLaw<Law>) state.heat = SurfaceHeat::with(one.law().half_integral_at(*temperature));
+        },
+        slider);
+  }
   return state;
 }
 
@@ -112,7 +122,7 @@ acceleration [m/s^2]; on level ground without vertical motion p = -n and N = g. 
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading or StaticKinetic
+law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, Law or StaticKinetic
     The friction at rest and while sliding.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0; 0 means no spring.
@@ -175,7 +185,7 @@ A pendulum whose length is the radius of the cup minus that of the wheel: wn = s
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading or StaticKinetic
+law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, Law or StaticKinetic
 cup_radius : float
     Radius of curvature of the cup [m], positive and finite.
 wheel_radius : float, optional
@@ -223,14 +233,16 @@ Holds to first order in x / (cup_radius - wheel_radius); the next term is of thi
           "c / (2 wn); without a spring, inf, or nan if there is no damper either.")
       .def(
           "hold",
-          [](const AnySlider& self, double displacement, bool backward, double sliding_distance) {
+          [](const AnySlider& self, double displacement, bool backward, double sliding_distance,
+             std::optional<double> temperature) {
             if (backward && mounting_of(self).one_way) return never;
-            const State state = slid_to(displacement, sliding_distance);
+            const State state = slid_to(self, displacement, sliding_distance, temperature);
             return std::visit(
                 [&](const auto& s) { return hold(law_at(s.law(), state), displacement, direction_of(backward)); },
                 self);
           },
           py::arg("displacement") = 0.0, py::kw_only(), py::arg("backward") = false, py::arg("sliding_distance") = 0.0,
+          py::arg("temperature") = py::none(),
           R"(Largest load that friction resists at rest.
 
 Parameters
@@ -241,6 +253,8 @@ backward : bool, optional
     Against backward instead of forward sliding.
 sliding_distance : float, optional
     Slid so far [m], where the law depends on it; at least 0.
+temperature : float, optional
+    Of the sliding surface [degrees Celsius], where the law depends on it; that at the start if not given.
 
 Returns
 -------
@@ -248,9 +262,10 @@ float
     Friction force per unit mass [m/s^2].)")
       .def(
           "resist",
-          [](const AnySlider& self, double displacement, double speed, bool backward, double sliding_distance) {
+          [](const AnySlider& self, double displacement, double speed, bool backward, double sliding_distance,
+             std::optional<double> temperature) {
             if (backward && mounting_of(self).one_way) return never;
-            const State state = slid_to(displacement, sliding_distance);
+            const State state = slid_to(self, displacement, sliding_distance, temperature);
             return std::visit(
                 [&](const auto& s) -> double {
                   return resist(law_at(s.law(), state), displacement, direction_of(backward), speed);
@@ -258,7 +273,7 @@ float
                 self);
           },
           py::arg("displacement") = 0.0, py::arg("speed") = 0.0, py::kw_only(), py::arg("backward") = false,
-          py::arg("sliding_distance") = 0.0,
+          py::arg("sliding_distance") = 0.0, py::arg("temperature") = py::none(),
           R"(Friction while sliding.
 
 Parameters
@@ -271,6 +286,8 @@ backward : bool, optional
     Against backward instead of forward sliding.
 sliding_distance : float, optional
     Slid so far [m], where the law depends on it; at least 0.
+temperature : float, optional
+    Of the sliding surface [degrees Celsius], where the law depends on it; that at the start if not given.
 
 Returns
 -------

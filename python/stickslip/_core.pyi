@@ -387,6 +387,7 @@ class Slider(metaclass=_Pybind11Type):
         *,
         backward: bool = False,
         sliding_distance: _Number = 0.0,
+        temperature: _Number | None = None,
     ) -> float: ...
     def resist(
         self,
@@ -395,6 +396,7 @@ class Slider(metaclass=_Pybind11Type):
         *,
         backward: bool = False,
         sliding_distance: _Number = 0.0,
+        temperature: _Number | None = None,
     ) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...

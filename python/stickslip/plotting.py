@@ -239,10 +239,13 @@ def plot_response(
         _title(ground, response.motion, title, _describe(response.slider))
         _draw_ground(ground, response)
         lower, upper = _held(response, t, x)
-        if np.isfinite(lower).all() and np.isfinite(upper).all():
+        if "liftoff" in response.events["kind"]:  # nothing holds a slider in flight
+            flies = _normal(response, t) == 0
+            lower, upper = np.where(flies, np.nan, lower), np.where(flies, np.nan, upper)
+        if not (np.isinf(lower).any() or np.isinf(upper).any()):
             ground.fill_between(t, lower, upper, color=BLUE, alpha=0.12, linewidth=0, zorder=0)
         for bound, edge in ((lower, "forward"), (upper, "backward")):
-            if np.isfinite(bound).all():
+            if not np.isinf(bound).any():
                 ground.plot(t, bound, color=BLUE, linewidth=0.9, label=f"slip level {edge}")
         _note_levels(ground, response)
 
@@ -971,8 +974,10 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
         at, speed, far = x[k], velocity[k], slid[k]
         weight = _normal(response, t[k]) / STANDARD_GRAVITY
         friction = [
-            w * slider.resist(one, abs(u), backward=w < 0, sliding_distance=d)
-            for one, u, w, d in zip(at.tolist(), speed.tolist(), way.tolist(), far.tolist())
+            w * slider.resist(one, abs(u), backward=w < 0, sliding_distance=d, temperature=warm)
+            for one, u, w, d, warm in zip(
+                at.tolist(), speed.tolist(), way.tolist(), far.tolist(), _warm(response, t[k])
+            )
         ]
         spring = slider.natural_frequency**2 * at * (weight if slider.pendulum else 1)
         return np.array(friction) * weight + slider.damping * speed + spring
@@ -1028,6 +1033,15 @@ def _slid(response: Response, t: np.ndarray) -> np.ndarray:
     return before + np.interp(t, times, slid)
 
 
+def _warm(response: Response, t: np.ndarray) -> list[float | None]:
+    """Surface temperature [degrees Celsius] at given times, where friction depends on it."""
+    celsius = response.temperature
+    if celsius is None:
+        return [None] * t.size
+    warm: list[float | None] = np.interp(t, response.time, celsius).tolist()
+    return warm
+
+
 def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Bounds [g] of the ground acceleration that friction resists at rest, at displacements x [m].
 
@@ -1048,8 +1062,8 @@ def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray,
     forward, backward = (
         np.array(
             [
-                slider.hold(at, backward=back, sliding_distance=far)
-                for at, far in zip(x.tolist(), slid.tolist())
+                slider.hold(at, backward=back, sliding_distance=far, temperature=warm)
+                for at, far, warm in zip(x.tolist(), slid.tolist(), _warm(response, t))
             ]
         )
         / STANDARD_GRAVITY
@@ -1085,10 +1099,12 @@ def _note_levels(axes: Axes, response: Response) -> None:
     end = response.events["time"][-1:]
     (lower,), (upper,) = _held(response, end, np.array([x]))
     (slid,) = _slid(response, end).tolist()
+    (warm,) = _warm(response, end)
     ahead, back = (
-        slider.hold(x, backward=b, sliding_distance=slid) / STANDARD_GRAVITY for b in (False, True)
+        slider.hold(x, backward=b, sliding_distance=slid, temperature=warm) / STANDARD_GRAVITY
+        for b in (False, True)
     )
-    kinetic = slider.resist(x, sliding_distance=slid) / STANDARD_GRAVITY
+    kinetic = slider.resist(x, sliding_distance=slid, temperature=warm) / STANDARD_GRAVITY
     name = "static level" if ahead > kinetic else "slip level"
     if ahead == back:
         notes = [(name, ahead, (lower + upper) / 2, "center")]
@@ -1207,6 +1223,9 @@ def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
         yield f"slip level {_in_g(law['slow'])} slow, {_in_g(law['fast'])} fast"
     elif law["law"] == "Stribeck":
         yield f"slip level {_in_g(law['static'])} at rest, {_in_g(law['kinetic'])} fast"
+    elif law["law"] == "KumarFriction":
+        pressure = f"{_digits(law['static_pressure'] / 1e6)} MPa"
+        yield f"mu {_digits(law['mu_ref'])} at reference, {pressure}, heated"
     elif law["law"] == "Degrading":
         yield f"slip level {_in_g(law['levels'][0])}"
         if len(law["levels"]) > 1:
@@ -1215,6 +1234,8 @@ def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
             yield f"{_in_g(law['levels'][-1])} after {distance}"
         if law["backward"] != law["levels"]:
             yield "different backward"
+    elif "slip_level" not in law:
+        yield "law from functions"
     elif law["slip_level"] == 0 == law.get("backward", 0):
         yield "no friction"
     else:

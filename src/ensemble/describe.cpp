@@ -31,6 +31,15 @@ std::string parameters(const Degrading& law) {
          ", \"backward\": " + json(law.backward());
 }
 
+std::string parameters(const KumarFriction& law) {
+  const KumarFriction::Parameters& p = law.parameters();
+  return "\"law\": \"KumarFriction\", \"mu_ref\": " + json(p.mu_ref) +
+         ", \"static_pressure\": " + json(p.static_pressure) +
+         ", \"reference_pressure\": " + json(p.reference_pressure) + ", \"contact_radius\": " + json(p.contact_radius) +
+         ", \"temperature\": " + json(p.temperature) + ", \"rate\": " + json(p.rate) +
+         ", \"diffusivity\": " + json(p.diffusivity) + ", \"conductivity\": " + json(p.conductivity);
+}
+
 std::string parameters_of_static(const std::string& sliding, double forward, double backward) {
   return "\"static\": " + json(std::array{forward, backward}) + ", " + sliding;
 }

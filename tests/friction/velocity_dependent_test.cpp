@@ -112,8 +112,8 @@ TEST_CASE("speed-dependent friction refuses what is no friction", "[velocity_dep
 }
 
 TEST_CASE("friction that grows with the speed creeps to rest on a spring", "[velocity_dependent]") {
-  // Overdamped: c = (fast - slow) rate = 9.8 1/s beside wn = 2 rad/s. It approaches x = slow / wn^2, where the spring is
-  // as strong as friction at no speed, and never reaches it.
+  // Overdamped: c = (fast - slow) rate = 9.8 1/s beside wn = 2 rad/s. It approaches x = slow / wn^2, where the spring
+  // is as strong as friction at no speed, and never reaches it.
   const double slow = 0.05 * standard_gravity;
   const Slider slider(VelocityDependent(slow, 2 * slow, 20), 2);
   const Response r = integrate(slider, GroundMotion({0, 0, 0}, 0.05),

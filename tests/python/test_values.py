@@ -1,6 +1,7 @@
 """What every class of the package does: pickling, copies, comparison, hash; no use before init."""
 
 import copy
+import math
 import multiprocessing
 import pickle
 import subprocess

@@ -32,8 +32,8 @@ struct IntegrateOptions {
 namespace detail {
 
 /// Continue without ground acceleration until the slider comes to rest; `go(duration)` integrates its motion. Where
-/// friction grows with the speed, a slider on a spring may creep: its speed decays exponentially and never reaches zero.
-/// It is at rest when x no longer changes, but by round-off.
+/// friction grows with the speed, a slider on a spring may creep: its speed decays exponentially and never reaches
+/// zero. It is at rest when x no longer changes, but by round-off.
 /// @return whether it crept to rest, without an event
 template <FrictionLaw Law, class Go>
 bool settle(const Slider<Law>& slider, State& state, Go&& go) {

@@ -12,6 +12,7 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/kumar.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"
@@ -27,6 +28,7 @@ std::string parameters(const Caster& law);
 std::string parameters(const VelocityDependent& law);
 std::string parameters(const Stribeck& law);
 std::string parameters(const Degrading& law);
+std::string parameters(const KumarFriction& law);
 template <FrictionLaw Law>
 std::string parameters(const StaticKinetic<Law>& law);
 std::string parameters_of_static(const std::string& sliding, double forward, double backward);
