@@ -64,7 +64,7 @@ class SurfaceHeat {
 
     /// @param time     [s]
     /// @param heating  whether heat is added; else only what is left is known
-    explicit Step(double time, bool heating = false) noexcept : time_(time) {
+    [[gnu::noinline]] explicit Step(double time, bool heating = false) noexcept : time_(time) {
       std::array<double, modes> x;
       for (std::size_t j = 0; j < modes; ++j) left_[j] = std::exp(-(x[j] = table().rate[j] * time));
       if (!heating) return;
@@ -106,7 +106,7 @@ class SurfaceHeat {
   }
 
   /// Cools for a time [s].
-  void rest(double time) noexcept {
+  [[gnu::noinline]] void rest(double time) noexcept {
     if (!warm_ || !(time > 0)) return;
     for (std::size_t j = 0; j < modes; ++j) modes_[j] *= std::exp(-table().rate[j] * time);
   }

@@ -85,8 +85,8 @@ concept LoadedPiece = requires(const Piece& piece) {
 /// pull and `bound(direction, level)` what holds it at a level. The margins are polynomials on one part of the time
 /// after another, to 1e-9 of the level. Leaves the surface as it is at the departure, or else at the end.
 template <HeatedLaw Law, class Piece, class Pull, class Bound>
-Departure heated_departure(const Law& law, const Piece& segment, State& state, double left, Cooling& cooling,
-                           const Pull& pull, const Bound& bound) {
+[[gnu::noinline]] Departure heated_departure(const Law& law, const Piece& segment, State& state, double left,
+                                             Cooling& cooling, const Pull& pull, const Bound& bound) {
   const Nodes& nodes = Nodes::get();
   for (double passed = 0, step = left;;) {
     const Nodes::Values half = cooling.half_integrals(state.heat, step);

@@ -25,7 +25,7 @@ using Nodes = numerics::Collocation<8>;
 class Cooling {
  public:
   /// Of the heat of before, at the nodes of a step.
-  Nodes::Values half_integrals(const SurfaceHeat& heat, double step) {
+  [[gnu::noinline]] Nodes::Values half_integrals(const SurfaceHeat& heat, double step) {
     Nodes::Values result{};
     if (!heat.warm()) return result;
     if (!alike(step, step_)) {
@@ -37,7 +37,7 @@ class Cooling {
   }
 
   /// Heats it for a part of a step.
-  void heat(SurfaceHeat& heat, const Nodes::Values& q, double step, double part) {
+  [[gnu::noinline]] void heat(SurfaceHeat& heat, const Nodes::Values& q, double step, double part) {
     if (part < 1) return heat.heat(q, SurfaceHeat::Step(part * step, true), part);
     if (!alike(step, heating_step_)) heating_.emplace(heating_step_ = step, true);
     heat.heat(q, *heating_);
@@ -75,9 +75,10 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   static constexpr bool heated = HeatedLaw<Law>;
 
  public:
+  /// Kept out of line: inlined wherever a flow is made, it would take a compiler minutes.
   /// @param longest  step to try first [s]
-  CollocationFlow(const Slider<Law>& slider, Direction direction, const State& state, const SlipStart& start,
-                  double duration, double longest, detail::Cooling& cooling)
+  [[gnu::noinline]] CollocationFlow(const Slider<Law>& slider, Direction direction, const State& state,
+                                    const SlipStart& start, double duration, double longest, detail::Cooling& cooling)
       : Base(slider.mounting(), direction, state.displacement, start, duration, longest),
         law_(slider.law()),
         cooling_(cooling) {

@@ -1,12 +1,92 @@
 #include "friction/callable_law.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
 #include "friction/arguments.hpp"
 #include "parts.hpp"
+#include "stickslip/error.hpp"
 
 namespace stickslip::python {
 
+struct CallableLaw::Function {
+  py::object object;
+  const char* name;
+  bool missing = false;
+  double (*compiled2)(double, double) = nullptr;
+  double (*compiled3)(double, double, double) = nullptr;
+
+  Function(py::object given, const char* what, int arguments) : object(std::move(given)), name(what) {
+    missing = object.is_none();
+    if (missing) return;
+    if (!PyCallable_Check(object.ptr()))
+      throw py::type_error(std::string("Law: ") + name + " must be a function, got " +
+                           py::type::of(object).attr("__name__").cast<std::string>());
+    if (!py::hasattr(object, "address") || !py::hasattr(object, "ctypes")) return;
+    // As numba.cfunc makes them.
+    const py::object c_double = py::module_::import("ctypes").attr("c_double"), prototype = object.attr("ctypes");
+    const py::tuple types = prototype.attr("argtypes");
+    const py::object result = prototype.attr("restype");
+    bool fits = static_cast<int>(types.size()) == arguments && result.is(c_double);
+    for (const py::handle type : types) fits = fits && type.is(c_double);
+    if (!fits)
+      throw py::type_error(std::string("Law: the compiled function ") + name + " must take " +
+                           std::to_string(arguments) + " numbers and return one, all float64");
+    const auto address = object.attr("address").cast<std::uintptr_t>();
+    if (arguments == 2)
+      compiled2 = reinterpret_cast<double (*)(double, double)>(address);
+    else
+      compiled3 = reinterpret_cast<double (*)(double, double, double)>(address);
+  }
+
+  template <class... Numbers>
+  double call(Numbers... numbers) const {
+    const py::gil_scoped_acquire locked;
+    const py::object result = object(numbers...);
+    const double value = PyFloat_AsDouble(result.ptr());
+    if (value == -1 && PyErr_Occurred()) {
+      PyErr_Clear();
+      throw py::type_error(std::string("Law: ") + name + " must return a number, got " +
+                           py::type::of(result).attr("__name__").template cast<std::string>());
+    }
+    return value;
+  }
+
+  double checked(double level, double x, double speed) const {
+    if (level >= 0 && std::isfinite(level)) return level;
+    throw std::invalid_argument(std::string("Law: ") + name + " must be finite and at least 0, got " +
+                                detail::shortest(level) + " m/s^2 at x = " + detail::shortest(x) +
+                                " m and a speed of " + detail::shortest(speed) + " m/s");
+  }
+};
+struct CallableLaw::Functions {
+  Function hold, resist;
+};
+
+CallableLaw::CallableLaw(py::object hold, py::object resist)
+    : functions_(new Functions{{std::move(hold), "hold", 2}, {std::move(resist), "resist", 3}}, [](Functions* all) {
+        const py::gil_scoped_acquire locked;
+        delete all;
+      }) {}
+
+py::object CallableLaw::hold_function() const { return functions_->hold.object; }
+py::object CallableLaw::resist_function() const { return functions_->resist.object; }
+
+double CallableLaw::resist(double x, Direction direction, double speed) const {
+  const Function& f = functions_->resist;
+  return f.checked(f.compiled3 ? f.compiled3(x, speed, sign(direction)) : f.call(x, speed, sign(direction)), x, speed);
+}
+double CallableLaw::hold(double x, Direction direction) const {
+  const Function& f = functions_->hold;
+  if (f.missing) return resist(x, direction, 0);
+  return f.checked(f.compiled2 ? f.compiled2(x, sign(direction)) : f.call(x, sign(direction)), x, 0);
+}
+
 void bind_callable_law(py::module_& m) {
-  auto type = value_class<CallableLaw>(m, "Law", R"(A friction law of your own, from functions.
+  auto type = value_class<CallableLaw>(m, "Law", R"doc(A friction law of your own, from functions.
 
 Parameters
 ----------
@@ -39,14 +119,14 @@ Examples
 --------
 >>> law = Law(resist=lambda x, speed, direction: 2.0 + 0.5 * speed)
 >>> Slider(law).resist(speed=1.0)
-2.5)");
+2.5)doc");
   type.def(py::init<py::object, py::object>(), py::kw_only(), py::arg("hold") = py::none(), py::arg("resist"))
       .def_property_readonly("hold", &CallableLaw::hold_function, "The function of (x, direction), or None.")
       .def_property_readonly("resist", &CallableLaw::resist_function, "The function of (x, speed, direction).")
       .def("__repr__", [](const CallableLaw& law) {
-    const auto name = [](const py::object& f) { return py::repr(f).cast<std::string>(); };
-    return "<Law: " + (law.hold_function().is_none() ? "" : "hold " + name(law.hold_function()) + ", ") + "resist " +
-           name(law.resist_function()) + ">";
+        const auto name = [](const py::object& f) { return py::repr(f).cast<std::string>(); };
+        return "<Law: " + (law.hold_function().is_none() ? "" : "hold " + name(law.hold_function()) + ", ") +
+               "resist " + name(law.resist_function()) + ">";
       });
   explain_constructor(type, "Law: give resist=, a function of (x, speed, direction), and hold= of (x, direction)");
 }
