@@ -2,7 +2,11 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "friction/arguments.hpp"
 #include "parts.hpp"
@@ -32,7 +36,7 @@ memory of one mode: H is within 6e-7 of its largest value, for heat that lasts f
       .def(py::init([](const py::object& modes) {
              if (modes.is_none()) return SurfaceHeat();
              const std::vector<double> values = to_vector(modes, "SurfaceHeat: modes", "J/m^2");
-             std::array<double, SurfaceHeat::modes> all;
+             std::array<double, SurfaceHeat::modes> all{};
              if (values.size() != all.size())
                throw std::invalid_argument("SurfaceHeat: modes must be " + std::to_string(all.size()) + ", got " +
                                            std::to_string(values.size()));
