@@ -31,7 +31,7 @@ class SurfaceHeat {
     if (warm_) modes_ = other.modes_;
     return *this;
   }
-  /// @param modes  y_j [J/m^2], as `values` gives them
+  /// A surface whose modes y_j [J/m^2] are `values`.
   explicit SurfaceHeat(const std::array<double, modes>& values) noexcept : warm_(true), modes_(values) {}
   /// A surface whose half-integral is H now; how it came to it is lost.
   static SurfaceHeat with(double half_integral) noexcept {

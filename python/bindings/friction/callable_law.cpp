@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "friction/arguments.hpp"
 #include "parts.hpp"
 #include "stickslip/error.hpp"
 
@@ -128,7 +127,6 @@ Examples
         return "<Law: " + (law.hold_function().is_none() ? "" : "hold " + name(law.hold_function()) + ", ") +
                "resist " + name(law.resist_function()) + ">";
       });
-  explain_constructor(type, "Law: give resist=, a function of (x, speed, direction), and hold= of (x, direction)");
 }
 
 }  // namespace stickslip::python
