@@ -16,11 +16,12 @@ namespace stickslip {
 /// Conduction of heat in solids, 2nd ed. 1959, section 2.9).
 ///
 /// 1 / sqrt(tau) = integral of exp(u/2 - tau exp(u)) du / sqrt(pi) is summed by the trapezoidal rule, its tails by one
-/// exponential each: 40 exponentials, within 6e-7 of the largest H for heat that lasts from 1 us to 500 s. Each is a
+/// exponential each: 42 exponentials, within 6e-7 of the largest H for heat that lasts from 1 us to 500 s. Each is a
 /// mode y' = q - rate y, so that time costs the same however long the history is.
 class SurfaceHeat {
  public:
-  static constexpr std::size_t modes = 40;
+  static constexpr std::size_t modes = 42;
+  using Modes = std::array<double, modes>;
 
   SurfaceHeat() noexcept {}  // the modes of a cold surface are not read
   SurfaceHeat(const SurfaceHeat& other) noexcept : warm_(other.warm_) {
@@ -32,7 +33,7 @@ class SurfaceHeat {
     return *this;
   }
   /// A surface whose modes y_j [J/m^2] are `values`.
-  explicit SurfaceHeat(const std::array<double, modes>& values) noexcept : warm_(true), modes_(values) {}
+  explicit SurfaceHeat(const Modes& values) noexcept : warm_(true), modes_(values) {}
   /// A surface whose half-integral is H now; how it came to it is lost.
   static SurfaceHeat with(double half_integral) noexcept {
     SurfaceHeat heat;
@@ -47,7 +48,7 @@ class SurfaceHeat {
   /// Whether it was ever heated.
   bool warm() const noexcept { return warm_; }
   /// y_j [J/m^2].
-  std::array<double, modes> values() const noexcept { return warm_ ? modes_ : std::array<double, modes>{}; }
+  Modes values() const noexcept { return warm_ ? modes_ : Modes{}; }
 
   /// H now [W s^(1/2)/m^2].
   double half_integral() const noexcept {
@@ -57,21 +58,34 @@ class SurfaceHeat {
     return sum;
   }
 
-  /// What a time does to the modes: what is left of them, and what heat that is a power of time adds.
+  /// The factors exp(-rate t) by which the modes decay in a time t [s]. All rates but the first and the last are twice
+  /// the one before, so that each factor is the square of the one before.
+  [[gnu::noinline]] static Modes decay(double time) noexcept {
+    const Modes& rate = table().rate;
+    Modes left;
+    left[0] = std::exp(-rate[0] * time);
+    double less = std::expm1(-rate[1] * time);  // factor - 1: what is near 1 is not rounded
+    for (std::size_t j = 1; j + 1 < modes; ++j) {
+      left[j] = 1 + less;
+      less *= 2 + less;
+    }
+    left[modes - 1] = std::exp(-rate[modes - 1] * time);
+    return left;
+  }
+
+  /// What a time of heating does to the modes: how they decay, and what heat that is a power of time adds.
   class Step {
    public:
     static constexpr int degree = 8;  // of heat
 
-    /// @param time     [s]
-    /// @param heating  whether heat is added; else only what is left is known
-    [[gnu::noinline]] explicit Step(double time, bool heating = false) noexcept : time_(time) {
-      std::array<double, modes> x;
-      for (std::size_t j = 0; j < modes; ++j) left_[j] = std::exp(-(x[j] = table().rate[j] * time));
-      if (!heating) return;
+    /// @param time  [s]
+    [[gnu::noinline]] explicit Step(double time) noexcept : time_(time), left_(decay(time)) {
+      Modes x;
+      for (std::size_t j = 0; j < modes; ++j) x[j] = table().rate[j] * time;
       // The integral of exp(-x (1 - s)) s^k over s from 0 to 1: the highest by a series of x, for x small, and from it
       // the others; for x large from the lowest.
       constexpr double small = 8;
-      std::array<double, modes> sum, term;
+      Modes sum, term;
       for (std::size_t j = 0; j < modes; ++j) term[j] = left_[j], sum[j] = left_[j] / (degree + 1);
       for (int m = 1; m <= 48; ++m) {
         const double by = 1.0 / m, share = 1.0 / (m + degree + 1);
@@ -93,30 +107,39 @@ class SurfaceHeat {
     static constexpr std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
 
     double time_;
-    std::array<double, modes> left_;
-    std::array<std::array<double, modes>, degree + 1> added_;
+    Modes left_;
+    std::array<Modes, degree + 1> added_;
   };
 
-  /// H after a time without heat.
-  double half_integral_after(const Step& step) const noexcept {
-    double sum = 0;
-    if (warm_)
-      for (std::size_t j = 0; j < modes; ++j) sum += table().weight[j] * step.left_[j] * modes_[j];
-    return sum;
+  /// H after each of several times without heat; `left` has the decay of each.
+  template <std::size_t times>
+  std::array<double, times> half_integrals_after(const std::array<Modes, times>& left) const noexcept {
+    std::array<double, times> result{};
+    if (!warm_) return result;
+    Modes weighted;
+    for (std::size_t j = 0; j < modes; ++j) weighted[j] = table().weight[j] * modes_[j];
+    for (std::size_t i = 0; i < times; ++i) {
+      double sum[6] = {};  // side by side: terms of one sum would wait for each other
+      for (std::size_t j = 0; j < modes; j += 6)
+        for (std::size_t k = 0; k < 6; ++k) sum[k] += weighted[j + k] * left[i][j + k];
+      result[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]) + (sum[4] + sum[5]);
+    }
+    return result;
   }
 
   /// Cools for a time [s].
   [[gnu::noinline]] void rest(double time) noexcept {
     if (!warm_ || !(time > 0)) return;
-    for (std::size_t j = 0; j < modes; ++j) modes_[j] *= std::exp(-table().rate[j] * time);
+    const Modes left = decay(time);
+    for (std::size_t j = 0; j < modes; ++j) modes_[j] *= left[j];
   }
 
   /// Is heated for a step with q = sum of q_k (t / unit)^k [W/m^2]: exact for the modes but for round-off.
-  /// @param step  of a time that is `part` of the unit, made for heating
+  /// @param step  of a time that is `part` of the unit
   void heat(const std::array<double, Step::degree + 1>& q, const Step& step, double part = 1) noexcept {
     if (!warm_) modes_.fill(0);
     warm_ = true;
-    std::array<double, modes> gained{};
+    Modes gained{};
     double power = step.time_;
     for (std::size_t k = 0; k < q.size(); ++k, power *= part)
       for (std::size_t j = 0; j < modes; ++j) gained[j] += q[k] * power * step.added_[k][j];
@@ -125,15 +148,14 @@ class SurfaceHeat {
 
  private:
   struct Table {
-    std::array<double, modes> rate{}, weight{};  // [1/s], [s^(-1/2)]
+    Modes rate{}, weight{};  // [1/s], [s^(-1/2)]
 
     Table() noexcept {
-      constexpr double step = 0.72, slowest = 3e-5;
+      constexpr double step = std::numbers::ln2, slowest = 3e-5;  // `decay` needs this step
       const double r = std::exp(-step / 2), tail = r / (1 - r), tail3 = r * r * r / (1 - r * r * r);
       for (std::size_t j = 1; j + 1 < modes; ++j) {
-        const double u = std::log(slowest) + step * static_cast<double>(j - 1);
-        rate[j] = std::exp(u);
-        weight[j] = step * std::exp(u / 2) * std::numbers::inv_sqrtpi;
+        rate[j] = std::ldexp(slowest, static_cast<int>(j) - 1);
+        weight[j] = step * std::sqrt(rate[j]) * std::numbers::inv_sqrtpi;
       }
       // What is slower keeps its sum and its mean rate; what is faster its area and its mean age.
       const std::size_t last = modes - 1;
@@ -150,7 +172,7 @@ class SurfaceHeat {
   }
 
   bool warm_ = false;
-  std::array<double, modes> modes_;
+  Modes modes_;
 };
 
 }  // namespace stickslip

@@ -108,7 +108,7 @@ TEST_CASE("the surface's heat is the half-integral of what was made", "[kumar]")
       q[static_cast<std::size_t>(k)] = 1;
       SurfaceHeat heat;
       CHECK(!heat.warm());
-      heat.heat(q, SurfaceHeat::Step(time, true));
+      heat.heat(q, SurfaceHeat::Step(time));
       const double exact = exact_half_integral(k, time) / std::pow(time, k);
       CHECK(std::abs(heat.half_integral() / exact - 1) <= 6e-7);
 
@@ -117,14 +117,14 @@ TEST_CASE("the surface's heat is the half-integral of what was made", "[kumar]")
       for (int j = 0; j <= k; ++j)
         rest[static_cast<std::size_t>(j)] = std::tgamma(k + 1.0) / (std::tgamma(j + 1.0) * std::tgamma(k - j + 1.0)) *
                                             std::pow(0.7, j) * std::pow(0.3, k - j);
-      in_parts.heat(q, SurfaceHeat::Step(0.3 * time, true), 0.3);
-      in_parts.heat(rest, SurfaceHeat::Step(0.7 * time, true));
+      in_parts.heat(q, SurfaceHeat::Step(0.3 * time), 0.3);
+      in_parts.heat(rest, SurfaceHeat::Step(0.7 * time));
       CHECK(std::abs(in_parts.half_integral() / heat.half_integral() - 1) <= 1e-12);
     }
   // It cools as heat that was made earlier.
   for (const double time : {0.01, 1.0, 100.0}) {
     SurfaceHeat heat;
-    heat.heat({1}, SurfaceHeat::Step(time, true));
+    heat.heat({1}, SurfaceHeat::Step(time));
     heat.rest(time);
     CHECK(std::abs(heat.half_integral() - 2 * (std::sqrt(2 * time) - std::sqrt(time))) <= 6e-7 * 2 * std::sqrt(time));
     CHECK(std::abs(SurfaceHeat::with(heat.half_integral()).half_integral() / heat.half_integral() - 1) <= 1e-14);

@@ -203,10 +203,10 @@ def test_heat_continues_from_a_state():
         state = ss.advance(law, state, KOBE.dt, start, end)
     assert state.displacement == pytest.approx(whole.residual, abs=1e-7 * whole.peak)
     assert pickle.loads(pickle.dumps(state)) == state
-    assert state.heat.modes.shape == (40,)
+    assert state.heat.modes.shape == (42,)
     assert ss.SurfaceHeat(state.heat.modes) == state.heat
     assert ss.SurfaceHeat().half_integral == 0
-    with pytest.raises(ValueError, match="modes must be 40, got 3"):
+    with pytest.raises(ValueError, match="modes must be 42, got 3"):
         ss.SurfaceHeat([1, 2, 3])
 
 

@@ -133,6 +133,45 @@ TEST_CASE("energy closes between stops, whatever else acts", "[stops]") {
     }
 }
 
+TEST_CASE("a stop acts from the largest displacement inward", "[stops]") {
+  // The event loop skips stops in segments within which they cannot be reached.
+  for (const double frequency : {0.0, 4.0, 15.0})
+    for (const bool vertical : {false, true}) {
+      CAPTURE(frequency, vertical);
+      GroundMotion motion = broadband(3, 400);
+      if (vertical) motion = motion.with_components({}, gaussian(5, 400, 1));
+      const Response free = integrate(Slider(Coulomb(0.3), frequency), motion);
+      const auto at = [&](double gap) {
+        return integrate(Slider(Coulomb(0.3), within({gap, 0.4}, frequency)), motion);
+      };
+      const Response outside = at(free.peak * (1 + 1e-12));
+      CHECK(impacts(outside) == 0);
+      CHECK(std::abs(outside.residual - free.residual) <= 1e-12 * free.peak);
+      CHECK(std::abs(outside.energy.dissipated - free.energy.dissipated) <= 1e-12 * turnover(free.energy));
+      const Response inside = at(free.peak * (1 - 1e-9));
+      CHECK(impacts(inside) >= 1);
+      CHECK(inside.peak == free.peak * (1 - 1e-9));
+    }
+}
+
+TEST_CASE("stops of constant friction in closed form and in series agree", "[stops]") {
+  // The event loop of the series looks for a stop in every step.
+  for (const double frequency : {0.0, 4.0})
+    for (const double part : {0.2, 0.5, 0.9}) {
+      CAPTURE(frequency, part);
+      const GroundMotion motion = broadband(11, 300);
+      const double gap = part * integrate(Slider(Coulomb(0.3), frequency), motion).peak;
+      const Mounting mounting = within({gap, 0.4}, frequency);
+      const Response one = integrate(Slider(Coulomb(0.3), mounting), motion);
+      const Response other = integrate(Slider(VelocityDependent(0.3, 0.3, 10), mounting), motion);
+      CHECK(impacts(one) > 0);
+      CHECK(impacts(one) == impacts(other));
+      CHECK(std::abs(one.residual - other.residual) <= 1e-9 * gap);  // an impact multiplies round-off
+      CHECK(std::abs(one.energy.dissipated - other.energy.dissipated) <= 1e-9 * turnover(other.energy));
+      CHECK(std::abs(one.energy.impact - other.energy.impact) <= 1e-9 * turnover(other.energy));
+    }
+}
+
 TEST_CASE("stops that cannot be are refused", "[stops]") {
   CHECK_THROWS_WITH(Stops(0, 0.5), "Stops: gap must be positive, got 0 m");
   CHECK_THROWS_WITH(Stops(0.1, -1, 0.5), "Stops: backward must be positive, got -1 m");

@@ -88,10 +88,10 @@ inline double landing(const LoadSegment& s, double gap, double gap_velocity) noe
   return root < never ? root * s.duration : never;
 }
 
-/// The event loop over a segment in which the slider can leave the ground and land.
+/// The event loop over a segment in which the slider can reach a stop, leave the ground, and land.
 template <FrictionLaw Law, class Flows, MotionObserver Observer>
-void advance(const Law& law, const Flows& flows, LoadSegment segment, const Bounds& bounds, Contact contact,
-             State& state, Observer& observer) {
+[[gnu::noinline]] void advance_with_contact(const Law& law, const Flows& flows, LoadSegment segment,
+                                            const Bounds& bounds, Contact contact, State& state, Observer& observer) {
   const double duration = segment.duration;
   const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
   // Integrates over the first `time` of the rest of the segment.
@@ -140,6 +140,25 @@ void advance(const Law& law, const Flows& flows, LoadSegment segment, const Boun
       go(last < 0 ? crossing() : segment.duration, 0, true);
     }
   }
+}
+
+/// The event loop over any segment. A slider that stays on the ground and cannot reach a stop needs neither checked.
+template <FrictionLaw Law, class Flows, MotionObserver Observer>
+[[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const LoadSegment& segment,
+                                           const Bounds& bounds, Contact contact, State& state, Observer& observer) {
+  if constexpr (requires { typename Flows::Basis; }) {  // others than ClosedForm cost more than these checks
+    const double first = segment.normal_start, last = segment.normal_end;
+    if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1), state)) {
+      if (equal(first, standard_gravity) && equal(last, standard_gravity))
+        return advance(law, flows, Segment{segment.duration, -segment.load_start, -segment.load_end}, state, observer);
+      const WeighedSegment weighed{segment.duration, segment.load_start, segment.load_end, first / standard_gravity,
+                                   last / standard_gravity};
+      return advance(law, flows, weighed, state, observer);
+    }
+  }
+  State moving = state;  // a state whose address is taken is kept in memory
+  advance_with_contact(law, flows, segment, bounds, contact, moving, observer);
+  state = moving;
 }
 
 }  // namespace detail

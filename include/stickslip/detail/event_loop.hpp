@@ -59,6 +59,17 @@ struct Bounds {
   double bound(Direction direction, double x, double level) const noexcept {
     return room(direction, x) <= 0 || (one_way && direction == Direction::backward) ? never : level;
   }
+  /// Whether a slider on a spring of stiffness k per unit mass certainly stays between the bounds during a segment T.
+  /// Friction and dampers only take speed away, so that |v| <= |v0| + T (|p| + k (|x0| + D)) and the way is at most
+  ///     D = T (|v0| + T/2 (|p| + k |x0|)) / (1 - k T^2 / 2).
+  bool out_of_reach(const LoadSegment& segment, double k, const State& state) const noexcept {
+    const double nearest = one_way ? 0 : std::min(stops.forward(), stops.backward());
+    if (!(nearest < never)) return true;
+    const double x = std::abs(state.displacement), time = segment.duration;
+    const double load = std::max(std::abs(segment.load_start), std::abs(segment.load_end)) + k * x;
+    const double way = time * (std::abs(state.velocity) + time / 2 * load), shrinks = k * time * time / 2;
+    return shrinks < 0.5 && x + 2 * way < nearest;
+  }
 };
 
 /// The bounces of a slider that leaves a stop at speed u while a constant net load q pushes it back, against friction
@@ -262,11 +273,13 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
     const auto show = [&](double taken, const Progress& end, double gain) {
       if constexpr (requires { observer.follow(flow, taken); }) observer.follow(flow, taken);
       if constexpr (HeatedLaw<Law>) flow.heat(taken, state.heat);
-      if constexpr (loaded && requires { observer.dissipate(0.0); }) {
+      if constexpr (requires { observer.dissipate(0.0); }) {
         if constexpr (requires { flow.friction_work(taken); })
           observer.dissipate(flow.friction_work(taken));
-        else
+        else if constexpr (loaded)
           observer.dissipate(start.friction_work(taken, left, end));
+        else
+          observer.dissipate(friction_work(law, state.displacement, end.distance, direction));
       }
       observer.slide(Slip{direction, state.displacement, end.distance, taken,
                           start.work(flow, s * ground_load, gain, taken, end)});

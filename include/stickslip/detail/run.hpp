@@ -136,7 +136,7 @@ class LoadPieces {
   GroundMotion::Pieces pieces_;
   std::span<const double> up_;
   std::size_t next_;
-  double slope_;
+  Slope slope_;
 };
 
 /// Whether the motion needs the event loop with load and normal force.
@@ -152,11 +152,12 @@ bool loaded(const Slider<Law>& slider, const HarmonicMotion&) noexcept {
 /// Whether the normal force is negative anywhere.
 inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
   const LoadPieces pieces(motion, slope);
+  double least = never;
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     const LoadSegment segment = pieces.segment(i);
-    if (std::min(segment.normal_start, segment.normal_end) < 0) return true;
+    least = std::min(least, std::min(segment.normal_start, segment.normal_end));
   }
-  return false;
+  return least < 0;
 }
 
 /// Throw if the ground falls freely, or faster, at the end of the motion: the slider would never land.
@@ -175,13 +176,15 @@ template <FrictionLaw Law, class Flows, class RecorderType>
                                  Contact contact, State& state, RecorderType& recorder, const HistorySpans& histories) {
   const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
   const LoadPieces pieces(motion, slider.slope());
+  State moving = state;
   const auto go = [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
     recorder.begin_segment(begin, end);
-    advance(slider.law(), flows, segment, bounds, contact, state, recorder);
-    histories.keep(i + 1, slider.law(), state);
-    if (!histories.gap.empty()) histories.gap[i + 1] = state.gap;
+    advance(slider.law(), flows, segment, bounds, contact, moving, recorder);
+    histories.keep(i + 1, slider.law(), moving);
+    if (!histories.gap.empty()) histories.gap[i + 1] = moving.gap;
   };
   walk(pieces, motion.segments(), RecorderType::work_per_report, go, [&] { recorder.report_progress(); });
+  state = moving;
 }
 
 /// The same with the flows that suit the slider.

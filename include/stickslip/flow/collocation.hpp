@@ -26,20 +26,18 @@ class Cooling {
  public:
   /// Of the heat of before, at the nodes of a step.
   [[gnu::noinline]] Nodes::Values half_integrals(const SurfaceHeat& heat, double step) {
-    Nodes::Values result{};
-    if (!heat.warm()) return result;
+    if (!heat.warm()) return {};
     if (!alike(step, step_)) {
       step_ = step;
-      for (std::size_t i = 0; i < result.size(); ++i) steps_[i].emplace(Nodes::get().nodes[i] * step);
+      for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = SurfaceHeat::decay(Nodes::get().nodes[i] * step);
     }
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = heat.half_integral_after(*steps_[i]);
-    return result;
+    return heat.half_integrals_after(left_);
   }
 
   /// Heats it for a part of a step.
   [[gnu::noinline]] void heat(SurfaceHeat& heat, const Nodes::Values& q, double step, double part) {
-    if (part < 1) return heat.heat(q, SurfaceHeat::Step(part * step, true), part);
-    if (!alike(step, heating_step_)) heating_.emplace(heating_step_ = step, true);
+    if (part < 1) return heat.heat(q, SurfaceHeat::Step(part * step), part);
+    if (!alike(step, heating_step_)) heating_.emplace(heating_step_ = step);
     heat.heat(q, *heating_);
   }
 
@@ -48,7 +46,7 @@ class Cooling {
   static bool alike(double one, double other) noexcept { return std::abs(one - other) <= 1e-12 * one; }
 
   double step_ = -1;
-  std::array<std::optional<SurfaceHeat::Step>, Nodes::points> steps_;
+  std::array<SurfaceHeat::Modes, Nodes::points> left_{};
   std::optional<SurfaceHeat::Step> heating_;
   double heating_step_ = -1;
 };
@@ -179,7 +177,9 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         change = std::max(change, std::abs(net - a[i]));
         a[i] = net;
       }
-      if (sweep > 0 && (h * change <= convergence * fastest || change <= 4 * round_off * terms)) break;
+      // The next change would be less by the factor of this one to the last.
+      if (sweep > 0 && (h * change * change <= convergence * fastest * previous || change <= 4 * round_off * terms))
+        break;
       if (sweep > 3 && change > previous / 2) return false;
       if (sweep == 60) return false;
     }

@@ -207,7 +207,7 @@ class PowerSeriesFlow {
     for (int k = 1; k <= order_; ++k) way[k] = (power *= s) * speed_[k - 1];
     for (int i = 1; i <= order_; ++i) {
       double sum = 0;
-      for (int k = 1; k <= order_; ++k) sum += way[k] * reciprocal_sums[i + k];
+      for (int k = 1; k <= order_; ++k) sum += way[k] * reciprocal_sums[static_cast<std::size_t>(i + k)];
       work += gain(i) * sum;
     }
     return work;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
@@ -80,6 +81,7 @@ class KumarFriction {
     check(p.conductivity > 0, "conductivity must be positive", p.conductivity, "W/(m K)");
     warming_ = std::sqrt(p.diffusivity) * std::numbers::inv_sqrtpi / p.conductivity;
     edge_ = p.contact_radius * std::sqrt(std::numbers::pi / 4);
+    static_scale_ = scale(1);
   }
 
   const Parameters& parameters() const noexcept { return parameters_; }
@@ -87,10 +89,9 @@ class KumarFriction {
   /// What resists under a normal force of `weight` times g, divided by the weight, with the heat's half-integral H [W
   /// s^(1/2)/m^2] [m/s^2].
   double level(double speed, double weight, double half_integral) const noexcept {
-    const double pressure = (parameters_.static_pressure * weight - parameters_.reference_pressure) * 1e-6;
     const double celsius = parameters_.temperature + warming_ * half_integral;
-    return standard_gravity * parameters_.mu_ref * power_of_seven_tenths(0.02 * pressure) *
-           (1 - 0.5 * std::exp(-parameters_.rate * speed)) * 0.79 * (power_of_seven_tenths(0.02 * celsius) + 0.40);
+    return (detail::equal(weight, 1) ? static_scale_ : scale(weight)) *
+           (1 - 0.5 * std::exp(-parameters_.rate * speed)) * (power_of_seven_tenths(0.02 * celsius) + 0.40);
   }
 
   /// T [degrees Celsius].
@@ -122,13 +123,19 @@ class KumarFriction {
   }
 
  private:
+  // g mu_ref kp and the constant of kT [m/s^2].
+  double scale(double weight) const noexcept {
+    const double pressure = (parameters_.static_pressure * weight - parameters_.reference_pressure) * 1e-6;
+    return 0.79 * standard_gravity * parameters_.mu_ref * power_of_seven_tenths(0.02 * pressure);
+  }
   static double power_of_seven_tenths(double exponent) noexcept {
     return std::exp(-0.35667494393873237891 * exponent);  // ln 0.7
   }
 
   Parameters parameters_;
   double warming_;  // of the surface, per half-integral [K m^2 / (W s^(1/2))]
-  double edge_;     // |x| where the slider leaves the middle of the surface [m]
+  double static_scale_;
+  double edge_;  // |x| where the slider leaves the middle of the surface [m]
 };
 
 }  // namespace stickslip

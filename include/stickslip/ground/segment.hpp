@@ -109,13 +109,18 @@ struct WeighedSegment {
   }
 };
 
+/// The angle of the ground to the horizontal.
+struct Slope {
+  double sine, cosine;
+
+  Slope(double angle) noexcept : sine(std::sin(angle)), cosine(std::cos(angle)) {}  // [rad]
+};
+
 /// The load and the normal force that a piece of ground motion makes on a slope.
 /// @param n, up   horizontal and upward ground acceleration at both ends [m/s^2]
-/// @param slope   [rad]
-inline LoadSegment load_segment(const Segment& n, double slope, double up_start = 0, double up_end = 0) noexcept {
+inline LoadSegment load_segment(const Segment& n, const Slope& slope, double up_start = 0, double up_end = 0) noexcept {
   const double heavy_start = standard_gravity + up_start, heavy_end = standard_gravity + up_end;
-  if (equal(slope, 0)) return {n.duration, -n.start, -n.end, heavy_start, heavy_end};
-  const double s = std::sin(slope), c = std::cos(slope);
+  const auto [s, c] = slope;
   return {n.duration, heavy_start * s - n.start * c, heavy_end * s - n.end * c, heavy_start * c + n.start * s,
           heavy_end * c + n.end * s};
 }

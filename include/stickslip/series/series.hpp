@@ -261,15 +261,18 @@ struct WholePower {
   void update(int k) noexcept {
     a.update(k);
     squares[0][k] = a[k];
-    for (int bit = 0, last = -1; exponent >> bit; ++bit) {
+    std::size_t last = 0;
+    bool any = false;
+    for (std::size_t bit = 0; exponent >> bit; ++bit) {
       if (bit > 0) squares[bit][k] = convolve(squares[bit - 1], squares[bit - 1], 0, k);
       if (!(exponent >> bit & 1)) continue;
-      products[bit][k] = last < 0 ? squares[bit][k] : convolve(products[last], squares[bit], 0, k);
+      products[bit][k] = any ? convolve(products[last], squares[bit], 0, k) : squares[bit][k];
       last = bit;
+      any = true;
     }
   }
   Scalar operator[](int k) const noexcept {
-    int last = 0;
+    std::size_t last = 0;
     while (exponent >> (last + 1)) ++last;
     return products[last][k];
   }

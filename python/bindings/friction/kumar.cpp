@@ -20,7 +20,7 @@ void bind_kumar(py::module_& m) {
 
 Parameters
 ----------
-modes : array_like, shape (40,), optional
+modes : array_like, shape (42,), optional
     The modes [J/m^2]; a cold surface without them.
 
 Raises
@@ -31,7 +31,7 @@ ValueError
 Notes
 -----
 The surface of a half-space that was heated with q(t) [W/m^2] is warmer by sqrt(D) / (k sqrt(pi)) times the half-integral
-H, the integral of q(t - tau) / sqrt(tau) over tau > 0. The kernel 1 / sqrt(tau) is a sum of 40 exponentials, each the
+H, the integral of q(t - tau) / sqrt(tau) over tau > 0. The kernel 1 / sqrt(tau) is a sum of 42 exponentials, each the
 memory of one mode: H is within 6e-7 of its largest value, for heat that lasts from 1 us to 500 s.)")
       .def(py::init([](const py::object& modes) {
              if (modes.is_none()) return SurfaceHeat();
@@ -50,7 +50,7 @@ memory of one mode: H is within 6e-7 of its largest value, for heat that lasts f
             const auto values = heat.values();
             return to_array(std::vector<double>(values.begin(), values.end()));
           },
-          "The modes [J/m^2], shape (40,).")
+          "The modes [J/m^2], shape (42,).")
       .def_property_readonly("half_integral", &SurfaceHeat::half_integral, "H [W s^(1/2)/m^2].")
       .def("__repr__", [](const SurfaceHeat& heat) {
         return heat.half_integral() > 0
@@ -100,7 +100,7 @@ ValueError
 
 Notes
 -----
-The motion is computed by collocation in time, to some 1e-7 of the scale, with the heat's history as 40 exponentials
+The motion is computed by collocation in time, to some 1e-7 of the scale, with the heat's history as 42 exponentials
 (`SurfaceHeat`), so that the cost does not grow with time: 4 to 10 us per sample. `Response.temperature` has the
 temperature at the samples; `State.heat` continues it. Theories and sensitivities do not cover it.
 
