@@ -43,7 +43,7 @@ class PythonSource {
  protected:
   py::object attribute(const py::object& object, const char* name) const {
     if (!py::hasattr(object, name))
-      throw py::type_error("run_ensemble: " + expected_ + "; " + type_of(object) + " has no " + name);
+      throw py::type_error("ensemble: " + expected_ + "; " + type_of(object) + " has no " + name);
     return object.attr(name);
   }
 
@@ -75,17 +75,17 @@ class PythonMotions : public PythonSource {
     if (duration.is_none()) return;
     base_ = TimeBase{duration.cast<double>()};
     detail::require(std::isfinite(base_->duration) && base_->duration > 0,
-                    "run_ensemble: the excitation's duration must be positive and finite", base_->duration, "s");
+                    "ensemble: the excitation's duration must be positive and finite", base_->duration, "s");
     if (py::hasattr(object, "dt") && !object.attr("dt").is_none()) base_->dt = object.attr("dt").cast<double>();
   }
 
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
       if (!py::isinstance<GroundMotion>(made))
-        throw py::type_error("run_ensemble: the excitation's sample must return a GroundMotion, got " + type_of(made));
+        throw py::type_error("ensemble: the excitation's sample must return a GroundMotion, got " + type_of(made));
       auto motion = made.cast<GroundMotion>();
       if (base_ && std::abs(motion.duration() - base_->duration) > 1e-9 * base_->duration)
-        throw std::invalid_argument("run_ensemble: the excitation's motions must last " +
+        throw std::invalid_argument("ensemble: the excitation's motions must last " +
                                     detail::shortest(base_->duration) + " s, its duration; member " +
                                     std::to_string(member) + " lasts " + detail::shortest(motion.duration()) + " s");
       return motion;
@@ -109,7 +109,7 @@ class PythonSliders : public PythonSource {
   AnySlider sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
       if (auto slider = slider_of(made)) return *std::move(slider);
-      throw py::type_error("run_ensemble: a sample of sliders must be a Slider or a friction law; that of member " +
+      throw py::type_error("ensemble: a sample of sliders must be a Slider or a friction law; that of member " +
                            std::to_string(member) + " is of type " + type_of(made));
     });
   }
@@ -121,12 +121,12 @@ inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& o
   if (!py::isinstance<py::sequence>(object) || py::isinstance<py::str>(object) || py::hasattr(object, "sample"))
     return std::nullopt;
   if (py::len(object) == 0)
-    throw std::invalid_argument(std::string("run_ensemble: ") + name + " must hold at least one, got an empty list");
+    throw std::invalid_argument(std::string("ensemble: ") + name + " must hold at least one, got an empty list");
   return std::pair(py::sequence(object), Order::in_turn);
 }
 
 [[noreturn]] inline void refuse_item(const char* name, std::size_t i, const char* expected, const py::handle& item) {
-  throw py::type_error(std::string("run_ensemble: ") + name + "[" + std::to_string(i) + "] must be a " + expected +
+  throw py::type_error(std::string("ensemble: ") + name + "[" + std::to_string(i) + "] must be a " + expected +
                        ", got " + type_of(item));
 }
 

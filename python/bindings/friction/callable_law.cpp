@@ -11,6 +11,34 @@
 
 namespace stickslip::python {
 
+namespace {
+
+/// Keeps the interpreter's state of a thread that the library started until the thread ends: to make one for each call
+/// takes longer than the call.
+class ThreadState {
+ public:
+  static void keep() { thread_local const ThreadState kept; }
+  ~ThreadState() {
+    if (saved_ == nullptr) return;
+    PyEval_RestoreThread(saved_);
+    PyGILState_Release(ensured_);
+  }
+  ThreadState(const ThreadState&) = delete;
+  ThreadState& operator=(const ThreadState&) = delete;
+
+ private:
+  ThreadState() {
+    if (PyGILState_GetThisThreadState() != nullptr) return;  // Python's own thread
+    ensured_ = PyGILState_Ensure();
+    saved_ = PyEval_SaveThread();
+  }
+
+  PyGILState_STATE ensured_{};
+  PyThreadState* saved_ = nullptr;
+};
+
+}  // namespace
+
 struct CallableLaw::Function {
   py::object object;
   const char* name;
@@ -43,6 +71,7 @@ struct CallableLaw::Function {
 
   template <class... Numbers>
   double call(Numbers... numbers) const {
+    ThreadState::keep();
     const py::gil_scoped_acquire locked;
     const py::object result = object(numbers...);
     const double value = PyFloat_AsDouble(result.ptr());
