@@ -1,10 +1,11 @@
 // What a slider stands on: the cost of vertical motion, a slope, stops, static friction and friction that depends on
-// the speed or the distance slid, beside the same slider without.
+// the speed, the sliding distance or the temperature, beside the same slider without.
 //
 // contact [--check] [--json] [--rounds N]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <stickslip/core.hpp>
 #include <stickslip/stickslip.hpp>
 #include <string>
@@ -38,6 +39,14 @@ const GroundMotion shaken = horizontal.with_components({}, noise(2, 1));
 
 Slider<Coulomb> on(const Mounting& mounting) { return Slider(Coulomb(level), mounting); }
 
+KumarFriction heated(double conductivity = 18) {
+  return KumarFriction({.mu_ref = 0.1,
+                        .static_pressure = 50e6,
+                        .reference_pressure = 50e6,
+                        .contact_radius = 0.2,
+                        .conductivity = conductivity});
+}
+
 void check() {
   const auto closes = [](const std::string& name, const auto& slider, const GroundMotion& motion) {
     const Response r = integrate(slider, motion);
@@ -58,6 +67,12 @@ void check() {
   same("equal levels", integrate(StaticKinetic(law, level), horizontal), integrate(law, horizontal));
   same("a level that stays", integrate(Degrading({0, 1}, {level, level}), horizontal), integrate(law, horizontal));
   closes("degrading, spring", Slider(Degrading({0, 0.5, 2}, {level, 0.5 * level, level}), frequency), shaken);
+  closes("temperature", Slider(heated(), frequency), horizontal);
+  const KumarFriction cold = heated(std::numeric_limits<double>::infinity());
+  const double fast = cold.level(1e3, 1, 0);
+  const Response one = integrate(Slider(cold, frequency), horizontal);
+  const Response other = integrate(Slider(VelocityDependent(fast / 2, fast, 100), frequency), horizontal);
+  bench::require_below("a surface that stays cold: peak", std::abs(one.peak - other.peak), 1e-7 * other.peak);
   same("equal speeds", integrate(VelocityDependent(level, level, 20), horizontal), integrate(law, horizontal));
 }
 
@@ -80,9 +95,11 @@ int main(int argc, char** argv) {
   add("Coulomb", Slider(Coulomb(level)), horizontal);
   add("Coulomb, vertical motion", Slider(Coulomb(level)), shaken);
   add("Coulomb, stops far away", on({.stops = {1e3, 0.5}}), horizontal);
+  add("Coulomb, slope", on({.slope_degrees = 3}), horizontal);
   add("static above kinetic", Slider(StaticKinetic(Coulomb(level), 1.3 * level)), horizontal);
   add("Coulomb, spring", on({.natural_frequency = frequency}), horizontal);
   add("Coulomb, spring, vertical motion", on({.natural_frequency = frequency}), shaken);
+  add("Coulomb, spring, stops far away", on({.natural_frequency = frequency, .stops = {1e3, 0.5}}), horizontal);
   add("degrading", Slider(degrading), horizontal);
   add("degrading, vertical motion", Slider(degrading), shaken);
   add("degrading, spring", Slider(degrading, frequency), horizontal);
@@ -90,6 +107,8 @@ int main(int argc, char** argv) {
   add("velocity-dependent, spring, vertical motion", Slider(liner, frequency), shaken);
   add("velocity-dependent, pendulum, vertical motion",
       Slider(liner, Mounting{.natural_frequency = frequency, .pendulum = true}), shaken);
+
+  add("pressure, speed and temperature, spring", Slider(heated(), frequency), horizontal);
 
   const auto timings = bench.run(asked.rounds);
   if (asked.json) {
