@@ -119,7 +119,7 @@ def test_a_level_that_is_not_a_number_later_on_is_refused():
 
 def test_laws_from_functions_in_ensembles_sweeps_and_threads():
     law = ss.Law(resist=liner)
-    motions = ss.GaussianExcitation(ss.Spectrum.white(s0=0.05), dt=0.02, samples=64)
+    motions = ss.GaussianExcitation(ss.Spectrum.white(s0=0.05), dt=0.02, samples=256)
     one = ss.run_ensemble(LINER, motions, members=6, seed=3)
     other = ss.run_ensemble(law, motions, members=6, seed=3)
     assert other.peak == pytest.approx(one.peak, rel=1e-10)

@@ -101,8 +101,9 @@ ValueError
 Notes
 -----
 The motion is computed by collocation in time, to some 1e-7 of the scale, with the heat's history as 42 exponentials
-(`SurfaceHeat`), so that the cost does not grow with time: 4 to 10 us per sample. `Response.temperature` has the
-temperature at the samples; `State.heat` continues it. Theories and sensitivities do not cover it.
+(`SurfaceHeat`), so that the cost does not grow with time: 3 us per sample of the Kobe record, 3.5 us of noise.
+`Response.temperature` has the temperature at the samples; `State.heat` continues it. Theories and sensitivities do not
+cover it.
 
 References
 ----------
