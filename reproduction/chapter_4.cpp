@@ -252,11 +252,12 @@ ThesisFigure figure_4_4(Thesis& thesis) {
 }
 
 ThesisFigure figure_4_5(Thesis& thesis) {
-  ThesisFigure figure{"4.5",
-                      "Spectral density of the stationary velocity, linear and logarithmic. Points: simulations, "
-                      "Kaiser-Bessel window, β = 8; dashed: stationary linearization, (4.8). Unlike the linear system, "
-                      "the block has velocity outside the band, down to zero frequency.",
-                      hours};
+  ThesisFigure figure{
+      "4.5",
+      "Spectral density of the stationary velocity, linear and logarithmic. Points: simulations, "
+      "Kaiser-Bessel window, β = 8; dashed: stationary linearization, (4.8). In contrast to that of the "
+      "linear system, the spectrum of the block extends beyond the band, down to zero frequency.",
+      hours};
   const Ensemble &many = block_case(thesis, thesis.options().members), &linear = linear_case(thesis);
   const theory::StationaryPrediction prediction = linear_prediction();
   for (const bool logarithmic : {false, true}) {
@@ -291,9 +292,9 @@ ThesisFigure figure_4_5(Thesis& thesis) {
 ThesisFigure figure_4_6(Thesis& thesis) {
   ThesisFigure figure{
       "4.6",
-      "Displacement variance from rest. Points: simulations; solid: the linear system, exactly. That of "
-      "the block grows without bound; that of the linear system is bounded, but not by (4.45): from rest it keeps an "
-      "offset, the initial ground velocity divided by the damping.",
+      "Displacement variance from rest. Points: simulations; solid: exact solution of the linear system. The variance "
+      "of the block grows without bound. The variance of the linear system is bounded, but exceeds (4.45): a linear "
+      "system that starts from rest keeps an offset, the initial ground velocity divided by the damping.",
       hours};
   ThesisPanel panel{"Displacement", "$\\tau$", "$\\sigma_X^2$"};
   const Ensemble &many = block_case(thesis, thesis.options().members), &few = block_case(thesis, thesis_members),

@@ -354,8 +354,8 @@ ThesisFigure figure_5_7(Thesis& thesis) {
       "Final rms displacement against the coefficient of friction for the four earthquakes of Table 5.1. "
       "Dashed: the overlap series as printed; dash-dotted: the pulse chain; points: simulations with standard "
       "errors; marks at μ = 0: the ground. Right: carts on casters (trail 40 mm, wheels 32 mm wide, corrected "
-      "mechanics), dotted: the ground, in the same order; in great earthquakes and for μ of 0.3 and above "
-      "they end further from their start than the ground.",
+      "mechanics); dotted: the ground, in the same order. In great earthquakes and for μ of 0.3 and above "
+      "the final displacement of the carts exceeds that of the ground.",
       ""};
   ThesisPanel panel{"Earthquakes", "coefficient of friction $\\mu$", "final rms displacement [cm]", false, true};
   const std::vector<double> finely = even(0.01, 0.7, 36),
