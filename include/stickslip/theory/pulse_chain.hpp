@@ -125,7 +125,7 @@ class PulseChain {
 
 namespace stickslip::detail {
 
-/// What pairs of pulses do, in units of the slip level and the step: see docs/pulse_chain.md, section 4.
+/// What pairs of pulses do, in units of the slip level and the step: see docs/pulse_chain.md, section 3.
 struct PairCoefficients {
   double single = 0;   ///< c1: one pulse alone
   double pair = 0;     ///< c2: the integral over all offsets
