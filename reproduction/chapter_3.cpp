@@ -156,10 +156,9 @@ ThesisFigure figure_3_2(Thesis& thesis) {
   figure.statements.push_back(about("after (3.49)", "linearization's covariance over the exact one, Coulomb", 0.49,
                                     0.005, {stationary / (WhiteNoise(block, 1.0).growth_rate() / 2)}, "π²/20"));
   const EquivalentLinearization method;
-  figure.statements.push_back(
-      about("(3.24)", "a21 = 0: for 3l = a = 1 and q11 = 0.5, q12 = 0.3, q22 = 1.2 [1/s²]", 0, 0,
-            {method.coefficients(caster(1.0), 0.5, 0.3, 1.2).a21},
-            "the kernel is odd in x and in v: a21 has the sign of the correlation of x and v"));
+  figure.statements.push_back(about("(3.24)", "a21 = 0: for 3l = a = 1 and q11 = 0.5, q12 = 0.3, q22 = 1.2 [1/s²]", 0,
+                                    0, {method.coefficients(caster(1.0), 0.5, 0.3, 1.2).a21},
+                                    "the kernel is odd in x and in v: a21 has the sign of the correlation of x and v"));
   return figure;
 }
 
