@@ -175,7 +175,7 @@ void for_each_slider(Visit&& visit) {
   visit("law of one's own, spring", Slider(Bump{}, frequency));
 }
 
-// A time loop of one's own.
+// A user's own time loop.
 template <class Law>
 void advance_loop(const Slider<Law>& slider, const std::vector<double>& n, std::vector<double>& x,
                   std::vector<double>& v) {

@@ -159,7 +159,8 @@ TEST_CASE("peak and way count turns between samples", "[viscous]") {
 
 TEST_CASE("under noise it has the variance of its spectrum", "[viscous]") {
   // pi S0 / zeta of the velocity, pi S0 / (zeta wn^2) of the displacement, and as much for all samples: the band is
-  // white to 60 rad/s. Seed fixed; drawn anew it would fail one time in 185 (two figures, three standard errors).
+  // white to 60 rad/s. Seed fixed; with a new seed it would fail one time in 185 (two quantities, three standard
+  // errors).
   const double zeta = 1.2, wn = 3;
   GaussianExcitation excitation(Spectrum::band_pass(1, 0, 60), 0.05, 1024, {.random_amplitudes = true, .period = 4096});
   const Ensemble e = run_ensemble(ViscousSlider(zeta, wn), excitation, options(2000));

@@ -29,7 +29,7 @@ struct LaneEvent {
 struct LaneAccount {
   static constexpr std::size_t max_events = 4;  ///< of a block in a segment
 
-  std::uint32_t segment;      ///< the one at hand
+  std::uint32_t segment;      ///< the current one
   LaneEvent** next;           ///< where each block's next event goes, moved on; there is room for `max_events`
   const double* work_before;  ///< of the ground on each block, before the segment [m^2/s^2]
   double* work_after;         ///< and after it, set

@@ -9,7 +9,7 @@
 
 namespace stickslip::detail {
 
-/// Shapes have at most so many edges.
+/// The maximum number of edges of a shape.
 inline constexpr std::size_t max_edges = 16;
 
 /// Coulomb friction without a spring, under pulses of one shape.

@@ -1,6 +1,6 @@
 // The runner: that an ensemble is its members, however they were divided up, and that its errors are what they say.
 //
-// The seeds are fixed. Each statistical check says how often a right program would fail it were the seed drawn anew.
+// The seeds are fixed. Each statistical check says how often a correct program would fail it with a new seed.
 #include "stickslip/ensemble/run.hpp"
 
 #include <array>

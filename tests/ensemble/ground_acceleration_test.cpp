@@ -119,8 +119,8 @@ TEST_CASE("parts with the ground acceleration merge into the whole", "[ensemble]
 
 TEST_CASE("the ground acceleration has the variance of the excitation", "[ensemble][ground_acceleration][statistics]") {
   // Thesis 5.4: from the start of pulses the variance rises as lambda sigma^2 t to that of (5.61) at 2 Dt. 20,000
-  // members, seed 4; four standard errors at 5 x 13 times: drawn anew, right programs would fail once in 240 times at
-  // most.
+  // members, seed 4; four standard errors at 5 x 13 times: with a new seed, correct programs would fail once in 240
+  // times at most.
   const double rate = 3, half_width = 0.25, sigma = 2;
   for (const bool stationary : {false, true}) {
     const PoissonPulses pulses(rate, half_width, sigma, 3, {.stationary_start = stationary});

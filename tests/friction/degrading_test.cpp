@@ -347,7 +347,7 @@ TEST_CASE("a run can be split anywhere: the state holds all that matters", "[deg
       advance(slider, s, cut);
     }
     CHECK(std::abs(cut.displacement - state.displacement) <= (mounting.stops ? 1e-6 : 1e-10) * whole.peak);
-    // Gone on from half way, by `integrate`.
+    // Resumed half way, by `integrate`.
     const std::vector<double> n(motion.acceleration().begin(), motion.acceleration().end());
     const Response first = integrate(slider, GroundMotion(std::vector<double>(n.begin(), n.begin() + 151), 0.1));
     IntegrateOptions options = from(first.state.displacement, first.state.velocity);

@@ -9,7 +9,7 @@ using namespace test;
 
 namespace {
 
-/// A law with an opinion on direction, and with most of the functions at hand.
+/// A law that depends on direction and uses most of the available functions.
 struct Ripple {
   template <class T>
   auto resist(const T& x, Direction direction) const {

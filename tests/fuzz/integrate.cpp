@@ -392,7 +392,7 @@ class Check {
     };
     same("residual", r.residual, s.x, s.x_error);
     same("peak", r.peak, s.peak, s.peak_error + s.x_error);
-    // Sums of so many terms; the bounds allow each 32 roundings.
+    // Sums of `terms` terms; the bounds allow each 32 roundings.
     const Real terms = Real(n + r.events.size()), sums = 1 + terms / 32, least = 0x1p-1000L;
     const Energy& e = r.energy;
     same("sliding distance", r.sliding_distance, s.path, sums * (s.path_error + 32 * epsilon * s.path));

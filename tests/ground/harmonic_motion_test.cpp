@@ -88,7 +88,8 @@ TEST_CASE("at resonance the amplitude of a block on a spring grows in proportion
 }
 
 TEST_CASE("a caster at rest in the middle comes to where the reference does", "[harmonic_motion]") {
-  // values.json harm.caster.*, from_rest_at_zero: after 200 cycles, to 1e-8. One wanders off for ever, one is caught.
+  // values.json harm.caster.*, from_rest_at_zero: after 200 cycles, to 1e-8. One drifts away without bound, one is
+  // caught.
   const auto end = [](double load, double omega) { return integrate(Caster(1, 1), cycles(load, omega, 200)); };
   CHECK(std::abs(end(1.25, 0.3).residual + 6187.37033885485) <= 1e-8 * 6187);
   CHECK(std::abs(end(1.25, 0.5).residual + 4.522536180539736) <= 1e-8);
@@ -261,7 +262,7 @@ TEST_CASE("a hundred thousand cycles later the phase is still right", "[harmonic
 
   for (const double t : {0.1, 1e3, 1e6, 1e9}) {
     const long double exact = std::remainder(static_cast<long double>(1.7) * t, 2 * std::numbers::pi_v<long double>);
-    // 4e-16 of its own, and what 64 bits of pi leave after so many cycles
+    // 4e-16 from the phase itself, and the error of a 64-bit pi after this many cycles
     CHECK(std::abs(static_cast<double>(motion.phase(t) - exact)) <= 4e-16 + 1e-19 * 1.7 * t);
   }
 }

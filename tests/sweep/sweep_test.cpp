@@ -124,7 +124,7 @@ TEST_CASE("on slopes, under vertical motion and with static friction a sweep is 
     const Mounting mounting{.slope_degrees = bits() % 2 == 0 ? std::array{0.0, 5.0, 20.0}[bits() % 3] : 0,
                             .one_way = bits() % 3 == 0};
     const double rise = bits() % 2 == 0 ? 1 + draw(0, 1) : 1;
-    // Else it would slide for ever under its own weight.
+    // Otherwise it would slide indefinitely under its own weight.
     if (law.forward() <= 1.1 * standard_gravity * std::tan(mounting.slope_degrees * std::numbers::pi / 180)) continue;
     if (rise > 1)
       sliders.push_back(Slider(StaticKinetic(law, rise * law.forward(), rise * law.backward()), mounting));

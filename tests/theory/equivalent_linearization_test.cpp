@@ -461,7 +461,7 @@ TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
   CHECK_THROWS_AS(EquivalentLinearization({.tolerance = not_a_number}), std::invalid_argument);
   CHECK_THROWS_WITH(by_gauss.coefficients(Coulomb(1), 1, 2, 1), ContainsSubstring("less than q11 q22"));
   CHECK_THROWS_AS(by_gauss.coefficients(Coulomb(1), -1, 0, 1), std::invalid_argument);
-  // A spring that swings on for ever at this rate.
+  // A spring that would swing indefinitely at this rate.
   CHECK_THROWS_WITH(by_gauss.predict(Slider(Coulomb(1e-3), 10), 1.0, std::array<double, 1>{1e9}),
                     ContainsSubstring("reached "));
   int calls = 0;

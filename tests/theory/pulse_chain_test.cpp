@@ -1,7 +1,8 @@
-// The synchronised-arrival chain: what it keeps exactly, its coefficients, and simulations beside it.
+// The synchronized-arrival chain: the quantities that it preserves exactly, its coefficients, and comparisons with
+// simulations.
 //
 // The seeds are fixed. A comparison with an ensemble allows what the theory promises (said at each) and three standard
-// errors: were the seeds drawn anew, one of a theory that is off by all that it may be would fail 13 times in 10,000.
+// errors: with new seeds, a comparison of a theory whose error is the largest allowed would fail 13 times in 10,000.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -437,7 +438,7 @@ TEST_CASE("the peak is that of a walk of slips", "[pulse_chain]") {
 
 TEST_CASE("the peak in the four events is within 12 % of an ensemble's", "[pulse_chain][statistics]") {
   // docs/pulse_chain.md has the table. Between the ensemble's quantiles of the probability -+ three of its standard
-  // errors: drawn anew, one in 400 comparisons fails if the theory is off by all that it may be.
+  // errors: with new seeds, one in 400 comparisons fails if the error of the theory is the largest allowed.
   for (const std::string_view name : PoissonPulses::events())
     for (const double mu : {0.05, 0.2, 0.5}) {
       const PoissonPulses event = PoissonPulses::event(name);

@@ -218,7 +218,7 @@ TEST_CASE("from rest: rates are derivatives, and late moments are lines beside t
 
 TEST_CASE("from rest: rare pulses follow an ensemble's at every time", "[pulse_superposition][statistics]") {
   // Overlaps matter by a few times lambda dt = 0.003: 3 %. Three standard errors on top, 80 comparisons of fixed seeds:
-  // drawn anew one of them would fail one time in five if each were at its bound.
+  // with new seeds, one of them would fail one time in five if each were at its bound.
   for (const double sigma : {1.0, 3.0}) {
     const Slider slider(Coulomb(1, 1.6));
     const PoissonPulses pulses(3e-3, 1, sigma, 8);
@@ -246,7 +246,7 @@ TEST_CASE("from rest: rare pulses follow an ensemble's at every time", "[pulse_s
 
 TEST_CASE("unequal levels and amplitudes of nonzero mean drift", "[pulse_superposition][statistics]") {
   // Rare pulses: superposition becomes right, and the ensemble says so. Three standard errors, five comparisons of
-  // fixed seeds: drawn anew they would fail one time in 75. What overlaps do at lambda Dt = 1e-3 is a part in 200.
+  // fixed seeds: with new seeds, they would fail one time in 75. What overlaps do at lambda Dt = 1e-3 is a part in 200.
   const PoissonPulses plain(1e-3, 1, 3, 4e4);
   PoissonOptions exponential;  // one-sided amplitudes of mean square 1
   exponential.quantile = PoissonPulses::each([](double u) { return -std::log1p(-u) / std::numbers::sqrt2; });

@@ -25,7 +25,7 @@ const double half = std::sqrt(0.5);  // natural frequency of wn^2 = 0.5 (rad/s)^
 
 double relative(double value, double expected) { return std::abs(value - expected) / std::abs(expected); }
 
-// ---- laws of one's own, which say nothing of their work
+// ---- user-defined laws, which do not state their work
 
 struct OwnCaster {
   double slip_level, reach;
@@ -633,7 +633,7 @@ TEST_CASE("from below the unstable solution a caster comes to rest, from above i
   // Started larger still, it turns about the stable solution so widely that it passes the center, where friction is.
   const auto wide = svp.response(1, 0.5)[1];
   CHECK(svp.settles_on(1, 0.5, 1.5 * wide.amplitude, wide.phase).amplitude == 0);
-  // On a spring at resonance: for ever outward, or to rest.
+  // On a spring at resonance: growth without bound, or rest.
   const Theory spring(Slider(Caster(1, 1), 1));
   const auto resonant = spring.response(1, 1);
   CHECK(spring.settles_on(1, 1, 1.01 * resonant[0].amplitude, resonant[0].phase).amplitude == infinity);

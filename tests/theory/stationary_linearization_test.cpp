@@ -353,7 +353,7 @@ TEST_CASE("from rest under white noise it is the exact answer", "[stationary_lin
 }
 
 TEST_CASE("the linear system of an ensemble is the one that was predicted", "[stationary_linearization]") {
-  // Figures 4.4 and 4.6. Seed fixed; drawn anew it would fail one time in 30: 12 comparisons within three standard
+  // Figures 4.4 and 4.6. Seed fixed; with a new seed it would fail one time in 30: 12 comparisons within three standard
   // errors, each off 27 times in 10,000. The lines of the spectrum are 0.0016 apart, a tenth of what would be seen.
   const double band = 20 / (pi * pi);
   const Spectrum spectrum = Spectrum::band_pass(1, band, 2 * band);

@@ -254,8 +254,8 @@ TEST_CASE("without friction no stationary velocity: its variance and the growth 
 }
 
 TEST_CASE("ensembles with a level each way spread and drift so", "[white_noise_theory][statistics]") {
-  // Held loads of step dt are wrong by O(dt), which halving shows, in the same motions. Fixed seed; drawn anew, one of
-  // five checks within three standard errors would fail 1 time in 75.
+  // Held loads of step dt are wrong by O(dt), which halving shows, in the same motions. Fixed seed; with a new seed,
+  // one of five checks within three standard errors would fail 1 time in 75.
   const Coulomb law(1, 2);
   const auto run = [&](double dt) {
     EnsembleOptions options;

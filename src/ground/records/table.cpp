@@ -98,9 +98,10 @@ void read_table_header(const Lines& lines, std::size_t rows, std::size_t columns
     channel.title = title.empty() || channel.name.empty() ? title : joined({title, channel.name});
 }
 
-/// How finely times are printed: to so many places, as by %.2f, or to so many digits, as by %.3e and %g.
+/// The precision of printed times: a number of decimal places, as with %.2f, or of significant digits, as with %.3e
+/// and %g.
 ///
-/// Zeros at the end may be left out: the most places and the most digits count.
+/// Trailing zeros may be left out: the maximum number of places and of digits counts.
 class Resolution {
  public:
   void add(std::string_view token) {
