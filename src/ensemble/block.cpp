@@ -74,7 +74,7 @@ void Block::row(std::size_t time, const double* displacement, const double* velo
 }
 
 void Block::ground(std::span<const double> acceleration) {
-  // One more value to the moments about the mean (Pebay 2008, with one on the right).
+  // Adds one value to the moments about the mean (Pebay 2008, with one value on the right).
   const auto before = static_cast<double>(grounds_++), after = before + 1, share = 1 / after, weight = before * share;
   const auto mean = tally_.moment(Tally::n), second = tally_.moment(Tally::nn), third = tally_.moment(Tally::nnn),
              fourth = tally_.moment(Tally::nnnn);

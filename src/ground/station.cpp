@@ -58,7 +58,7 @@ struct Horizontal {
   double azimuth;
 };
 
-/// The azimuth that is asked for.
+/// The requested azimuth.
 double azimuth_along(const std::string& along, const std::vector<Horizontal>& horizontals) {
   if (along.empty()) return horizontals[0].azimuth;
   for (const Horizontal& h : horizontals)

@@ -76,7 +76,7 @@ StrongMotion strong_motion(const GroundMotion& motion) {
     double sum = 0, velocity = 0;
     for_each_piece(unit, result.begin, result.end, [&](double from, const Segment& s) {
       const double slope = (s.end - s.start) / s.duration;
-      sum += numerics::gauss_integral<3>(0, s.duration, [&](double t) {  // exact to the fifth power
+      sum += numerics::gauss_integral<3>(0, s.duration, [&](double t) {  // exact for polynomials of degree 5
         return f(velocity + t * (s.start + slope * t / 2), 2 * (from + t - result.begin) / duration - 1);
       });
       velocity += s.duration * (s.start + s.end) / 2;

@@ -1,4 +1,4 @@
-// Reads a record file from line to line.
+// Reads a record file line by line.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace stickslip::records {
 
-/// Reads on from line to line.
+/// A cursor over the lines of a file.
 class Reader {
  public:
   explicit Reader(const Lines& lines) : lines_(lines) {}
 
-  /// The next line that is not blank; `what` is said to be missing where there is none.
+  /// The next line that is not blank; if there is none, the error says that `what` is missing.
   std::string_view line(const std::string& what) {
     if (done()) throw std::invalid_argument("the file ends before its " + what);
     return lines_[at_++];
   }
 
-  /// The next `count` lines, as they stand.
+  /// The next `count` lines, unchanged.
   Lines block(std::size_t count, const std::string& what) {
     if (count > lines_.size() - at_) throw std::invalid_argument("the file ends within its " + what);
     const auto first = lines_.begin() + static_cast<std::ptrdiff_t>(at_);
@@ -58,7 +58,7 @@ class Reader {
 
   std::string_view peek() { return done() ? std::string_view() : lines_[at_]; }
 
-  /// Index of the line last taken.
+  /// Index of the last line read.
   std::size_t last() const { return at_ - 1; }
 
  private:

@@ -14,7 +14,7 @@
 namespace stickslip::records {
 namespace {
 
-/// Whether a line starts with a number, be it NaN or infinite.
+/// Whether a line starts with a number, including NaN and infinity.
 bool is_row(std::string_view line) {
   line = trim(line);
   const std::string_view token = line.substr(0, line.find_first_of(" \t,;"));
@@ -40,7 +40,7 @@ std::vector<std::string_view> bracketed(std::string_view line) {
   return texts;
 }
 
-/// The labels in a line, one a column, or none.
+/// The labels in a line, one per column, or none.
 std::vector<std::string_view> split_labels(std::string_view line, std::size_t columns) {
   line = trim(line);
   while (line.starts_with('#')) line = trim(line.substr(1));
