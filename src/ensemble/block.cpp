@@ -101,7 +101,7 @@ Tally Block::finish() {
   }
   const auto half_length = static_cast<double>(times_.central() / 2);
   const double second_half = static_cast<double>(times_.central() - times_.central() / 2) * times_.dt;
-  // Squares about the mean of a few members are too small by this.
+  // Corrects mean squares about the mean of a few members, which are too small.
   const double unbiased = n > 1 ? n / (n - 1) : 1;
   std::vector<std::array<double, features>> values(members_);
   for (std::size_t i = 0; i < members_; ++i) {

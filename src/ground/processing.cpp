@@ -55,7 +55,7 @@ GroundMotion with_axis(const GroundMotion& motion, std::vector<double> samples) 
   return {std::move(samples), motion.dt(), motion.interpolation(), motion.name()};
 }
 
-/// What `work` makes of each component alone, together.
+/// Applies `work` to each component separately and combines the results.
 template <class Work>
 GroundMotion each_component(const GroundMotion& motion, Work&& work) {
   const auto samples = [&](bool there, Component which) {

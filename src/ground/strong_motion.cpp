@@ -20,7 +20,7 @@ double intensity(const Segment& segment, double time) {
   return time * (a * a + a * b + b * b) / 3;
 }
 
-/// Calls f(start, end, segment) for each piece of the motion between two times, cut at them; `start` as time.
+/// Calls f(start time, segment) for each segment of the motion between two times, cut at both.
 template <class F>
 void for_each_piece(const GroundMotion& motion, double begin, double end, F&& f) {
   for (std::size_t i = 0; i < motion.segments(); ++i) {

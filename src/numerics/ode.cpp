@@ -141,7 +141,7 @@ void set(int flag) {
 void say_nothing(int, const char*, const char*, char*, void*) {}
 #endif
 
-/// What CVODE and ARKODE do, in CVODE's flags.
+/// The common interface of CVODE and ARKODE, with CVODE's flags.
 class Solver {
  public:
   Solver() = default;

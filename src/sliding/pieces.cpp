@@ -91,7 +91,7 @@ class SideBySide {
     }
     if (!met) return;
     const auto moved = [from_rest, to = state.displacement](double displacement) {
-      return (displacement - from_rest) + to;  // exactly there, where both are stuck
+      return (displacement - from_rest) + to;  // exact where both are stuck
     };
     for (std::size_t k = i; k < length_; ++k) x[k + 1] = moved(x[k + 1]);
     if constexpr (recorded) record(piece, begin, i, moved);

@@ -51,7 +51,7 @@ class Reader {
     return at_ == lines_.size();
   }
 
-  /// Refuses to go on from a line that should not be there.
+  /// Rejects the file if lines follow.
   void require_end(std::size_t samples) {
     if (!done()) refuse_line(at_, "more than the " + std::to_string(samples) + " samples the header states");
   }

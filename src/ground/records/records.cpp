@@ -207,7 +207,7 @@ RecordComponent component_of(Channel channel, const std::string& name, const Rec
           std::move(units)};
 }
 
-/// All that are wanted, of what a file holds.
+/// All requested components of a file.
 std::vector<RecordComponent> parse(std::string content, const std::string& file, const RecordOptions& options,
                                    bool only_one) {
   try {

@@ -141,10 +141,10 @@ class Resolution {
   std::vector<int> decades_{};  // of the first digit of each time
 };
 
-/// The smallest step with which even times can lie between two bounds each.
+/// The smallest step for which even times can lie within their bounds.
 ///
-/// It is the steepest line from an upper bound to a later lower one. A line that is not steep enough is replaced by the
-/// one that exceeds it most, until none does.
+/// It is the steepest line from an upper bound to a later lower bound. A line that is not steep enough is replaced by
+/// the one that exceeds it most, until none does.
 double smallest_step(const std::vector<double>& lower, const std::vector<double>& upper) {
   const std::size_t last = lower.size() - 1;
   for (double step = (lower[last] - upper[0]) / static_cast<double>(last);;) {
@@ -165,17 +165,17 @@ double smallest_step(const std::vector<double>& lower, const std::vector<double>
   }
 }
 
-/// The step of times that are even as far as they are printed: the shortest decimal that fits them all.
+/// The step of times that are even within their printed precision: the shortest decimal that fits them all.
 std::optional<double> even_step(const std::vector<double>& times, const std::vector<double>& units) {
   const std::size_t count = times.size();
   const double length = times.back() - times.front(), mean = length / static_cast<double>(count - 1);
   const double coarsest = *std::ranges::max_element(units);
   const double farthest = std::max(std::abs(times.front()), std::abs(times.back()));
   const double sums =
-      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if added up
+      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if accumulated
   if (!std::isfinite(length)) return std::nullopt;
-  // Rounding explains uneven steps only where a missing sample could not hide in it, and in more than a handful. A
-  // tenth more than a print's rounding is for times computed in single precision.
+  // Rounding explains uneven steps only where it is too small to hide a missing sample, and only in records that are
+  // long against it. The margin exceeds the rounding of a print by a tenth, for times computed in single precision.
   for (const double rounding : {0., 0.55}) {
     if (rounding > 0 && (mean < 2 * coarsest || length < 100 * coarsest)) break;
     std::vector<double> lower(count), upper(count), minus_lower(count), minus_upper(count);
@@ -195,7 +195,7 @@ std::optional<double> even_step(const std::vector<double>& times, const std::vec
   return std::nullopt;
 }
 
-/// The fields of a row. Blanks around one comma or semicolon belong to it.
+/// The fields of a row. Blanks around a single comma or semicolon belong to the separator.
 void split_row(std::string_view row, std::vector<std::string_view>& fields) {
   fields.clear();
   row = trim(row);
