@@ -1,4 +1,4 @@
-// Blocks of many slip levels side by side, all under one ground motion.
+// Blocks with many slip levels in parallel, all under one ground motion.
 #pragma once
 
 #include <cstddef>

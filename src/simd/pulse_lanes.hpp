@@ -1,4 +1,4 @@
-// Many Coulomb blocks side by side, each under pulses of its own.
+// Many Coulomb blocks in parallel, each under its own pulses.
 #pragma once
 
 #include <cstddef>
