@@ -25,7 +25,7 @@ constexpr unsigned fewer = 10;
 constexpr unsigned fewer = 1;
 #endif
 
-/// How far a figure is from what was measured, in combined standard errors.
+/// The difference between a quantity and the measured value, in combined standard errors.
 double apart(const Estimate& found, const reference::Measured& measured) {
   return std::abs(found.value - measured.value) / std::hypot(found.error, measured.error);
 }

@@ -1,4 +1,4 @@
-// A damper beside friction: reference values, the functions of time, energy, limits.
+// A damper with friction: reference values, the functions of time, energy, limits.
 #include "stickslip/flow/damped.hpp"
 
 #include <array>
@@ -18,7 +18,7 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-/// Holds more at rest than what resists.
+/// A law whose level at rest is higher than while sliding.
 struct Sticky {
   static constexpr bool constant_while_sliding = true;
   double held, level;

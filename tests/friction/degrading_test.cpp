@@ -28,7 +28,7 @@ namespace {
 
 const Degrading weakening({0, 0.3, 2}, {1, 0.4, 0.5}), hardening({0.1, 0.5}, {0.5, 1.3});
 
-/// What resists after a distance [m/s^2], and its integral: by the definition.
+/// The resistance after a distance [m/s^2], and its integral: by the definition.
 double level_after(const Degrading& law, double slid) {
   const auto &s = law.distances(), &a = law.levels();
   std::size_t i = 0;

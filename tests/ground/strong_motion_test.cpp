@@ -121,7 +121,7 @@ TEST_CASE("pulses give back the earthquake that they were made from", "[strong_m
       duration += s.duration / pulses.duration() / members;
     }
     CHECK(frequency == Approx(1).epsilon(0.012));
-    // Of one motion: what is said in the docs.
+    // For one motion: the values stated in the docs.
     const double one = std::sqrt(square - frequency * frequency);
     CHECK((one > 0.02 && one < 0.09));
     CHECK((acceleration > 1 && acceleration < 1.05));

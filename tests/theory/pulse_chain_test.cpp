@@ -81,7 +81,7 @@ TEST_CASE("pairs of pulses do what a midpoint rule finds", "[pulse_chain]") {
 }
 
 TEST_CASE("rare pulses act alone: the chain becomes the superposition", "[pulse_chain]") {
-  // Exact but for the grids: amplitudes a third of sigma apart, kinks on nodes.
+  // Exact except for the grids: amplitudes a third of sigma apart, kinks on nodes.
   for (const double sigma : {0.4, 1.0, 2.5, 5.0, 12.0}) {
     CAPTURE(sigma);
     const Moments m = predict(1e-7, sigma);
@@ -316,7 +316,7 @@ TEST_CASE("levels and amplitudes that differ both ways: the mirror image has the
 }
 
 TEST_CASE("rare pulses that drift: a compound Poisson sum, from the superposition", "[pulse_chain]") {
-  // Exact but for the grids: 3 %, for the second level need not be a node.
+  // Exact except for the grids: 3 %, because the second level need not be a node.
   PoissonOptions uniform;  // from -sigma to 2 sigma
   uniform.quantile = PoissonPulses::each([](double u) { return 3 * u - 1; });
   for (const double sigma : {0.6, 2.0, 6.0})
@@ -575,7 +575,7 @@ TEST_CASE("PulseChain says where it does not hold", "[pulse_chain]") {
   CHECK(m.displacement_variance.value[0] == 0);
 }
 
-TEST_CASE("PulseChain refuses what it does not cover", "[pulse_chain]") {
+TEST_CASE("PulseChain rejects arguments that it does not cover", "[pulse_chain]") {
   const PulseChain chain;
   const auto refused = [&](const PulseShape& shape, const char* why) {
     CHECK_THROWS_WITH(chain.predict(block(1), PoissonPulses(1, 1, 1, 10, {.shape = shape}), late),
