@@ -1,4 +1,4 @@
-// Times pieces of work against one another, and says how far the figures may be trusted.
+// Compares the run times of several pieces of work, and reports how reliable the comparison is.
 #pragma once
 
 #include <algorithm>
@@ -18,21 +18,22 @@
 
 namespace bench {
 
-/// The compiler must take it that `value` is read.
+/// Makes the compiler assume that `value` is read.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");
 }
 
-/// What a bench is asked for on its command line.
+/// The options of a bench on its command line.
 struct Options {
-  bool json = false;        ///< print figures for a program
-  bool check = false;       ///< answers alone
-  bool additional = false;  ///< what only this bench knows
+  bool json = false;        ///< print machine-readable results
+  bool check = false;       ///< check the results only
+  bool additional = false;  ///< an option of this bench alone
   int rounds = 21;
 };
 
-/// Reads [--check] [--json] [--rounds N] and, if it is named, one option more; else says so and exits with 2.
+/// Reads [--check] [--json] [--rounds N] and one more option if it is named; otherwise prints the usage and exits with
+/// 2.
 inline Options options(int argc, char** argv, const std::string& name, const std::string& additional = {}) {
   Options result;
   for (int i = 1; i < argc; ++i) {
@@ -56,7 +57,7 @@ inline Options options(int argc, char** argv, const std::string& name, const std
 
 inline std::string json_string(std::string_view text) { return '"' + std::string(text) + '"'; }
 
-/// Stops the bench: a wrong answer is not worth timing.
+/// Stops the bench: wrong results are not worth timing.
 inline void require(bool holds, std::string_view what, double found, double allowed) {
   if (holds) return;
   std::fprintf(stderr, "wrong answer: %.*s: %.3g, allowed %.3g\n", static_cast<int>(what.size()), what.data(), found,
@@ -65,10 +66,10 @@ inline void require(bool holds, std::string_view what, double found, double allo
 }
 
 inline void require_below(std::string_view what, double found, double allowed) {
-  require(found <= allowed, what, found, allowed);  // NaN is refused too
+  require(found <= allowed, what, found, allowed);  // NaN is rejected, too
 }
 
-/// The number below which the given part of the numbers lies.
+/// The quantile of the numbers at the given fraction.
 inline double quantile(std::vector<double> numbers, double part) {
   std::sort(numbers.begin(), numbers.end());
   const double place = part * static_cast<double>(numbers.size() - 1);
@@ -83,11 +84,11 @@ struct Timing {
 
   double least() const { return quantile(times, 0); }
   double median() const { return quantile(times, 0.5); }
-  /// Distance of the quartiles, as a part of the median.
+  /// Interquartile range as a fraction of the median.
   double spread() const { return (quantile(times, 0.75) - quantile(times, 0.25)) / median(); }
   bool reliable() const { return spread() <= 0.1; }
 
-  /// Median of the ratios round by round: of what stood side by side.
+  /// Median of the ratios of the same round.
   double ratio(const Timing& base) const {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / base.times[i]);
@@ -95,29 +96,29 @@ struct Timing {
   }
 };
 
-/// The processor's time, of all threads [s]: what other programs get of it is not counted.
+/// Processor time of all threads [s]: the time used by other programs is not counted.
 inline double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// By the clock on the wall [s].
+/// Wall-clock time [s].
 inline double wall_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Pieces of work that take turns, so that a slow spell of the machine falls on all alike.
+/// Pieces of work that take turns, so that a slow spell of the machine affects all of them alike.
 class Bench {
  public:
-  /// @param items  the work of one round: what a time is divided by
+  /// @param items  number of items of one round, by which its time is divided
   explicit Bench(std::size_t items, double (*clock)() = processor_time)
       : items_(static_cast<double>(items)), clock_(clock) {}
 
   void add(std::string name, std::function<void()> work) { add(std::move(name), items_, std::move(work)); }
 
-  /// A work of another size.
+  /// Work with a different number of items.
   void add(std::string name, double items, std::function<void()> work) {
     works_.push_back({std::move(name), items, std::move(work)});
   }
 
-  /// One round warms up, the others are timed.
+  /// The first round warms up, the others are timed.
   std::vector<Timing> run(int rounds) const {
     std::vector<Timing> timings;
     for (const Work& work : works_) timings.push_back({work.name, {}});
@@ -143,7 +144,7 @@ class Bench {
   std::vector<Work> works_;
 };
 
-/// As the system names it.
+/// The name that the system reports.
 inline std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
@@ -157,7 +158,7 @@ inline void print_machine() {
               build.compiler.c_str(), build.build_type.c_str(), build.compiler_flags.c_str(), build.commit.c_str());
 }
 
-/// @param base  the row that the others are set against
+/// @param base  the row with which the others are compared
 inline void print_table(std::string_view title, const std::vector<Timing>& timings, std::size_t base) {
   std::printf("\n%-44.*s %8s %8s %8s %8s\n", static_cast<int>(title.size()), title.data(), "median", "least", "spread",
               "ratio");

@@ -1,4 +1,4 @@
-"""What a user of the shell waits for: reading a record and sliding it, Python's start included."""
+"""Run time of the command line: reading and sliding a record, including the start of Python."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def command(record: Path, *more: str) -> list[str]:
 
 
 def check(record: Path, *more: str) -> None:
-    """The command's answer is that of the library."""
+    """Check that the command gives the result of the library."""
     ran = subprocess.run(
         command(record, *more, "--json"), check=True, capture_output=True, text=True
     )

@@ -1,4 +1,4 @@
-"""A block held at rest by an elastic stick, as OpenSees has it, beside the rigid one.
+"""A block with elastic stick, as in OpenSees, compared with the rigid-plastic one.
 
     pip install openseespy
     python bench/compare_opensees.py [--period 3] [--mu 0.1 0.2]

@@ -1,4 +1,4 @@
-"""Newmark's block through pySLAMMER's records: its displacements and times beside ours.
+"""Newmark's block under pySLAMMER's records: its displacements and run times against ours.
 
 pySLAMMER's RigidAnalysis steps from sample to sample: at each, the block slides if it moves or the
 ground acceleration exceeds the yield acceleration; velocity and displacement follow by the
@@ -25,7 +25,7 @@ YIELD = (0.02, 0.05, 0.1, 0.2, 0.3)  # [g]
 
 
 def finer(samples: np.ndarray, parts: int) -> np.ndarray:
-    """The same straight lines, each in so many parts."""
+    """The same motion with each segment divided into this many parts."""
     at = np.arange((len(samples) - 1) * parts + 1) / parts
     return np.interp(at, np.arange(len(samples)), samples)
 
@@ -49,7 +49,7 @@ def main() -> None:
         ground = record
         if args.finer > 1:
             ground = slam.GroundMotion(finer(record.accel, args.finer), record.dt / args.finer)
-        # It slides the way the ground accelerates, we the other way.
+        # Its positive direction of sliding is opposite to ours.
         motion = ss.GroundMotion(-ss.STANDARD_GRAVITY * record.accel, dt=record.dt, name=name)
         row = f"{name:34}"
         for ky in YIELD:

@@ -1,5 +1,5 @@
-// What a slider stands on: the cost of vertical motion, a slope, stops, static friction and friction that depends on
-// the speed, the sliding distance or the temperature, beside the same slider without.
+// Supports and laws beyond level ground: the cost of vertical motion, a slope, stops, static friction, and friction
+// that depends on the speed, the sliding distance or the temperature, compared with the same slider without them.
 //
 // contact [--check] [--json] [--rounds N]
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t samples = 4096;
 constexpr double dt = 0.01, level = 1, frequency = 3;
 
-// Noise of a correlation time of 0.1 s, by a multiplicative generator of its own.
+// Noise with a correlation time of 0.1 s, from a separate multiplicative generator.
 std::vector<double> noise(unsigned seed, double deviation) {
   std::vector<double> values(samples);
   double value = 0;

@@ -1,4 +1,4 @@
-// Ensembles: what a sample of a random motion costs, its making and its statistics included, against plain loops.
+// Ensembles: the cost of a sample of a random motion, including its generation and its statistics, against plain loops.
 //
 // ensemble [--check] [--json] [--rounds N] [--million]
 #include <hwy/targets.h>
@@ -44,7 +44,7 @@ constexpr std::size_t pulses_times = 601;
 GaussianExcitation shaking() { return {Spectrum::band_pass(s0, low, high), dt, samples}; }
 PoissonPulses pulses() { return {rate, half_width, sigma, duration}; }
 
-/// A law of a user's.
+/// A user-defined law.
 struct Bump {
   static constexpr bool symmetric = true;
   template <class T>
@@ -87,16 +87,16 @@ std::size_t add_plain(bench::CoulombPulses& record, bench::Xoshiro& random, std:
   return steps;
 }
 
-// ---- the answers
+// ---- checks of the results
 
 constexpr std::uint64_t checked = 20'000;  // members, a multiple of the peers' blocks below
 
 double squared(double x) { return x * x; }
 
 /// The plain loop's velocity and ours, over the central half, thesis 4.4, against 100,000 records of an independent
-/// program (values.json, mc.fig44.pre2), and all the plain loop's moments against ours. The seeds are fixed. Another
-/// would fail the first one time in 150 (three standard errors, one of them from 20 blocks), the second one in 400, the
-/// third one in 500.
+/// program (values.json, mc.fig44.pre2), and all moments of the plain loop against ours. The seeds are fixed. With
+/// another seed the first check would fail one time in 150 (three standard errors, one of them from 20 blocks), the
+/// second one in 400, the third one in 500.
 void check_sigma(const std::string& name, const Estimate& variance) {
   const double found = std::sqrt(variance.value), error = variance.error / (2 * found);
   bench::require_below(name + ": standard deviation of the velocity, in combined standard errors",
@@ -176,16 +176,16 @@ void check() {
   check_members("Coulomb, pulses", Slider(Coulomb(pulses_level)), pulses(), 1e-12);
 }
 
-// ---- the times
+// ---- timing
 
 struct Table {
   std::string name, title;
-  std::size_t base;  // the row that the others are set against
+  std::size_t base;  // the row with which the others are compared
   std::vector<bench::Timing> timings;
   std::string note = {};
 };
 
-/// One member after the other, each a Response of its own, as one does without run_ensemble.
+/// One member after the other, each with its own Response, as without run_ensemble.
 template <class Law, class E>
 auto one_by_one(const Law& law, const E& excitation, std::uint64_t count) {
   return [=, response = Response()]() mutable {
@@ -201,7 +201,7 @@ auto ensemble(const Law& law, const E& excitation, const EnsembleOptions& how) {
   return [=] { bench::keep(run_ensemble(law, excitation, how)); };
 }
 
-/// What this processor has of the instruction sets that the library is made for, the best first.
+/// The instruction sets of this processor for which the library is compiled, the best first.
 std::vector<std::int64_t> instruction_sets() { return hwy::SupportedAndGeneratedTargets(); }
 
 std::string title_of(std::int64_t target) { return std::string("run_ensemble, ") + hwy::TargetName(target); }
@@ -235,7 +235,7 @@ Table time_coulomb(int rounds) {
   });
   for (const std::int64_t target : instruction_sets())
     bench.add(title_of(target), [&, target, work = ensemble(law, excitation, options(members))] {
-      // What is worse than the target stays allowed, so that one that the library has not got finds another.
+      // Sets inferior to the target stay allowed, so that a target missing from the library falls back to another.
       hwy::SetSupportedTargetsForTest(hwy::SupportedTargets() & ~(target - 1));
       work();
       hwy::SetSupportedTargetsForTest(0);
@@ -296,7 +296,7 @@ Table time_pulses(int rounds) {
   return {"Pulses", "Coulomb, pulses: ns per step", 1, bench.run(rounds)};
 }
 
-/// By the clock on the wall; ten times the members, so that starting the threads counts for little.
+/// Wall-clock time; with ten times the members, so that the start of the threads is negligible.
 Table time_threads(int rounds) {
   bench::Bench bench(10 * members * samples, bench::wall_time);
   const double wall = bench::wall_time(), processor = bench::processor_time();

@@ -1,4 +1,4 @@
-"""Ensembles: what a sample of a random motion costs here, and with what else one might take.
+"""Ensembles: the cost of a sample of a random motion, here and with the alternatives.
 
 The motion's making and the statistics over the members are part of it. Every answer is checked
 before it is timed. Peers that are not installed are left out and named.
@@ -188,7 +188,7 @@ class Run:
         self.works["Caster"][BARE] = partial(peers.heyoka_batch_steps, heyoka, steps), steps
 
     def time(self, rounds: int) -> dict[str, dict[str, Timing]]:
-        """What is compared takes turns; the slow ones take fewer."""
+        """Time the compared works in turns; slow ones get fewer rounds."""
         return {
             job: take_turns(works, rounds if job != "Caster" else max(3, rounds // 3))
             for job, works in self.works.items()

@@ -1,4 +1,4 @@
-// The covariance under white noise for one caster, by each force: steps and time of one solution.
+// The covariance under white noise for one caster, with each force: steps and time of one solution.
 #include <cmath>
 #include <cstdio>
 #include <numbers>

@@ -1,4 +1,4 @@
-// One record of 100,000 samples: what a sample costs, for each law, with and without a spring.
+// One record of 100,000 samples: the cost per sample, for each law, with and without a spring.
 //
 // long_record [--check] [--json] [--rounds N]
 #include <cmath>
@@ -87,7 +87,7 @@ std::vector<Input> inputs() {
           {"narrow", "band 20/pi^2 to 40/pi^2 rad/s", band(20 / square, 40 / square)}};  // thesis (4.49)
 }
 
-// ---- the plain loop: what one writes without a library
+// ---- the plain loop: a solution without a library
 
 void plain_loop(const std::vector<double>& n, double a, std::vector<double>& x, std::vector<double>& v) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -153,7 +153,7 @@ void plain_loop(const std::vector<double>& n, double a, std::vector<double>& x, 
 
 // ---- the sliders
 
-// A law as a user writes it.
+// A user-defined law.
 struct Bump {
   template <class T>
   auto resist(const T& x, Direction) const {
@@ -175,7 +175,7 @@ void for_each_slider(Visit&& visit) {
   visit("law of one's own, spring", Slider(Bump{}, frequency));
 }
 
-// A time loop of one's own.
+// A user's own time loop.
 template <class Law>
 void advance_loop(const Slider<Law>& slider, const std::vector<double>& n, std::vector<double>& x,
                   std::vector<double>& v) {
@@ -187,9 +187,9 @@ void advance_loop(const Slider<Law>& slider, const std::vector<double>& n, std::
   }
 }
 
-// ---- the answers
+// ---- checks of the results
 
-/// The same motion with another sample in the middle of each segment.
+/// The same motion with an additional sample in the middle of each segment.
 GroundMotion halved(const std::vector<double>& n) {
   std::vector<double> fine;
   for (std::size_t i = 0; i + 1 < n.size(); ++i) {
@@ -206,7 +206,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-// An escaped caster is braked no more: its energy goes to and fro between it and the ground.
+// An escaped caster is no longer braked: energy flows back and forth between it and the ground.
 double largest_kinetic(const Response& response) {
   double largest = 0;
   for (const double v : response.velocity) largest = std::max(largest, v * v / 2);
@@ -247,7 +247,7 @@ void check(const Input& input) {
                        1e-12 * response.peak);
 }
 
-// ---- the times
+// ---- timing
 
 std::vector<bench::Timing> time(const Input& input, int rounds) {
   const std::vector<double>& n = input.acceleration;

@@ -1,4 +1,4 @@
-"""One record of 100,000 samples: what a sample costs here, and with what else one might take.
+"""One record of 100,000 samples: the cost of a sample, here and with the alternatives.
 
 The answers are checked before they are timed, and each peer's largest error in x stands beside its
 time. Peers that are not installed are left out and named. The ground accelerations are those of
@@ -138,7 +138,7 @@ class Run:
         for name, slider in SLIDERS.items():
             r = self.ours[name]
             fine = ss.integrate(slider, halved(n)).displacement[::2]
-            # An escaped caster is braked no more: its energy goes to and fro.
+            # An escaped caster is no longer braked: energy flows back and forth.
             energy = r.energy.dissipated + np.max(r.velocity**2) / 2
             require(f"{name}: energy that does not add up", abs(r.energy.imbalance), 1e-11 * energy)
             require(f"{name}: halved segments", error(r.displacement, fine), 1e-9 * r.peak)

@@ -1,4 +1,4 @@
-"""Times pieces of work against one another, and says how far the figures may be trusted."""
+"""Compare the run times of several works, and report how reliable the comparison is."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Timing:
 
     @property
     def spread(self) -> float:
-        """Distance of the quartiles, as a part of the median."""
+        """Interquartile range as a fraction of the median."""
         if len(self.times) < 2:
             return float("nan")
         first, _, third = statistics.quantiles(self.times, n=4, method="inclusive")
@@ -37,7 +37,7 @@ class Timing:
         return self.spread <= 0.1
 
     def ratio(self, base: Timing) -> float:
-        """Median of the ratios round by round, of what stood side by side."""
+        """Median of the ratios of the same round."""
         if len(self.times) != len(base.times):
             return self.median / base.median
         return statistics.median(a / b for a, b in zip(self.times, base.times))
@@ -71,7 +71,7 @@ def take_turns(
 
 
 def peer(name: str) -> ModuleType | None:
-    """A rival, where it is installed."""
+    """A peer library, if it is installed."""
     try:
         return importlib.import_module(name)
     except ImportError:
@@ -104,7 +104,7 @@ def machine() -> str:
 
 
 def bar(claim: str, value: float, limit: float, at_least: bool = False) -> str:
-    """One line: what was asked for, what was measured, and whether that will do."""
+    """One line: the target, the measured value, and whether the target is met."""
     met = value >= limit if at_least else value <= limit
     sign = ">=" if at_least else "<="
     return f"  {claim:78} {value:8.3g} {sign} {limit:<4g} {'met' if met else 'NOT met'}"

@@ -1,5 +1,5 @@
-// A ground of one frequency: what a cycle of integrate costs, beside samples fine enough for the same answer; and what
-// orbits cost.
+// Harmonic ground motion: the cost of a cycle of integrate, compared with a sampled motion of the same accuracy; and
+// the cost of orbits.
 //
 // orbits [--check] [--json] [--rounds N]
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double load = 1.5, omega = 0.7, slip_level = 1, reach = 1, frequency = 1.3;
 constexpr double cycles = 200;
-constexpr double fine = 4000;  // samples a cycle, which leave an error of some 1e-6 a cycle
+constexpr double fine = 4000;  // samples per cycle, for an error of some 1e-6 per cycle
 
 const double period = 2 * std::numbers::pi / omega;
 
@@ -30,10 +30,10 @@ void for_each_slider(Visit&& visit) {
   visit("Caster, spring", Slider(Caster(slip_level, reach), frequency));
 }
 
-/// Sampled so often a cycle.
+/// The motion with this many samples per cycle.
 HarmonicMotion motion(double samples) { return {load, omega, cycles * period, period / samples}; }
 
-// Orbits of a caster as its frequency rises: from the large one round the fold to the small one.
+// Orbits of a caster as its frequency rises: from the large orbit around the fold to the small one.
 constexpr double caster_load = 1, caster_omega = 0.5, low = 0.3, high = 2;
 OrbitBranch caster_branch() {
   const Caster law(slip_level, reach);

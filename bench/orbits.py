@@ -1,4 +1,4 @@
-"""An orbit of a caster: what it costs here, and by shooting with scipy's solve_ivp.
+"""An orbit of a caster: its cost here, and by shooting with scipy's solve_ivp.
 
 The loop of one's own goes over half a period with events at each zero of the velocity, and Newton's
 method on differences of it. It is given a guess near the answer, which `orbits` does without; so it

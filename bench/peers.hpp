@@ -1,4 +1,5 @@
-// What a good engineer writes without a library: an ensemble as a plain loop over records, with FFTW and closed forms.
+// The solution of a good engineer without a library: an ensemble as a plain loop over records, with FFTW and closed
+// forms.
 #pragma once
 
 #include <fftw3.h>
@@ -14,7 +15,7 @@
 
 namespace bench {
 
-/// xoshiro256++ (Blackman & Vigna 2021): quicker than std::mt19937_64.
+/// xoshiro256++ (Blackman & Vigna 2021): faster than std::mt19937_64.
 class Xoshiro {
  public:
   explicit Xoshiro(std::uint64_t seed) {
@@ -44,7 +45,7 @@ class Xoshiro {
   std::uint64_t state_[4];
 };
 
-/// Sums over the members, at each time. Side by side: an array for each sum takes longer.
+/// Sums over the members, at each time. They are interleaved: a separate array for each sum takes longer.
 struct Sums {
   struct Time {
     double x = 0, v = 0, xx = 0, xv = 0, vv = 0;
@@ -67,8 +68,8 @@ struct Sums {
   std::vector<Time> at;
 };
 
-/// Gaussian ground accelerations in a band of even density, of random phase, thesis (4.49), and the amplitudes
-/// corrected for the straight lines between samples.
+/// Gaussian ground accelerations with a flat density in a band and random phases, thesis (4.49), with the amplitudes
+/// corrected for linear interpolation between samples.
 class BandPassRecords {
  public:
   BandPassRecords(double s0, double low, double high, double dt, std::size_t samples)
@@ -84,7 +85,7 @@ class BandPassRecords {
     }
   }
 
-  /// The next one [m/s^2], until the next call.
+  /// The next motion [m/s^2], valid until the next call.
   const double* operator()(Xoshiro& random) {
     for (std::size_t k = 0; k < amplitudes_.size(); ++k) {
       const double phase = 2 * std::numbers::pi * random();
@@ -110,15 +111,15 @@ class BandPassRecords {
   std::unique_ptr<std::remove_pointer_t<fftw_plan>, Free> plan_;
 };
 
-/// One record of Coulomb friction, from rest. Only where something may happen in a segment is it looked into; slips and
-/// rests have a short loop each.
+/// One record of Coulomb friction, from rest. Segments are examined in detail only where an event is possible; slips
+/// and rests have a short loop each.
 class CoulombRecord {
  public:
   CoulombRecord(double slip_level, double dt, std::size_t samples)
       : a_(slip_level * dt * dt), dt_(dt), loads_(samples), x_(samples), v_(samples) {}
 
   void operator()(const double* n, Sums& sums) {
-    // Locals, which what is written to the arrays can't change: kept in registers.
+    // Local copies, which writes to the arrays cannot change: they stay in registers.
     const std::size_t last = loads_.size() - 1;
     const double a = a_, square = dt_ * dt_, per_dt = 1 / dt_;
     double *p = loads_.data(), *xs = x_.data(), *vs = v_.data();
@@ -204,7 +205,7 @@ class CoulombRecord {
 };
 
 /// One member of Coulomb friction under Poisson pulses, thesis 5.4: b for the half width, then -b for as long. The
-/// steps of all pulses and the sampling times are merged as they come.
+/// steps of all pulses and the sampling times are merged on the fly.
 class CoulombPulses {
  public:
   CoulombPulses(double slip_level, double rate, double half_width, double sigma, double dt, std::size_t samples)

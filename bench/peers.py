@@ -1,4 +1,4 @@
-"""What one might take instead, each written as well as it allows: numba, SciPy, heyoka.
+"""The alternatives, each written as well as it allows: numba, SciPy, heyoka.
 
 And Coulomb friction in long double, as a reference.
 """
@@ -463,7 +463,7 @@ if nb:
                         t += (dt - t) * (s * level - load) / (end - load)
                         load = s * level
                     if t < dt:
-                        # A net force of less than nothing, by rounding, would stop it on the spot;
+                        # A net force below zero, by rounding, would stop it on the spot;
                         # and from a speed of exactly 0 the stop to come is not found.
                         least = 2e-15 * (abs(load) + level)
                         state[0, lane] = x
@@ -599,7 +599,7 @@ class Heyoka:
                         break
                     t, s = slip
                     load, pull, held = -n0 - (n1 - n0) * t / dt, number(wn) ** 2 * x, level(x)
-                    # A net force of less than nothing, by rounding, would stop it on the spot; and
+                    # A net force below zero, by rounding, would stop it on the spot; and
                     # from a speed of exactly 0 the stop to come is not found.
                     least = 8 * tiny * (abs(load) + abs(pull) + held)
                     net = max(s * (load - pull) - held, least)
@@ -620,7 +620,7 @@ class Heyoka:
 
 
 def heyoka_steps(heyoka: Heyoka, steps: int) -> None:
-    """Steps of one sample inside heyoka, without our loop: what it costs itself.
+    """Steps of one sample inside heyoka, without our loop: its own cost.
 
     The load follows the spring, so that nothing stops on the way.
     """
@@ -680,7 +680,7 @@ class HeyokaBatch:
 
 
 def heyoka_batch_steps(heyoka: HeyokaBatch, steps: int) -> None:
-    """Steps of one sample inside heyoka, without our loop: what it costs itself."""
+    """Steps of one sample inside heyoka, without our loop: its own cost."""
     ta, lanes = heyoka.integrator, heyoka.lanes
     for _ in range(steps // (100 * lanes)):
         ta.state[:] = np.array([[0.0], [1.0], [heyoka.slip_level]])

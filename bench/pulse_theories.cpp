@@ -1,4 +1,4 @@
-// Theories of Poisson pulses: what a prediction costs, and how right it is.
+// Theories of Poisson pulses: the cost of a prediction, and its accuracy.
 //
 // pulse_theories [--check] [--json] [--rounds N] [--map]
 #include <array>
@@ -27,7 +27,7 @@ PoissonPulses pulses(double rate, double sigma) { return {rate, 1, sigma, durati
 const Slider block(Coulomb(1));
 const std::vector<double> late = {duration};
 
-/// An independent program's figures, 100,000 records each: values.json mc.poisson.*.
+/// Values of an independent program, 100,000 records each: values.json mc.poisson.*.
 struct Measured {
   double sigma, rate, growth, growth_error, velocity_variance;
 };
@@ -37,7 +37,7 @@ void check() {
   for (const Measured& m : measured)
     for (const bool refined : {false, true}) {
       const Moments found = PulseChain(refined).predict(block, pulses(m.rate, m.sigma), late);
-      // What the theory promises, and three standard errors.
+      // The documented accuracy of the theory, and three standard errors.
       const double part = refined ? 0.03 : 0.1;
       bench::require_below("chain: growth rate", std::abs(found.growth_rate.value / m.growth - 1),
                            part + 3 * m.growth_error / m.growth);
@@ -54,7 +54,7 @@ void check() {
   bench::require_below("distribution", std::abs(mixture.cdf(2) - expected), 3e-6);
 }
 
-// ---- the times
+// ---- timing
 
 constexpr int curve_points = 31;  // mu from 0.01 to 0.61
 
@@ -108,7 +108,7 @@ struct Ratio {
   double value, error;
 };
 
-/// Theory over simulation.
+/// Ratio of theory to simulation.
 Ratio ratio(double theory, const Estimate& found) {
   return {theory / found.value, theory / found.value * (found.error / found.value)};
 }

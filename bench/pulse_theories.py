@@ -1,4 +1,4 @@
-"""Theories of Poisson pulses: what a prediction costs here, and with SciPy's quadrature.
+"""Theories of Poisson pulses: the cost of a prediction, here and with SciPy's quadrature.
 
 The peer integrates thesis (5.35) and (5.41) with scipy.integrate.quad and sums (5.54) and (5.55):
 what a user would write. The answers are checked before they are timed.

@@ -1,6 +1,6 @@
-// The response map of the caster, thesis figure 2.2: seven curves, B/a from 0.5 to 8, of 400 points each. Read along
-// the amplitudes a curve is a formula; along the frequencies, where each may have several amplitudes, it is root
-// finding.
+// The response map of the caster, thesis figure 2.2: seven curves, B/a from 0.5 to 8, of 400 points each. As a function
+// of the amplitude, a curve is a formula; as a function of the frequency, where several amplitudes may exist, it
+// requires root finding.
 //
 // response_map [--check] [--json] [--rounds N]
 #include <cmath>
@@ -30,7 +30,7 @@ std::vector<double> geometric(double first, double last) {
   return values;
 }
 
-// A law as a user writes it: the caster again.
+// A user-defined law: the caster again.
 struct Own {
   template <class T>
   auto resist(const T& x, Direction) const {

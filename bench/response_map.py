@@ -1,4 +1,4 @@
-"""The response map of the caster, thesis figure 2.2, beside what one would write with SciPy.
+"""The response map of the caster, thesis figure 2.2, against a solution with SciPy.
 
 Seven curves, B/a from 0.5 to 8, of 400 points each. Along the amplitudes a curve is a formula,
 which NumPy evaluates too. Along the frequencies all amplitudes are wanted: by `brentq` between the
@@ -25,7 +25,7 @@ FREQUENCIES = np.geomspace(0.05, 5.0, POINTS).tolist()
 
 SVP = ss.theory.SlowlyVaryingParameters(ss.Caster(slip_level=1.0, reach=1.0))
 
-# ---- what a user writes
+# ---- the solution with SciPy
 
 
 def friction(y):

@@ -1,5 +1,5 @@
-// Stationary linearization: the map of thesis figure 4.1, other spectra, and ensembles of the linear system beside
-// those of friction.
+// Stationary linearization: the map of thesis figure 4.1, other spectra, and ensembles of the linear system compared
+// with those of the slider.
 //
 // stationary_linearization [--check] [--json] [--rounds N]
 #include <cmath>

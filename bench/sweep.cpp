@@ -1,6 +1,6 @@
-// A database of records by many levels: 2,133 synthetic records of 8,700 samples (43.5 s), 100 yield accelerations from
-// 0.01 to 1 g, one-way, both polarities, with coming to rest after the record: 426,600 analyses. And the sliding
-// spectrum of one record. The peers: a loop over `integrate`, and a plain loop in C++ as one writes it by hand.
+// A database of records with many levels: 2,133 synthetic records of 8,700 samples (43.5 s), 100 yield accelerations
+// from 0.01 to 1 g, one-way, both polarities, integrated until rest after the record: 426,600 analyses. And the sliding
+// spectrum of one record. The peers: a loop over `integrate`, and a plain hand-written loop in C++.
 //
 // sweep [--check] [--json] [--rounds N]
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace {
 constexpr std::size_t samples = 8700, levels = 100;
 constexpr double dt = 0.005;
 
-/// Filtered noise in an envelope that rises in 2 to 8 s and decays, much as recorded: like the records of pyslammer it
-/// has center frequencies from 1.5 to 4 Hz, and 5 to 95 % of its energy within 4 to 15 s. The largest accelerations are
-/// lognormal, with a median of 0.15 g and a logarithmic deviation of 0.8.
+/// Filtered noise in an envelope that rises in 2 to 8 s and decays, much like recorded motions: as the records of
+/// pyslammer, it has center frequencies from 1.5 to 4 Hz, and 5 to 95 % of its energy within 4 to 15 s. The peak
+/// accelerations are lognormal, with a median of 0.15 g and a logarithmic standard deviation of 0.8.
 GroundMotion record(std::uint64_t seed) {
   std::mt19937_64 bits(seed);
   std::normal_distribution<double> normal;
@@ -38,7 +38,7 @@ GroundMotion record(std::uint64_t seed) {
   double y1 = 0, y2 = 0, largest = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const double y = a1 * y1 + a2 * y2 + normal(bits), t = static_cast<double>(i) * dt / rise;
-    n[i] = (y - y1) * t * t * std::exp(2 * (1 - t));  // differences have no lasting push
+    n[i] = (y - y1) * t * t * std::exp(2 * (1 - t));  // a first difference, which leaves no lasting velocity
     largest = std::max(largest, std::abs(n[i]));
     y2 = y1;
     y1 = y;
@@ -73,7 +73,8 @@ std::vector<GroundMotion> with_vertical(const std::vector<GroundMotion>& motions
   return result;
 }
 
-/// One-way blocks on a slope of 10 degrees, whose friction is above what its own weight asks by the levels above.
+/// One-way blocks on a slope of 10 degrees, whose friction exceeds the level needed for equilibrium by the given
+/// levels.
 std::vector<Slider<Coulomb>> on_slope() {
   std::vector<Slider<Coulomb>> sliders;
   const double slope = std::numbers::pi / 18;
@@ -94,7 +95,7 @@ std::vector<Slider<StaticKinetic<Coulomb>>> with_static() {
   return sliders;
 }
 
-/// One-way displacement as one writes it by hand: exact on straight pieces, and to rest after the record.
+/// One-way displacement by a hand-written loop: exact on segments, and until rest after the record.
 double by_hand(const std::vector<double>& n, double sign, double level) {
   double x = 0, v = 0;
   for (std::size_t i = 0; i + 1 < n.size(); ++i) {
@@ -119,7 +120,7 @@ double by_hand(const std::vector<double>& n, double sign, double level) {
     }
     x += stop * (v + stop * (a / 2 + slope * stop / 6));
     v = stops ? 0 : std::max(end, 0.0);
-    if (stops && last > 0) {  // it goes on within the segment, from where the load meets the level again
+    if (stops && last > 0) {  // it continues within the segment, from where the load meets the level again
       const double again = last / slope;
       x += slope * again * again * again / 6;
       v = slope * again * again / 2;

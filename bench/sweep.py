@@ -1,4 +1,4 @@
-"""A sweep of pySLAMMER's own records, beside pySLAMMER; and suites: read, saved, opened.
+"""A sweep of pySLAMMER's own records, against pySLAMMER; and suites: read, saved, opened.
 
 `python bench/sweep.py`: displacements of 18 records at some yield accelerations, their difference
 from pySLAMMER's and the time of both. `--files`: 2,133 files in PEER's AT2 format, 8,700 samples
@@ -27,7 +27,7 @@ def against_pyslammer(rounds: int) -> None:
     if slam is None:
         sys.exit("not installed: pyslammer")
     records = slam.sample_ground_motions()
-    # It slides the way the ground accelerates, we the other way.
+    # Its positive direction of sliding is opposite to ours.
     suite = ss.Suite(
         ss.GroundMotion(-ss.STANDARD_GRAVITY * r.accel, dt=r.dt, name=name)
         for name, r in records.items()

@@ -1,4 +1,4 @@
-// The thesis's figures as numbers: CSV files and the summary, without Python.
+// The thesis's figures as values: CSV files and the summary, without Python.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -70,7 +70,8 @@ int run(const std::vector<std::string>& arguments) {
     }
   }
   for (const std::string& number : numbers)
-    if (std::ranges::find(Thesis::numbers(), number) == Thesis::numbers().end()) Thesis().figure(number);  // refuses it
+    if (std::ranges::find(Thesis::numbers(), number) == Thesis::numbers().end())
+      Thesis().figure(number);  // throws the error
   if (numbers.empty()) numbers.assign(Thesis::numbers().begin(), Thesis::numbers().end());
   ThesisOptions options{.members = members.value_or(check ? 2000 : 100'000), .seed = seed.value_or(check ? 2 : 1)};
   std::string told;

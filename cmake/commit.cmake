@@ -19,4 +19,4 @@ endif()
 if(NOT commit)
   set(commit unknown)
 endif()
-file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#define STICKSLIP_COMMIT \"${commit}\"\n") # untouched where nothing changed
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#define STICKSLIP_COMMIT \"${commit}\"\n") # keeps the file if its content is the same

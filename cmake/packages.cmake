@@ -1,4 +1,4 @@
-# Finds libraries, and says in one message which packages hold those that are missing.
+# Finds libraries, and lists in one message the packages of those that are missing.
 
 # stickslip_find(<name> [VERSION v] APT <package> BREW <package> CONDA <package>): a macro, because packages set
 # variables where they are found.

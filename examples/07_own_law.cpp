@@ -1,4 +1,4 @@
-// A friction law of your own is one function: the slip level at a place. Everything else stays as it is.
+// A friction law of your own is one function: the slip level as a function of position. Nothing else changes.
 //
 //     own_law [file]        writes the histories to the file, as comma-separated values
 #include <cmath>
@@ -25,7 +25,7 @@ struct Patch {
 
 int main(int argc, char** argv) {
   const double pi = std::numbers::pi, dt = 0.01;  // [s]
-  std::vector<double> ground(601);                // 6 s, of which it shakes for 4
+  std::vector<double> ground(601);                // 6 s, of which the ground shakes for 4
   for (int i = 0; i <= 400; ++i) ground[i] = 4 * std::sin(pi * i / 400) * std::sin(2 * pi * i * dt);  // [m/s^2]
   const GroundMotion motion(ground, dt);
 
@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
     if (!file.flush()) return EXIT_FAILURE;
   }
 
-  // The energy adds up, though the law said nothing of energy; and it slid further where it is smoother.
+  // The energy balance holds, although the law does not define its work; and the slider slid farther where it is
+  // smoother.
   const bool sane =
       std::abs(patch.energy.imbalance()) < 1e-12 * patch.energy.input && patch.peak > rough.peak && rough.peak > 0;
   return sane ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -1,5 +1,5 @@
-// A seismic code with a time loop of its own: a block stands on the floor of a building, which the code steps itself.
-// The block is advanced by one call per step, and nothing is carried but its state.
+// A seismic code with its own time loop: a block stands on the floor of a building, which the code integrates. One call
+// per step advances the block, and its state is the only data kept between steps.
 //
 //     time_loop [file]        writes the histories to the file, as comma-separated values
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace stickslip;
 // One storey, damping 5 %, period 0.5 s, stepped by the semi-implicit Euler method.
 class Building {
  public:
-  // Moves on by one step; returns the absolute acceleration of the floor [m/s^2].
+  // Advances by one step; returns the absolute acceleration of the floor [m/s^2].
   double step(double ground_acceleration, double dt) {
     const double wn = 2 * std::numbers::pi / 0.5;
     const double pull = wn * wn * displacement_ + 2 * 0.05 * wn * velocity_;
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   std::printf("after the earthquake the block is %.4f m from where it stood, %s\n", block.displacement,
               block.mode == Mode::stuck ? "at rest" : "still sliding");
 
-  // The same floor motion, as one whole.
+  // The same floor motion, integrated in one call.
   const Response response = integrate(slider, GroundMotion(floor_history, dt));
   std::printf("on its way it was at most %.4f m away\n", response.peak);
 

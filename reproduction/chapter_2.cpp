@@ -48,17 +48,17 @@ void add_branches(ThesisPanel& panel, const SlowlyVaryingParameters& svp, double
     if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
 }
 
-// Exact orbits that hang together with `from`, in pieces of one stability.
+// Exact orbits that are connected with `from`, in parts of constant stability.
 void add_exact(ThesisPanel& panel, const OrbitBranch& branch, const std::string& label, double omega_unit,
                double amplitude_unit) {
   std::optional<bool> stable;
   for (std::size_t i = 0; i < branch.orbits.size(); ++i) {
     const Orbit& orbit = branch.orbits[i];
     const double x = orbit.omega * omega_unit, y = orbit.amplitude * amplitude_unit;
-    // At a fold a multiplier is 1, and on which side of it is round-off: the fold belongs to the piece before it.
+    // At a fold a multiplier is 1, and round-off decides on which side: the fold belongs to the part before it.
     const bool folds = std::ranges::find(branch.folds, i) != branch.folds.end();
     if (const bool now = folds && stable ? *stable : orbit.stable; stable != now) {
-      if (stable) {  // pieces touch
+      if (stable) {  // parts share their end points
         panel.curves.back().x.push_back(x);
         panel.curves.back().y.push_back(y);
       }
@@ -70,7 +70,7 @@ void add_exact(ThesisPanel& panel, const OrbitBranch& branch, const std::string&
   }
 }
 
-// The branches of a caster, a = 3l = 1: that of its large orbits, and others that do not hang together with it.
+// The branches of a caster, a = 3l = 1: the branch of its large orbits, and those not connected with it.
 std::vector<OrbitBranch> caster_branches(const Thesis& thesis, const Slider<Caster>& slider, double b,
                                          std::vector<double> starts, double low, double high, double largest) {
   const auto progress = [&] {
@@ -81,7 +81,7 @@ std::vector<OrbitBranch> caster_branches(const Thesis& thesis, const Slider<Cast
   for (const double omega : starts)
     for (const Orbit& orbit : orbits(slider, b, omega, progress)) {
       const auto passes = [&](const OrbitBranch& branch) {
-        // Between two neighbors on the branch that have both frequencies and amplitudes about it.
+        // Between two neighbors on the branch that enclose both frequency and amplitude.
         for (std::size_t i = 0; i + 1 < branch.orbits.size(); ++i) {
           const Orbit &p = branch.orbits[i], &q = branch.orbits[i + 1];
           if ((p.omega - orbit.omega) * (q.omega - orbit.omega) > 0) continue;
@@ -103,7 +103,7 @@ std::vector<OrbitBranch> free_caster_branches(const Thesis& thesis, double b) {
   return caster_branches(thesis, unit_caster, b, {0.2, 0.45, 0.65, 1.2}, 0.15, 3.6, 16);
 }
 
-// The zone in which amplitudes are unstable whatever the force, averaged: an outline.
+// The zone in which averaged amplitudes are unstable for any force, as an outline.
 ThesisCurve unstable_zone(const SlowlyVaryingParameters& svp, std::string label, double omega_unit,
                           double amplitude_unit, double largest) {
   ThesisCurve zone{std::move(label), Kind::region, {}, {}};

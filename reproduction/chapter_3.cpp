@@ -30,7 +30,7 @@ Moments linearized(double gamma, bool printed, std::span<const double> times) {
   return gamma == 0 ? method.predict(block, 1.0, times) : method.predict(caster(gamma), 1.0, times);
 }
 
-// Loads held for dt, so short that they are white noise but for some 0.3 % (t = 100), less before.
+// Loads held for dt, which is so short that they are white noise within some 0.3 % (t = 100), less accurately before.
 Moments simulated(Thesis& thesis, double gamma, double end) {
   const double dt = end == 1 ? 0.005 : end == 10 ? 0.02 : 0.04;
   const auto samples = static_cast<std::size_t>(std::lround(end / dt)) + 1;
@@ -99,7 +99,8 @@ ThesisFigure transient(Thesis& thesis, const char* number, const Measure& measur
 Estimate last(const Moments& moments, Estimates Moments::*figure) {
   return {(moments.*figure).value.back(), (moments.*figure).error.back()};
 }
-// Linearization with the stationary damping over that with a damping by time, the largest difference of an rms value.
+// The ratio of linearization with the stationary damping to that with a time-dependent damping: the largest deviation
+// of an rms value.
 double stationary_damping_off_by(Estimates Moments::*figure) {
   const std::vector<double> times = geometric(0.05, 100, 1000);
   const Moments stationary = theory::StationaryLinearization().predict(block, Spectrum::white(1.0)).transient(times),
@@ -178,7 +179,7 @@ ThesisFigure figure_3_3(Thesis& thesis) {
                                     std::pow(pi, 5) / 2 * 100, 100,
                                     {linearized(0, false, end).displacement_variance.value[0]},
                                     "(3.47) drops an intercept of 47π²/48 times the growth"));
-  // z of (3.30) on the thesis's own way.
+  // z of (3.30), computed as in the thesis.
   const std::vector<double> around = even(20, 60, 401);
   const Moments way = linearized(0.01, true, around);
   std::size_t passed = 0;

@@ -29,8 +29,8 @@ const theory::StationaryLinearization method;
 Spectrum band_pass(double low, double width) { return Spectrum::band_pass(1.0, low, low + width); }
 double linearized(double low, double width) { return method.predict(block, band_pass(low, width)).velocity_std; }
 
-// Motions of 1024 samples 0.1 apart, as the thesis has them; figure 4.4 has 33 lines then. A narrower band would have
-// fewer, and be less Gaussian: it gets a longer period.
+// Motions of 1024 samples with a step of 0.1, as in the thesis; figure 4.4 then has 33 lines. A narrower band would
+// have fewer lines, and be less Gaussian: it gets a longer period.
 GaussianExcitation shaking(double low, double width) {
   constexpr std::size_t samples = 1024;
   constexpr double dt = 0.1, min_lines = 32;
@@ -53,7 +53,7 @@ Estimate rms_velocity(Thesis& thesis, double low, double width, std::uint64_t me
   return root(simulated(thesis, low, width, members).stationary().velocity_variance);
 }
 
-// The case of figures 4.4 to 4.6: the block and the linear system in its place.
+// The case of figures 4.4 to 4.6: the block and its equivalent linear system.
 const Ensemble& block_case(Thesis& thesis, std::uint64_t members) {
   return simulated(thesis, band, band, members, true);
 }
@@ -80,7 +80,7 @@ Estimates roots(Estimates e) {
   return e;
 }
 
-// The scatter of the means of x^2 over groups of members, over what (4.61) has from single ones.
+// The scatter of the means of x^2 over groups of members, relative to the prediction of (4.61) from single members.
 Estimate scatter_over_predicted(const std::vector<double>& x, std::size_t group) {
   const std::size_t groups = x.size() / group;
   const auto scatter = [](const std::vector<double>& f) {
@@ -100,10 +100,10 @@ Estimate scatter_over_predicted(const std::vector<double>& x, std::size_t group)
 
 std::string members_of(const Ensemble& ensemble) { return ", " + number(ensemble.members()) + " members"; }
 
-// The first side lobe of the window that velocities are seen through, over its main lobe [dB of the amplitude]: the
-// first maximum of its Fourier amplitude after the first minimum.
+// The first side lobe of the window for velocities relative to its main lobe [dB of the amplitude]: the first maximum
+// of its Fourier amplitude after the first minimum.
 double first_side_lobe(double beta) {
-  constexpr std::size_t samples = 512;  // of the central half, which the window is put on
+  constexpr std::size_t samples = 512;  // of the central half, to which the window is applied
   constexpr double step = 1.0 / 64;     // of a line
   const std::vector<double> window = kaiser_window(samples, beta);
   const auto amplitude = [&](double line) {
@@ -324,7 +324,7 @@ ThesisFigure figure_4_6(Thesis& thesis) {
 
 namespace {
 
-// Rms velocities over theory, and what the thesis says of them.
+// Ratios of simulated rms velocities to theory, and the thesis's statements about them.
 ThesisFigure slice(Thesis& thesis, ThesisFigure figure, ThesisPanel panel, const std::vector<double>& abscissae,
                    const std::vector<double>& points, const std::function<std::pair<double, double>(double)>& low_width,
                    const std::function<bool(double)>& counted) {

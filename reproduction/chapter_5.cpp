@@ -63,8 +63,8 @@ ThesisFigure figure_5_2(Thesis&) {
       curve("envelope", Kind::limit, even(1.2, 25, 120), [](double w) { return 2 * amplitude / (pi * w); }));
   figure.panels.push_back(std::move(panel));
 
-  // By the mean square: the integral of (5.20) with (5.6) as printed must be (5.19).
-  double sum = 0;  // midpoints, and beyond them the tail, in which sin^4 is 3/8 on average
+  // By the mean square: the integral of (5.20) with (5.6) as printed must equal (5.19).
+  double sum = 0;  // midpoints, and the tail beyond them, in which sin^4 is 3/8 on average
   constexpr double step = 1e-3, last = 2000 * pi;
   for (double w = step / 2; w < last; w += step) sum += 2 * step * 2 * pi * std::pow(printed(w) / amplitude, 2);
   sum += 2 * 2 * pi / last * std::pow(1 / pi, 2) * 3.0 / 8;
@@ -188,8 +188,9 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
   }
 
   // Largest errors of the rms velocity and of the growth rate, for lambda dt from `least` to `most`. Pulses as small as
-  // a third of the slip level need others beside them: where these are rare, the largest error is the simulation's,
-  // which for the growth rate 100,000 members leave at 11 % (lambda dt = 0.05), 5 % (0.1), 3 % (0.2) and 2 % (0.35).
+  // a third of the slip level cause slip only together with others. Where pulses are rare, the largest error is that of
+  // the simulation, which for the growth rate and 100,000 members is 11 % (lambda dt = 0.05), 5 % (0.1), 3 % (0.2) and
+  // 2 % (0.35).
   const auto worst = [&](const Measure& measure, const auto& predict, double least, double most) {
     Estimate result;
     for (const double p : overlaps) {
@@ -240,7 +241,7 @@ ThesisFigure against_overlap(Thesis& thesis, const char* number_, double sigma, 
     figure.statements.push_back(at_most("5.5", "fraction of the pulses that exceed the slip level without overlap",
                                         0.003, {std::erfc(1 / (sigma * std::numbers::sqrt2))}));
 
-  // What is left out without overlaps.
+  // The part omitted without overlaps.
   const auto times_more = [&](const Measure& measure) {
     const Estimate e = measure.simulated(simulated(thesis, sigma, 1, thesis.options().members).stationary());
     const double low = measure.predicted(alone(1));

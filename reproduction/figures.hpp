@@ -1,4 +1,4 @@
-// The figures, one function each, and what they are put together with.
+// The figures, one function each, and the helpers that build them.
 #pragma once
 
 #include <cmath>
@@ -65,12 +65,12 @@ ThesisCurve curve(std::string label, Kind kind, std::vector<double> x, Function&
   return result;
 }
 
-/// A level line.
+/// A horizontal line.
 inline ThesisCurve line(std::string label, double first, double last, double y, Kind kind = Kind::limit) {
   return {std::move(label), kind, {first, last}, {y, y}};
 }
 
-/// Points of an ensemble, one by one.
+/// Points of an ensemble, added one by one.
 struct Points {
   ThesisCurve curve;
   Points(std::string label, std::uint64_t members) : curve{std::move(label), Kind::simulation, {}, {}} {
@@ -89,19 +89,19 @@ inline Estimate root(Estimate e) {
   return {value, value > 0 ? e.error / (2 * value) : 0};
 }
 
-/// A number as it is written: 1.3; 100,000.
+/// A formatted number: 1.3; 100,000.
 std::string number(double value);
 std::string number(std::uint64_t count);
 
-/// The thesis gives a number: it agrees where ours rounds to it, which `within` says, or is less than 3 standard errors
-/// from there.
+/// The thesis states a number: it agrees if ours rounds to it, as `within` specifies, or differs by less than 3
+/// standard errors.
 ThesisStatement about(std::string where, std::string claim, double said, double within, Estimate found,
                       std::string why = {});
-/// The thesis gives a bound on what was found.
+/// The thesis states a bound for the number found.
 ThesisStatement at_most(std::string where, std::string claim, double said, Estimate found, std::string why = {});
 ThesisStatement at_least(std::string where, std::string claim, double said, Estimate found, std::string why = {});
 
-/// How many members the thesis's own ensembles have.
+/// The number of members in the thesis's own ensembles.
 inline constexpr std::uint64_t thesis_members = 1000;
 
 }  // namespace stickslip::detail

@@ -1,4 +1,4 @@
-// What there is, and how it is written, summed up and held against what is expected.
+// The list of figures, their output as text, their summary, and the comparison with the expected values.
 #include "reproduction/thesis.hpp"
 #include <stickslip/error.hpp>
 
@@ -50,20 +50,20 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-// A figure as the summary prints it.
+// A number in the format of the summary.
 std::string digits(double value) { return format("%.4g", value); }
 std::string digits(double value, double error) {
   return error > 0 ? digits(value) + " +- " + format("%.1g", error) : digits(value);
 }
 
-// One number that is checked: where it stands, and what it is.
+// One checked number: its position and value.
 struct Number {
   std::string place;
   double value, error;
   std::uint64_t members;
 };
 
-// All points of simulations, other curves at up to nine points, all statements.
+// All points of simulations, up to nine points of each other curve, all statements.
 std::vector<Number> numbers_of(const ThesisFigure& figure) {
   std::vector<Number> result;
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
@@ -85,12 +85,12 @@ std::vector<Number> numbers_of(const ThesisFigure& figure) {
   return result;
 }
 
-// One number that is expected: where, what, its standard error, and the members behind that.
+// One expected number: its position, value, standard error, and the members from which it was computed.
 struct Expected {
   std::string place;
   double value, error, members;
 
-  // What it is measured by: its curve along its axis, "0/3/", "x"; a statement by itself.
+  // The key of its scale: the curve and the axis, "0/3/", "x"; a statement has its own.
   std::string scale() const {
     return place.starts_with("statement") ? place : place.substr(0, place.rfind('/')) + place.back();
   }
@@ -232,7 +232,7 @@ std::string thesis_expectations(const ThesisFigure& figure) {
 
 std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure) {
   const std::vector<Expected> expected = expected_of(figure.number);
-  std::map<std::string, double, std::less<>> scales;  // the largest that is expected of each curve
+  std::map<std::string, double, std::less<>> scales;  // the largest expected magnitude of each curve
   for (const Expected& e : expected)
     if (std::isfinite(e.value)) scales[e.scale()] = std::max(scales[e.scale()], std::abs(e.value));
   std::map<std::string, Number, std::less<>> found;
@@ -247,7 +247,7 @@ std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure) {
       continue;
     }
     const Number& n = entry.mapped();
-    // The error of the expectation, and that of as many members as were simulated here.
+    // The error of the expected value, and that of the number of members simulated here.
     const double error = e.error * std::sqrt(1 + (n.members > 0 ? e.members / static_cast<double>(n.members) : 0));
     const double allowed = 5 * error + 1e-6 * scales[e.scale()];
     const bool same = n.value == e.value || (std::isnan(n.value) && std::isnan(e.value));

@@ -11,7 +11,7 @@
 namespace stickslip {
 namespace {
 
-// "fftw-3.3.10-sse2-avx": the name goes, the instruction sets stay, for they make the speed.
+// "fftw-3.3.10-sse2-avx": the name is removed; the instruction sets stay because they determine the speed.
 std::string fftw() {
   const std::string text = fftw_version;
   return text.starts_with("fftw-") ? text.substr(5) : text;

@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t longest_message = 512;
 thread_local char last_message[longest_message] = "";
 
-/// The status of the exception that is being handled, whose message it keeps.
+/// Stores the message of the current exception and returns its status.
 int failed() noexcept {
   const auto keep = [](const std::exception& error) {
     const std::size_t length = std::min(std::strlen(error.what()), longest_message - 1);
@@ -45,7 +45,7 @@ int failed() noexcept {
   }
 }
 
-/// The status of what `work` does.
+/// Calls `work` and returns its status.
 template <class Work>
 int guarded(Work&& work) noexcept {
   try {
@@ -65,7 +65,7 @@ bool flag(int value, const char* name) {
   return value == 1;
 }
 
-/// A stop, or none.
+/// The distance to a stop; infinite if there is none.
 double gap(double given, const char* name) {
   detail::require(given >= 0, std::string("stickslip_slider: ") + name + " must be at least 0", given, "m");
   return given > 0 ? given : std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ Mounting mounting(const stickslip_slider& s) {
           .stops = Stops(gap(s.gap, "gap"), gap(s.backward_gap, "backward_gap"), s.restitution)};
 }
 
-/// What `work` gives with the slider.
+/// Calls `work` with the slider.
 template <class Work>
 void with_slider(const stickslip_slider* s, Work&& work) {
   require_pointer(s, "slider");

@@ -6,7 +6,7 @@
 
 using namespace stickslip;
 
-TEST_CASE("a number can tell what it was computed with") {
+TEST_CASE("the build information identifies how a number was computed") {
   const BuildInfo& info = build_info();
   for (const std::string& version : {info.version, info.fftw, info.gsl, info.sundials}) {
     CAPTURE(version);

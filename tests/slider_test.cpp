@@ -19,7 +19,7 @@ TEST_CASE("a slider is its law and its spring", "[slider]") {
   CHECK(Slider(Coulomb(1)).stiffness() == 0);
 }
 
-TEST_CASE("Slider names what it refuses", "[slider][errors]") {
+TEST_CASE("Slider names the arguments that it rejects", "[slider][errors]") {
   const std::string rule = "Slider: natural_frequency must be finite and at least 0, got ";
   CHECK_THROWS_WITH(Slider(Coulomb(1), -1), rule + "-1 rad/s");
   CHECK_THROWS_WITH(Slider(Coulomb(1), not_a_number), rule + "nan rad/s");

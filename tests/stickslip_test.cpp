@@ -152,7 +152,7 @@ TEST_CASE("null pointers are named, and a slider can be checked alone") {
   CHECK(stickslip_check(nullptr) == STICKSLIP_INVALID_ARGUMENT);
 }
 
-TEST_CASE("each thread has a message of its own") {
+TEST_CASE("each thread has its own message") {
   const stickslip_slider bad = {.slip_level = -1};
   REQUIRE(stickslip_check(&bad) == STICKSLIP_INVALID_ARGUMENT);
   std::string other = "unset";

@@ -1,4 +1,5 @@
-// The thesis's figures: that they are what they say, the same whoever computes them, and that a wrong one is found out.
+// The thesis's figures: their contents are correct and independent of the order of computation, and a wrong figure is
+// detected.
 #include "reproduction/thesis.hpp"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ TEST_CASE("the block of figures 4.4 to 4.7 moves as fast as an independent progr
   const auto at = static_cast<std::size_t>(
       std::ranges::find_if(curve.x, [](double x) { return std::abs(x - 2.0264) < 1e-3; }) - curve.x.begin());
   REQUIRE(at < curve.x.size());
-  // The seed is fixed; else a false alarm in 1.7 million.
+  // The seed is fixed; otherwise a false alarm would occur once in 1.7 million.
   CHECK(std::abs(curve.y[at] - 0.59675) <= 5 * std::hypot(curve.error[at], 0.00021));
 }
 
@@ -133,7 +134,7 @@ TEST_CASE("a number that is infinite or none at all does not hold") {
 }
 
 TEST_CASE("an ensemble that is the same size in every run is allowed the same error in every run") {
-  // Of 4.6's ensembles the first has 1000 members whatever is asked for; the second has as many as are asked for.
+  // The first of the ensembles of 4.6 always has 1000 members; the second has the requested number.
   const auto allowed = [](std::uint64_t members, const char* curve) {
     double sum = 0;
     for (const ThesisCheck& check : thesis_check(Thesis({.members = members, .seed = 2}).figure("4.6")))
@@ -173,12 +174,12 @@ TEST_CASE("a file of a figure has a line for each point and 17 digits") {
   CHECK(std::stod(text.substr(begin, end - begin)) == figure.panels[0].curves[0].x[0]);
 }
 
-TEST_CASE("what a progress callback throws ends a figure") {
+TEST_CASE("an exception from the progress callback ends a figure") {
   Thesis thesis({.members = 1000, .progress = [](std::string_view, double) { throw std::runtime_error("enough"); }});
   CHECK_THROWS_WITH(thesis.figure("5.4"), ContainsSubstring("enough"));
 }
 
-TEST_CASE("what the thesis says in its text of errors is beside what is found") {
+TEST_CASE("the thesis's statements about errors are listed with our results") {
   Thesis thesis({.members = 2000, .seed = 2});
   const auto said = [&](const char* number, const char* where, const char* claim) {
     const ThesisFigure figure = thesis.figure(number);

@@ -124,7 +124,7 @@ TEST_CASE("without damping and spring it is the ground that moves, with much dam
   CHECK(difference(free.displacement, ice.displacement) < 1e-13 * ice.peak);
   CHECK(free.peak == Approx(ice.peak).epsilon(1e-13));
   CHECK(free.sliding_distance == Approx(ice.sliding_distance).epsilon(1e-13));
-  // Much damping: x' = -n / zeta, but for a while 1 / zeta.
+  // Strong damping: x' = -n / zeta, except during a time of 1 / zeta.
   const double zeta = 1e9;
   const Response stiff = integrate(ViscousSlider(zeta), motion);
   for (std::size_t i = 1; i < 200; ++i)
@@ -159,7 +159,8 @@ TEST_CASE("peak and way count turns between samples", "[viscous]") {
 
 TEST_CASE("under noise it has the variance of its spectrum", "[viscous]") {
   // pi S0 / zeta of the velocity, pi S0 / (zeta wn^2) of the displacement, and as much for all samples: the band is
-  // white to 60 rad/s. Seed fixed; drawn anew it would fail one time in 185 (two figures, three standard errors).
+  // white to 60 rad/s. Seed fixed; with a new seed it would fail one time in 185 (two quantities, three standard
+  // errors).
   const double zeta = 1.2, wn = 3;
   GaussianExcitation excitation(Spectrum::band_pass(1, 0, 60), 0.05, 1024, {.random_amplitudes = true, .period = 4096});
   const Ensemble e = run_ensemble(ViscousSlider(zeta, wn), excitation, options(2000));
@@ -241,7 +242,7 @@ TEST_CASE("an ensemble under pulses, whose times are uneven, is its members", "[
         R"({"law": "Coulomb", "slip_level": 0, "backward": 0, "natural_frequency": 0, "damping": 0.4})");
 }
 
-TEST_CASE("what a viscous slider cannot be or do is refused", "[viscous]") {
+TEST_CASE("invalid arguments of a viscous slider are rejected", "[viscous]") {
   CHECK_THROWS_WITH(ViscousSlider(-1), "Slider: damping must be finite and at least 0, got -1 1/s");
   CHECK_THROWS_AS(ViscousSlider(infinity), std::invalid_argument);
   CHECK_THROWS_AS(ViscousSlider(not_a_number), std::invalid_argument);

@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 namespace stickslip::python {
 
-/// A slider of any law that Python knows. Every function that accepts a slider accepts a law added here.
+/// A slider with any law that has a Python class. Every function that accepts a slider accepts a law added here.
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
                                Slider<Degrading>, Slider<KumarFriction>, Slider<CallableLaw>,
                                Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,

@@ -1,4 +1,4 @@
-// The few words of JSON that a configuration is written in.
+// Helpers that write the JSON of a configuration.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace stickslip::detail {
 
-/// A number as the shortest text that reads back the same; JSON knows no infinity, null stands for it.
+/// A number as the shortest text that reads back the same. JSON has no infinity: null stands for it.
 inline std::string json(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
 
 inline std::string json(std::uint64_t value) {

@@ -1,4 +1,4 @@
-// Tables of points with straight lines between them: how they are checked and read.
+// Piecewise linear tables: checks and interpolation.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Column {
   std::string name, unit;
 };
 
-/// Refuses a table of fewer than two points, of x that do not increase, of y that are negative.
+/// Rejects a table with fewer than two points, with x that do not increase, or with negative y.
 inline void require_table(const std::string& owner, std::span<const double> x, const Column& x_is,
                           std::span<const double> y, const Column& y_is) {
   if (x.size() != y.size())
@@ -37,7 +37,7 @@ inline void require_table(const std::string& owner, std::span<const double> x, c
   }
 }
 
-/// The table's value at `at`: linear between its points, zero outside.
+/// The value of the table at `at`: linear between its points, zero outside.
 inline double interpolated(std::span<const double> x, std::span<const double> y, double at) noexcept {
   if (!(at >= x.front() && at <= x.back())) return std::isnan(at) ? at : 0;
   const auto right = static_cast<std::size_t>(std::ranges::upper_bound(x, at) - x.begin());

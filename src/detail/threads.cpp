@@ -14,7 +14,7 @@ void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopp
                     const std::function<void()>& report) {
   const std::size_t available = wanted != 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
   const std::size_t count = std::min(available, tasks);
-  std::mutex mutex;  // guards these
+  std::mutex mutex;  // guards the members below
   std::condition_variable changed;
   std::exception_ptr error;
   std::size_t working = count;
@@ -24,7 +24,7 @@ void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopp
       work();
     } catch (...) {
       const std::scoped_lock lock(mutex);
-      if (!stopped.exchange(true)) error = std::current_exception();  // others throw because they are stopped
+      if (!stopped.exchange(true)) error = std::current_exception();  // the others throw only because of the stop
     }
     const std::scoped_lock lock(mutex);
     --working;

@@ -10,12 +10,12 @@ namespace stickslip::detail {
 /// Runs `work` on several threads at once and returns when all have ended. Meanwhile the calling thread calls `report`
 /// ten times a second, and once more at the end.
 ///
-/// An exception sets `stopped` and is thrown again when all threads have ended: that of `report` or of a thread that
-/// does not start, else the first one of `work`. Work should look at `stopped`, and end by returning or by any
+/// An exception sets `stopped` and is rethrown when all threads have ended: the exception of `report` or of a thread
+/// that fails to start, otherwise the first one of `work`. Work should check `stopped`, and end by returning or by any
 /// exception.
 ///
 /// @param wanted  number of threads; 0: as many as the machine has
-/// @param tasks   no more threads than tasks are started
+/// @param tasks   maximum number of threads
 void run_on_threads(unsigned wanted, std::size_t tasks, std::atomic<bool>& stopped, const std::function<void()>& work,
                     const std::function<void()>& report);
 

@@ -74,7 +74,7 @@ void Block::row(std::size_t time, const double* displacement, const double* velo
 }
 
 void Block::ground(std::span<const double> acceleration) {
-  // One more value to the moments about the mean (Pebay 2008, with one on the right).
+  // Adds one value to the moments about the mean (Pebay 2008, with one value on the right).
   const auto before = static_cast<double>(grounds_++), after = before + 1, share = 1 / after, weight = before * share;
   const auto mean = tally_.moment(Tally::n), second = tally_.moment(Tally::nn), third = tally_.moment(Tally::nnn),
              fourth = tally_.moment(Tally::nnnn);
@@ -101,7 +101,7 @@ Tally Block::finish() {
   }
   const auto half_length = static_cast<double>(times_.central() / 2);
   const double second_half = static_cast<double>(times_.central() - times_.central() / 2) * times_.dt;
-  // Squares about the mean of a few members are too small by this.
+  // Corrects mean squares about the mean of a few members, which are too small.
   const double unbiased = n > 1 ? n / (n - 1) : 1;
   std::vector<std::array<double, features>> values(members_);
   for (std::size_t i = 0; i < members_; ++i) {

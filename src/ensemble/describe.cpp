@@ -61,7 +61,7 @@ std::string describe(const std::string& law, const Mounting& mounting) {
 
 namespace {
 
-// A digest of 64 bits, word by word, each mixed as by splitmix64 (Steele, Lea and Flood 2014).
+// A 64-bit digest, word by word; each word is mixed as in splitmix64 (Steele, Lea and Flood 2014).
 class Digest {
  public:
   void add(std::uint64_t word) noexcept {

@@ -27,7 +27,7 @@ void need_two(std::uint64_t members) {
     throw std::domain_error("Ensemble: second moments need at least two members, got " + std::to_string(members));
 }
 
-// What two configurations differ in, in words; empty if in nothing.
+// A description of the difference between two configurations; empty if there is none.
 std::string differences(const Ensemble::Configuration& a, const Ensemble::Configuration& b) {
   std::string text;
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
@@ -71,7 +71,7 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
            {"velocity_spectrum", parts_.velocity_spectrum ? "true" : "false"}})
     expect(std::ranges::find(parts_.configuration, std::pair(name, text)) != parts_.configuration.end(),
            "the configuration must say that " + name + " is " + text);
-  // What was not asked for is not mentioned: so it is in ensembles from before there was this.
+  // Statistics that were not requested are not mentioned, as in ensembles saved before these statistics existed.
   const bool says = std::ranges::any_of(parts_.configuration, [](const auto& entry) {
     return entry == std::pair<std::string, std::string>("ground_acceleration", "true");
   });
@@ -281,7 +281,7 @@ Moments Ensemble::moments() const {
 
 namespace {
 
-// What speaks against taking averages over the central half for stationary values.
+// The evidence against taking averages over the central half for stationary values.
 std::string remark_on(const Stationary& averages, std::uint64_t members, std::size_t times) {
   if (members < Stationary::fewest_members || times < 2)
     return "cannot tell whether the velocity is stationary: needs at least " +
@@ -322,7 +322,7 @@ Stationary Ensemble::stationary() const {
   result.velocity_variance = {average(Tally::vv, begin, length) / (n - 1), error(detail::velocity_square)};
   result.covariance = {average(Tally::xv, begin, length) / (n - 1), error(detail::product)};
 
-  // m4 / m2^2: its error from those of m4 and m2 and their covariance.
+  // m4 / m2^2: its error follows from those of m4 and m2 and from their covariance.
   const double m2 = average(Tally::vv, begin, length) / n, m4 = average(Tally::vvvv, begin, length) / n;
   if (m4 > 0) {
     // Relative to m4 and m2, one after the other, so that no product of them overflows.
@@ -346,7 +346,7 @@ Stationary Ensemble::stationary() const {
   const std::size_t half = length / 2;
   if (half > 0) {
     const double first = average(Tally::vv, begin, half), second = average(Tally::vv, begin + half, length - half);
-    // Squares of b normal numbers about their own mean scatter too little, by (b - 2) / (b - 1).
+    // Squares of b normal numbers about their sample mean scatter too little, by the factor (b - 2) / (b - 1).
     const double b = std::min(n, static_cast<double>(block(parts_.times.count)));
     result.velocity_trend = {(second - first) / (n - 1),
                              error(detail::trend) * std::sqrt((b - 1) / std::max(b - 2, 0.0))};
@@ -413,7 +413,8 @@ Interval Ensemble::quantile(double probability, double confidence) const {
   check_probability("Ensemble: confidence must lie between 0 and 1", confidence);
   const std::uint64_t n = members();
   need_two(n);
-  // The rank, from 0, of the value with a share `probability` at or below; and ranks that enclose it.
+  // The rank, from 0, of the value with a fraction `probability` of all values at or below it; and ranks that enclose
+  // it.
   const auto rank = static_cast<std::uint64_t>(
       std::clamp(std::ceil(probability * static_cast<double>(n)) - 1, 0.0, static_cast<double>(n - 1)));
   const double tail = (1 - confidence) / 2;
@@ -440,7 +441,7 @@ Interval Ensemble::exceedance(double level, double confidence) const {
         std::count_if(values.peak.begin(), values.peak.end(), [&](double peak) { return peak > level; }));
   const auto k = static_cast<double>(exceeding), n = static_cast<double>(members_all);
   const double tail = (1 - confidence) / 2;
-  // GSL's own inverse of the beta law fails to converge for one count in ten of 20,000, and would end the process.
+  // GSL's inverse of the beta distribution fails to converge for one count in ten of 20,000, and would end the process.
   const auto low = [&](double p) { return !(gsl_cdf_beta_P(p, k, n - k + 1) < tail); };
   const auto high = [&](double p) { return !(gsl_cdf_beta_Q(p, k + 1, n - k) > tail); };
   return {k / n, k == 0 ? 0 : numerics::first_where(0, 1, low), k == n ? 1 : numerics::first_where(0, 1, high)};

@@ -37,7 +37,7 @@ std::unique_ptr<Simulator> series_simulator(const Slider<Law>& slider, const Gau
 #endif
 }
 
-/// Under pulses, of which each member has its own, at its own times.
+/// Under pulses: each member has its own, at its own times.
 class PulseSimulator final : public Simulator {
  public:
   PulseSimulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation, std::uint64_t seed, bool settle)
@@ -105,7 +105,7 @@ class PulseSimulator final : public Simulator {
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation,
                                            std::uint64_t seed, bool settle) {
   const std::size_t edges = excitation.options().shape.times().size();
-  // Blocks so long that they could not be interrupted within a blink go member by member.
+  // Blocks too long to be interrupted promptly are simulated member by member.
   if (!has_friction_alone(slider) || edges > max_edges ||
       excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
     return nullptr;
@@ -128,7 +128,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
 
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
-  // The lanes measure lengths in reaches.
+  // The unit of length in the lanes is the reach.
   const double reach = slider.law().reach();
   if (!has_friction_alone(slider) || slider.law().rolling() > 0)
     return series_simulator(slider, excitation, seed, settle);

@@ -59,7 +59,7 @@ EnsembleSensitivity ensemble_sensitivity(const EnsembleSensitivityOptions& optio
   result.residual_mean = mean_of(result.residual);
   double largest = 0;  // squares of x over it stay within the range of doubles
   for (const double value : x) largest = std::max(largest, std::abs(value));
-  if (!(largest > 0)) return result;  // nothing moves, nor would it after a small change
+  if (!(largest > 0)) return result;  // nothing moves, and a small change would move nothing
   std::vector<double> products(count), squares(count);
   for (std::size_t i = 0; i < count; ++i) {
     products[i] = x[i] / largest * result.residual[i];

@@ -1,4 +1,4 @@
-// The usual sliders as members, compiled once.
+// Members with the usual sliders, instantiated once.
 #include "stickslip/detail/ensemble/simulator.hpp"
 
 namespace stickslip::detail {

@@ -93,7 +93,7 @@ GaussianExcitation::GaussianExcitation(Spectrum spectrum, double dt, std::size_t
 
   for (std::size_t k = options_.zero_frequency ? 0 : 1; k <= options_.period / 2; ++k) {
     double omega = static_cast<double>(k) * line_spacing_;
-    // A line that meets an edge but for round-off is in the band.
+    // A line that meets an edge within round-off is in the band.
     for (const double edge : {low, high})
       if (std::isfinite(edge) && std::abs(omega - edge) <= rounding * edge) omega = edge;
     const double variance = (alone(k) ? 1 : 2) * spectrum_(omega) * line_spacing_;

@@ -44,8 +44,8 @@ void require_positive(double value, const char* name, const char* unit) {
                   std::string("PoissonPulses: ") + name + " must be positive and finite", value, unit);
 }
 
-/// A running sum that remembers the rounding errors of its additions (Knuth's two-sum): what was added and taken away
-/// again leaves nothing of note behind.
+/// A running sum that tracks the rounding errors of its additions (Knuth's two-sum): values that are added and later
+/// subtracted leave no significant residue.
 struct Sum {
   double high = 0, low = 0;
 
@@ -99,7 +99,7 @@ void merge_edges(std::span<const double> arrivals, std::span<const double> edges
 
 double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 
-/// Velocity that a pulse of unit amplitude leaves, over the half width: zero where it is no more than rounding.
+/// Velocity that a pulse of unit amplitude leaves, divided by the half width: zero if it is only round-off.
 double net_velocity(const PulseShape& shape) {
   double net = 0, size = 0;
   for (std::size_t i = 0; i < shape.values().size(); ++i) {
@@ -110,8 +110,9 @@ double net_velocity(const PulseShape& shape) {
   return std::abs(net) <= 1e-12 * size ? 0 : net;
 }
 
-/// Refuses what cannot be a quantile function of mean square 1, and returns the hash (FNV-1a) of what it does.
-/// Rounded to float, for its last digits may differ where a mathematical library chooses among instruction sets.
+/// Rejects functions that cannot be a quantile function of mean square 1, and returns a hash (FNV-1a) of their values.
+/// These are rounded to float, because the last digits may differ where a mathematical library chooses among
+/// instruction sets.
 std::uint64_t examine(const std::function<void(std::span<double>)>& quantile) {
   std::vector<double> values(1024);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -190,8 +191,8 @@ void PoissonPulses::pulses(std::uint64_t seed, std::uint64_t member, std::vector
   const double mean_gap = 1 / rate_;
   const double expected = rate_ * (duration_ - begin);
   std::size_t count = 0;
-  // Four deviations above the mean suffice but once in 30,000 motions, which then starts again with twice as many: the
-  // numbers of a row do not depend on how many are asked for.
+  // Four deviations above the mean suffice except once in 30,000 motions; the motion then starts again with twice as
+  // many. The numbers of a row do not depend on how many are requested.
   for (auto enough = static_cast<std::size_t>(expected + 4 * std::sqrt(expected) + 8);; enough *= 2) {
     arrivals.resize(enough);
     exponentials({seed, member, gap_purpose}, arrivals);

@@ -35,7 +35,7 @@ std::vector<Complex> transform(std::vector<double> x) {
   return to;
 }
 
-/// And back, which overwrites what it is given.
+/// The inverse transform, which overwrites its input.
 std::vector<double> inverse(std::vector<Complex> from) {
   std::vector<double> to(2 * (from.size() - 1));
   const auto plan = detail::make_plan(
@@ -94,8 +94,8 @@ class Target {
   int zeros_ = 0;
 };
 
-/// The sequence of minimum phase with this amplitude, its zeros at omega = 0 left out, by FFTs of n points: the
-/// cepstrum of what is causal and has a causal inverse is zero before time zero.
+/// The minimum-phase sequence with this amplitude, except for its zeros at omega = 0, by FFTs of n points: the cepstrum
+/// of a causal sequence with a causal inverse is zero before time zero.
 std::vector<double> minimum_phase(const Target& target, double dt, std::size_t n) {
   const double width = 2 * pi / (static_cast<double>(n) * dt);
   std::vector<Complex> spectrum(n / 2 + 1);
@@ -136,7 +136,7 @@ SpectralPulse spectral_pulse(const Spectrum& spectrum, double dt, double toleran
 
   for (std::size_t n = fewest_points; n <= max_points; n *= 4) {
     const std::vector<double> sequence = minimum_phase(target, dt, n);
-    // Between the frequencies at which it was made, too.
+    // Also between the frequencies at which it was computed.
     const double step = pi / (static_cast<double>(n) * dt);
     std::vector<double> wanted(n + 1), loss(n + 1);
     double all = 0;

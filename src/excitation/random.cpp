@@ -50,7 +50,7 @@ HWY_ATTR void philox(const RandomStream& stream, std::uint32_t first_block, std:
   }
   for (std::size_t done = 0; done < blocks; done += 2 * lanes) {
     const Wide block = hn::Add(hn::Iota(wide, 0), hn::Set(wide, first_block + done));
-    // Two vectors of blocks, a and b: their chains of multiplications overlap.
+    // Two vectors of blocks, a and b: their chains of multiplications overlap in time.
     Wide a0 = block, b0 = hn::Add(block, hn::Set(wide, lanes));
     Wide a1 = hn::Set(wide, stream.purpose), b1 = a1;
     Wide a2 = hn::Set(wide, stream.member), b2 = a2;

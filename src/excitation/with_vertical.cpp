@@ -27,7 +27,7 @@ bool same_times(const GroundMotion& a, const GroundMotion& b) {
   return true;
 }
 
-/// Times from the first sample on that differ by less are one [s].
+/// Times from the first sample on that differ by less than this are merged [s].
 double rounding(const GroundMotion& motion) {
   const double latest = std::max(std::abs(motion.time(0)), std::abs(motion.time(motion.segments())));
   return 4 * std::numeric_limits<double>::epsilon() * latest;
@@ -54,7 +54,7 @@ class Reading {
   std::size_t sample_ = 0;
 };
 
-/// The times of both from the first sample on, each once.
+/// The times of both components from the first sample on, without duplicates.
 std::vector<double> times_of_both(const GroundMotion& horizontal, const GroundMotion& vertical) {
   std::vector<double> times;
   times.reserve(horizontal.samples() + vertical.samples());

@@ -16,7 +16,8 @@
 namespace stickslip {
 namespace {
 
-/// Calls f(segment, velocity, displacement), both at its beginning, and then for the end with a segment of no length.
+/// Calls f(segment, velocity, displacement) for each segment with the values at its start, then for the end of the
+/// motion with a segment of zero length.
 template <class F>
 void for_each_segment(const GroundMotion& motion, F&& f) {
   double v = 0, d = 0;

@@ -31,7 +31,7 @@ std::vector<double> acceleration_of(const GroundMotion& motion) {
   return {motion.acceleration().begin(), motion.acceleration().end()};
 }
 
-/// Reads a motion off at times that do not decrease.
+/// Evaluates a motion at times that do not decrease.
 class Reader {
  public:
   explicit Reader(const GroundMotion& motion) : motion_(motion) {}
@@ -55,7 +55,7 @@ GroundMotion with_axis(const GroundMotion& motion, std::vector<double> samples) 
   return {std::move(samples), motion.dt(), motion.interpolation(), motion.name()};
 }
 
-/// What `work` makes of each component alone, together.
+/// Applies `work` to each component separately and combines the results.
 template <class Work>
 GroundMotion each_component(const GroundMotion& motion, Work&& work) {
   const auto samples = [&](bool there, Component which) {
@@ -77,7 +77,7 @@ std::array<double, max_order + 1> legendre(double s, int order) {
   return p;
 }
 
-// ---- of one component
+// ---- one component
 
 GroundMotion resampled_alone(const GroundMotion& motion, double dt) {
   const double duration = motion.duration(), steps = std::floor(duration / dt * (1 + 1e-12));
@@ -135,7 +135,7 @@ GroundMotion detrended_alone(const GroundMotion& motion, int order) {
     const Segment s = motion.segment(i);
     if (!(s.duration > 0)) continue;
     const double from = motion.time(i);
-    numerics::gauss_points<8>(0, s.duration, [&](double t, double w) {  // exact to the fifteenth power
+    numerics::gauss_points<8>(0, s.duration, [&](double t, double w) {  // exact for polynomials of degree 15
       const auto p = legendre(place(from + t), order);
       const double n = s.start + (s.end - s.start) * (t / s.duration);
       for (std::size_t k = 0; k < count; ++k) weight[k] += w * n * p[k] * static_cast<double>(2 * k + 1) / duration;

@@ -16,7 +16,7 @@
 namespace stickslip {
 namespace {
 
-/// One oscillator, and the quantity f = of_x x + of_v x' whose largest magnitude is wanted.
+/// One oscillator, and the quantity f = of_x x + of_v x' whose maximum magnitude is computed.
 struct Oscillator {
   double period, ratio;
   double wn, c, k;  // x'' + c x' + k x = -n
@@ -33,13 +33,13 @@ struct Oscillator {
     }
   }
 
-  /// What the largest |f| is multiplied by.
+  /// Factor that multiplies the maximum |f|.
   double factor(SpectrumKind kind) const {
     return kind == SpectrumKind::pseudo_acceleration ? k : kind == SpectrumKind::pseudo_velocity ? wn : 1;
   }
 };
 
-/// f within a segment: f'' is a free oscillation, as n runs straight.
+/// f within a segment: f'' is a free oscillation, because n is linear in time.
 class Course {
  public:
   Course(const Oscillator& o, const Segment& s, double x, double v) : o_(o), f_(o.of_x * x + o.of_v * v) {
@@ -59,11 +59,11 @@ class Course {
     return f_ + t * slope_ + curvature_ * b.step + rise_ * b.ramp;
   }
 
-  /// The largest |f| where f' = 0. Between two zeros of f'', which are known, f' runs one way.
+  /// The maximum |f| where f' = 0. Between consecutive zeros of f'', which are known, f' is monotonic.
   ///
-  /// Where there are many, those of the first and the last period will do. f is a straight line and a free oscillation.
-  /// While the line rises the maxima are convex in their number; while it falls no maximum is above both the one before
-  /// and the line's height in the first period, which f reaches there.
+  /// If there are many maxima, those of the first and the last period suffice. f is a straight line plus a free
+  /// oscillation. While the line rises, the heights of the maxima are a convex function of their index; while it falls,
+  /// no maximum exceeds both the previous one and the height of the line in the first period, which f reaches there.
   double largest(double duration) const {
     const Damped damped(o_.c, o_.wn);
     const double first = damped.turn(curvature_, rise_), half = damped.half_period();
@@ -96,7 +96,8 @@ class Course {
   double f_, slope_, curvature_, rise_;
 };
 
-/// The largest |f| of the free vibration from a state: the first, as each later one is smaller or, undamped, the same.
+/// The maximum |f| of the free vibration from a state: its first extremum, because each later one is smaller or,
+/// undamped, equal.
 double largest_free(const Oscillator& o, double x, double v) {
   const double f = o.of_x * x + o.of_v * v, slope = o.of_x * v - o.of_v * (o.c * v + o.k * x);
   const double time = Damped(o.c, o.wn).turn(slope, -o.k * f);
@@ -105,7 +106,7 @@ double largest_free(const Oscillator& o, double x, double v) {
   return std::max(std::abs(f), std::abs(f * (b.decay + o.c * b.impulse) + slope * b.impulse));
 }
 
-/// What a segment of one duration does to each oscillator.
+/// The effect of a segment of given duration on each oscillator.
 void set_duration(detail::OscillatorLanes& lanes, const std::vector<Oscillator>& oscillators, double h) {
   for (std::size_t i = 0; i < lanes.peak.size(); ++i) {
     const Oscillator& o = oscillators[std::min(i, oscillators.size() - 1)];
@@ -116,8 +117,9 @@ void set_duration(detail::OscillatorLanes& lanes, const std::vector<Oscillator>&
       lanes.x_of[part][i] = x_of[part];
       lanes.v_of[part][i] = v_of[part];
     }
-    // |f''| <= |f''_0| + |f'''_0| min(h, 1 / wn), by the free oscillation's energy. f is off its chord by h^2 / 8 of it
-    // at most; and by twice the size of the free oscillation of which f'' is the second derivative.
+    // |f''| <= |f''_0| + |f'''_0| min(h, 1 / wn), by the energy of the free oscillation. f deviates from its chord by
+    // at most h^2 / 8 times this bound; and by at most twice the amplitude of the free oscillation of which f'' is the
+    // second derivative.
     const double z = o.ratio, soon = std::min(h, 1 / o.wn);
     lanes.rise[0][i] = std::min(h * h / 8, 2 * (1 + 2 * z + 4 * z * z) / o.k);
     lanes.rise[1][i] = std::min(h * h / 8 * soon, 2 * (1 + 2 * z) / (o.k * o.wn));
@@ -188,8 +190,8 @@ ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double
   }
   const auto start = lanes.state;
 
-  // First the largest values at the samples and after them: few segments are left within which f may go beyond.
-  double duration = 0;  // that the lanes are set to
+  // First the maxima at the samples and after the motion: few segments then remain within which f may exceed them.
+  double duration = 0;  // for which the lanes are set up
   const auto set = [&](const detail::SegmentRow& row) {
     if (row.duration != duration) set_duration(lanes, oscillators, row.duration);
     duration = row.duration;
@@ -201,7 +203,7 @@ ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double
   for (std::size_t i = 0; i < oscillators.size(); ++i)
     lanes.peak[i] = std::max(lanes.peak[i], largest_free(oscillators[i], lanes.state.x[i], lanes.state.v[i]));
   for (std::size_t i = oscillators.size(); i < lanes.peak.size(); ++i)
-    lanes.peak[i] = std::numeric_limits<double>::infinity();  // padding is not looked into
+    lanes.peak[i] = std::numeric_limits<double>::infinity();  // padding is not examined
 
   lanes.state = start;
   const detail::Inspector inspector{

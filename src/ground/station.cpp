@@ -33,7 +33,8 @@ std::string label(const RecordComponent& component) {
   return !orientation.empty() ? orientation : !component.name.empty() ? component.name : component.motion.name();
 }
 
-/// Whatever two components share: step or times, start, and the number of samples where `count` is not cut.
+/// Checks the properties that two components must share: step or times, start, and the number of samples unless a
+/// common length is requested.
 void require_one_time_base(const RecordComponent& a, const RecordComponent& b, bool common_length) {
   const GroundMotion &one = a.motion, &other = b.motion;
   const auto differ = [&](const std::string& what, const std::string& x, const std::string& y) {
@@ -58,7 +59,7 @@ struct Horizontal {
   double azimuth;
 };
 
-/// The azimuth that is asked for.
+/// The requested azimuth.
 double azimuth_along(const std::string& along, const std::vector<Horizontal>& horizontals) {
   if (along.empty()) return horizontals[0].azimuth;
   for (const Horizontal& h : horizontals)

@@ -20,7 +20,7 @@ double intensity(const Segment& segment, double time) {
   return time * (a * a + a * b + b * b) / 3;
 }
 
-/// Calls f(start, end, segment) for each piece of the motion between two times, cut at them; `start` as time.
+/// Calls f(start time, segment) for each segment of the motion between two times, cut at both.
 template <class F>
 void for_each_piece(const GroundMotion& motion, double begin, double end, F&& f) {
   for (std::size_t i = 0; i < motion.segments(); ++i) {
@@ -76,7 +76,7 @@ StrongMotion strong_motion(const GroundMotion& motion) {
     double sum = 0, velocity = 0;
     for_each_piece(unit, result.begin, result.end, [&](double from, const Segment& s) {
       const double slope = (s.end - s.start) / s.duration;
-      sum += numerics::gauss_integral<3>(0, s.duration, [&](double t) {  // exact to the fifth power
+      sum += numerics::gauss_integral<3>(0, s.duration, [&](double t) {  // exact for polynomials of degree 5
         return f(velocity + t * (s.start + slope * t / 2), 2 * (from + t - result.begin) / duration - 1);
       });
       velocity += s.duration * (s.start + s.end) / 2;

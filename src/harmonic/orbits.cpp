@@ -1,4 +1,4 @@
-// The usual laws, compiled once.
+// Explicit instantiations for the usual laws.
 #include "stickslip/harmonic/orbits.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"

@@ -1,4 +1,4 @@
-// A plan of FFTW, whose planner is not thread-safe; plans themselves are, through the new-array functions.
+// A plan of FFTW. The planner is not thread-safe; plans are, through the new-array functions.
 #pragma once
 
 #include <fftw3.h>
@@ -10,7 +10,7 @@
 
 namespace stickslip::detail {
 
-/// Whoever makes or destroys a plan takes this lock.
+/// The lock to hold while a plan is made or destroyed.
 inline std::mutex& fftw_planner() {
   static std::mutex mutex;
   return mutex;
@@ -24,9 +24,9 @@ struct DestroyPlan {
 };
 using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
 
-/// The plan that `make` makes; it should be one by FFTW_ESTIMATE, which chooses by rule: measured plans may differ from
-/// one run to the next, and with them the bits.
-/// @throws std::bad_alloc if there is none
+/// The plan that `make` returns. It should use FFTW_ESTIMATE, which chooses by rule: measured plans may differ from run
+/// to run, and so would the bits of the results.
+/// @throws std::bad_alloc if there is no plan
 template <class Make>
 FftwPlan make_plan(Make&& make) {
   const std::scoped_lock lock(fftw_planner());

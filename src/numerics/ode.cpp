@@ -48,7 +48,7 @@ Pointer made(Pointer pointer) {
   return pointer;
 }
 
-// What is said of errors goes into exceptions, not to the terminal.
+// Error messages go into exceptions, not to the terminal.
 SUNContext make_context() {
   SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -67,8 +67,9 @@ using Matrix = Owned<SUNMatrix, &SUNMatDestroy>;
 using LinearSolver = Owned<SUNLinearSolver, &SUNLinSolFree>;
 using NonlinearSolver = Owned<SUNNonlinearSolver, &SUNNonlinSolFree>;
 
-// SUNDIALS's serial vectors are made for many numbers: with three, an operation is mostly the telling apart of its
-// cases. Those that CVODE does tens of times a step are plain loops here, which spares a third of all instructions.
+// SUNDIALS's serial vectors are designed for many components: with three, an operation mostly distinguishes special
+// cases. The operations that CVODE performs tens of times per step are plain loops here, which saves a third of all
+// instructions.
 double* numbers(N_Vector vector) { return NV_DATA_S(vector); }
 sunindextype length(N_Vector vector) { return NV_LENGTH_S(vector); }
 
@@ -115,13 +116,13 @@ int scale_vector_array(int count, double* factors, N_Vector* x, N_Vector* scaled
 struct Problem {
   const OdeRightSide& right_side;
   std::size_t dimension;
-  std::exception_ptr thrown{};  // must not pass through SUNDIALS, which is C
+  std::exception_ptr thrown{};  // must not propagate through SUNDIALS, which is C
 };
 
 int slope(double t, N_Vector y, N_Vector dy, void* data) noexcept {
   auto& problem = *static_cast<Problem*>(data);
   const std::span<double> out(N_VGetArrayPointer(dy), problem.dimension);
-  if (problem.thrown) return -1;  // CVODE 6 tries again, with a shorter step
+  if (problem.thrown) return -1;  // CVODE 6 retries with a shorter step
   try {
     problem.right_side(t, {N_VGetArrayPointer(y), problem.dimension}, out);
   } catch (...) {
@@ -140,7 +141,7 @@ void set(int flag) {
 void say_nothing(int, const char*, const char*, char*, void*) {}
 #endif
 
-/// What CVODE and ARKODE do, in CVODE's flags.
+/// The common interface of CVODE and ARKODE, with CVODE's flags.
 class Solver {
  public:
   Solver() = default;
@@ -170,7 +171,7 @@ class Multistep : public Solver {
     set(CVodeSVtolerances(memory_.get(), options.relative_tolerance, tolerance));
     set(CVodeSetMaxNumSteps(memory_.get(), steps_a_beat));
     set(CVodeSetMaxHnilWarns(memory_.get(), -1));
-    set(CVodeSetStopTime(memory_.get(), last));  // the equations may make no sense beyond
+    set(CVodeSetStopTime(memory_.get(), last));  // the equations may be invalid beyond it
     if (bdf_) {
       const auto size = static_cast<sunindextype>(problem.dimension);
       matrix_.reset(made(SUNDenseMatrix(size, size, context)));

@@ -11,33 +11,32 @@
 
 namespace stickslip::detail {
 
-/// dy/dt into `slope`, of as many numbers as `y`.
+/// Writes dy/dt into `slope`, which has the size of `y`.
 using OdeRightSide = std::function<void(double t, std::span<const double> y, std::span<double> slope)>;
 
 enum class OdeMethod {
-  /// Adams' formulas of orders to 12 with fixed-point iteration: one or two slopes a step, for slopes that cost
-  /// more than the bookkeeping, some 0.5 us, and for tight tolerances.
+  /// Adams' formulas of orders up to 12 with fixed-point iteration: one or two slopes per step. For slopes that cost
+  /// more than the overhead, some 0.5 us, and for tight tolerances.
   adams,
-  /// Backward differentiation and Newton iteration on a dense Jacobian of differences, for what decays far faster than
-  /// it is looked at.
+  /// Backward differentiation and Newton iteration on a dense finite-difference Jacobian, for components that decay far
+  /// faster than the spacing of the output times.
   bdf,
-  /// Dormand and Prince's explicit pair of orders 5 and 4: six slopes a step, but half as long for slopes that cost
-  /// less
-  /// than that and tolerances of 1e-10 and above. It takes steps three times as long as Adams' where stability limits
-  /// them. A slope that is not finite ends the work.
+  /// Dormand and Prince's explicit pair of orders 5 and 4: six slopes per step, but half the time for slopes that cost
+  /// less than that and for tolerances of 1e-10 and above. Where stability limits the steps, they are three times as
+  /// long as those of Adams' formulas. A slope that is not finite ends the integration.
   runge_kutta
 };
 
 struct OdeOptions {
   double relative_tolerance = 1e-10;
-  /// One a component, or one for all. Zero is allowed for components that never are zero.
+  /// One per component, or one for all. Zero is allowed for components that are never zero.
   std::vector<double> absolute_tolerance = {0};
   OdeMethod method = OdeMethod::adams;
   long max_steps = 1'000'000;
   std::function<void()> progress{};  ///< called every thousand steps; may throw to stop the work; optional
 };
 
-/// The solver gave up; for callers whose `t` is not the time that users know.
+/// The solver failed; for callers whose `t` is not the time that users see.
 struct OdeFailure : ConvergenceError {
   OdeFailure(double at, double last, const std::string& reason)
       : ConvergenceError("solve_ode: reached t = " + shortest(at) + " of " + shortest(last) + ": " + reason),
@@ -56,12 +55,12 @@ struct OdeSolution {
   std::span<const double> at(std::size_t time) const { return std::span(states).subspan(time * dimension, dimension); }
 };
 
-/// y(t) at `times`, from y(t0) = `y0`. Local errors are held within the tolerances; the error at a time is some ten
-/// times that. Exceptions from `right_side` or the progress callback propagate; where a slope is not finite a shorter
-/// step is tried.
+/// Computes y(t) at `times`, from y(t0) = `y0`. Local errors are kept within the tolerances; the error at a time is
+/// some ten times that. Exceptions from `right_side` or the progress callback propagate; where a slope is not finite, a
+/// shorter step is tried.
 /// @param times  increasing, from t0 on
-/// @throws std::invalid_argument where times, sizes or tolerances make no sense
-/// @throws OdeFailure, a ConvergenceError with the time reached, where the solver gives up
+/// @throws std::invalid_argument if times, sizes or tolerances are invalid
+/// @throws OdeFailure, a ConvergenceError with the time reached, if the solver fails
 OdeSolution solve_ode(const OdeRightSide& right_side, double t0, std::span<const double> y0,
                       std::span<const double> times, const OdeOptions& options = {});
 

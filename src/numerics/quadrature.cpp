@@ -18,7 +18,7 @@ constexpr std::size_t max_intervals = 2000;
 
 struct Integrand {
   const std::function<double(double)>& f;
-  std::exception_ptr thrown{};  // must not pass through GSL, which is C
+  std::exception_ptr thrown{};  // must not propagate through GSL, which is C
 };
 
 double value(double x, void* data) noexcept {
@@ -35,7 +35,7 @@ double value(double x, void* data) noexcept {
 using Workspace = std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)>;
 
 Workspace make_workspace() {
-  // GSL's own handler would end the program. There is one for the whole process, so it is set once.
+  // GSL's default handler would end the program. The handler is global to the process, so it is set once.
   [[maybe_unused]] static const auto handler = gsl_set_error_handler_off();
   Workspace workspace(gsl_integration_workspace_alloc(max_intervals), &gsl_integration_workspace_free);
   if (!workspace) throw std::bad_alloc();
@@ -84,7 +84,7 @@ double integral(const std::function<double(double)>& f, double low, double high,
                                                              workspace.get(), &result, &uncertainty);
     if (integrand.thrown) std::rethrow_exception(integrand.thrown);
     sum += result;
-    // Where round-off alone is in the way, the uncertainty says how far it came; else it is not to be relied on.
+    // If only round-off prevents convergence, the uncertainty says how far it came; otherwise it is not reliable.
     error += status == GSL_SUCCESS || status == GSL_EROUND ? uncertainty : std::numeric_limits<double>::infinity();
   };
 
@@ -94,7 +94,7 @@ double integral(const std::function<double(double)>& f, double low, double high,
       add(f, from, breakpoint);
       from = breakpoint;
     }
-  if (std::isinf(high) && from > 0)  // in a unit of its own scale, which GSL cannot know
+  if (std::isinf(high) && from > 0)  // scaled by `from`, because GSL cannot determine the scale
     add([&](double u) { return from * f(from * u); }, 1, high);
   else
     add(f, from, high);

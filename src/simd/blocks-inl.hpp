@@ -1,5 +1,5 @@
-// Coulomb blocks in one segment each, with all that may happen in it: what the kernels of coulomb_lanes.cpp and
-// level_lanes.cpp share.
+// Coulomb blocks in one segment each, with all possible events: shared by the kernels of coulomb_lanes.cpp and
+// level_lanes.cpp.
 //
 // Included once for each instruction set, as Highway's own -inl headers are.
 #if defined(STICKSLIP_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
@@ -17,7 +17,7 @@ namespace stickslip::detail::HWY_NAMESPACE {
 using Real = Pack<1>;
 using Bool = Real::Mask;
 
-// Slides a while, in its own direction: from a speed, with a net acceleration and its slope in time.
+// Slides for a time, in its own direction: from a speed, with a net acceleration and its slope in time.
 struct Slide {
   Real speed, acceleration, slope;
 
@@ -31,17 +31,17 @@ struct Slide {
 
 // From rest: at the beginning of a segment, or where a slip stopped.
 struct Slip {
-  Bool at_once, later;  // neither: it rests
-  Bool forward;         // which way
+  Bool at_once, later;  // neither: it stays at rest
+  Bool forward;         // direction
   Bool stops;           // before the end of the segment
   Real begin, duration;
-  Real displacement;  // that it comes to
+  Real displacement;  // at the end of the slip
   Real velocity;      // at its end
 };
 
 struct Blocks;
 
-// Takes no account.
+// Records nothing.
 struct NoAccount {
   void distinct(const Bool&) {}
   void slide(const Blocks&, const Real&, const Real&, const Real&, const Real&, const Real&) {}
@@ -79,11 +79,12 @@ struct Blocks {
 
   template <class Account>
   HWY_INLINE void move(Real& x, Real& v, Account& account) {
-    const Bool stuck = v == 0, back = v < 0;  // where it is stuck the other level, which may be infinite, is never met
+    const Bool stuck = v == 0,
+               back = v < 0;  // where it is stuck, the other level, which may be infinite, is never reached
     const Real direction = select(back, Real(-1.0), 1.0);
     const Slide slide{abs(v), direction * (load - select(back, -backward, forward)), direction * slope};
 
-    // The first zero of u + a t + q t^2/2, from the form of the roots in which nothing cancels.
+    // The first zero of u + a t + q t^2/2, by the form of the roots without cancellation.
     const Real u = slide.speed, a = slide.acceleration, q = slide.slope;
     const Real square = a * a, magnitude = square + abs((u + u) * q);
     account.distinct(stuck | ((magnitude > 0x1p-900) & (magnitude < 0x1p900)));
@@ -109,7 +110,8 @@ struct Blocks {
     peak = max(peak, abs(x));
     const Bool again = but_not(slip.stops, slides_on);
     if (HWY_LIKELY(!any(again))) return;
-    // It reversed and stopped once more: from here the load runs the way it slips, and it will not stop a third time.
+    // It reversed and stopped once more: from here on the load increases in its direction of slip, and it does not stop
+    // a third time.
     const Bool came_back = ~slip.forward;
     const Real stopped = slip.begin + slip.duration;
     slip = slip_from_rest(stopped);

@@ -17,11 +17,11 @@ namespace stickslip::detail::HWY_NAMESPACE {
 using Real = Pack<8 / lanes>;
 using Bool = Real::Mask;
 
-// In what follows the unit of length is the reach, the unit of time a step: y = x/l, w = dy/d(time).
+// Below, the unit of length is the reach and the unit of time is a step: y = x/l, w = dy/d(time).
 
 constexpr int order = 9;            // of the series of sech; the velocity's has one more, the displacement's two
 constexpr double left_out = 1e-13;  // of the velocity in a step, by the estimate; where terms cancel up to 3e-11
-constexpr double far_off = 40;      // reaches, from where friction is below 1e-17
+constexpr double far_off = 40;      // reaches; farther away friction is below 1e-17
 
 struct Level {
   Real sech, tanh;
@@ -35,11 +35,11 @@ struct Level {
 // A slide over a step: y'' = load + slope t - friction sech(y), friction with the sign of the direction.
 struct Series {
   Level level;  // at the beginning
-  Real way;     // at least as far as it goes
+  Real way;     // an upper bound of the distance
   Real w[order + 2];
-  Bool converges;  // what is left out does not matter
+  Bool converges;  // the truncation error is negligible
 
-  // `first` may put something better in place of the first net acceleration.
+  // `first` may replace the first net acceleration by a more accurate one.
   template <class First>
   HWY_INLINE Series(const Real& y, const Real& speed, const Real& load, const Real& slope, const Real& friction,
                     First first)
@@ -74,8 +74,8 @@ struct Series {
       const Real braked = friction * s[k + 1];
       w[k + 2] = (k == 0 ? slope - braked : -braked) * Real(1.0 / (k + 2));
     }
-    // Terms fall off as the way over pi/2, where the complex plane has the next pole, or faster; two of them, as one
-    // can vanish by symmetry. Over more than a reach they tell nothing.
+    // Terms decrease as the distance over pi/2, where the complex plane has the next pole, or faster; two of them are
+    // tested, because one can vanish by symmetry. For distances beyond a reach they give no bound.
     const Real next = way * multiply_add(way * 0.4, abs(w[order]), abs(w[order + 1]));
     // From rest at y = 0, or nearly so, the level changes as y^2 ~ t^6 and then as y^4 ~ t^12, which the last terms do
     // not see.
@@ -91,7 +91,7 @@ struct Series {
     return sum * t;
   }
 
-  // Both at the end of the step, where they are sums.
+  // Both at the end of the step, by summation.
   HWY_INLINE Real last_speed() const {
     Real odd = w[order], even = w[order + 1];
 #pragma GCC unroll 16
@@ -116,11 +116,11 @@ struct Same {
   HWY_INLINE Real operator()(const Real& net) const { return net; }
 };
 
-// The velocity of a slide over a step, in its own direction: its zeros but the one that it may start from.
+// The velocity of a slide over a step, in its own direction: its zeros, except one at the start.
 struct Zeros {
   static constexpr int degree = order + 1;
   Real c[degree + 1];     // power series
-  Bool are_none, is_one;  // where that can be said
+  Bool are_none, is_one;  // where this is certain
 
   HWY_INLINE Zeros(const Series& series, const Real& direction, const Bool& from_rest) {
 #pragma GCC unroll 16
@@ -154,7 +154,8 @@ struct Zeros {
   }
 };
 
-// Casters through the events of their segments, of which the unit of time is the duration; says which came to the end.
+// Moves casters through the events of their segments, with the duration as the unit of time; returns which of them
+// reached the end.
 HWY_INLINE Bool move(const Real& friction, Real& y, Real& w, const Real& load, const Real& slope, Real& peak) {
   Real time = 0.0, step = 1.0, direction = copysign(1.0, w);
   Bool stuck = w == 0, done = w != w, from_rest = done, eased = done;
@@ -193,7 +194,7 @@ HWY_INLINE Bool move(const Real& friction, Real& y, Real& w, const Real& load, c
   return done;
 }
 
-// Slides without an event in 2, 4, 8 ... steps, as many as all need; says which need no more than can be.
+// Slides without an event in 2, 4, 8 ... steps, as many as all lanes need; returns which need no more than 64.
 HWY_INLINE Bool slide(const Real& friction, Real& y, Real& w, const Real& load, const Real& slope) {
   const Real y0 = y, w0 = w, against = copysign(friction, w);
   Bool open;
@@ -230,8 +231,8 @@ void AdvanceCasters(const CasterLanes& slider, std::size_t members, const double
     const Real w = v * to_w, against = copysign(friction, v);
     const Series series(x * to_y, w, load, load_end - load, against, Same());
 
-    // The most that friction can do on the way: sech grows by no more than exp of the distance, and exp(z) is at most
-    // 1 + z + z^2 for z < 1. With that constant level the velocity is a parabola, within its Bernstein coefficients.
+    // An upper bound of friction on the way: sech grows by no more than exp of the distance, and exp(z) is at most 1 +
+    // z + z^2 for z < 1. With this constant level the velocity is a parabola, within its Bernstein coefficients.
     const Real growth = multiply_add(series.way, series.way + 1, 1.0);
     const Real most = against * select(series.way < 1, min(series.level.sech * growth, 1.0), 1.0);
     const Real middle = multiply_add(load - most, 0.5, w), lowest = multiply_add(load_end - most, 0.5, middle);

@@ -1,4 +1,4 @@
-// Many casters side by side, each over a segment of a ground motion of its own.
+// Many casters in parallel, each over its own segment of a ground motion.
 #pragma once
 
 #include <cstddef>

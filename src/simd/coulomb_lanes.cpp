@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
 
-// Collects what goes into a LaneAccount.
+// Collects the data of a LaneAccount.
 class Account {
  public:
   HWY_INLINE Account() : work_(0.0), indistinct_(Bool::first(0)) {}
@@ -28,7 +28,7 @@ class Account {
                          distance * multiply_add(gain, 0.5, start));
   }
 
-  // Blocks that were stuck until now, or have just stopped, having come forward or `back`.
+  // Blocks that were stuck until now or have just stopped, after sliding forward or `back`.
   HWY_INLINE void turn(const Bool& stuck, const Bool& stops, const Bool& back, const Real& x, const Real& t,
                        const Slip& slip) {
     const Bool turns = stuck | stops, rests = but_not(stops, slip.at_once);
@@ -54,7 +54,7 @@ class Account {
       LaneEvent* next = account.next[lane[i]];
       for (std::size_t k = 0; k < count_; ++k) {
         const Turn& turn = turns_[k];
-        const auto write_if = [&](double time, double kind) {  // the next one goes over it, if it is none
+        const auto write_if = [&](double time, double kind) {  // without an event, the next one overwrites it
           *next = {time, turn.displacement[i], account.segment, static_cast<EventKind>(static_cast<int>(kind))};
           next += next->kind != EventKind::end;
         };

@@ -1,4 +1,4 @@
-// Many Coulomb blocks side by side, each over a segment of a ground motion of its own.
+// Many Coulomb blocks in parallel, each over its own segment of a ground motion.
 #pragma once
 
 #include <cstddef>
@@ -25,11 +25,11 @@ struct LaneEvent {
   EventKind kind;
 };
 
-/// What a whole response tells beside the states.
+/// The data of a complete response, apart from the states.
 struct LaneAccount {
   static constexpr std::size_t max_events = 4;  ///< of a block in a segment
 
-  std::uint32_t segment;      ///< the one at hand
+  std::uint32_t segment;      ///< the current one
   LaneEvent** next;           ///< where each block's next event goes, moved on; there is room for `max_events`
   const double* work_before;  ///< of the ground on each block, before the segment [m^2/s^2]
   double* work_after;         ///< and after it, set
@@ -45,7 +45,7 @@ struct LaneAccount {
 void advance_lanes(const CoulombLanes& slider, std::size_t members, const double* start, const double* end,
                    const LaneStates& states);
 
-/// The same for rows of `max_lanes`, from the states of one to those of the next, whose peaks are not looked at.
+/// The same for rows of `max_lanes`, from the states of one row to those of the next; the peaks are not used.
 /// @param account  or null
 void advance_lanes(const CoulombLanes& slider, const double* start, const double* end, const LaneStates& row,
                    const LaneStates& next_row, LaneAccount* account);

@@ -27,8 +27,8 @@ void advance_lane(LevelLane& lane, const LevelGround& ground, std::size_t i);
 HWY_BEFORE_NAMESPACE();
 namespace stickslip::detail::HWY_NAMESPACE {
 
-// The first of `count` places from `from` on where `a` is below `lowest` or `b` above `highest`; count where there is
-// none.
+// The first of `count` indices starting at `from` at which `a` is below `lowest` or `b` above `highest`; count if there
+// is none.
 HWY_INLINE std::size_t first_outside(const double* a, const double* b, std::size_t from, std::size_t count,
                                      double lowest, double highest) {
   const Real low = lowest, high = highest;
@@ -56,7 +56,7 @@ HWY_INLINE std::size_t next_departure(const LevelGround& ground, std::size_t i, 
   return first_outside(end, end, std::min(in * block, segments), segments, lowest, highest);
 }
 
-// Takes the account of lanes at their events: between them x runs one way.
+// Records the lanes at their events: between events, x is monotonic.
 struct LevelAccount {
   Bool meant;  // lanes
   Bool indistinct = Bool::first(0);
@@ -67,7 +67,7 @@ struct LevelAccount {
   HWY_INLINE void turn(const Bool& stuck, const Bool& stops, const Bool& back, const Real& x, const Real& t,
                        const Slip& slip) {
     const Bool turns = stuck | stops;
-    const Bool goes_on = stops & slip.at_once & (slip.forward ^ back);  // it only grazed the zero of velocity
+    const Bool goes_on = stops & slip.at_once & (slip.forward ^ back);  // the velocity only touched zero
     const Bool ends = but_not(stops, goes_on) & meant, late = turns & slip.later & meant;
     events = events + where(ends | (stuck & slip.at_once & meant), Real(1.0)) + where(late, Real(1.0));
     sliding_distance = sliding_distance + where(ends, abs(x - from));
@@ -226,7 +226,7 @@ HWY_INLINE void slide_weighed_group(const LevelGround& ground, std::span<LevelLa
   const Real h = ground.duration(), half = ground.duration() / 2, sixth = ground.duration() / 6;
   LevelGroup group(these);
   const Real forward = Real::load(group.forward), backward = Real::load(group.backward);
-  // What is held for sure, whatever the rounding of -p / W.
+  // The loads that are held for certain, whatever the rounding of -p / W.
   constexpr double surely_held = 1 - 0x1p-50;
   const Real min_held = Real::load(group.lowest_held) * surely_held;
   const Real max_held = Real::load(group.highest_held) * surely_held;

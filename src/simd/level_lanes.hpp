@@ -1,4 +1,4 @@
-// Blocks of many slip levels side by side, all under one ground motion.
+// Blocks with many slip levels in parallel, all under one ground motion.
 #pragma once
 
 #include <cstddef>
@@ -69,7 +69,7 @@ struct LevelLane {
   State state{};                ///< at the end
   double peak = 0;              ///< largest |x| [m]
   double sliding_distance = 0;  ///< [m]
-  double slip_from = 0;         ///< x where the slip at hand began [m]
+  double slip_from = 0;         ///< x where the current slip began [m]
   std::size_t events = 0;
   std::string failure{};  ///< why it does not settle
 };

@@ -41,10 +41,10 @@ HWY_INLINE void sweep(OscillatorLanes& o, const SegmentRow& row, const Inspector
         if (any(open)) {
           const Real slope = multiply_add(of_x, v, of_v * a);
           const Real next_slope = nfma(of_v, multiply_add(k, next_x, multiply_add(c, next_v, end)), of_x * next_v);
-          // Where f' has one sign at both ends and cannot come to zero and back, f turns nowhere.
+          // Where f' has the same sign at both ends and cannot reach zero between them, f has no extremum.
           const Bool far = abs(slope) + abs(next_slope) > duration * multiply_add(soon, abs(twist), abs(bend));
           open = but_not(open, ((slope < 0) ^ (next_slope > 0)) & far);
-          // f is a straight line and a free oscillation, whose energy only falls.
+          // f is a straight line plus a free oscillation, whose energy only decreases.
           const Real swing_slope = -(multiply_add(c, bend, twist) * softness);
           const Real swing = -(multiply_add(c, swing_slope, bend) * softness);
           const Real line = f - swing, line_end = multiply_add(slope - swing_slope, duration, line);

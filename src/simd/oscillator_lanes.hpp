@@ -1,4 +1,4 @@
-// Linear oscillators side by side, all under one ground motion.
+// Linear oscillators in parallel, all under one ground motion.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ struct Inspector {
 /// Moves all oscillators through the segments; `peak` grows to the largest |f| at their ends.
 void sweep_ends(OscillatorLanes& lanes, const SegmentRow& row);
 
-/// The same, and asks the inspector about every segment within which |f| may go beyond `peak`.
+/// The same, and calls the inspector for every segment within which |f| may exceed `peak`.
 void sweep_within(OscillatorLanes& lanes, const SegmentRow& row, const Inspector& inspector);
 
 }  // namespace stickslip::detail

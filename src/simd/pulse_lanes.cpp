@@ -34,7 +34,7 @@ HWY_INLINE void slide(const Real& forward, const Real& backward, const Real& loa
   peak = max(peak, abs(x));
 }
 
-// So many edges that they stay in registers; or, with 0, any number up to `max_edges`.
+// @tparam fixed_edges  number of edges, small enough to stay in registers; 0: any number up to `max_edges`
 template <std::size_t fixed_edges>
 HWY_INLINE void move(const PulseLanes& slider, double end, const PulseStreams& pulses, const PulseHistory& history,
                      const LaneStates& states) {

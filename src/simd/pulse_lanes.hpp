@@ -1,4 +1,4 @@
-// Many Coulomb blocks side by side, each under pulses of its own.
+// Many Coulomb blocks in parallel, each under its own pulses.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace stickslip::detail {
 
-/// Shapes have at most so many edges.
+/// The maximum number of edges of a shape.
 inline constexpr std::size_t max_edges = 16;
 
 /// Coulomb friction without a spring, under pulses of one shape.

@@ -1,4 +1,4 @@
-// The usual laws in lanes, compiled once.
+// Explicit instantiations of the lanes for the usual laws.
 #include "stickslip/detail/lanes/series_lanes.hpp"
 
 namespace stickslip::detail {

@@ -1,4 +1,4 @@
-// Many viscous sliders side by side, each over a segment of a ground motion of its own.
+// Many viscous sliders in parallel, each over its own segment of a ground motion.
 #pragma once
 
 #include <cstddef>

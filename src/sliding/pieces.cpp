@@ -16,10 +16,10 @@ namespace stickslip::detail {
 namespace {
 
 constexpr std::size_t pieces = max_lanes;
-// Segments of a piece, at most: what is kept of all pieces then stays near the processor.
+// Maximum number of segments of a piece: the data of all pieces then stay in the cache.
 constexpr std::size_t max_lines = 127, longest = max_lines * row_padding;
 
-/// Pieces of a record, all of one length, one after the other in time.
+/// Consecutive pieces of a record, all of one length.
 /// @tparam RecorderType  a Recorder or NoRecorder
 template <class RecorderType>
 class SideBySide {
@@ -74,14 +74,14 @@ class SideBySide {
     }
   }
 
-  /// One piece from the state that it truly begins in: segment by segment, until it sticks together with its motion
-  /// from rest, and on with that.
+  /// Integrates one piece from its true initial state: segment by segment, until it sticks at the same time as its
+  /// motion from rest; from there on, it follows that motion.
   void join(std::size_t piece, std::size_t begin, State& state) {
     double* const x = histories_.displacement.data() + begin;
     double* const v = histories_.velocity.data() + begin;
     const bool clear = (account_.indistinct >> piece & 1) == 0;
     bool met = clear && state.mode == Mode::stuck;
-    double from_rest = 0;  // where the motion from rest is
+    double from_rest = 0;  // x of the motion from rest
     std::size_t i = 0;
     for (; i < length_ && !met; ++i) {
       from_rest = x[i + 1];
@@ -91,7 +91,7 @@ class SideBySide {
     }
     if (!met) return;
     const auto moved = [from_rest, to = state.displacement](double displacement) {
-      return (displacement - from_rest) + to;  // exactly there, where both are stuck
+      return (displacement - from_rest) + to;  // exact where both are stuck
     };
     for (std::size_t k = i; k < length_; ++k) x[k + 1] = moved(x[k + 1]);
     if constexpr (recorded) record(piece, begin, i, moved);
@@ -108,7 +108,7 @@ class SideBySide {
   LaneEvent* events_of(std::size_t piece) { return &events_[LaneAccount::max_events * max_segments_ * piece]; }
   LaneStates row(std::size_t i) { return {&xs_[i * pieces], &vs_[i * pieces], peaks_}; }
 
-  // Tells the recorder of a piece from one of its segments on, at the beginning of which it is stuck.
+  // Passes a piece to the recorder from a segment on at whose start it is stuck.
   template <class Moved>
   void record(std::size_t piece, std::size_t begin, std::size_t segment, const Moved& moved) {
     const LaneEvent *event = events_of(piece), *const end = next_[piece];
@@ -140,7 +140,7 @@ class SideBySide {
   // Nine samples of all pieces, of ground acceleration, x and v.
   alignas(64) double loads_[(row_padding + 1) * pieces], xs_[(row_padding + 1) * pieces],
       vs_[(row_padding + 1) * pieces];
-  double peaks_[pieces] = {};              // looked at by nobody
+  double peaks_[pieces] = {};              // not used
   std::unique_ptr<double[]> work_{};       // of the ground, at each sample of each piece
   std::unique_ptr<LaneEvent[]> events_{};  // of all pieces,
   LaneEvent* next_[pieces] = {};           // up to these
@@ -155,7 +155,8 @@ void run(const Coulomb& law, const GroundMotion& motion, State& state, RecorderT
   SideBySide<RecorderType> side_by_side(law, motion, histories, recorder);
   std::size_t i = 0;
   for (std::size_t rounds = (segments + most - 1) / most; rounds > 0; --rounds) {
-    // An odd number of cache lines: else the same samples of all pieces would share few places in the cache.
+    // An odd number of cache lines: otherwise the same samples of all pieces would compete for a few places in the
+    // cache.
     const std::size_t lines = std::min(max_lines, (segments - i) / (pieces * rounds * row_padding));
     const std::size_t length = (lines % 2 == 0 ? lines - 1 : lines) * row_padding;
     recorder.report_progress();

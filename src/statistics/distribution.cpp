@@ -15,8 +15,8 @@ void check_probability(double probability) {
   detail::require(probability > 0 && probability < 1, "quantile: probability must lie between 0 and 1", probability);
 }
 
-// The quantile of a standard normal number that is known to lie between `low` and `high`, low < high. Probabilities are
-// counted from the nearer end, where they are not rounded to 1.
+// The quantile of a standard normal variate that is known to lie between `low` and `high`, low < high. Probabilities
+// are measured from the nearer tail, where they are not rounded to 1.
 double quantile_between(double low, double high, double probability) {
   if (low > 0) return -quantile_between(-high, -low, 1 - probability);
   const double below = gsl_cdf_ugaussian_P(low), inside = gsl_cdf_ugaussian_P(high) - below;

@@ -52,9 +52,9 @@ void Tally::merge(const Tally& right) {
 
 namespace {
 
-// Of a union the mean square lies between those of its parts: merging takes none out of its bound.
+// The mean square of a union lies between those of its parts: merging keeps it within its bound.
 bool is_bounded(double mean, double squares, double members, double largest) {
-  return mean * mean + squares / members <= largest * largest;  // not so for NaN
+  return mean * mean + squares / members <= largest * largest;  // false for NaN
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ std::int32_t bin_of(double value) {
   return value == 0 ? zeros : static_cast<std::int32_t>(std::ceil(std::log(value) / bin_width));
 }
 
-// The middle of a bin, from which its ends are equally far in proportion.
+// The middle of a bin: its ratio to the lower end equals that of the upper end to it.
 double value_of(std::int32_t bin) { return bin == zeros ? 0 : std::exp(bin * bin_width) * (1 - Sketch::accuracy); }
 
 }  // namespace

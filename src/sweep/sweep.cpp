@@ -16,8 +16,8 @@ namespace {
 
 struct Stopped {};
 
-/// A block in a lane: which slider it is, and under which polarity. A block that is alike both ways on level ground
-/// goes once for both: under the flipped motion it does the same the other way.
+/// A block in a lane: the index of its slider and its polarity. A block with equal levels in both directions on level
+/// ground is integrated once for both polarities: the flipped motion only mirrors its response.
 struct Lane {
   std::size_t slider;
   LevelBlock block;
@@ -27,7 +27,7 @@ struct Lane {
     const auto& law = block.law;
     return law.static_forward() != law.sliding().forward() || law.static_backward() != law.sliding().backward();
   }
-  /// What lanes that go together share.
+  /// The properties that all lanes of a group share.
   auto kind() const { return std::tuple(block.slope_degrees, has_static(), flipped); }
 };
 
@@ -49,7 +49,7 @@ class Sweep {
         add_lanes(s, *block);
       else
         singles_.push_back(s);
-    // Those next to each other do nearly the same.
+    // Neighbors in this order behave almost alike.
     std::ranges::stable_sort(lanes_, {}, [](const Lane& lane) {
       const double forward = lane.block.law.static_forward(), backward = lane.block.law.static_backward();
       return std::tuple(lane.kind(), std::isinf(backward), std::min(forward, backward));
@@ -176,7 +176,7 @@ class Sweep {
   std::span<const GroundMotion* const> motions_;
   const SweepOptions& options_;
   std::vector<Lane> lanes_;
-  std::vector<std::size_t> singles_;  // sliders that go one by one
+  std::vector<std::size_t> singles_;  // sliders integrated one at a time
   SweepTable table_;
   std::mutex mutex_;  // guards the failures
   std::atomic<bool> stopped_ = false;

@@ -30,7 +30,7 @@ double one_less_sinc(double z) {
   return sum;
 }
 
-/// Of the laws that have a closed form then.
+/// Whether the law is without friction, so that there is a closed form.
 bool frictionless(const LinearizedLaw& law) {
   const auto* const coulomb = std::get_if<Coulomb>(&law);
   const auto* const wheel = std::get_if<Caster>(&law);
@@ -38,7 +38,7 @@ bool frictionless(const LinearizedLaw& law) {
                             : wheel != nullptr && wheel->slip_level() == 0;
 }
 
-/// The slip level at x = 0, that a Gaussian velocity would be linearized with.
+/// The slip level at x = 0 with which a Gaussian velocity would be linearized.
 double level_at_rest(const LinearizedLaw& law, theory::EquivalentLinearization::Force force) {
   if (const auto* const any = std::get_if<std::function<double(double, Direction)>>(&law))
     return (*any)(0, Direction::forward);
@@ -47,8 +47,8 @@ double level_at_rest(const LinearizedLaw& law, theory::EquivalentLinearization::
          (force == theory::EquivalentLinearization::Force::laplace ? std::sqrt(pi) / 2 : 1);
 }
 
-// Two states under stationary white noise have equations of their own rather than those of shaped_covariance.cpp: scale
-// free, from the first instant on, and without a Jacobian, they take a fiftieth of the time.
+// Two states under stationary white noise have their own equations instead of those of shaped_covariance.cpp: scale
+// free, valid from the first instant, and without a Jacobian, they take a fiftieth of the time.
 //
 // The covariance in the variables of the integration: logarithms of q11 and q22 relative to those without friction or
 // spring, (3.43) and (3.41), and the correlation between them. Their frictionless values are 0, sqrt(3) / 2 and 0.
@@ -95,7 +95,7 @@ class CovarianceEquations {
   double natural_frequency_, s0_, last_;
 };
 
-/// From rest, before the law away from x = 0 and the spring come in, by p = a sqrt(t / S0) / pi:
+/// From rest, before the law away from x = 0 and the spring have an effect, with p = a sqrt(t / S0) / pi:
 ///     q22 = 2 pi S0 t (1 - 4/3 p + 2/3 p^2 - ...)             2 pi t - (8/3) t^1.5 + ... in units of S0 and a
 ///     q12 = pi S0 t^2 (1 - 22/15 p + 32/45 p^2 - ...)
 ///     q11 = (2 pi / 3) S0 t^3 (1 - 44/35 p + 8/15 p^2 - ...)
@@ -112,7 +112,7 @@ Variables from_rest(double a, double s0, double t) {
   return {std::log1p(r11), std::sqrt(0.75) * (1 + r12) / std::sqrt((1 + r11) * (1 + r22)), std::log1p(r22)};
 }
 
-/// From (3.38) to (3.40), one step of Euler's.
+/// From (3.38) to (3.40), one Euler step.
 Variables from_thesis(double a, double s0, double t) {
   const double unit = s0 / a / a, velocity = s0 / a, displacement = velocity * unit, passed = t / unit;
   const double q11 = 0.01, q12 = 5.4e-8, q22 = 1.3e-5, damping = std::sqrt(2 / (pi * q22));
@@ -122,8 +122,8 @@ Variables from_thesis(double a, double s0, double t) {
                    s0, t);
 }
 
-/// When integration begins: as late as the series is good for 1e-12; at the latest, when what it neglects has died
-/// away, as t0 / t, by the first time asked for.
+/// The time at which integration begins: as late as the series is accurate to 1e-12; at the latest when the terms that
+/// it neglects have died away, as t0 / t, by the first requested time.
 double first_time(const Expectation& friction, double a, double natural_frequency, double s0, double asked) {
   const double unit = s0 / a / a, surely = std::min({1e-8 * asked, 1e-10 * unit, 1e-6 / natural_frequency});
   for (double t = std::min(1e-3 * unit, 1e-6 / natural_frequency); t > surely && std::isfinite(t); t /= 8) {

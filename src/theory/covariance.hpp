@@ -1,4 +1,4 @@
-// The covariance equations of equivalent linearization, solved.
+// Solution of the covariance equations of equivalent linearization.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ struct CovarianceSolution {
   long steps = 0, evaluations = 0;
 };
 
-/// Refuses a law that a start does not go with.
+/// Rejects a law that does not support the requested start.
 void check_start(const LinearizedLaw& law, double s0, theory::EquivalentLinearization::Start start);
 
 CovarianceSolution solve_covariance(const LinearizedLaw& law, double natural_frequency, double s0,

@@ -17,14 +17,14 @@ namespace {
 
 using Powers = std::array<double, 5>;  ///< means of the powers 0 to 4
 
-/// The moments of theta if theta times a gamma variate of shape 1 / q, and of mean 1, has these.
+/// The moments of theta if theta times a gamma variate of shape 1 / q and mean 1 has the moments `m`.
 Powers of_scale(Powers m, double q) {
   double factor = 1;
   for (int n = 1; n < 5; ++n) m[static_cast<std::size_t>(n)] /= factor *= 1 + (n - 1) * q;
   return m;
 }
 
-/// Hankel's determinant: 0 where the moments are those of a law of two points, above where of a wider one.
+/// Hankel's determinant: 0 for the moments of a two-point distribution, positive for those of a wider one.
 double hankel(const Powers& m) {
   return m[2] * m[4] - m[3] * m[3] - m[1] * (m[1] * m[4] - m[2] * m[3]) + m[2] * (m[1] * m[3] - m[2] * m[2]);
 }
@@ -109,13 +109,13 @@ std::unique_ptr<T[], Free> aligned(std::size_t count) {
   return std::unique_ptr<T[], Free>(memory);
 }
 
-/// The node at a multiple k of the step, of a grid without ends.
+/// The node at multiple k of the step, in a grid without ends.
 std::size_t wrapped(double k) {
   const double turn = static_cast<double>(nodes);
   return static_cast<std::size_t>(k - turn * std::floor(k / turn));
 }
 
-/// Shares the slips out among the two nodes beside each, so that their number and mean stay.
+/// Divides the slips between the two adjacent nodes so that their number and mean are preserved.
 void lay(const detail::SlipPiece& piece, double step, double* grid) {
   const auto put = [&](double place, double cell, double count) {  // `place` in steps, within [cell, cell + 1]
     grid[wrapped(cell)] += count * (cell + 1 - place);

@@ -28,15 +28,15 @@ const double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 using Options = EquivalentLinearization::Options;
 
-/// The level of white noise that the two states alone answer to: stationary, with equal levels and without a damper.
+/// The level of stationary white noise, if two states alone describe the response: equal levels, no damper.
 std::optional<double> two_states(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) {
   const auto* const coulomb = std::get_if<Coulomb>(&law);
   if (damping > 0 || (coulomb != nullptr && coulomb->forward() != coulomb->backward())) return {};
   return noise.white();
 }
 
-/// Whether friction and spring hold a displacement variance: the work of friction, -2 a22 q22, goes up to 2 a reach wn
-/// with the displacement, and the noise does 2 pi S0.
+/// The growth rate of the displacement variance: 0 where friction and spring bound it. The work of friction, -2 a22
+/// q22, grows with the displacement up to 2 a reach wn; the noise supplies 2 pi S0.
 double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, double s0, const Options& options) {
   if (const auto* const coulomb = std::get_if<Coulomb>(&law); coulomb != nullptr && coulomb->forward() > 0) {
     if (natural_frequency > 0) return 0;

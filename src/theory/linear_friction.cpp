@@ -62,7 +62,7 @@ Friction caster(double slip_level, double reach, double displacement, double c, 
   return {slip_level * (density / s) * level, slip_level * eta * density * pull};
 }
 
-/// The level of any law in its even part, and the odd part that is a force of its own.
+/// Any law, split into its even part, a level, and its odd part, a separate force.
 struct Level {
   double even, odd;
 };
@@ -81,7 +81,7 @@ Level level(const AnyLaw& law, double x) {
 class Quadrature {
  public:
   Quadrature(AnyLaw law, double farthest) : law_(std::move(law)) {
-    // Where the level first departs from that at rest is its scale.
+    // The scale is the distance at which the level first departs from that at rest.
     constexpr int places = 256;
     std::array<double, places> x, even;
     for (int i = 0; i < places; ++i) {
@@ -160,7 +160,7 @@ Expectation without_a21(Expectation whole) {
 
 double scaled_erfc(double z) {
   if (z < 8) return z * std::exp(z * z) * std::erfc(z);
-  double sum = 1, term = 1;  // asymptotic: its terms fall till 2 n = 2 z^2
+  double sum = 1, term = 1;  // asymptotic: its terms decrease until 2 n = 2 z^2
   for (int n = 1; std::abs(term) > 1e-17; ++n) sum += term *= -(2 * n - 1) / (2 * z * z);
   return sum / std::sqrt(pi);
 }
@@ -204,8 +204,8 @@ MeanFriction gaussian_average(double forward, double backward, double m, double 
           -(forward + backward) / s * std::exp(-z * z / 2) / std::sqrt(2 * pi)};
 }
 
-/// The same under the density that white noise makes exactly, exp(-v / up) / (up + down) for v > 0 and
-/// exp(v / down) / (up + down) for v < 0: m = up - down, s^2 = up^2 + down^2. Where |m| > s all of it goes one way.
+/// The same with the exact density under white noise, exp(-v / up) / (up + down) for v > 0 and exp(v / down) / (up +
+/// down) for v < 0: m = up - down, s^2 = up^2 + down^2. If |m| > s, the density is one-sided.
 MeanFriction laplace_average(double forward, double backward, double m, double s) {
   if (std::abs(m) >= s) return {m > 0 ? forward : -backward, 0, 0};
   const double root = std::sqrt(2 * s * s - m * m), up = (root + m) / 2, down = (root - m) / 2;

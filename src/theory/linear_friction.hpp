@@ -9,18 +9,18 @@
 
 namespace stickslip::detail {
 
-/// What stands for friction at one time, both of the size of the slip level [m/s^2]:
+/// The linear equivalent of friction at one time, both values scaled like the slip level [m/s^2]:
 struct Friction {
   double level;  ///< E[level(x) | x' = 0]: a22 = -sqrt(2 / pi) level / rms of x'
   double pull;   ///< a21 times the rms of x
 };
 
-/// By the rms displacement [m], the correlation c of x and x', and s = sqrt(1 - c^2).
+/// As a function of the rms displacement [m], the correlation c of x and x', and s = sqrt(1 - c^2).
 using Expectation = std::function<Friction(double displacement, double c, double s)>;
 
-/// @param farthest  the law is looked at from zero to this distance [m], to check it and to find its scale
-/// @throws std::invalid_argument where the law is not the same both ways, is negative or not finite, or where the
-/// force does not cover it
+/// @param farthest  the law is evaluated from zero to this distance [m], to check it and to find its scale
+/// @throws std::invalid_argument if the law is not symmetric in direction, is negative or not finite, or if the force
+/// does not cover it
 Expectation expectation(const LinearizedLaw& law, theory::EquivalentLinearization::Force force, double farthest);
 
 /// Friction F = level(x) sgn(x') about the means of x and x': F = mean - a21 (x - E x) - a22 (x' - E x').
@@ -36,7 +36,7 @@ class AverageFriction {
   /// As `expectation`; Coulomb friction may have unequal levels.
   AverageFriction(const LinearizedLaw& law, theory::EquivalentLinearization::Force force, double farthest);
 
-  /// Whether there is none at all.
+  /// Whether there is no friction.
   bool none() const noexcept { return none_; }
 
   /// Whether the levels differ, so that the slider drifts.
@@ -45,10 +45,10 @@ class AverageFriction {
   /// The level at x = 0, the mean of both ways [m/s^2].
   double level() const noexcept { return (forward_ + backward_) / 2; }
 
-  /// What friction is at most times the rms velocity, -a22 sqrt(q22), for equal levels at x = 0, relative to the level.
+  /// The maximum of friction times the rms velocity, -a22 sqrt(q22), for equal levels at x = 0, relative to the level.
   double strength() const noexcept { return laplace_ ? std::numbers::sqrt2 / 2 : std::sqrt(2 / std::numbers::pi); }
 
-  /// @param velocity  mean of x' [m/s]; that of x does not matter, for only levels that are constant differ
+  /// @param velocity  mean of x' [m/s]; the mean of x does not matter, because only constant levels may differ
   /// @param q22       positive; q11 >= 0
   MeanFriction operator()(double velocity, double q11, double q12, double q22) const;
 

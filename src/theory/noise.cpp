@@ -12,10 +12,10 @@
 namespace stickslip::theory {
 namespace {
 
-/// The level of a white spectrum; null for another.
+/// The level of a white spectrum; null for any other.
 const Spectrum::White* white(const Spectrum& spectrum) { return std::get_if<Spectrum::White>(&spectrum.form()); }
 
-/// The spectrum, which is that of each motion.
+/// The spectrum of each motion of an excitation.
 const Spectrum& spectrum_of(const GaussianExcitation& excitation) {
   if (white(excitation.spectrum()) != nullptr && !excitation.options().zero_frequency)
     throw std::invalid_argument(
@@ -24,7 +24,7 @@ const Spectrum& spectrum_of(const GaussianExcitation& excitation) {
   return excitation.spectrum();
 }
 
-/// The same of an excitation that is stationary.
+/// The same for an excitation that must be stationary.
 const Spectrum& stationary(const GaussianExcitation& excitation) {
   if (excitation.options().envelope)
     throw std::invalid_argument("a Gaussian excitation with an envelope is not stationary, envelope must be None");

@@ -23,7 +23,8 @@ namespace {
 using detail::require;
 using detail::shortest;
 
-// Inside, the unit of acceleration is the slip level, the smaller one of two; that of time the step of the pulse.
+// Internally, the unit of acceleration is the slip level, the smaller of two; the unit of time is the step of the
+// pulse.
 
 /// A pulse of equal steps.
 struct Steps {
@@ -36,7 +37,8 @@ double lattice_spacing(double sigma, double parts) {
   return sigma > 2 ? 1 : 1 / std::ceil(std::max(parts / sigma, 0.5 / (sigma * sigma)));
 }
 
-/// A lattice of at least `parts` to sigma on which the level 1 is a node, and the other level too as far as it can be.
+/// The spacing of a lattice with at least `parts` nodes to sigma, of which the level 1 is a node, and the other level
+/// as nearly as possible.
 double lattice_spacing(double sigma, double parts, double other) {
   const double coarsest = lattice_spacing(sigma, parts);
   if (other == 1 || std::isinf(other)) return coarsest;
@@ -49,8 +51,8 @@ double lattice_spacing(double sigma, double parts, double other) {
   return best;
 }
 
-/// What is the same for all slots of a kind: where a slot leads from each node of the grid, spread over four nodes,
-/// and the displacement and the integral of v^2 by the middle of the slot and by its end.
+/// The quantities common to all slots of a kind: the destination of a slot from each node of the grid, spread over four
+/// nodes, and the displacement and the integral of v^2 up to the middle of the slot and up to its end.
 struct Passage {
   std::uint32_t first;
   std::array<double, 4> share;
@@ -93,7 +95,7 @@ Weights gaussian(double sigma, double spacing, int reach, int count) {
 
 using Quantile = std::function<void(std::span<double>)>;
 
-/// The amplitudes in the middle of equal parts of a law.
+/// The amplitudes in the middle of intervals of equal probability.
 std::vector<double> amplitudes(const Quantile& quantile) {
   constexpr std::size_t count = 1 << 14;
   std::vector<double> u(count);
@@ -102,7 +104,7 @@ std::vector<double> amplitudes(const Quantile& quantile) {
   return u;
 }
 
-/// Whether amplitudes are as likely as their mirror images.
+/// Whether the distribution of the amplitudes is symmetric.
 bool symmetric(const std::vector<double>& amplitudes) {
   for (std::size_t i = 0, j = amplitudes.size() - 1; i < j; ++i, --j)
     if (!(std::abs(amplitudes[i] + amplitudes[j]) <= 1e-9 * (1 + std::abs(amplitudes[i])))) return false;
@@ -124,7 +126,7 @@ Weights by_quantiles(const Quantile& quantile, double sigma, double spacing, int
   return law;
 }
 
-/// The law of the sum of two, what falls outside being dropped.
+/// The law of the sum of two; the probability that falls outside is dropped.
 Weights convolved(const Weights& a, const Weights& b) {
   Weights sum{a.spacing, a.reach, std::vector<double>(a.w.size())};
   for (int i = -a.reach; i <= a.reach; ++i)
@@ -162,41 +164,41 @@ struct Arrivals {
   }
 };
 
-/// What the acceleration has to do with the slip level.
+/// The strength of the acceleration relative to the slip level.
 double strength_of(const Arrivals& arrivals) { return arrivals.sigma * std::sqrt(std::max(1.0, arrivals.rate / 2)); }
 
-// ---- what pairs of pulses do
+// ---- the effect of pairs of pulses
 
-/// How many moments of the displacement there are, beside the integral of v^2 and whether anything has slipped.
+/// The number of moments of the displacement, without the integral of v^2 and the indicator of slip.
 constexpr std::size_t orders = 4;
 
-/// What pulses do: X to X^4, the integral of v^2, and 1 where the block has moved. Or the cumulants of X, E[v^2] and
+/// The effect of pulses: X to X^4, the integral of v^2, and 1 if the block has moved. Or the cumulants of X, E[v^2] and
 /// the rate at which blocks begin to slip.
 using Moment = std::array<double, orders + 2>;
 constexpr std::size_t squared_velocity = orders, slipped = orders + 1;
 
-/// What two pulses have done in the end, and on the way: squares of the displacement and of the largest one.
+/// The effect of two pulses: the square of the final displacement and of the largest one on the way.
 struct Farthest {
   double last = 0, largest = 0;
 };
 
-/// The chance that a load moves a block at rest, where loads are the nodes of a lattice: half of it at the level
-/// itself, for the node stands for all loads nearer to it than to others.
+/// The probability that a load moves a block at rest, for loads that are nodes of a lattice: one half at the level
+/// itself, because the node represents all loads nearest to it.
 double chance_to_move(const Coulomb& law, double load) {
   constexpr double tiny = 1e-9;
   const double excess = std::max(-load - law.forward(), load - law.backward());
   return excess > tiny ? 1 : excess > -tiny ? 0.5 : 0;
 }
 
-/// What two pulses would do together if each acted alone: the part of their moments that has both.
+/// The joint effect of two pulses if each acted alone: the part of their moments that involves both.
 Moment crossed(const Moment& a, const Moment& b) {
   return {
       0, 2 * a[0] * b[0],         3 * (a[0] * b[1] + a[1] * b[0]), 4 * (a[0] * b[2] + a[2] * b[0]) + 6 * a[1] * b[1],
       0, -a[slipped] * b[slipped]};
 }
 
-/// How long two pulses have an effect, in steps: one that leaves no net velocity leaves at most what friction stops
-/// within another length of it, after which a second one finds all at rest.
+/// How long two pulses have an effect, in steps: a pulse that leaves no net velocity leaves at most what friction stops
+/// within another pulse length, after which a second pulse finds the block at rest.
 int reach_of(const Steps& steps) { return 4 * static_cast<int>(steps.values.size()); }
 
 /// The moments of two pulses, the second one `offset` later, after each half of a step.
@@ -240,13 +242,14 @@ void pair(const Slider<Coulomb>& block, const Steps& steps, double b1, double b2
   if (farthest) *farthest = {ride.state.displacement * ride.state.displacement, largest * largest};
 }
 
-/// What single pulses and pairs do, of each quantity.
+/// The effect of single pulses and of pairs, for each quantity.
 using PairMoments = std::array<detail::PairCoefficients, orders + 2>;
 
-/// What pairs do, by lattices of amplitudes: the chain's and one twice as fine, whose every second node is the chain's.
+/// The effect of pairs, on two lattices of amplitudes: the chain's, and one twice as fine, of which every second node
+/// is the chain's.
 class Pairs {
  public:
-  /// @param mirrored  levels and amplitudes are alike both ways
+  /// @param mirrored  levels and amplitudes are symmetric
   Pairs(const Slider<Coulomb>& block, const Steps& steps, bool mirrored, Weights coarse, Weights fine)
       : block_(block),
         steps_(steps),
@@ -275,7 +278,7 @@ class Pairs {
     return tables;
   }
 
-  /// How much farther blocks are on the way than in the end, in the mean square of one pulse alone and of two that
+  /// The excess of the mean square displacement on the way over that at the end, for one pulse alone and for two that
   /// overlap.
   double overshoot(double rate) {
     Farthest sum;
@@ -296,10 +299,10 @@ class Pairs {
   }
 
  private:
-  /// By either lattice.
+  /// On either lattice.
   struct Sums {
     Moment coarse{}, fine{};
-    /// Kinks make both err by O(spacing^2).
+    /// Kinks cause errors of O(spacing^2) in both.
     double limit(std::size_t i) const { return (4 * fine[i] - coarse[i]) / 3; }
   };
 
@@ -312,7 +315,7 @@ class Pairs {
       }
   }
 
-  /// What a pulse does that begins `offset` later.
+  /// The effect of a pulse that begins `offset` later.
   std::vector<Sums> alone(double offset, int step) {
     std::vector<Sums> sums(both_.size());
     for (int j = -fine_.reach; j <= fine_.reach; j += step)
@@ -320,7 +323,7 @@ class Pairs {
     return sums;
   }
 
-  /// Adds what both do beyond what each does alone, the mean over both amplitudes.
+  /// Adds the effect of both beyond their separate effects, averaged over both amplitudes.
   void add_pairs(std::vector<Sums>& sums, double offset, double weight, bool fine) {
     const int step = fine ? 1 : 2;
     const double least = 1 / fine_.spacing;  // the sum of two amplitudes below which nothing moves
@@ -352,7 +355,7 @@ class Pairs {
 
 // ---- the chain
 
-/// How a function of time rises within a slot.
+/// The increase of a function of time within a slot.
 struct Rise {
   double slope = 0;  ///< at the start
   double half = 0;   ///< by the middle
@@ -368,8 +371,8 @@ struct Rise {
 struct Slot {
   std::array<Rise, orders> displacement{};  ///< cumulants of x, as many as are asked for
   Rise velocity{};                          ///< the integral of E[v^2]
-  double rest = 0;                          ///< chance to be at rest at the end
-  double slips = 0;                         ///< of -log of the chance that nothing has slipped yet
+  double rest = 0;                          ///< probability of rest at the end
+  double slips = 0;                         ///< increase of -log of the probability that nothing has slipped yet
 
   void add(double weight, const Slot& other) {
     for (std::size_t i = 0; i < orders; ++i) displacement[i].add(weight, other.displacement[i]);
@@ -420,7 +423,6 @@ class Chain {
       const double strength = strength_of(arrivals), part = strength / (fine ? 3 : 2);
       spacing = strength > 6 ? part : std::max(1.0, std::round(part));
       reach = static_cast<int>(std::ceil((fine ? 5 : 4.5) * sigma * std::sqrt(wide) / spacing));
-      // Levels that differ move the middle of u to where friction is as long forward as its inverse.
       const double most = 2 + 4.5 * std::sqrt(1 + 0.7 * ground) + (other - 1) * (1 + 0.5 * ground);
       const double step = spacing / std::max(1.0, std::round(spacing / (0.5 * std::sqrt(1 + 0.1 * ground))));
       const int n = static_cast<int>(std::ceil(most / step));
@@ -433,15 +435,15 @@ class Chain {
     if (!drifting_ || fine) tabulate();
   }
 
-  /// From rest on, slot by slot, the last one stationary.
+  /// From rest, slot by slot; the last slot is stationary.
   /// @tparam Order  cumulants of the displacement
   template <std::size_t Order>
   std::vector<Slot> solve(const std::function<void()>& progress) const;
 
-  /// Adds to the slots that nothing has slipped yet.
+  /// Adds to the slots the probability that nothing has slipped yet.
   void add_slips(std::vector<Slot>& slots) const;
 
-  /// By the chain's own lattice of amplitudes, that its error goes too.
+  /// On the chain's own lattice of amplitudes, so that the lattice's error is corrected, too.
   Pairs pairs() const {
     const double spacing = batch_.spacing;
     const int reach = static_cast<int>(std::ceil(std::max(6 * arrivals_.sigma, 0.5 + 4 * arrivals_.sigma) / spacing));
@@ -452,7 +454,8 @@ class Chain {
   std::size_t size() const { return grid_.size(); }
   int span() const { return 2 * batch_.reach + 1; }
 
-  /// From velocity v under a held ground acceleration; where the velocity ends, with `still` of it to come later.
+  /// Moves from velocity v under a held ground acceleration to the velocity at the end, with `still` of it to come
+  /// later.
   Passage passage(double v, double n, double still) const {
     detail::Ride ride;
     ride.state.velocity = v;
@@ -473,8 +476,8 @@ class Chain {
     return passage;
   }
 
-  /// Kinds of slots: on the grid of velocities by the ground acceleration alone; on that of what the velocity will be
-  /// once all pulses are over, by all the batches.
+  /// Kinds of slots: on the grid of velocities, by the ground acceleration alone; on the grid of the velocities after
+  /// the end of all pulses, by all batches.
   void tabulate() {
     const double unit = batch_.spacing;
     if (!drifting_) {
@@ -487,7 +490,7 @@ class Chain {
       for (std::size_t tuple = 0; tuple < width; ++tuple) compute(newest, tuple, passages_);
   }
 
-  /// Where a slot leads from each node of the grid of u, for one newest batch and those before it.
+  /// The destination of a slot from each node of the grid of u, for one newest batch and the earlier ones.
   void compute(std::size_t newest, std::size_t tuple, std::vector<Passage>& passages) const {
     double n = 0, before = 0, after = 0;
     const auto take = [&](std::size_t i, std::size_t s) {
@@ -504,8 +507,8 @@ class Chain {
     for (const double u : grid_) passages.push_back(passage(u - before, n, after));
   }
 
-  /// All that is more unlikely than this is left out: together a thousandth of the chance to slip at most, and in fact
-  /// far less.
+  /// Combinations less probable than this are omitted: together at most a thousandth of the probability to slip, in
+  /// practice far less.
   void prune() {
     int most = 0;
     for (const int value : values_) most += std::abs(value);
@@ -534,7 +537,7 @@ class Chain {
   const Steps& steps_;
   const Arrivals& arrivals_;
   int slots_;
-  bool mirrored_ = true;         ///< the mirror image of each motion is as likely
+  bool mirrored_ = true;         ///< the mirror image of each motion is equally probable
   bool drifting_;                ///< the grid is of u, else of v
   double min_chance_ = 0;        ///< chance of a combination of batches
   std::vector<int> values_{};    ///< of the slots of a pulse
@@ -556,9 +559,9 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
   for (std::size_t i = 1; i < past; ++i) heads *= width;
   const std::size_t tuples = heads * width, all = tuples * nodes;
 
-  // With y the displacement less its mean, E[exp(k y); state] / E[exp(k y)] as a power series in k, times n!: the law
-  // of the state, and what makes the cumulants of the displacement grow. All stay bounded. Those of even order are even
-  // in all signs at once, the others odd, where levels and amplitudes are alike both ways.
+  // With y the displacement minus its mean, E[exp(k y); state] / E[exp(k y)] as a power series in k, times n!: the law
+  // of the state, and the growth of the cumulants of the displacement. All stay bounded. If levels and amplitudes are
+  // symmetric, the terms of even order are even under a change of all signs, the others odd.
   std::array<std::vector<double>, Order> fields, next;
   for (std::vector<double>& field : fields) field.resize(all);
   for (std::vector<double>& field : next) field.resize(all);
@@ -574,7 +577,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
     chances[tuple] = chance;
   }
 
-  // Velocity that the past batches have still to give, which the grid of u has in it.
+  // The velocity still to come from the past batches, which the grid of u includes.
   std::vector<double> coming(tuples);
   if (drifting_)
     for (std::size_t tuple = 0; tuple < tuples; ++tuple)
@@ -641,7 +644,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
             const Passage& p = passages[i];
             std::array<double, Order> f;
             for (std::size_t n = 0; n < Order; ++n) f[n] = fields[n][tuple * nodes + i];
-            const auto raise = [&f](double x, Raw& raw) {  // what a displacement adds to the moments
+            const auto raise = [&f](double x, Raw& raw) {  // adds a displacement to the moments
               raw[0] += x * f[0];
               raw[1] += x * (2 * f[1] + x * f[0]);
               if constexpr (Order == 4) {
@@ -678,7 +681,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
       for (std::size_t n = 0; n < Order; ++n)
         for (std::size_t i = 0, half = static_cast<std::size_t>(reach) * heads * nodes; i < half; ++i)
           next[n][i] = (n % 2 == 0 ? 1 : -1) * next[n][all - 1 - i];
-    // But for what was left out the total is 1.
+    // The total is 1, except for the omitted probability.
     for (Raw* const raw : {&sums.half, &sums.whole})
       for (double& m : *raw) m /= total;
     Raw s{};  // sums of the fields: those of the moments but for what was left out, which would add up
@@ -756,12 +759,12 @@ void Chain::add_slips(std::vector<Slot>& slots) const {
   }
 }
 
-/// Above this sigma / a the answers are those without friction less a part that falls as a / sigma: growth right to 3 %
-/// where pulses are one to a step at most, or friction next to nothing.
+/// Above this sigma / a, the results are those without friction minus a part that falls as a / sigma: growth is
+/// accurate to 3 % if at most one pulse arrives per step, or if friction is negligible.
 constexpr double strongest = 256;
 constexpr double weakest = 0.05, min_refined_sigma = 0.12;
 constexpr double max_arrivals = 50;
-/// With levels or amplitudes that differ both ways nothing is known beyond these.
+/// With unequal levels or asymmetric amplitudes nothing is known beyond these limits.
 constexpr double strongest_drift = 20, greatest_ratio = 4;
 
 /// The same lattice without friction, one slot to a step.
@@ -792,8 +795,8 @@ std::vector<Slot> frictionless(const Steps& steps, const Arrivals& arrivals, std
   return found;
 }
 
-/// A sum over slots as a function of time, by polynomials of the fourth degree, its mean over the phase of the lattice,
-/// of which pulses begin at t = phase, phase + h, ..., and the rate at which that grows.
+/// A sum over slots as a function of time, by polynomials of degree four: its mean over the phase of the lattice, whose
+/// pulses begin at t = phase, phase + h, ..., and the growth rate of this mean.
 class Curve {
  public:
   Curve() = default;
@@ -838,7 +841,8 @@ class Curve {
   struct Place {
     const Piece& piece;
     int power;
-    double u, more;  ///< place within it, and how often it was repeated: beyond the last slot all goes on as there
+    double u,
+        more;  ///< position within it, and number of repetitions: beyond the last slot all growth continues as there
   };
 
   double operator()(double t) const {
@@ -865,9 +869,9 @@ class Curve {
   std::vector<Piece> pieces_{};
 };
 
-/// What puts pairs right in the growth of each quantity: factors by time,
+/// The correction for pairs in the growth of each quantity: factors by time,
 ///     1 - p (c2(m) - c2) / (c1 + |c2(m)| p) P0
-/// (c1 > 0), the coefficients those of pulses that began within it, P0 the chance to be at rest by then.
+/// (c1 > 0), with the coefficients of pulses that began within it and the probability P0 of rest by then.
 class Correction {
  public:
   Correction() { factors_.front().fill(1); }
@@ -882,7 +886,7 @@ class Correction {
       Moment& factors = factors_.emplace_back();
       for (std::size_t i = 0; i < factors.size(); ++i) {
         const detail::PairCoefficients& c = pairs[std::max(half, std::size_t{1})][i];
-        // At the very start no second pulse has begun, but for those that the lattice has begin at once.
+        // At the very start no second pulse has begun, except those that the lattice starts at the same time.
         const double pair = half == 0 ? 0 : c.pair;
         const double whole = c.single + std::copysign(c.lattice, c.single) * rate;  // never close to 0
         factors[i] = whole == 0 ? 1 : 1 - rate * (c.lattice - pair) / whole * chance;
@@ -890,7 +894,7 @@ class Correction {
     }
   }
 
-  /// When the factors have become constant.
+  /// The time at which the factors have become constant.
   double settled() const { return 0.5 * static_cast<double>(factors_.size() - 1); }
   double late(std::size_t i) const { return factors_.back()[i]; }
 
@@ -938,7 +942,7 @@ Steps steps_of(const PulseShape& shape, int slots) {
       "part, of the largest one");
 }
 
-/// The chance that the acceleration of Gaussian pulses exceeds the slip level, or more.
+/// An upper bound of the probability that the acceleration of Gaussian pulses exceeds the slip level.
 double chance_to_slip(const Arrivals& arrivals, double length) {
   const double mean = arrivals.rate * length;
   double probability = std::exp(-mean), sum = 0;
@@ -956,10 +960,10 @@ struct Problem {
   double sigma;  ///< the same in slip levels; the chain's own, in `arrivals`, is at most `strongest`
   Slider<Coulomb> block;
   Arrivals arrivals;
-  double chance;  ///< that anything slips, or more; 1 where sigma is not below `weakest`
+  double chance;  ///< upper bound of the probability that anything slips; 1 where sigma is not below `weakest`
   const PulseShape& shape;
 
-  /// @throws std::invalid_argument for what the chain does not cover
+  /// @throws std::invalid_argument if the chain does not cover the arguments
   Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses);
 
   bool drifting() const { return strength_of(arrivals) > 3; }
@@ -1020,7 +1024,7 @@ Problem::Problem(const Slider<Coulomb>& slider, const PoissonPulses& pulses)
             "PulseChain: sigma must be at least a twentieth of the slip level where pulses are this many", sigma);
 }
 
-/// The quantities of one chain as functions of time, pairs put right.
+/// The quantities of one chain as functions of time, corrected for pairs.
 class ChainGrowth {
  public:
   ChainGrowth(std::vector<Slot> slots, double length, Correction correction)
@@ -1056,7 +1060,7 @@ class ChainGrowth {
                                     : last.displacement[i].whole) /
            length_;
   }
-  /// What slips first does so as a slot begins: over all phases of the lattice at an even rate.
+  /// The first slip occurs at the start of a slot: at a constant rate, over all phases of the lattice.
   double chain_rate(std::size_t i, double t) const {
     if (i != slipped) return curves_[i].growth(t);
     return slots_[std::min(static_cast<std::size_t>(t / length_), slots_.size() - 1)].slips / length_;
@@ -1077,7 +1081,7 @@ class ChainGrowth {
   std::array<Curve, orders + 1> curves_{};
 };
 
-/// The same of several chains, weighted.
+/// The weighted sum of several chains.
 class Growth {
  public:
   void add(double weight, ChainGrowth growth) { parts_.emplace_back(weight, std::move(growth)); }
@@ -1097,8 +1101,8 @@ class Growth {
   std::vector<std::pair<double, ChainGrowth>> parts_{};
 };
 
-/// @tparam Order  how many cumulants of the displacement there are
-/// @param slots   to a step
+/// @tparam Order  number of cumulants of the displacement
+/// @param slots   number per step
 template <std::size_t Order>
 ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<void()>& progress) {
   const Steps steps = steps_of(problem.shape, slots);
@@ -1120,11 +1124,12 @@ ChainGrowth chain_growth(const Problem& problem, int slots, const std::function<
   return {std::move(solution), 1.0 / slots, std::move(correction)};
 }
 
-/// Two slots to a step: above, their coarser grid errs by more than one slot does; below they take minutes.
+/// Two slots per step: above this range, the error of their coarser grid exceeds that of one slot; below it they take
+/// minutes.
 bool two_slots(double sigma, bool refined) { return refined && sigma >= min_refined_sigma && sigma <= 1; }
 
-/// Weight of Richardson's extrapolation: what three pulses and more do errs as the square of the slot. Full where they
-/// are what slips, none where grids err as much.
+/// Weight of Richardson's extrapolation: the error of the effect of three or more pulses is of second order in the
+/// slot. Full where these cause the slips, zero where the errors of the grids are as large.
 double extrapolation(double sigma) { return std::clamp((0.5 - sigma) / (0.5 - 1.0 / 3), 0.0, 1.0) / 3; }
 
 template <std::size_t Order>

@@ -53,10 +53,10 @@ struct Component {
   double sigma;
 };
 
-/// Terms that would add less than this to the largest one's logarithm are left out.
+/// Terms whose logarithm is below that of the largest one by more than this are omitted.
 constexpr double negligible = 45;
 
-/// The law of composite amplitudes, thesis (5.50), (5.51): those terms that matter to what happens above a threshold.
+/// The law of composite amplitudes, thesis (5.50), (5.51): the terms that matter above a threshold.
 std::vector<Component> composites(double sigma, double overlap, double threshold) {
   const double squared = 0.5 * (threshold / sigma) * (threshold / sigma);
   const double first = overlap > 400 ? std::floor(overlap - 15 * std::sqrt(overlap)) : 0;
@@ -77,8 +77,8 @@ std::vector<Component> composites(double sigma, double overlap, double threshold
   return terms;
 }
 
-/// Positive amplitudes, for means of what is zero below the first threshold and smooth between them; by panels as wide
-/// as the density is smooth.
+/// Positive amplitudes, for means of functions that are zero below the first threshold and smooth between thresholds;
+/// by panels as wide as the density is smooth.
 void add_gaussian(std::vector<Node>& nodes, const std::vector<Component>& components, std::vector<double> edges) {
   if (edges.empty() || components.empty()) return;
   const double narrow = components.front().sigma, wide = components.back().sigma;
@@ -132,7 +132,7 @@ void add_quantiles(std::vector<Node>& nodes, const PoissonPulses& pulses, double
         w.push_back(weight);
       });
   };
-  constexpr int halvings = 40;  // towards 0 and 1, where a law without bounds has its tails
+  constexpr int halvings = 40;  // toward 0 and 1, where an unbounded law has its tails
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const double from = edges[i], to = edges[i + 1], length = to - from;
     if (!(length > 0)) continue;
@@ -181,7 +181,7 @@ void add_gaussian_cells(std::vector<Cell>& cells, const std::vector<Component>& 
   }
 }
 
-/// Of any other law, by its quantiles; the outermost 2^-40 on either side count for nothing.
+/// For any other law, by its quantiles; the outermost 2^-40 on either side are neglected.
 void add_quantile_cells(std::vector<Cell>& cells, const PoissonPulses& pulses, double sigma,
                         const std::vector<double>& panels) {
   std::vector<double> u;
@@ -206,15 +206,15 @@ void add_quantile_cells(std::vector<Cell>& cells, const PoissonPulses& pulses, d
     cells.push_back({sigma * values[i], sigma * values[i + 1], u[i + 1] - u[i]});
 }
 
-/// What pulses do to a slider at one place, per second.
+/// The effect of pulses on a slider at one place, per second.
 struct Rates {
   double drift = 0;            ///< of E[x] [m/s]
   double growth = 0;           ///< of Var[x] [m^2/s]
   double velocity_square = 0;  ///< stationary E[x'^2] [m^2/s^2]
-  double lost = 0;             ///< share of the pulses that carry it off for good, left out of the others
+  double lost = 0;             ///< fraction of the pulses that carry it off permanently, excluded from the others
 };
 
-/// What pulses that began by a time have done.
+/// The effect of the pulses that began by a given time.
 struct History {
   double mean = 0, variance = 0;                    ///< of x [m], [m^2]
   double velocity_mean = 0, velocity_variance = 0;  ///< of x' [m/s], [m^2/s^2]
@@ -345,7 +345,7 @@ class Pulses {
   const std::function<void()>& progress_;
 };
 
-/// Rates by position, computed where they are asked for and interpolated by cubics.
+/// Rates by position, computed on demand and interpolated by cubics.
 class RatesByPosition {
  public:
   RatesByPosition(const Pulses& pulses, double sigma, double spacing)
@@ -391,13 +391,13 @@ double reach_of(const detail::PulseSystem& system, double step) {
   return numerics::first_where(0, high, far);
 }
 
-/// What overlaps do that the theory leaves out, at the level where the slider lies before: rms displacement of a block
-/// on Coulomb friction by `PulseChain`, and that over the superposition's own.
+/// The effect of overlaps, which the theory omits, at the slip level of the initial position: growth rates of the
+/// displacement variance of a block on Coulomb friction by `PulseChain` and by the superposition.
 struct Overlaps {
-  double growth = nan;   ///< of the variance [m^2/s]; NaN where the chain does not cover it
-  double own = nan;      ///< the same by the superposition
-  double factor = nan;   ///< of the rms
-  std::string reason{};  ///< why it does not
+  double growth = nan;   ///< by the chain [m^2/s]; NaN where the chain does not cover the case
+  double own = nan;      ///< by the superposition [m^2/s]
+  double factor = nan;   ///< ratio of the rms displacements, chain over superposition
+  std::string reason{};  ///< why the chain does not cover the case
 
   bool matter() const { return !(factor < 1.3 && factor > 1 / 1.3); }
 };
@@ -418,7 +418,7 @@ Overlaps overlaps_of(const PulseSuperposition& theory, const detail::PulseSystem
   return found;
 }
 
-/// Three digits: what is estimated has no more.
+/// Three digits: the estimate has no more.
 std::string rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
@@ -510,13 +510,13 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
     moments.growth_rate = {nan, 0};
   } else {
     const double reach = reach_of(system, std::max(std::sqrt(rest.growth / pulses.rate()), sigma * dt * dt * 1e-6));
-    // Whether it holds is asked for all of the excitation, whatever the times are.
+    // The range of validity is checked for the whole excitation, regardless of the times.
     const double end = std::max(pulses.duration(), times.empty() ? 0 : std::ranges::max(times));
     const std::string halves = "the " + rounded(reach) + " m over which the slip level halves";
     const auto escapes = [&](const std::string& why) {
       throw std::invalid_argument("PulseSuperposition: the slider escapes within " + shortest(end) + " s: " + why);
     };
-    // One that is carried off goes on at some sigma dt, and then is all there is of the variance.
+    // A slider that is carried off continues at some sigma dt, and then dominates the variance.
     if (rest.lost * pulses.rate() * std::pow(sigma * dt * end, 2) / 3 > 0.1 * rest.growth)
       escapes("friction never stops it again after " + rounded(100 * rest.lost) +
               " % of the pulses, which make up the variance");
@@ -574,7 +574,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
         const Slopes k2 = slopes(mean + h / 2 * k1.mean, positive(variance + h / 2 * k1.variance));
         const Slopes k3 = slopes(mean + h / 2 * k2.mean, positive(variance + h / 2 * k2.variance));
         const Slopes k4 = slopes(mean + h * k3.mean, positive(variance + h * k3.variance));
-        // Where the slider is drawn back to its place the equations are stiff.
+        // Where the slider is pulled back to its place, the equations are stiff.
         const double of_mean = h * std::abs(k4.mean - k1.mean), of_variance = h * std::abs(k4.variance - k1.variance);
         if (h == step && (of_variance > 0.2 * (variance + h * std::abs(k1.variance)) ||
                           of_mean > 0.2 * (std::abs(mean) + std::sqrt(variance) + h * std::abs(k1.mean)))) {

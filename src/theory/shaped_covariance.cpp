@@ -53,7 +53,7 @@ Matrix lyapunov(const Matrix& a, const Matrix& w) {
   return (q + q.transpose()) / 2;
 }
 
-/// The linear part of z' = A z + b w, z = (x, x', filter): what friction adds is apart.
+/// The linear part of z' = A z + b w, z = (x, x', filter), without friction.
 struct System {
   Matrix a;                 // (x', acceleration of the filter) with a gain of 1
   Vector b;                 // of the white noise, with a gain of 1
@@ -113,8 +113,8 @@ void unpack(const double* from, Eigen::Index columns, Matrix& q) {
     for (Eigen::Index i = j; i < q.rows(); ++i) q(i, j) = q(j, i) = *from++;
 }
 
-/// Q' = A Q + (A Q)^T + 2 pi S0 b b^T, thesis (3.9), and the means where friction has one. The envelope multiplies
-/// what enters the filter or what leaves it.
+/// Q' = A Q + (A Q)^T + 2 pi S0 b b^T, thesis (3.9), and the means if friction has one. The envelope multiplies the
+/// input or the output of the filter.
 class Equations {
  public:
   Equations(const System& system, const AverageFriction& friction, const theory::ShapedNoise& noise, double floor,
@@ -134,7 +134,7 @@ class Equations {
 
   void operator()(double t, std::span<const double> y, std::span<double> slope) {
     unpack(y.data(), columns_, q_);
-    double out = 1, in = 1;  // factors of what leaves the filter, and of what enters it
+    double out = 1, in = 1;  // factors of the filter's output and input
     if (noise_.envelope()) (noise_.envelope_at_source() ? in : out) = (*noise_.envelope())(t);
     product_.setZero();
     for (const Entry& entry : entries_)
@@ -143,7 +143,7 @@ class Equations {
     const bool drifts = friction_.drifts();
     const double* const mean = y.data() + packed_size(q_.rows(), columns_);
     if (!friction_.none()) {
-      // Where nothing moves friction is a damper so stiff that what creeps does not count.
+      // Where nothing moves, friction is a damper so stiff that creep is negligible.
       const double q11 = std::max(q_(x, x), 0.0), q22 = std::max(q_(v, v), 0.0) + floor_ * floor_;
       const MeanFriction average = friction_(drifts ? mean[1] : 0, q11, q_(x, v), q22);
       if (drifts) {
@@ -222,13 +222,13 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   solution.state.resize(times.size());
   if (last == 0) return solution;
 
-  // Without friction: velocity and displacement at most.
+  // Without friction: upper bounds of velocity and displacement.
   const bool white = std::isinf(system.acceleration_std);
   const double frictionless =
       white ? std::sqrt(system.intensity * last) * changes.largest : system.acceleration_std * changes.largest * last;
   const AverageFriction friction(problem.law, problem.options.force, 10 * frictionless * last);
 
-  // Scales of velocity and displacement, far below which they are nothing.
+  // Scales of velocity and displacement, far below which they are negligible.
   const double early = std::min(first, system.time_scale);
   double velocity = white ? std::sqrt(system.intensity * first) : system.acceleration_std * early;
   if (white && !friction.none()) velocity = std::min(velocity, system.intensity / friction.level());
@@ -242,7 +242,7 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   scale(v) = 0.1 * velocity;
   for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
   const double tolerance = problem.options.tolerance / 10;
-  // What never comes to rest, and not a thousand times as long as it takes to forget, needs no implicit steps.
+  // Motion that never comes to rest needs no implicit steps, unless it lasts a thousand times the shortest time scale.
   const double rate = std::max({1 / system.time_scale, problem.damping, problem.natural_frequency,
                                 white ? squared(friction.level()) / system.intensity : 0});
   const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
@@ -332,7 +332,7 @@ StationaryState solve_stationary(const ShapedProblem& problem) {
   if (!spring && !constant) refuse("without a spring the displacement grows, and with it changes the slip level");
   const System system(problem);
   const Eigen::Index n = system.size();
-  // With a spring all states; without, all but the displacement, which nothing depends on.
+  // With a spring all states; without one, all but the displacement, on which nothing depends.
   const Eigen::Index from = spring ? x : v, m = n - from;
   const Matrix noise = system.intensity * system.b.tail(m) * system.b.tail(m).transpose();
   Matrix a = system.a;
@@ -365,7 +365,8 @@ StationaryState solve_stationary(const ShapedProblem& problem) {
   if (friction.none()) {
     solve(0, 0);
   } else {
-    // One damping -a22 makes one covariance, which asks for another: ln(asked / given) falls through zero.
+    // A given damping -a22 makes one covariance, which requires another damping: ln(required / given) decreases through
+    // zero.
     double a21 = 0;
     const auto excess = [&](double log_damping) {
       const double damping = std::exp(log_damping);

@@ -1,4 +1,4 @@
-// The covariance of a linearized slider and the filter that shakes it, n states: in time and stationary.
+// The covariance of a linearized slider and its shaping filter, n states: in time and stationary.
 #pragma once
 
 #include <functional>
@@ -40,8 +40,8 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
 /// @throws std::invalid_argument where the velocity has no stationary solution, with the reason
 StationaryState solve_stationary(const ShapedProblem& problem);
 
-/// rms ground acceleration, where the envelope is largest, over that below which equivalent linearization predicts no
-/// motion; infinite for white noise and without friction.
+/// Ratio of the rms ground acceleration, at the maximum of the envelope, to that below which equivalent linearization
+/// predicts no motion; infinite for white noise and without friction.
 double motion_ratio(const ShapedProblem& problem);
 
 }  // namespace stickslip::detail

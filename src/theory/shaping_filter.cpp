@@ -28,11 +28,11 @@ constexpr int max_sections = 8;
 
 double squared(double x) { return x * x; }
 
-/// A spectrum where it matters: frequencies, what each stands for in an integral over their logarithm, and the density.
+/// A sampled spectrum: frequencies, the weight of each in an integral over their logarithm, and the density.
 struct Grid {
   std::vector<double> omega, weight, density;
 
-  /// @param cuts  where the density jumps: points crowd there
+  /// @param cuts  frequencies at which the density jumps: points are concentrated there
   Grid(const std::function<double(double)>& spectrum, double low, double high, int each_decade,
        std::span<const double> cuts) {
     const int count = static_cast<int>(std::ceil(std::log10(high / low) * each_decade));
@@ -80,9 +80,9 @@ Band band_of(const Grid& grid) {
   return band;
 }
 
-/// Filters of one order as points in a space without bounds: logarithms of the frequency and damping of each section's
-/// poles; of its zeros' frequency, and their damping; and the first section's numerator, b0^2 + b1^2 omega^2, by its
-/// logarithms. Any point is a stable filter with a density that is nowhere negative.
+/// Filters of one order as points in an unbounded space: logarithms of the frequency and damping of each section's
+/// poles; of the frequency and damping of its zeros; and of the two coefficients of the first section's numerator, b0^2
+/// + b1^2 omega^2. Every point is a stable filter with a nonnegative density.
 class Family {
  public:
   /// @param zeros  at zero frequency, of the density: 0, 2 or 4
@@ -161,7 +161,7 @@ class Family {
     return q;
   }
 
-  /// Keeps poles near the band and oscillating or nearly so: others make the filter stiff and fit next to nothing.
+  /// Keeps poles near the band and oscillating or nearly so: others make the filter stiff and hardly improve the fit.
   void bound(Vector& p, const Band& band) const {
     for (int j = 0; j < sections_; ++j) {
       p[2 * j] = std::clamp(p[2 * j], std::log(band.low / 10), std::log(band.high * 10));
@@ -196,7 +196,7 @@ double improve(const Family& family, const Grid& grid, const Band& band, Vector&
     return residual.squaredNorm();
   };
 
-  double log_found = 0, weights = 0;  // the gain, where the spectrum has its strength
+  double log_found = 0, weights = 0;  // the gain, where the spectrum is strong
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (grid.density[i] < 0.1 * unit * unit) continue;
     log_found += grid.weight[i] * (std::log(grid.density[i]) - family.log_density(p, grid.omega[i], slopes));
@@ -241,7 +241,7 @@ ShapingFilter fitted(const std::function<double(double)>& spectrum, double low, 
     if (std::abs(after - before) > 0.01 * std::max(before, after)) jumps.push_back(cut);
   }
 
-  // Over all scales there may be, then over those that matter.
+  // First over all possible scales, then over those that matter.
   const double first = low > 0        ? low / 10
                        : cuts.empty() ? 1e-8
                                       : 1e-4 * cuts.front(),
@@ -255,8 +255,8 @@ ShapingFilter fitted(const std::function<double(double)>& spectrum, double low, 
   const double slope = at_zero > 0 ? std::log2(beyond / at_zero) : beyond > 0 ? 2 : 4;
   const int zeros = slope > 3 && sections > 1 ? 4 : slope > 1 ? 2 : 0;
 
-  // One section after the other, each where it helps most: in the middle of the band or at its edges, softly or with
-  // poles just inside and zeros just outside.
+  // Adds one section at a time where it helps most: in the middle of the band or at its edges, smooth or with poles
+  // just inside and zeros just outside.
   const double middle = std::sqrt(band.low * band.high);
   const std::array<std::array<double, 4>, 5> places = {{{middle, 0.4, 1.1 * middle, 0.5},
                                                         {band.low, 0.4, 1.1 * band.low, 0.5},
@@ -336,7 +336,7 @@ ShapingFilter ShapingFilter::of(const Spectrum& spectrum, const Fit& fit) {
 }
 
 ShapingFilter ShapingFilter::of(const PoissonPulses& pulses, const Fit& fit) {
-  // From far below the first lobe to far above: the density has no scale but the half width.
+  // From far below the first lobe to far above: the half width is the only scale of the density.
   const double unit = 1 / pulses.half_width();
   return fitted([&](double omega) { return pulses.density(omega); }, 0, std::numeric_limits<double>::infinity(),
                 std::span(&unit, 1), fit);

@@ -11,14 +11,15 @@ namespace stickslip::detail {
 namespace {
 
 constexpr int half = 150;           ///< nodes of the grid either side of 0
-constexpr double max_steps = 1000;  ///< of the walk; more slips go several to a step
+constexpr double max_steps = 1000;  ///< of the walk; with more slips, several are combined in a step
 
-/// The walk within -L to L.
+/// The walk between -L and L.
 class Walk {
  public:
   Walk(const Slips& slips, const std::function<double(double)>& farthest, double together, double bound)
       : step_(bound / (half + 0.5)), rate_(slips.count / together) {
-    const auto lay = [&](double length, double count) {  // on three nodes, its mean and its square kept
+    const auto lay = [&](double length,
+                         double count) {  // on three nodes, so that its mean and its square are preserved
       const double place = length / step_, node = std::round(place), u = place - node;
       if (std::abs(node) >= reach) return;  // it leaves the bound from anywhere
       const int i = static_cast<int>(node);
@@ -37,7 +38,7 @@ class Walk {
     for (int i = -reach; i <= reach; ++i) out_.push_back(together > 1 ? i * step_ : farthest(i * step_));
   }
 
-  /// The chance to have stayed within the bound.
+  /// The probability of having stayed within the bound.
   double within(double bound) {
     std::vector<double> here(2 * half + 1), next(here.size());
     here[half] = 1;
@@ -72,7 +73,7 @@ class Walk {
 
   double step_, rate_;
   std::vector<double> law_ = std::vector<double>(2 * reach + 1);  ///< of a slip
-  std::vector<double> out_{};                                     ///< how far it goes
+  std::vector<double> out_{};                                     ///< the farthest point of the slip on the way
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The way of a displacement that is the sum of slips: how far it has been at most.
+// The maximum displacement of a sum of slips.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace stickslip::detail {
 
-/// The L such that the sum of slips, one by one in any order and as many as Poisson's law has it, stays within -L to L
-/// with a probability.
+/// The L such that the sum of slips, one by one in any order and with a Poisson-distributed number, stays within -L to
+/// L with a given probability.
 /// @param slips      independent, with their expected number
 /// @param farthest   from the length of a slip, how far the slider is on the way out from where it lay; of its sign,
 ///                   and not less [m]

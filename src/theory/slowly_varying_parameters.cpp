@@ -26,7 +26,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double round_off = std::numeric_limits<double>::epsilon();
 
-// How a law is searched of which it is not known that its curves fold once at most.
+// Parameters of the search for solutions if the curves of a law may fold more than once.
 constexpr double search_ratio = 1.0905077326652577;  // of neighboring amplitudes, 2^(1/8)
 constexpr double search_reaches = 1e12;
 
@@ -54,8 +54,8 @@ double polynomial(std::span<const double> c, double z) {
   return std::accumulate(c.rbegin(), c.rend(), 0.0, [z](double sum, double next) { return sum * z + next; });
 }
 
-/// Integral of f(A sin(phi), sin(phi), cos(phi)) over a quarter of a cycle. What changes within |x| of `reach`, which
-/// may be far below A, is taken in by even steps of t, phi = (reach / A) sinh(t).
+/// Integral of f(A sin(phi), sin(phi), cos(phi)) over a quarter of a cycle. Changes within |x| of `reach`, which may be
+/// far below A, are resolved by even steps of t, phi = (reach / A) sinh(t).
 template <class F>
 double over_quarter(double amplitude, double reach, const F& f) {
   const double near = std::clamp(reach / amplitude, 1e-30, 1.0);
@@ -82,8 +82,8 @@ SlowlyVaryingParameters::SlowlyVaryingParameters(detail::CycledLaw law, double n
   if (differ(forward, backward, std::min(forward, backward)))
     drifts(detail::shortest(forward) + " m/s^2 forward, " + detail::shortest(backward) + " m/s^2 backward at x = 0");
 
-  // The power series at x = 0 tells where the law changes, whether it asks for the direction, and is itself the answer
-  // for small cycles. Its own scale comes first, so that no length is too small or too large.
+  // The power series at x = 0 shows where the law changes and whether it depends on the direction, and is itself the
+  // result for small cycles. The law's own scale comes first, so that no length is too small or too large.
   std::array<std::array<double, orders + 1>, 2> c{};
   double scale = 1, shortest = infinity;
   for (const std::size_t highest : {std::size_t{2}, orders}) {
@@ -155,7 +155,7 @@ double SlowlyVaryingParameters::in_phase_friction(double amplitude) const {
     const double y = reach_ > 0 ? amplitude / reach_ : 0;
     return polynomial(in_phase_, y * y) * y;
   }
-  // With the mean level, which is taken off again: an integral that may vanish has no relative accuracy.
+  // With the mean level, which is subtracted again: an integral that may vanish has no relative accuracy.
   return over_quarter(amplitude, reach_,
                       [&](double x, double sine, double cosine) {
                         const double odd = law_.level(x, Direction::forward) - law_.level(-x, Direction::forward) -
@@ -238,7 +238,7 @@ struct SlowlyVaryingParameters::Balance {
   /// C - omega^2 A.
   double excess(double amplitude) const { return stiffness * amplitude + svp.in_phase_friction(amplitude); }
 
-  /// Above 0 where the right side is too small.
+  /// Positive where the right side is too small.
   double operator()(double amplitude) const { return at(amplitude, svp.mean_level(amplitude)); }
 
   /// Left side of (2.19), which is also half the slope of (2.16) over A.
@@ -380,8 +380,8 @@ double angle_seen(Point center, Point a, Point b) {
   return std::atan2(from.x * to.y - from.y * to.x, from.x * to.x + from.y * to.y);
 }
 
-/// Waits for a motion to be caught by a stable point. The flow contracts areas, so there is no closed orbit, and what
-/// has turned about the point once, the other points where it stands still being outside, will never leave.
+/// Detects that a motion is captured by a stable point. The flow contracts areas, so there is no closed orbit; a motion
+/// that has turned about the point once, with the other stationary points outside, never leaves it.
 class Turn {
  public:
   Turn(Point center, std::vector<Point> others, Point start)
@@ -392,7 +392,7 @@ class Turn {
   bool caught(Point p) {
     if (distance(center_, p) < near_) return true;
     angle_ += angle_seen(center_, last_, p);
-    bool clear = true;  // whether what the others saw is beyond doubt
+    bool clear = true;  // whether the angles seen from the other points are beyond doubt
     for (std::size_t i = 0; i < others_.size(); ++i) {
       const double seen = angle_seen(others_[i], last_, p);
       seen_[i] += seen;
@@ -418,12 +418,12 @@ class Turn {
   std::vector<double> seen_;
 };
 
-constexpr double at_rest = 1e-9;  // an amplitude that is none
+constexpr double at_rest = 1e-9;  // an amplitude that counts as none
 
 }  // namespace
 
-/// The averaged equations in the plane of A cos(phi), A sin(phi), where A = 0 is a place like any other but for
-/// friction, by omega t.
+/// The averaged equations in the plane of A cos(phi), A sin(phi), as functions of omega t. In this plane, A = 0 is
+/// singular only because of friction.
 class SlowlyVaryingParameters::Plane {
  public:
   Plane(const SlowlyVaryingParameters& theory, double force, double frequency, double amplitude, double phase,
@@ -452,7 +452,7 @@ class SlowlyVaryingParameters::Plane {
     return {a * std::cos(s.phase), a * std::sin(s.phase)};
   }
 
-  /// Goes on through `angles` of omega t, counted from where it is, as long as `visit` wants.
+  /// Continues through `angles` of omega t, counted from the present one, until `visit` stops it.
   template <class Visit>
   void follow(std::span<const double> angles, const Visit& visit) {
     const std::array<double, 2> start{at_.x, at_.y};
@@ -484,7 +484,7 @@ class SlowlyVaryingParameters::Plane {
       slope[0] = slope[1] = 0;
       return;
     }
-    const double cosine = a > 0 ? y[0] / a : 0, sine = a > 0 ? y[1] / a : -1;  // from rest it goes with the force
+    const double cosine = a > 0 ? y[0] / a : 0, sine = a > 0 ? y[1] / a : -1;  // from rest it moves with the force
     const double s = -4 / pi * balance_.svp.mean_level(amplitude) / balance_.B;
     const double e = balance_.excess(amplitude) / balance_.B;
     slope[0] = (s * cosine - e * sine) / 2;

@@ -29,8 +29,8 @@ double detuning(double omega, double wn) {
   return wn == 0 || std::isinf(omega) ? omega : (omega - wn) * ((omega + wn) / omega);
 }
 
-/// Where f, which rises through zero once, has its zero: a bracket by steps that double, then the false position
-/// (Anderson and Bjorck, BIT 13 (1973)). Not `numerics::root`, which halves the bracket first: far from the zero the
+/// The zero of f, which increases through zero once: a bracket by doubling steps, then the false position (Anderson and
+/// Bjorck, BIT 13 (1973)). `numerics::root` is not used because it halves the bracket first: far from the zero, the
 /// integral behind f may not converge.
 template <class F>
 double rising_root(const F& f, double start) {
@@ -59,9 +59,9 @@ double rising_root(const F& f, double start) {
   return b;
 }
 
-/// The damping with zeta^2 sigma_v^2(zeta) = wanted, as a logarithm. `share` is the left side, which rises with zeta to
-/// the whole variance; `lack` is what it lacks of that, computed without the difference: near the threshold it is this
-/// which tells.
+/// The damping with zeta^2 sigma_v^2(zeta) = wanted, as a logarithm. `share` is the left side, which increases with
+/// zeta to the whole variance; `lack` is the whole variance minus the left side, computed without cancellation: near
+/// the threshold, it determines the solution.
 template <class Share, class Lack>
 double log_damping(double wanted, double excess, double start, const Share& share, const Lack& lack) {
   if (wanted < excess) return rising_root([&](double y) { return std::log(share(std::exp(y)) / wanted); }, start);
@@ -118,7 +118,7 @@ double integral_over(const Spectrum& spectrum, double wn, double width, const Ke
     std::vector<double> cuts = spectrum.breakpoints();
     for (double& cut : cuts) cut = sign * detuning(cut, wn);
     const double last = std::isfinite(far) ? far : std::max({1e3 * wn, 1e3 * width, cuts.empty() ? 0 : cuts.back()});
-    for (const double scale : {width, wn})  // what declines from there on, by pieces
+    for (const double scale : {width, wn})  // splits the declining part into pieces
       for (double cut = scale; cut > 0 && cut < last; cut *= 100) cuts.push_back(cut);
     std::ranges::sort(cuts);
     return detail::integral(
@@ -145,7 +145,7 @@ NearZero near_zero(const Spectrum& spectrum, double scale) {
     return s->density[1] > 0 ? NearZero{1, s->density[1] / s->omega[1]} : NearZero{infinity, 0};
   }
   if (std::holds_alternative<Spectrum::Function>(spectrum.form())) {
-    // By the slope of its logarithm, far below all that matters.
+    // From the slope of its logarithm, far below all relevant frequencies.
     const double near = 1e-12 * scale, far = 1e-9 * scale, at_near = spectrum(near), at_far = spectrum(far);
     if (at_near == 0) return {infinity, 0};
     double power = std::log(at_far / at_near) / std::log(far / near);
@@ -157,7 +157,7 @@ NearZero near_zero(const Spectrum& spectrum, double scale) {
 
 constexpr double critical = 0.79788456080286536;  // sqrt(2/pi), thesis (4.22)
 
-/// sigma_n / a, to be read.
+/// sigma_n / a, in readable form.
 std::string shown(double ratio) { return "sigma_n / a = " + detail::shortest(std::round(1e4 * ratio) / 1e4); }
 
 std::string remark_of(double ratio, double wn, double low_power) {
@@ -225,7 +225,7 @@ StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& sli
     }
   }
 
-  // How the velocity's spectrum begins, omega^power, tells what the displacement does.
+  // The low-frequency power of the velocity's spectrum, omega^power, determines the behavior of the displacement.
   const double zeta = p.damping;
   const NearZero begin = near_zero(spectrum, zeta > 0 ? zeta : std::isfinite(spectrum.high()) ? spectrum.high() : 1);
   const double power = begin.power + (wn > 0 ? 2 : zeta > 0 ? 0 : -2);
@@ -361,8 +361,9 @@ std::vector<Section> sections_of(const Spectrum& spectrum, double zeta, double w
   std::vector<double> cuts = spectrum.breakpoints();
   cuts.insert(cuts.end(), {spectrum.low(), spectrum.high(), wn, zeta, begin, wn + near, near});
   double last = std::max({wn, zeta, spectrum.breakpoints().empty() ? 0 : spectrum.breakpoints().back()});
-  if (last == 0) last = 1e-15 * near;  // nothing says where the spectrum has its strength
-  for (double cut = 10 * last; cut > 0 && cut < near; cut *= 10) cuts.push_back(cut);  // what declines, by pieces
+  if (last == 0) last = 1e-15 * near;  // nothing shows where the spectrum is strong
+  for (double cut = 10 * last; cut > 0 && cut < near; cut *= 10)
+    cuts.push_back(cut);  // splits the declining part into pieces
   std::ranges::sort(cuts);
   std::vector<Section> sections;
   for (std::size_t i = 1; i < cuts.size(); ++i) {
@@ -373,7 +374,7 @@ std::vector<Section> sections_of(const Spectrum& spectrum, double zeta, double w
   return sections;
 }
 
-/// White noise of level 1, by what the system does after an impulse.
+/// White noise of level 1, from the impulse response of the system.
 std::array<double, 3> from_rest_in_white_noise(double zeta, double wn, double time) {
   const double scale = 1 / (zeta + wn);
   const std::vector<double> cuts{scale, 10 * scale, 40 * scale};

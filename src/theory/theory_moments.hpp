@@ -1,4 +1,4 @@
-// What theories of moments share: times that are checked, answers without scatter.
+// Helpers for theories of moments: checks of times and of results, moments without scatter.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace stickslip::detail {
 
-/// Refuses times that are not finite, negative, or do not increase.
+/// Rejects times that are not finite, are negative, or do not increase.
 inline void check_times(const std::string& noun, std::span<const double> times) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     require(std::isfinite(times[i]) && times[i] >= 0, noun + ": times must be finite and at least 0", times[i], "s");
@@ -30,7 +30,7 @@ inline Moments moments_at(std::span<const double> times) {
       {times.begin(), times.end()}, none, none, none, none, none, {std::numeric_limits<double>::quiet_NaN(), 0}, {}};
 }
 
-/// Refuses figures beyond the range of doubles.
+/// Rejects moments beyond the range of doubles.
 inline void check_range(const std::string& noun, double time, double figure) {
   if (!std::isfinite(figure))
     throw std::invalid_argument(noun + ": the moments at " + shortest(time) + " s exceed the range of doubles");

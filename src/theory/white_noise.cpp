@@ -168,7 +168,7 @@ double WhiteNoise::variance() const {
 double WhiteNoise::growth_rate() const {
   const double d = pi * s0_, up = d / law_.forward(), down = d / law_.backward(), up2 = up * up, down2 = down * down;
   const double both =
-      down > 0 ? up * down : 0;  // a block that never slides one way has no such term, however it slides
+      down > 0 ? up * down : 0;  // a block that never slides in one direction has no such term, whatever its velocity
   return 2 * (up2 * (2 * up2 / d) + both * (both / d) + down2 * (2 * down2 / d));
 }
 

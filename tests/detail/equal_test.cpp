@@ -1,4 +1,4 @@
-// Exact comparison is what == says, for the compiler too.
+// Exact comparison is equivalent to ==, also for the compiler.
 #include "stickslip/detail/equal.hpp"
 
 #include <limits>

@@ -1,6 +1,6 @@
-// The runner: that an ensemble is its members, however they were divided up, and that its errors are what they say.
+// The runner: an ensemble is the sum of its members, however they are divided, and its standard errors are correct.
 //
-// The seeds are fixed. Each statistical check says how often a right program would fail it were the seed drawn anew.
+// The seeds are fixed. Each statistical check says how often a correct program would fail it with a new seed.
 #include "stickslip/ensemble/run.hpp"
 
 #include <array>
@@ -133,15 +133,15 @@ TEST_CASE("parts of an ensemble merge into the bits of the whole", "[ensemble]")
   CHECK(backward.members() == 1000);
 }
 
-TEST_CASE("an ensemble that goes on from a part ends with the bits of the whole", "[ensemble]") {
+TEST_CASE("an ensemble resumed from a part has the same bits as the whole", "[ensemble]") {
   const auto run = [](std::uint64_t members, std::uint64_t first, const Ensemble* start) {
     return run_ensemble(Coulomb(1), shaking(), options(members, first), start);
   };
   const Ensemble whole = run(1000, 0, nullptr);
   const Ensemble part = run(320, 192, nullptr);
   CHECK(same_bits(run(1000, 0, &part), whole));
-  CHECK(same_bits(run(1000, 0, &whole), whole));  // nothing left to do
-  // Members of the start that were not asked for stay in it.
+  CHECK(same_bits(run(1000, 0, &whole), whole));  // no member left to simulate
+  // Members of the initial part that were not requested stay in it.
   Ensemble both = run(320, 192, nullptr);
   both.merge(run(64, 0, nullptr));
   CHECK(same_bits(run(64, 0, &part), both));
@@ -585,7 +585,7 @@ TEST_CASE("times of the statistics that do not fit are refused", "[ensemble][err
   CHECK_THROWS_WITH(run_free(1e-7), ContainsSubstring("must leave at most 16777216 times in 18.8 s, got 1e-07 s"));
 }
 
-TEST_CASE("what differs is not merged, and is said", "[ensemble][errors]") {
+TEST_CASE("different configurations are not merged, and the error names the difference", "[ensemble][errors]") {
   const auto run = [](const auto& law, const auto& excitation, EnsembleOptions o) {
     return run_ensemble(law, excitation, o);
   };
@@ -749,7 +749,7 @@ TEST_CASE("sums, peaks and residuals that no members have do not make an ensembl
 
 namespace {
 
-/// Values and standard errors of one figure, from ensembles that know nothing of each other.
+/// Values and standard errors of one quantity, from independent ensembles.
 struct Figures {
   std::vector<double> values;
   double squares = 0;  // mean of the squared errors
@@ -759,7 +759,7 @@ struct Figures {
   }
   void add(const Estimates& figures, std::size_t k) { add({figures.value[k], figures.error[k]}); }
 
-  /// Variance between the ensembles over the mean of what they say it is.
+  /// Variance between the ensembles, relative to the mean of the variances that they report.
   double ratio() const {
     const auto n = static_cast<double>(values.size());
     double mean = 0, scatter = 0;

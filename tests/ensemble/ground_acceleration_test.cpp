@@ -25,7 +25,7 @@ EnsembleOptions options(std::uint64_t members, std::uint64_t first = 0) {
   return o;
 }
 
-/// What the ground does at a time, from then on.
+/// The ground acceleration at a time, just after it.
 double acceleration(const GroundMotion& motion, double t) {
   std::size_t i = 0;
   while (i + 1 < motion.segments() && motion.time(i + 1) <= t) ++i;
@@ -84,7 +84,7 @@ TEST_CASE("all simulators give the ground acceleration, in lanes or not", "[ense
     const auto sample = [&](std::uint64_t seed, std::uint64_t i) { return motions.sample(seed, i); };
     const Ensemble ensemble = run_ensemble(slider, motions, options(100));
     check_ground(ensemble, sample, 4);
-    // All else is as without.
+    // All other statistics are as without it.
     EnsembleOptions without = options(100);
     without.ground_acceleration = false;
     const Ensemble same = run_ensemble(slider, motions, without);
@@ -119,8 +119,8 @@ TEST_CASE("parts with the ground acceleration merge into the whole", "[ensemble]
 
 TEST_CASE("the ground acceleration has the variance of the excitation", "[ensemble][ground_acceleration][statistics]") {
   // Thesis 5.4: from the start of pulses the variance rises as lambda sigma^2 t to that of (5.61) at 2 Dt. 20,000
-  // members, seed 4; four standard errors at 5 x 13 times: drawn anew, right programs would fail once in 240 times at
-  // most.
+  // members, seed 4; four standard errors at 5 x 13 times: with a new seed, correct programs would fail once in 240
+  // times at most.
   const double rate = 3, half_width = 0.25, sigma = 2;
   for (const bool stationary : {false, true}) {
     const PoissonPulses pulses(rate, half_width, sigma, 3, {.stationary_start = stationary});
@@ -148,7 +148,7 @@ TEST_CASE("the ground acceleration has the variance of the excitation", "[ensemb
   }
 }
 
-TEST_CASE("a ground acceleration that was not asked for is not there", "[ensemble][ground_acceleration][errors]") {
+TEST_CASE("a ground acceleration that was not requested is not available", "[ensemble][ground_acceleration][errors]") {
   const PoissonPulses pulses(3, 1.0 / 6, 2.5, 6);
   EnsembleOptions o = options(64);
   o.ground_acceleration = false;

@@ -1,6 +1,6 @@
-// Where members come from: lists of sliders and records, random sliders, sources of one's own.
+// Where members come from: lists of sliders and records, random sliders, user-defined sources.
 //
-// The seeds are fixed. Each statistical check says how often a right program would fail it were the seed drawn anew.
+// The seeds are fixed. Each statistical check says how often a correct program would fail it with a new seed.
 #include <algorithm>
 #include <array>
 #include <cmath>

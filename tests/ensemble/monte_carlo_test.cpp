@@ -1,6 +1,6 @@
 // Ensembles against Monte-Carlo studies by an independent program, within three combined standard errors.
 //
-// The seeds are fixed. Were they drawn anew, each comparison of right programs would fail 27 times in 10,000: one of
+// The seeds are fixed. With new seeds, each comparison of correct programs would fail 27 times in 10,000: one of
 // the 42 of figures 4.4 to 4.6 one time in 9, of the 36 of all bands one in 11, of the 23 others one in 16. (Those of
 // one ensemble are not independent, so that it would be less often.) Where the study gives no standard error, it is
 // ours, scaled to its number of records: the estimators are the same.
@@ -25,7 +25,7 @@ constexpr unsigned fewer = 10;
 constexpr unsigned fewer = 1;
 #endif
 
-/// How far a figure is from what was measured, in combined standard errors.
+/// The difference between a quantity and the measured value, in combined standard errors.
 double apart(const Estimate& found, const reference::Measured& measured) {
   return std::abs(found.value - measured.value) / std::hypot(found.error, measured.error);
 }

@@ -207,7 +207,7 @@ TEST_CASE("sliders of any source and vertical motion have derivatives, if member
   CHECK(ensemble_sensitivity(Coulomb(1), strong, Parameter::slip_level, clipped).peak_mean.error > 0);
 }
 
-TEST_CASE("what has no derivative of the mean is refused", "[ensemble][sensitivity][errors]") {
+TEST_CASE("sources without a derivative of the mean are rejected", "[ensemble][sensitivity][errors]") {
   const auto refusal = [](const auto& slider, Parameter parameter = Parameter::slip_level) {
     try {
       ensemble_sensitivity(slider, shaking(), parameter, derivatives(10));

@@ -1,7 +1,7 @@
 // Poisson pulses: that the pulses are as random as they should be, that the motion is their exact sum, and that the
 // closed forms hold.
 //
-// The seeds are fixed. Each statistical check says how often a right program would fail it were the seed drawn anew.
+// The seeds are fixed. Each statistical check says how often a correct program would fail it with a new seed.
 #include "stickslip/excitation/poisson.hpp"
 
 #include <array>

@@ -72,7 +72,7 @@ TEST_CASE("no other pulses are nearer to a spectrum than those found", "[pulse_f
 TEST_CASE("pulses are found from motions that are made of them", "[pulse_fit][statistics]") {
   // 300 motions of each event, seed 1. An estimate that depends smoothly on the periodogram has a bias of the order of
   // its variance; the strong part is 1 to 3 % stronger than the whole, which is twice that in intensity. Beside these,
-  // four standard errors: were the seed drawn anew, each of the eight would fail once in 16,000 times at most.
+  // four standard errors: with a new seed, each of the eight would fail once in 16,000 times at most.
   for (const std::string_view name : PoissonPulses::events()) {
     const PoissonPulses event = PoissonPulses::event(name, {.stationary_start = true});
     Mean half_width, intensity, error, misfit;

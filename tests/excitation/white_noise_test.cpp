@@ -6,7 +6,7 @@
 // changes its sign, which for even functions of v costs O(dt). The same lines of the spectrum are in all these motions,
 // whatever dt: the error of the step is seen through far less noise than either figure has.
 //
-// The seeds are fixed. Were they drawn anew, each check within three standard errors would fail 27 times in 10,000.
+// The seeds are fixed. With new seeds, each check within three standard errors would fail 27 times in 10,000.
 #include <algorithm>
 #include <array>
 #include <cmath>

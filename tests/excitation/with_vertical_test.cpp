@@ -1,6 +1,6 @@
 // Random ground motions with a vertical component: reproducible, independent, joined without change, refusals.
 //
-// The seeds are fixed. Each statistical check says how often a right program would fail it were the seed drawn anew.
+// The seeds are fixed. Each statistical check says how often a correct program would fail it with a new seed.
 #include "stickslip/excitation/with_vertical.hpp"
 
 #include <algorithm>
@@ -97,7 +97,7 @@ TEST_CASE("different steps and pulses are joined at the times of both, without c
       const GaussianExcitation along = noise(0.02, 301, interpolation), up = noise(dt, samples, interpolation);
       const GroundMotion both = WithVertical(along, up, 2).sample(1, 3);
       check_components(both, along.sample(1, 3), up.sample(detail::vertical_seed(1), 3), 2);
-      // Times that agree to rounding are one: so many are common to both.
+      // Times that agree within rounding are merged: `common` of them belong to both components.
       const std::size_t common = 6000 / std::lcm(20U, static_cast<unsigned>(std::lround(dt * 1000)));
       CHECK(both.segments() == 300 + samples - 1 - common);
     }

@@ -38,7 +38,7 @@ ClosedForm<Oscillator> flow_of(const Oscillator& oscillator, const Slip& slip, d
   return {oscillator, Start{slip.u, slip.a, slip.j * duration}, duration};
 }
 
-// The speed, and what its rounding is measured by: its terms, and how much it could change in t.
+// The speed, and the scale of its rounding error: its terms, and its possible change with t.
 std::pair<Real, Real> speed(Real w, const Slip& slip, Real t) {
   const Real terms[] = {slip.u * exact_basis(0, w, t), slip.a * exact_basis(1, w, t), slip.j * exact_basis(2, w, t)};
   const Real size = std::abs(terms[0]) + std::abs(terms[1]) + std::abs(terms[2]);
@@ -46,7 +46,7 @@ std::pair<Real, Real> speed(Real w, const Slip& slip, Real t) {
   return {terms[0] + terms[1] + terms[2], size + t * steepest};
 }
 
-// The first stop, true to round-off: there the speed is nothing but rounding, and before it positive.
+// The first stop, accurate to round-off: there the speed is only rounding error, and before it positive.
 template <class Oscillator>
 void stops_rightly(const Oscillator& oscillator, Real w, const Slip& slip, double duration) {
   const double stop = flow_of(oscillator, slip, duration).first_stop();
@@ -171,7 +171,7 @@ TEST_CASE("a slip that has no push does not begin", "[closed_form]") {
 }
 
 TEST_CASE("a steady push against a spring never stops, whole periods long", "[closed_form]") {
-  // v = j (1 - cos w t) / w^2 touches zero after each period and goes on.
+  // v = j (1 - cos w t) / w^2 touches zero after each period and rises again.
   const Harmonic oscillator(50);
   const auto flow = flow_of(oscillator, {0, 0, 1}, 1);
   CHECK(flow.first_stop() == never);

@@ -1,4 +1,4 @@
-// A damper beside friction: reference values, the functions of time, energy, limits.
+// A damper with friction: reference values, the functions of time, energy, limits.
 #include "stickslip/flow/damped.hpp"
 
 #include <array>
@@ -18,7 +18,7 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-/// Holds more at rest than what resists.
+/// A law whose level at rest is higher than while sliding.
 struct Sticky {
   static constexpr bool constant_while_sliding = true;
   double held, level;
@@ -144,7 +144,7 @@ TEST_CASE("slips on a damper that last for ages stop where they must", "[damped]
     const double t = std::log1p(2 * c / 0.5) / c;
     CHECK(std::abs(state.displacement - (2 - 0.5 * t) / c) <= 1e-15 * (2 + 0.5 * t) / c);
   }
-  // On a spring it swings until friction holds it, or, damped more than critically, creeps there for ever: where
+  // On a spring it swings until friction holds it, or, damped more than critically, creeps there indefinitely: where
   // friction and pull balance at 0.25 m, with the slower of the two rates.
   for (const double c : {0.02, 1.9, 2.1, 20.0, 500.0}) {
     State state = State::at(3, 0);
@@ -211,7 +211,8 @@ TEST_CASE("closed form and power series agree for dampers and springs of all siz
 }
 
 TEST_CASE("what holds at rest is at least what resists at no speed", "[damped][law]") {
-  // Rounded apart, as mu_s g and mu_k g are: a block at the level itself holds, and does not slip for no time for ever.
+  // Rounded apart, as mu_s g and mu_k g are: a block at the level itself holds; it does not repeat slips of zero
+  // duration without end.
   const double level = 0.3 * 9.80665;
   const Sticky law{std::nextafter(level, 0), level};
   CHECK(hold(law, 0, Direction::forward) == level);

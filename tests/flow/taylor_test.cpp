@@ -52,7 +52,7 @@ TEST_CASE("two roots close by are told from one, and from none", "[taylor]") {
   }
 }
 
-TEST_CASE("a speed that touches zero and rises again goes on", "[taylor]") {
+TEST_CASE("a speed that touches zero and rises again does not stop", "[taylor]") {
   // (1 - 2t)^2 in exact numbers: a graze. Seen or not, nothing hangs.
   CHECK(first_root_of({1, -4, 4}) == never);
   // Roots that rounding can not part: either answer is right to its square root.

@@ -208,7 +208,7 @@ TEST_CASE("a caster feels its level fall, also where a block would come back to 
 }
 
 TEST_CASE("a caster coasts on where its level is less than any normal number", "[caster]") {
-  // Levels of 1e-300 to 1e-324 m/s^2 do nothing to 0.07 m/s.
+  // Levels of 1e-300 to 1e-324 m/s^2 have no effect on 0.07 m/s.
   for (const double x : {350.0, 353.0, 354.5, 355.0, 356.0, 357.0, 360.0, 370.0, 372.0, 373.0})
     for (const double v : {0.07, -0.07}) {
       INFO("from " << x << " at " << v);
@@ -219,7 +219,7 @@ TEST_CASE("a caster coasts on where its level is less than any normal number", "
     }
 }
 
-TEST_CASE("Caster names what it refuses", "[caster][errors]") {
+TEST_CASE("Caster names the arguments that it rejects", "[caster][errors]") {
   CHECK_THROWS_WITH(Caster(-2, 1), "Caster: slip_level must be finite and at least 0, got -2 m/s^2");
   CHECK_THROWS_WITH(Caster(not_a_number, 1), "Caster: slip_level must be finite and at least 0, got nan m/s^2");
   CHECK_THROWS_WITH(Caster(1, 0), "Caster: reach must be positive, got 0 m");
@@ -288,7 +288,7 @@ TEST_CASE("rolling resistance stops a caster that would escape, where its energy
     CHECK(r.state.mode == Mode::stuck);
     const double energy = 1.01 * speed * 1.01 * speed / 2, way = r.residual - start;
     CHECK(way > 0);
-    // The way is a difference of positions, each with some four roundings of its own.
+    // The sliding distance is a difference of positions, each with some four roundings.
     const double rounding = 8 * 1.1e-16 * r.residual * law.resist(start, Direction::forward);
     CHECK(std::abs(law.work(start, way, Direction::forward) - energy) <= 1e-13 * energy + rounding);
     CHECK(std::abs(r.energy.imbalance()) <= 1e-13 * energy);

@@ -226,7 +226,7 @@ TEST_CASE("a coefficient of friction is a level over g", "[coulomb]") {
   CHECK(Coulomb::from_friction(0.5).forward() == 0.5 * 9.80665);
 }
 
-TEST_CASE("Coulomb names what it refuses", "[coulomb][errors]") {
+TEST_CASE("Coulomb names the arguments that it rejects", "[coulomb][errors]") {
   CHECK_THROWS_WITH(Coulomb(-1), "Coulomb: slip_level must be finite and at least 0, got -1 m/s^2");
   CHECK_THROWS_WITH(Coulomb(not_a_number), "Coulomb: slip_level must be finite and at least 0, got nan m/s^2");
   CHECK_THROWS_WITH(Coulomb(infinity), "Coulomb: slip_level must be finite and at least 0, got inf m/s^2");

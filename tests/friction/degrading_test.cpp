@@ -28,7 +28,7 @@ namespace {
 
 const Degrading weakening({0, 0.3, 2}, {1, 0.4, 0.5}), hardening({0.1, 0.5}, {0.5, 1.3});
 
-/// What resists after a distance [m/s^2], and its integral: by the definition.
+/// The resistance after a distance [m/s^2], and its integral: by the definition.
 double level_after(const Degrading& law, double slid) {
   const auto &s = law.distances(), &a = law.levels();
   std::size_t i = 0;
@@ -347,7 +347,7 @@ TEST_CASE("a run can be split anywhere: the state holds all that matters", "[deg
       advance(slider, s, cut);
     }
     CHECK(std::abs(cut.displacement - state.displacement) <= (mounting.stops ? 1e-6 : 1e-10) * whole.peak);
-    // Gone on from half way, by `integrate`.
+    // Resumed half way, by `integrate`.
     const std::vector<double> n(motion.acceleration().begin(), motion.acceleration().end());
     const Response first = integrate(slider, GroundMotion(std::vector<double>(n.begin(), n.begin() + 151), 0.1));
     IntegrateOptions options = from(first.state.displacement, first.state.velocity);

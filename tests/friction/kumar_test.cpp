@@ -249,7 +249,7 @@ TEST_CASE("at rest the surface cools, and holds more", "[kumar]") {
   CHECK(std::abs(cooled.heat.half_integral() / then.heat.half_integral() - 1) <= 1e-13);
 }
 
-TEST_CASE("what is computed from a heated response", "[kumar]") {
+TEST_CASE("quantities computed from a heated response", "[kumar]") {
   const KumarFriction law(usual);
   const auto slider = Slider<KumarFriction>::friction_pendulum(law, 2.2);
   const GroundMotion motion = shaking(true);

@@ -9,7 +9,7 @@ using namespace test;
 
 namespace {
 
-/// A law with an opinion on direction, and with most of the functions at hand.
+/// A law that depends on direction and uses most of the available functions.
 struct Ripple {
   template <class T>
   auto resist(const T& x, Direction direction) const {
@@ -61,7 +61,7 @@ static_assert(!FrictionLaw<double> && !FrictionLaw<State>);
 
 TEST_CASE("the work against a user's law is the integral of its level", "[law]") {
   // Ten Gauss-Legendre points are wrong by at most (h/reach)^21 (10!)^4 / (21 (20!)^3) * 20!/10!, 4e-19 for h = reach.
-  // What is left is the rounding of x, on a slope of 2 x / reach^2.
+  // The remaining error is the rounding of x, on a slope of 2 x / reach^2.
   const Bump law{1.3, 0.4};
   for (const double from : {-2.0, -0.4, -0.1, 0.0, 0.05, 0.3, 1.0})
     for (const double distance : {0.001, 0.01, 0.1, 0.4}) {
@@ -74,7 +74,7 @@ TEST_CASE("the work against a user's law is the integral of its level", "[law]")
   CHECK(friction_work(law, 0.2, 0, Direction::forward) == 0);
 }
 
-TEST_CASE("a law that knows its work is asked for it", "[law]") {
+TEST_CASE("a law that defines its work is called for it", "[law]") {
   CHECK(std::abs(friction_work(Quadratic{}, 1, 2, Direction::forward) - (2 + 26.0 / 3)) <= 1e-14);
   CHECK(std::abs(friction_work(Quadratic{}, 3, 2, Direction::backward) - (2 + 26.0 / 3)) <= 1e-14);
   CHECK(friction_work(Coulomb(2, 3), 7, 4, Direction::forward) == 8);
@@ -110,7 +110,7 @@ TEST_CASE("a user's bump takes its whole work from what shoots across it", "[law
       const Response r = integrate(law, line(0, 0, 4 * -start / speed), from(start, speed));
       const double paid = start < -5 ? whole : bump_work(law, start, 4);
       CHECK(r.residual > 2);
-      CHECK(std::abs(r.energy.dissipated - paid) <= 1e-3);  // what lies beyond -2 and 2
+      CHECK(std::abs(r.energy.dissipated - paid) <= 1e-3);  // the work beyond -2 and 2
       CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * r.energy.initial);
       const double out = std::sqrt(speed * speed - 2 * r.energy.dissipated);
       CHECK(std::abs(r.state.velocity - out) <= 1e-12 * speed);

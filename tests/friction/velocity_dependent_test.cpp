@@ -103,7 +103,7 @@ TEST_CASE("speed-dependent friction takes no side and closes its ledger", "[velo
       }
 }
 
-TEST_CASE("speed-dependent friction refuses what is no friction", "[velocity_dependent][errors]") {
+TEST_CASE("speed-dependent friction rejects invalid parameters", "[velocity_dependent][errors]") {
   CHECK_THROWS_WITH(VelocityDependent(-0.1, 1, 1),
                     Catch::Matchers::ContainsSubstring("slow must be finite and at least 0, got -0.1 m/s^2"));
   CHECK_THROWS_AS(VelocityDependent(1, infinity, 1), std::invalid_argument);

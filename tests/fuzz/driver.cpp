@@ -91,7 +91,7 @@ void mutate(std::string& input, const std::vector<std::string>& seeds, Random& r
       input.insert(at, copies);
       break;
     }
-    case 5:  // goes on as another seed
+    case 5:  // continues with another seed
       if (!seeds.empty()) {
         const std::string& other = seeds[below(random, seeds.size())];
         input = input.substr(0, at) + other.substr(below(random, other.size() + 1));
@@ -140,7 +140,7 @@ char file[256] = "crash-";  // where it is saved if it fails
 bool replays = false;
 volatile std::sig_atomic_t interrupted = 0;
 
-/// Saves the current input, unless it is from a file. Calls nothing that a signal handler may not call.
+/// Saves the current input, unless it is from a file. Calls only functions that are safe in a signal handler.
 void save() {
   if (replays) return;
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
@@ -170,7 +170,7 @@ extern "C" void on_failure(int signal) {
 
 extern "C" void on_interrupt(int) { interrupted = 1; }
 
-/// Runs the current input; whether nothing was found.
+/// Runs the current input; returns whether no error was found.
 bool passes() {
   ::alarm(60);
   try {

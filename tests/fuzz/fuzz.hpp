@@ -1,4 +1,4 @@
-// What a fuzz target, tests/fuzz/<target>.cpp, defines and uses.
+// The interface between the driver and a fuzz target, tests/fuzz/<target>.cpp.
 #pragma once
 
 #include <cstddef>

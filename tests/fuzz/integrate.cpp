@@ -90,7 +90,7 @@ std::string versus(Real got, Real expected, Real tolerance) {
   return text;
 }
 
-/// @param what  makes the name of what is compared
+/// @param what  returns the name of the compared quantity
 template <class Name>
 void close(const Problem& p, const Name& what, double got, Real expected, Real tolerance) {
   if (std::isfinite(got) && !(std::abs(Real(got) - expected) > tolerance)) return;
@@ -110,7 +110,7 @@ void close(const Problem& p, const char* who, std::size_t i, double x, double v,
       p, [&] { return at("velocity"); }, v, b.v, factor * b.v_error);
 }
 
-/// What `advance` tells of a motion; ends it where it does not come to an end.
+/// The result of `advance` over a motion; stops it if it does not end.
 struct Watcher {
   const Problem& problem;
   std::size_t segment = 0, max_slides = 1000;
@@ -392,7 +392,7 @@ class Check {
     };
     same("residual", r.residual, s.x, s.x_error);
     same("peak", r.peak, s.peak, s.peak_error + s.x_error);
-    // Sums of so many terms; the bounds allow each 32 roundings.
+    // Sums of `terms` terms; the bounds allow each 32 roundings.
     const Real terms = Real(n + r.events.size()), sums = 1 + terms / 32, least = 0x1p-1000L;
     const Energy& e = r.energy;
     same("sliding distance", r.sliding_distance, s.path, sums * (s.path_error + 32 * epsilon * s.path));
@@ -428,7 +428,7 @@ class Check {
   void agree(const Response& r) const {
     try {
       const Histories h = histories(slider_, motion_);
-      const std::size_t n = motion_.samples();  // integrate goes on where it settles
+      const std::size_t n = motion_.samples();  // integrate continues if it settles
       if (!std::equal(h.displacement.begin(), h.displacement.end(), r.displacement.begin(),
                       r.displacement.begin() + n) ||
           !std::equal(h.velocity.begin(), h.velocity.end(), r.velocity.begin(), r.velocity.begin() + n))
@@ -438,7 +438,7 @@ class Check {
     }
   }
 
-  /// All accelerations times `alpha`, all times times `tau`: powers of two, but for a sign.
+  /// All accelerations times `alpha`, all times times `tau`: powers of two, except for the sign.
   void scaled(const Response& r, double alpha, double tau) const {
     const auto tame = [](double value) { return value == 0 || (std::abs(value) > 1e-30 && std::abs(value) < 1e30); };
     bool possible = tame(p_.displacement) && tame(p_.velocity) && tame(p_.natural_frequency) && tame(p_.forward);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::size_t allocated = 0;  // bytes ever asked for
+std::size_t allocated = 0;  // bytes allocated in total
 
 /// The file that every case is written to.
 class Scratch {
@@ -49,7 +49,7 @@ class Scratch {
   std::error_code ignored_{};
 };
 
-/// What the reader makes of some bytes.
+/// The result of reading some bytes.
 struct Result {
   std::optional<GroundMotion> motion{};
   std::string error{};
@@ -151,7 +151,7 @@ bool same(const Result& a, const Result& b) {
 
 }  // namespace
 
-// The address sanitizer calls it; without one nothing is counted.
+// Called by the address sanitizer; without it nothing is counted.
 extern "C" void __sanitizer_malloc_hook(const volatile void* memory, std::size_t size);
 extern "C" void __sanitizer_malloc_hook(const volatile void*, std::size_t size) { allocated += size; }
 
@@ -186,7 +186,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Scratch scratch;
   const std::string bytes(data, data + size);
   const fs::path& file = scratch.write(bytes);
-  // What a file leaves open is given, as its error asks for it.
+  // Data missing from a file are supplied, as the error message suggests.
   RecordOptions options{.component = "1"};
   Result first = read(file, size, options);
   if (first.error.ends_with("pass units, such as \"g\" or \"m/s^2\"")) {

@@ -85,7 +85,7 @@ TEST_CASE("all components of a file come with name, orientation and start", "[re
   const std::string named = cosmos_channel("", cosmos_data), other = replaced(named, "90 deg", "Other");
   CHECK(read(named).orientation() == "90 deg");
   CHECK(read(other).orientation().empty());
-  // Integer 54: an azimuth from 1, 400 up, 401 down; 0 and the others say nothing.
+  // Integer 54: an azimuth from 1, 400 up, 401 down; 0 and other values carry no information.
   for (const auto& [code, orientation] :
        {std::pair{45, "45"}, {360, "0"}, {400, "up"}, {401, "down"}, {0, ""}, {402, ""}, {500, ""}, {-999, ""}})
     CHECK(read(with_integer(other, 54, code)).orientation() == orientation);
@@ -248,7 +248,7 @@ TEST_CASE("a comma is a decimal point where something else parts the columns", "
     CHECK(motion.dt() == 0.01);
     CHECK(samples(motion) == std::vector<double>{0.1 * g, -2.5 * g, 3 * g});
   }
-  // A comma alone parts columns, and so does one beside a blank; with a point in any row it is no decimal sign.
+  // A comma alone separates columns, and so does one next to a blank; with a point in any row it is not a decimal sign.
   CHECK(read("0,1\n1,5\n", in_g).acceleration()[1] == 5 * g);
   CHECK(read("0, 1\n1, 5\n", in_g).acceleration()[1] == 5 * g);
   refuses("0,00;0,1\n0.01;0.5\n", {"line 2", "expected 4 columns as in line 1, got 2"}, in_g);
@@ -261,7 +261,7 @@ TEST_CASE("a gap is refused unless it is asked for", "[records]") {
   const GroundMotion kept = read(text, {.gaps = true});
   CHECK(kept.samples() == 200);
   CHECK(kept.time(120) == 1.31);
-  // Ten steps and no more are no gap.
+  // Up to ten steps are not a gap.
   CHECK(read(replaced(text, "1.19 0.1\n", "1.19 0.1\n1.25 0.2\n")).samples() == 201);
   CHECK(std::isnan(read("0 1\n1 2\n2 3\n12 4\n", in_g).dt()));
   refuses("0 1\n1 2\n2 3\n12.5 4\n", {"a gap of 10.5 s after 2 s"}, in_g);

@@ -1,4 +1,4 @@
-// Ground motions: what they hold, and what they refuse.
+// Ground motions: their contents, and the arguments that they reject.
 #include "stickslip/stickslip.hpp"
 
 #include "support/catch.hpp"
@@ -8,7 +8,7 @@ using namespace stickslip;
 using namespace test;
 using Catch::Matchers::ContainsSubstring;
 
-TEST_CASE("a motion knows its samples, times and pieces", "[ground_motion]") {
+TEST_CASE("a motion has its samples, times and segments", "[ground_motion]") {
   const GroundMotion motion({1, -3, 2}, 0.5, Interpolation::linear, "Tolmezzo");
   CHECK(motion.samples() == 3);
   CHECK(motion.segments() == 2);

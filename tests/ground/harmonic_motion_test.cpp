@@ -88,7 +88,8 @@ TEST_CASE("at resonance the amplitude of a block on a spring grows in proportion
 }
 
 TEST_CASE("a caster at rest in the middle comes to where the reference does", "[harmonic_motion]") {
-  // values.json harm.caster.*, from_rest_at_zero: after 200 cycles, to 1e-8. One wanders off for ever, one is caught.
+  // values.json harm.caster.*, from_rest_at_zero: after 200 cycles, to 1e-8. One drifts away without bound, one is
+  // caught.
   const auto end = [](double load, double omega) { return integrate(Caster(1, 1), cycles(load, omega, 200)); };
   CHECK(std::abs(end(1.25, 0.3).residual + 6187.37033885485) <= 1e-8 * 6187);
   CHECK(std::abs(end(1.25, 0.5).residual + 4.522536180539736) <= 1e-8);
@@ -150,7 +151,7 @@ TEST_CASE("without friction a spring rings as the linear oscillator, through res
   }
 }
 
-TEST_CASE("how a motion is sampled changes nothing of it", "[harmonic_motion]") {
+TEST_CASE("the sampling of a motion does not change it", "[harmonic_motion]") {
   for_each_slider([](const auto& slider) {
     const Response fine = integrate(slider, cycles(1.7, 1.3, 12, 64), from(0.1, 0.2));
     for (const double samples : {1.0 / 12, 0.3, 1.0, 7.3, 300.0}) {
@@ -172,7 +173,7 @@ TEST_CASE("the energy ledger closes under a harmonic motion", "[harmonic_motion]
       for (const double omega : {0.2, 0.8, 5.0}) {
         const Response r = integrate(slider, cycles(amplitude, omega, 20), from(0.3, 0.5));
         INFO("B " << amplitude << ", omega " << omega);
-        // an escaped caster is braked no more: its energy goes to and fro between it and the ground
+        // an escaped caster is no longer braked: energy flows back and forth between it and the ground
         CHECK(std::abs(r.energy.imbalance()) <= 1e-13 * amplitude * r.sliding_distance);
         CHECK(grammatical(r));
         CHECK(r.peak >= largest(r.displacement) * (1 - 1e-15));
@@ -243,7 +244,7 @@ TEST_CASE("half a period later the mirrored ground moves a slider the mirrored w
 }
 
 TEST_CASE("a hundred thousand cycles later the phase is still right", "[harmonic_motion]") {
-  // Two stops a cycle: what was before is forgotten, and the way slid in a cycle is the same to its rounding.
+  // Two stops per cycle: the past is forgotten, and the sliding distance of a cycle is the same to its rounding.
   // Two stops a cycle: each slip breaks away where B cos(omega t) is the slip level, and whatever was before is
   // forgotten. Only the rounding of the time itself, 6e-11 s, remains.
   const HarmonicMotion motion = cycles(1.5, 1.7, 1e5, 0.01);
@@ -261,7 +262,7 @@ TEST_CASE("a hundred thousand cycles later the phase is still right", "[harmonic
 
   for (const double t : {0.1, 1e3, 1e6, 1e9}) {
     const long double exact = std::remainder(static_cast<long double>(1.7) * t, 2 * std::numbers::pi_v<long double>);
-    // 4e-16 of its own, and what 64 bits of pi leave after so many cycles
+    // 4e-16 from the phase itself, and the error of a 64-bit pi after this many cycles
     CHECK(std::abs(static_cast<double>(motion.phase(t) - exact)) <= 4e-16 + 1e-19 * 1.7 * t);
   }
 }
@@ -280,7 +281,7 @@ TEST_CASE("after the end a slider settles", "[harmonic_motion][settle]") {
   CHECK(integrate(Slider(Coulomb(1), 0.8), motion, from(0, 0, true)).state.mode == Mode::stuck);
 }
 
-TEST_CASE("a harmonic motion knows its samples", "[harmonic_motion]") {
+TEST_CASE("a harmonic motion has its samples", "[harmonic_motion]") {
   const HarmonicMotion usual(2, pi, 10);
   CHECK(usual.period() == 2);
   CHECK(usual.dt() == 2.0 / 64);
@@ -299,7 +300,7 @@ TEST_CASE("a harmonic motion knows its samples", "[harmonic_motion]") {
   CHECK(sampled.acceleration()[4] == -2);
 }
 
-TEST_CASE("a harmonic motion names what it refuses", "[harmonic_motion][errors]") {
+TEST_CASE("a harmonic motion names the arguments that it rejects", "[harmonic_motion][errors]") {
   CHECK_THROWS_WITH(HarmonicMotion(0, 1, 1),
                     "HarmonicMotion: amplitude must be positive and at most 1e100 m/s^2, got 0 m/s^2");
   CHECK_THROWS_WITH(HarmonicMotion(1, -2, 1),

@@ -1,4 +1,5 @@
-// Motions made from a motion: exact integrals, targets that are met, lines that are kept, what is refused.
+// Motions made from a motion: exact integrals, targets that are met, straight lines that are preserved, rejected
+// arguments.
 #include "stickslip/ground/processing.hpp"
 
 #include <cmath>
@@ -82,7 +83,7 @@ TEST_CASE("a trend that was added is taken away", "[processing]") {
       std::vector<double> n(clean.acceleration().begin(), clean.acceleration().end());
       // From steps an inclined trend is taken in steps, so that (1 / 300)^2 or so of it is left.
       const bool stepped = order == 1 && interpolation == Interpolation::constant;
-      // Nothing is left, so that taking it away again changes nothing; and the ground comes to rest.
+      // No trend is left, so that removing it again changes nothing; and the ground comes to rest.
       CHECK(difference(detrended(clean, order).acceleration().first(299), clean.acceleration().first(299)) <=
             (stepped ? 1e-4 : 1e-14));
       CHECK(std::abs(ground_history(clean).velocity.back()) <= 1e-12);
@@ -99,7 +100,7 @@ TEST_CASE("a trend that was added is taken away", "[processing]") {
   CHECK_THROWS_WITH(detrended(line(0, 1, 1), 11), ContainsSubstring("got 11"));
 }
 
-TEST_CASE("what makes a motion does the same to every component", "[processing][components]") {
+TEST_CASE("operations on a motion treat every component alike", "[processing][components]") {
   for (const Interpolation interpolation : {Interpolation::linear, Interpolation::constant}) {
     const GroundMotion n = broadband(3, 200, false, interpolation), t = broadband(5, 200, false, interpolation),
                        v = broadband(7, 200, false, interpolation);
@@ -152,7 +153,7 @@ TEST_CASE("a rotated motion keeps its length in every direction", "[processing][
   CHECK_THROWS_WITH(rotated(all, infinity), ContainsSubstring("must be finite, got inf degrees"));
 }
 
-TEST_CASE("a rotated motion knows where its axis points", "[processing][components]") {
+TEST_CASE("a rotated motion stores the azimuth of its axis", "[processing][components]") {
   const GroundMotion all = GroundMotion({0, 1, 0}, 0.1).with_components({0, 2, 0}).with_orientation("N28W");
   CHECK(rotated(all, 30).orientation() == "2");
   CHECK(rotated(all, -32.5).orientation() == "299.5");

@@ -52,7 +52,7 @@ GroundMotion read(const std::string& content, const RecordOptions& options = {})
   return read_record(folder.write(content), options);
 }
 
-/// What is said of content that is refused.
+/// The error message for content that is rejected.
 std::string refusal(const std::string& content, const RecordOptions& options = {}) {
   try {
     read(content, options);
@@ -418,7 +418,7 @@ TEST_CASE("another number of columns than in the first row is refused with its l
   says(refusal("SOME OTHER FORMAT\n1 2 3 4 5\n1 2 3 4 5\n"), {"line 3", "must be time", "known formats", "PEER AT2"});
 }
 
-TEST_CASE("what is no number in two columns is refused with its line", "[records]") {
+TEST_CASE("an invalid number in two columns is rejected with its line", "[records]") {
   const RecordOptions in_g{.units = "g"};
   for (const char* word : {"nan", "-inf", "x", "1e999", "1.2.3", "--1", "+-1", "1-2"}) {
     says(refusal("0,1\n0.1," + std::string(word) + "\n", in_g), {"line 2", "finite numbers", word});
@@ -514,7 +514,7 @@ TEST_CASE("times that do not increase are refused", "[records]") {
   says(refusal(table({1, 1, 1, 1}, "%.1f")), {"dt must be positive", "0 s"});
 }
 
-TEST_CASE("what is no record is refused, with the formats known", "[records]") {
+TEST_CASE("a file that is not a record is rejected, with the list of formats", "[records]") {
   for (const char* text : {"hello\n", "{\"a\": 1}\n", "# only\n# comments\n", "<html>\n</html>\n"})
     says(refusal(text), {"made_up.txt", "no known format", "PEER AT2", "COSMOS", "GeoNet", "SMC", "two columns"});
   for (const char* text : {"", "\n\n  \n", "\xEF\xBB\xBF"}) says(refusal(text), {"made_up.txt", "empty"});

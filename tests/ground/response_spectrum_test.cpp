@@ -1,4 +1,5 @@
-// Response spectra: loads with closed answers, a fine Runge-Kutta integration, limits, scaling, what is refused.
+// Response spectra: loads with closed-form solutions, a fine Runge-Kutta integration, limits, scaling, rejected
+// arguments.
 #include "stickslip/ground/response_spectrum.hpp"
 
 #include <algorithm>
@@ -86,7 +87,7 @@ TEST_CASE("a short push is followed by free vibration, which counts", "[response
   CHECK(one(kick, 0.9, 1, SpectrumKind::displacement) == Approx(0.02 / (std::numbers::e * wn)).epsilon(1e-6));
 }
 
-TEST_CASE("a spectrum is what Runge-Kutta finds in fine steps", "[response_spectrum]") {
+TEST_CASE("a spectrum agrees with Runge-Kutta integration in fine steps", "[response_spectrum]") {
   // Steps of T / 600: off by (2 pi / 600)^2 / 8 = 1.4e-5 where the maximum lies between two of them; absolute
   // accelerations, which may turn sharply, need steps of the segment, too.
   const std::vector<double> n = gaussian(7, 40, 2);
@@ -102,7 +103,7 @@ TEST_CASE("a spectrum is what Runge-Kutta finds in fine steps", "[response_spect
         CHECK(one(motion, period, zeta, SpectrumKind::displacement) == Approx(found[0]).epsilon(3e-5));
         CHECK(one(motion, period, zeta, SpectrumKind::velocity) == Approx(found[1]).epsilon(3e-5));
         CHECK(one(motion, period, zeta, SpectrumKind::acceleration) == Approx(found[2]).epsilon(3e-5));
-        // Never below what was found on the way, but for the error of the integration itself.
+        // Never below the maximum found on the way, except for the error of the integration itself.
         CHECK(one(motion, period, zeta, SpectrumKind::displacement) >= found[0] * (1 - 1e-8));
         CHECK(one(motion, period, zeta, SpectrumKind::velocity) >= found[1] * (1 - 1e-8));
       }
@@ -186,7 +187,7 @@ TEST_CASE("each oscillator is on its own, however many there are and in whatever
   for (std::size_t d = 0; d < 2; ++d)
     for (std::size_t p = 0; p < periods.size(); ++p)
       CHECK(all.value(d, p) == one(motion, periods[p], all.damping[d], SpectrumKind::pseudo_acceleration));
-  // Steps of no length do nothing.
+  // Steps of zero duration have no effect.
   const GroundMotion twice({1, 5, -1, 2, 0}, {0, 1, 1, 2, 3}, Interpolation::constant);
   CHECK(response_spectrum(twice, periods).values == response_spectrum(steps({1, -1, 2}), periods).values);
   CHECK(one(line(0, 0, 1), 0.5, 0.05, SpectrumKind::velocity) == 0);

@@ -1,4 +1,4 @@
-// Components of a station as one motion: geometry by hand, and what is refused.
+// Components of a station as one motion: geometry by hand, and rejected arguments.
 #include "stickslip/ground/station.hpp"
 
 #include <cmath>
@@ -25,7 +25,7 @@ RecordComponent component(std::vector<double> n, const std::string& orientation,
       {}};
 }
 
-/// What a sensor at an azimuth records of a shaking north and east.
+/// The record of a sensor at an azimuth, for given motions north and east.
 RecordComponent seen_from(const GroundMotion& north, const GroundMotion& east, double azimuth) {
   const double a = azimuth * std::numbers::pi / 180;
   std::vector<double> n;

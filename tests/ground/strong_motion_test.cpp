@@ -104,7 +104,7 @@ TEST_CASE("a constant error of the acceleration does not change the center frequ
 
 TEST_CASE("pulses give back the earthquake that they were made from", "[strong_motion]") {
   // 1000 motions of each event, seed fixed. f_c comes back within 1 %, on the average: what is left, 0.2 to 0.8 %, is
-  // from taking the root of the ratio of figures that scatter. The standard errors are 0.1 to 0.2 %; drawn anew it
+  // from taking the root of the ratio of figures that scatter. The standard errors are 0.1 to 0.2 %; with a new seed it
   // would fail less than one time in a thousand. The rms acceleration of the strong part is above that of all, for it
   // is the strongest 90 %: by 1 to 3 %.
   for (const std::string_view name : PoissonPulses::events()) {
@@ -121,7 +121,7 @@ TEST_CASE("pulses give back the earthquake that they were made from", "[strong_m
       duration += s.duration / pulses.duration() / members;
     }
     CHECK(frequency == Approx(1).epsilon(0.012));
-    // Of one motion: what is said in the docs.
+    // For one motion: the values stated in the docs.
     const double one = std::sqrt(square - frequency * frequency);
     CHECK((one > 0.02 && one < 0.09));
     CHECK((acceleration > 1 && acceleration < 1.05));

@@ -18,7 +18,7 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-/// Holds more at rest than what resists.
+/// A law whose level at rest is higher than while sliding.
 struct Sticky {
   static constexpr bool constant_while_sliding = true;
   double hold(double, Direction) const { return 1.5; }
@@ -227,7 +227,7 @@ TEST_CASE("integrate stays on an orbit, half a period later mirrored", "[orbits]
         error = std::max(error, std::abs(r.displacement[i] + r.displacement[i + 32]));
       CHECK(error <= 4e-13 * growth * orbit.amplitude);
       CHECK(std::abs(r.residual - orbit.state.displacement) <= 4e-13 * growth * orbit.amplitude);
-      // in a cycle the ground puts in what friction takes
+      // in a cycle the ground supplies the energy that friction dissipates
       CHECK(std::abs(r.energy.input - r.energy.dissipated) <= 1e-12 * growth * load * r.sliding_distance);
       CHECK(std::abs(orbit.dissipated - r.energy.dissipated) <= 1e-12 * growth * load * r.sliding_distance);
       // and x cos + x' sin ... : it is at its highest where the phase says
@@ -248,7 +248,7 @@ TEST_CASE("integrate stays on an orbit, half a period later mirrored", "[orbits]
   stays(Slider(Disguised{1}, 0.8), 1.5, 0.9);
 }
 
-TEST_CASE("what integrate settles into is among the orbits", "[orbits]") {
+TEST_CASE("the steady state of integrate is among the orbits", "[orbits]") {
   // Coulomb friction on a spring: whatever the motion before, it comes to the one orbit; slowly springs first stop many
   // times a cycle.
   std::mt19937_64 bits(21);

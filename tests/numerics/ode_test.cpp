@@ -1,4 +1,4 @@
-// The wrapper of SUNDIALS: solves what is known in closed form, and lets no error pass.
+// The wrapper of SUNDIALS: solves problems with closed-form solutions, and reports every error.
 #include "numerics/ode.hpp"
 
 #include <array>
@@ -99,7 +99,7 @@ TEST_CASE("between the steps answers are as good as at them", "[ode]") {
   }
 }
 
-TEST_CASE("what is thrown inside comes out", "[ode]") {
+TEST_CASE("exceptions from the right side propagate", "[ode]") {
   struct Stop {};
   const std::array<double, 2> start = {1, 0};
   const std::array<double, 1> times = {1e5};
@@ -139,7 +139,7 @@ TEST_CASE("a solver that gives up says how far it came", "[ode]") {
                     ContainsSubstring("2000 steps done"));
 }
 
-TEST_CASE("what makes no sense is refused", "[ode]") {
+TEST_CASE("invalid arguments are rejected", "[ode]") {
   const std::array<double, 2> start = {1, 0};
   const auto solve = [&](const std::vector<double>& times,
                          const OdeOptions& options = {.absolute_tolerance = {1e-10}}) {

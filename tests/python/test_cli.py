@@ -347,7 +347,7 @@ def test_the_vertical_component_may_have_a_file_of_its_own(capsys, record, stati
 
 @pytest.fixture
 def bad_files(tmp_path):
-    """Files that hold no record, with what is said of each."""
+    """Files that are not records, and the error message for each."""
     (tmp_path / "folder").mkdir()
     (tmp_path / "empty.csv").touch()
     (tmp_path / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR")
@@ -669,7 +669,7 @@ def test_file_names_that_are_no_text_are_slid_and_named(record, tmp_path):
 
 
 def command(*arguments, **options):
-    """The command in a process of its own."""
+    """The command in a separate process."""
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
     return subprocess.run([sys.executable, "-m", "stickslip", *arguments], timeout=60, **pipes)
 

@@ -1,4 +1,4 @@
-"""Threads, processes and Ctrl-C: an integration holds up nobody."""
+"""Threads, processes and Ctrl-C: an integration does not block other threads."""
 
 import concurrent.futures
 import multiprocessing

@@ -1,4 +1,4 @@
-"""Friction that depends on the distance slid: how it is given, its memory, and who refuses it."""
+"""Friction that depends on the sliding distance: arguments, memory, functions that reject it."""
 
 import pickle
 

@@ -243,5 +243,5 @@ def test_every_public_header_stands_in_the_reference():
     folder = ROOT / "include" / "stickslip"
     headers = {file.relative_to(folder).as_posix() for file in folder.rglob("*.hpp")}
     headers = {header for header in headers if not header.startswith("detail/")}
-    # two that include all others, and one of which users need nothing
+    # two that include all others, and one that users do not need
     assert said == headers - {"core.hpp", "stickslip.hpp", "series/dual.hpp"}

@@ -1,4 +1,4 @@
-"""The pages keep to American spelling and to the terms of the field."""
+"""Pages, docstrings and comments keep to American spelling and to the terms of the field."""
 
 import ast
 import re
@@ -10,6 +10,7 @@ PAGES = [
     *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md")),
     *sorted((ROOT / "docs").glob("*.md")),
     *sorted((ROOT / "docs" / "guides").glob("*.md")),
+    *sorted((ROOT / "docs" / "reference").rglob("*.rst")),
 ]
 INSTEAD = {  # what not to write, as a regular expression: what to write
     r"gone on (?:with|from)": "resumed from",
@@ -23,16 +24,20 @@ INSTEAD = {  # what not to write, as a regular expression: what to write
     r"nothing is to be done for": "no change is needed for",
     r"per cents?": "percent, %",
     r"drawn anew": "redrawn",
-    r"colou?red|colours?|colour\w+": "color",
-    r"centred|centres?": "center",
-    r"behaviours?": "behavior",
+    r"(?:dis|multi)?colour\w*": "color",
+    r"cent(?:red?|res|ring)": "center",
+    r"behaviour\w*": "behavior",
+    r"favour\w*": "favor",
     r"(?:centi|milli|kilo)?metres?": "meter",
     r"neighbour\w*": "neighbor",
     r"travell\w+": "traveled",
-    r"analysed?": "analyze",
+    r"analys(?:ed?|ing)": "analyze",
     r"licences?": "license",
-    r"(?:label|model)led|modelling": "labeled, modeled, modeling",
-    r"(?:sanit|synchron|normal|linear|general|optim|recogn)is(?:e[ds]?|ing|ers?|ation)": "-ize",
+    r"(?:re)?(?:label|model|cancel|signal)l(?:ed|ing)": "labeled, modeled, canceled, signaled",
+    r"un(?:label|model)led": "unlabeled, unmodeled",
+    r"(?:\w*(?:linear|synchron|normal)|categor|character|discret|factor|general|initial|local|maxim|minim"
+    r"|optim|organ|parameter|random|recogn|sanit|serial|stabil|standard|summar|symmetr|util|vector"
+    r"|visual)is(?:e[ds]?|ing|ers?|ations?)": "-ize",
 }
 
 
@@ -47,11 +52,34 @@ def prose(text):
     )
 
 
+COMMENT_OR_LITERAL = re.compile(
+    r"""
+    (?P<comment>//[^\n]*|/\*.*?\*/)
+    |R"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)"  # a raw string
+    |"(?:\\.|[^"\\\n])*"
+    |(?<!\w)'(?:\\.|[^'\\\n])+'  # a character; the ' between digits follows a digit
+    """,
+    re.DOTALL | re.VERBOSE,
+)
+
+
+def comments(code):
+    """The C or C++ code with all but its comments blanked; lines keep their numbers."""
+    shown, end = [], 0
+    for found in COMMENT_OR_LITERAL.finditer(code):
+        start = found.end() if found["comment"] is None else found.start()
+        shown += [re.sub(r"[^\n]", " ", code[end:start]), code[start : found.end()]]
+        end = found.end()
+    text = "".join([*shown, re.sub(r"[^\n]", " ", code[end:])])
+    return re.sub(r"^( *)///?<?", lambda mark: " " * len(mark[0]), text, flags=re.MULTILINE)
+
+
 def wrong(text):
     """Line, words and what to write instead, of each word or phrase to avoid."""
+    text = prose(text)
     for pattern, better in INSTEAD.items():
         words = pattern.replace(" ", r"\s+")
-        for found in re.finditer(rf"\b(?:{words})\b", prose(text), re.IGNORECASE):
+        for found in re.finditer(rf"\b(?:{words})\b", text, re.IGNORECASE):
             yield text.count("\n", 0, found.start()) + 1, found[0], better
 
 
@@ -77,6 +105,59 @@ def test_a_module_has_no_word_to_avoid_in_its_strings(module):
         for _, words, better in wrong(node.value)
     ]
     assert not found, "\n".join(found)
+
+
+SOURCES = sorted(
+    file
+    for folder in (
+        "include",
+        "src",
+        "python/bindings",
+        "bench",
+        "reproduction",
+        "examples",
+        "tests",
+    )
+    for file in (ROOT / folder).rglob("*")
+    if file.suffix in {".c", ".cpp", ".h", ".hpp"}
+)
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=lambda source: source.relative_to(ROOT).as_posix())
+def test_a_comment_has_no_word_to_avoid(source):
+    found = [
+        f"{source.relative_to(ROOT)}:{line}: '{words}', write '{better}'"
+        for line, words, better in wrong(comments(source.read_text(encoding="utf-8")))
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_comments_are_read_and_literals_are_not():
+    code = """int centre = 1'000;  // a coloured
+    // line, for
+    /// ever
+auto s = "// metre", r = R"x(/* " behaviour )" */)x"; char c = '"';  /* so
+many */
+double so = 1;  // Neighbours
+"""
+    assert sorted((line, words) for line, words, _ in wrong(comments(code))) == [
+        (1, "coloured"),
+        (2, "for\n        ever"),
+        (4, "so\nmany"),
+        (6, "Neighbours"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "word", ["coloured", "Colours", "multicoloured", "relinearise", "modelling"]
+)
+def test_british_spelling_is_found(word):
+    assert [found for _, found, _ in wrong(f"a {word} thing")] == [word]
+
+
+@pytest.mark.parametrize("word", ["colored", "centered", "analyses", "modeled", "organisms"])
+def test_american_spelling_is_not(word):
+    assert not list(wrong(f"a {word} thing"))
 
 
 def test_words_to_avoid_are_found_and_code_is_not_read():

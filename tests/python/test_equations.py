@@ -1,4 +1,4 @@
-"""Equations typed off the pages of docs/, numbers as there, give what the library computes."""
+"""The equations of the pages of docs/, with the same numbers, agree with the library."""
 
 from math import asinh, atan, cos, cosh, exp, factorial, pi, sin, sqrt, tanh
 

@@ -181,7 +181,7 @@ def test_random_amplitudes_are_gaussian_but_still_warned_of():
         ss.GaussianExcitation(narrow, dt=0.1, samples=1024, random_amplitudes=True)
 
 
-# ---- what is refused
+# ---- rejected arguments
 
 
 @pytest.mark.parametrize(

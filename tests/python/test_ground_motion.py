@@ -1,4 +1,4 @@
-"""Ground motions: what becomes one, what is refused, and that they keep what they were given."""
+"""Ground motions: accepted and rejected arguments, and that motions keep their data."""
 
 import copy
 import math
@@ -81,7 +81,7 @@ def test_a_scaled_motion_is_a_new_one():
         motion.scaled(1e100)
 
 
-# ---- what is taken
+# ---- accepted arguments
 
 
 @pytest.mark.parametrize(
@@ -135,7 +135,7 @@ def test_the_acceleration_is_a_view_that_cannot_be_written_and_outlives_its_moti
     assert np.array_equal(view, SAMPLES)
 
 
-# ---- what is refused
+# ---- rejected arguments
 
 REFUSED = [
     (dict(acceleration=[], dt=1), "at least two samples, got 0"),

@@ -436,7 +436,7 @@ def test_without_friction_nothing_settles():
         ss.integrate(ss.Slider(ss.Coulomb(mu=0.0), 9.0), line(0, 0, 1), velocity=2.5, settle=True)
 
 
-# ---- what is refused
+# ---- rejected arguments
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Friction laws: what they are made of, what they refuse, and that they are values."""
+"""Friction laws: their parameters, the arguments that they reject, and value semantics."""
 
 import copy
 import math

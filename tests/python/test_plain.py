@@ -143,7 +143,7 @@ OF_CLASS = {type(one).__name__: one for one in OBJECTS}
 
 @pytest.mark.parametrize("name", BOUND)
 def test_no_refusal_has_a_word_of_the_binding_library(name):
-    """Every function, called with what it cannot take."""
+    """Every function, called with invalid arguments."""
     *_, owner, short = name.split(".")
     thing = function(BOUND[name])
     calls = [((), {}), ((Strange(),), {}), ((Strange(),) * 9, {}), ((), {"nope": Strange()})]

@@ -1,4 +1,4 @@
-"""Pictures: what is drawn is what happened."""
+"""Plots: they show the computed values."""
 
 import math
 import os

@@ -1,4 +1,4 @@
-"""Poisson pulses from Python: the same motions, options that are Python's, and what is refused."""
+"""Poisson pulses from Python: the same motions, Python's own options, and rejected arguments."""
 
 import copy
 import json

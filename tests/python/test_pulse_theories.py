@@ -1,4 +1,4 @@
-"""Theories of pulses from Python: what a user types, in NumPy's terms, and what is refused."""
+"""Theories of pulses from Python: typical calls, results against NumPy, and rejected arguments."""
 
 import math
 import re

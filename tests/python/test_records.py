@@ -1,4 +1,4 @@
-"""Records from files: formats, units, and what is wrong with a file."""
+"""Records from files: formats, units, and errors in files."""
 
 import codecs
 import csv
@@ -145,7 +145,7 @@ def test_a_file_with_one_component_calls_it_1(write):
         ss.read_record(write(CSV), component="north")
 
 
-# ---- what is wrong with a file
+# ---- errors in files
 
 PEER = AT2.format(header=NEW_HEADER)
 WRONG = {

@@ -1,4 +1,4 @@
-"""Response spectra: against SciPy, a closed form, limits; shapes, pictures, what is refused."""
+"""Response spectra: against SciPy, a closed form, limits; shapes, plots, rejected arguments."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Slowly varying parameters: what a user of Python asks for, in the shapes they ask for it."""
+"""Slowly varying parameters in Python: results, and arrays in the requested shapes."""
 
 import copy
 import math

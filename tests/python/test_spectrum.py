@@ -1,4 +1,4 @@
-"""Spectra and envelopes: values, integrals, what is refused, and that they keep what they hold."""
+"""Spectra and envelopes: values, integrals, rejected arguments, and that they keep their data."""
 
 import copy
 import json

@@ -1,4 +1,4 @@
-"""Stationary linearization: against scipy, its thresholds, ensembles, what is refused."""
+"""Stationary linearization: against scipy, its thresholds, ensembles, rejected arguments."""
 
 import math
 import pickle

@@ -1,4 +1,4 @@
-"""Strong motion of a record: known motions, pulses and back, real records, what is refused."""
+"""Strong motion of a record: known motions, pulses and back, real records, rejected arguments."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Type stubs: they say what the compiled module is, and a checker understands a user's script."""
+"""Type stubs: they agree with the compiled module, and a checker accepts a user's script."""
 
 import os
 import shutil

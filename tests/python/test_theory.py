@@ -1,4 +1,4 @@
-"""What all theories share: a name, what they cover, and one way to be asked."""
+"""The common interface of all theories: name, covers and predict."""
 
 import math
 

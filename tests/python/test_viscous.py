@@ -1,4 +1,4 @@
-"""The viscous slider in Python: what takes it, what it answers, and that it keeps what it holds."""
+"""The viscous slider in Python: functions that accept it, their results, and its lifetime."""
 
 import copy
 import json

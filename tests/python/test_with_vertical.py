@@ -1,4 +1,4 @@
-"""Random vertical motion: the components, ensembles under it, files, what is rejected."""
+"""Random vertical motion: the components, ensembles under it, files, rejected arguments."""
 
 import json
 import math

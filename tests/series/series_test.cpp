@@ -61,7 +61,7 @@ constexpr double tight = 1e-14;
 
 }  // namespace
 
-TEST_CASE("exp, sinh, cosh, sin and cos of t have the series everybody knows", "[series]") {
+TEST_CASE("exp, sinh, cosh, sin and cos of t have their well-known series", "[series]") {
   const auto reciprocal = [](int k) { return 1 / factorial(k); };
   CHECK(error(expand([](auto x) { return exp(x); }, {0, 1}), by_rule(reciprocal)) <= tight);
   CHECK(error(expand([](auto x) { return cosh(x); }, {0, 1}),

@@ -1,4 +1,4 @@
-// Sliders with any law side by side do what one slider does: `advance_lanes` against `advance`, step by step.
+// Sliders with any law in lanes give the results of a single slider: `advance_lanes` against `advance`, step by step.
 #include "stickslip/detail/lanes/series_lanes.hpp"
 
 #include <algorithm>

@@ -281,7 +281,7 @@ TEST_CASE("times count from the motion's own beginning", "[integrate]") {
   CHECK(r.sliding_distance == 3.5);
 }
 
-TEST_CASE("integrate names what it refuses", "[integrate][errors]") {
+TEST_CASE("integrate names the arguments that it rejects", "[integrate][errors]") {
   const GroundMotion motion = held(0, 1);
   CHECK_THROWS_WITH(integrate(Coulomb(1), motion, from(not_a_number)),
                     "integrate: displacement must be finite, got nan m");

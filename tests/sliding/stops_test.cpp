@@ -26,7 +26,7 @@ int impacts(const Response& r) {
   return result;
 }
 
-/// @param digits  grazing impacts are square-root singular: only so many of the sixteen are sure
+/// @param digits  reliable digits of the sixteen: grazing impacts have a square-root singularity
 void check(const char* id, const Response& r, double tolerance, bool at_once) {
   INFO(id);
   const auto& expected = reference::outcome(id);

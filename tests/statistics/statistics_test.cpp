@@ -1,4 +1,4 @@
-// Sums over members: that they are the moments they are called, however the members come together.
+// Sums over members: they are the named moments, in whatever order the members are merged.
 #include "stickslip/statistics/tally.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t times = 11, frequencies = 5;
 
-/// What a member contributes.
+/// The values of a member.
 struct Member {
   std::array<double, times> x, v;
   std::array<double, frequencies> density;
@@ -114,7 +114,7 @@ struct Direct {
   }
 };
 
-/// Largest difference of any sum, in units of what its magnitudes add up to.
+/// Largest difference of any sum, relative to the sum of the magnitudes of its terms.
 double worst(const Tally& got, const Direct& want) {
   double result = got.count == want.tally.count && got.sums().size() == want.tally.sums().size() ? 0 : infinity;
   for (std::size_t i = 0; i < got.sums().size(); ++i) {
@@ -206,7 +206,7 @@ TEST_CASE("a row of any number of members has the moments of just those, on ever
   for (std::size_t count = 1; count <= width; ++count) {
     const std::vector<Member> some(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
     const Direct direct(some);
-    std::vector<double> x(width, not_a_number), v(width, not_a_number);  // what is past the last does not count
+    std::vector<double> x(width, not_a_number), v(width, not_a_number);  // values past the last member are ignored
     for (std::size_t i = 0; i < count; ++i) x[i] = some[i].x[0], v[i] = some[i].v[0];
     on_each_instruction_set([&](const std::string& set) {
       INFO(set << ": " << count << " members");
@@ -295,7 +295,7 @@ TEST_CASE("a tree of tallies has the same bits, in whatever order and parts its 
   }
 }
 
-TEST_CASE("a tree knows which blocks it holds", "[statistics]") {
+TEST_CASE("a tree lists the blocks that it holds", "[statistics]") {
   TallyTree tree;
   CHECK_FALSE(tree.overlaps({0, 0}));
   CHECK(tree.total().count == 0);

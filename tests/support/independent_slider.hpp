@@ -47,7 +47,7 @@ class IndependentSlider {
   std::vector<stickslip::EventKind> events{};
   bool clear = true;  // no decision so far was within round-off
 
-  // Bounds of what round-off in doubles can do, to first order.
+  // Bounds of the effect of round-off in doubles, to first order.
   Real x_error = 0, v_error = 0;  // the latter of sqrt(v^2 + wn^2 x^2)
   Real peak_error = 0, path_error = 0, input_error = 0, dissipated_error = 0, imbalance = 0;
   Real largest = 0;  // of all that must fit into a double
@@ -123,13 +123,13 @@ class IndependentSlider {
     }
   }
 
-  /// What an error of rounding of times does to the velocity here.
+  /// The effect of a rounding error in time on the velocity here.
   Real time_error() const { return round_off * scale() * duration_; }
 
  private:
   static constexpr int order = 28;
   static constexpr Real round_off = 32 * std::numeric_limits<double>::epsilon();
-  static constexpr Real least = 0x1p-1066L;  // what underflow can lose
+  static constexpr Real least = 0x1p-1066L;  // largest error from underflow
   using Series = std::array<Real, order + 1>;
   static constexpr auto one_over = [] {
     std::array<Real, 2 * order + 4> table{};
@@ -232,7 +232,7 @@ class IndependentSlider {
         terms_ = k + 1;
     }
     if (caster)
-      level_[terms_] = 0;  // beyond what matters
+      level_[terms_] = 0;  // beyond the relevant terms
     else
       std::fill_n(&level_[1], terms_, Real(0));
   }

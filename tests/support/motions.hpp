@@ -1,4 +1,4 @@
-// Ground motions, and what is asked of any response; shared by the tests.
+// Ground motions, and properties required of any response; shared by the tests.
 #pragma once
 
 #include <algorithm>
@@ -98,7 +98,7 @@ inline double difference(std::span<const double> a, std::span<const double> b) {
   return result;
 }
 
-/// The largest account of the energy ledger: what its round-off is measured by.
+/// The largest term of the energy balance, which sets the scale of its round-off.
 inline double turnover(const Energy& e) {
   return std::max({e.initial, std::abs(e.input), e.dissipated, e.kinetic, e.elastic});
 }
@@ -138,7 +138,7 @@ struct Bump {
   }
 };
 
-/// What CONTRIBUTING.md shows: friction that falls from rest to a kinetic value as the speed grows.
+/// The example of CONTRIBUTING.md: friction that falls from rest to a kinetic value as the speed grows.
 struct RateDependent {
   double at_rest, sliding, scale;
 

@@ -502,7 +502,7 @@ inline constexpr CasterWhiteRun caster_white_runs[] = {
      {55.726850229286626, 0.5881858227200961}},
 };
 
-/// What becomes of a slider under record A, from rest. The first breakaway is not counted where it is at once.
+/// The response of a slider to record A, from rest. The first breakaway is not counted if it occurs at once.
 struct Outcome {
   double displacement, velocity;  // at the end
   double peak, dissipated, sliding_distance;

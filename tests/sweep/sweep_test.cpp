@@ -1,4 +1,4 @@
-// A sweep does what `integrate` does, combination by combination.
+// A sweep gives the results of `integrate`, combination by combination.
 #include "stickslip/sweep/sweep.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ GroundMotion quake(std::uint64_t seed) {
   return {std::move(n), draw(0.002, 0.1), bits() % 4 == 0 ? Interpolation::constant : Interpolation::linear};
 }
 
-/// Levels one way and the other: alike, one-way, unlike.
+/// Levels in the two directions: equal, one-way, different.
 Coulomb block(std::mt19937_64& bits) {
   const auto level = [&] { return std::exp(std::uniform_real_distribution<double>(-4, 1.5)(bits)); };
   const double forward = bits() % 50 == 0 ? 0 : level();
@@ -94,7 +94,7 @@ Differences differences(const SweepTable& table, const std::vector<S>& sliders,
 
 }  // namespace
 
-TEST_CASE("a sweep is what integrate says of each combination, events counted", "[sweep]") {
+TEST_CASE("a sweep agrees with integrate for each combination, including the number of events", "[sweep]") {
   std::mt19937_64 bits(1);
   std::vector<Slider<Coulomb>> sliders;
   for (int i = 0; i < 50; ++i) sliders.emplace_back(block(bits));
@@ -124,7 +124,7 @@ TEST_CASE("on slopes, under vertical motion and with static friction a sweep is 
     const Mounting mounting{.slope_degrees = bits() % 2 == 0 ? std::array{0.0, 5.0, 20.0}[bits() % 3] : 0,
                             .one_way = bits() % 3 == 0};
     const double rise = bits() % 2 == 0 ? 1 + draw(0, 1) : 1;
-    // Else it would slide for ever under its own weight.
+    // Otherwise it would slide indefinitely under its own weight.
     if (law.forward() <= 1.1 * standard_gravity * std::tan(mounting.slope_degrees * std::numbers::pi / 180)) continue;
     if (rise > 1)
       sliders.push_back(Slider(StaticKinetic(law, rise * law.forward(), rise * law.backward()), mounting));
@@ -198,7 +198,7 @@ TEST_CASE("a block that is alike both ways does the same the other way under the
     }
 }
 
-TEST_CASE("what a sweep finds depends on neither the threads nor who goes along", "[sweep]") {
+TEST_CASE("the results of a sweep depend neither on the threads nor on the other sliders", "[sweep]") {
   std::mt19937_64 bits(3);
   std::vector<Slider<Coulomb>> sliders;
   for (int i = 0; i < 33; ++i) sliders.emplace_back(block(bits));

@@ -220,7 +220,7 @@ TEST_CASE("how far pulses that overlap put the distribution off", "[displacement
   }
 }
 
-TEST_CASE("DisplacementDistribution refuses what it does not cover", "[displacement_distribution]") {
+TEST_CASE("DisplacementDistribution rejects arguments that it does not cover", "[displacement_distribution]") {
   const Slider block(Coulomb(1));
   const PoissonPulses pulses(0.01, 1, 2, 100);
   const PulseSuperposition theory;

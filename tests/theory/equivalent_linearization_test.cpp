@@ -383,7 +383,7 @@ TEST_CASE("a start at time zero is answered with where it starts", "[equivalent_
   CHECK(by_gauss.predict(Coulomb(1), 1.0, {}).time.empty());
 }
 
-TEST_CASE("remarks say what the figures neglect", "[equivalent_linearization]") {
+TEST_CASE("remarks name the effects that are neglected", "[equivalent_linearization]") {
   const auto remark = [](const EquivalentLinearization& el, const auto& slider) {
     return el.predict(slider, 1.0, std::array<double, 1>{1}).remark;
   };
@@ -428,7 +428,7 @@ TEST_CASE("transition times", "[equivalent_linearization]") {
   CHECK_THROWS_WITH(transition_time(Slider<Caster>(Caster(1, 1), 2), 1.0), ContainsSubstring("without a spring"));
 }
 
-TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
+TEST_CASE("arguments that it does not cover are rejected", "[equivalent_linearization]") {
   const std::array<double, 1> one = {1};
   CHECK_THROWS_WITH(by_gauss.predict(Coulomb(1, infinity), 1.0, one),
                     ContainsSubstring("both slip levels must be finite; backward, got inf m/s^2"));
@@ -461,7 +461,7 @@ TEST_CASE("what it does not cover is refused", "[equivalent_linearization]") {
   CHECK_THROWS_AS(EquivalentLinearization({.tolerance = not_a_number}), std::invalid_argument);
   CHECK_THROWS_WITH(by_gauss.coefficients(Coulomb(1), 1, 2, 1), ContainsSubstring("less than q11 q22"));
   CHECK_THROWS_AS(by_gauss.coefficients(Coulomb(1), -1, 0, 1), std::invalid_argument);
-  // A spring that swings on for ever at this rate.
+  // A spring that would swing indefinitely at this rate.
   CHECK_THROWS_WITH(by_gauss.predict(Slider(Coulomb(1e-3), 10), 1.0, std::array<double, 1>{1e9}),
                     ContainsSubstring("reached "));
   int calls = 0;

@@ -1,7 +1,8 @@
-// The synchronised-arrival chain: what it keeps exactly, its coefficients, and simulations beside it.
+// The synchronized-arrival chain: the quantities that it preserves exactly, its coefficients, and comparisons with
+// simulations.
 //
 // The seeds are fixed. A comparison with an ensemble allows what the theory promises (said at each) and three standard
-// errors: were the seeds drawn anew, one of a theory that is off by all that it may be would fail 13 times in 10,000.
+// errors: with new seeds, a comparison of a theory whose error is the largest allowed would fail 13 times in 10,000.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,7 +81,7 @@ TEST_CASE("pairs of pulses do what a midpoint rule finds", "[pulse_chain]") {
 }
 
 TEST_CASE("rare pulses act alone: the chain becomes the superposition", "[pulse_chain]") {
-  // Exact but for the grids: amplitudes a third of sigma apart, kinks on nodes.
+  // Exact except for the grids: amplitudes a third of sigma apart, kinks on nodes.
   for (const double sigma : {0.4, 1.0, 2.5, 5.0, 12.0}) {
     CAPTURE(sigma);
     const Moments m = predict(1e-7, sigma);
@@ -315,7 +316,7 @@ TEST_CASE("levels and amplitudes that differ both ways: the mirror image has the
 }
 
 TEST_CASE("rare pulses that drift: a compound Poisson sum, from the superposition", "[pulse_chain]") {
-  // Exact but for the grids: 3 %, for the second level need not be a node.
+  // Exact except for the grids: 3 %, because the second level need not be a node.
   PoissonOptions uniform;  // from -sigma to 2 sigma
   uniform.quantile = PoissonPulses::each([](double u) { return 3 * u - 1; });
   for (const double sigma : {0.6, 2.0, 6.0})
@@ -437,7 +438,7 @@ TEST_CASE("the peak is that of a walk of slips", "[pulse_chain]") {
 
 TEST_CASE("the peak in the four events is within 12 % of an ensemble's", "[pulse_chain][statistics]") {
   // docs/pulse_chain.md has the table. Between the ensemble's quantiles of the probability -+ three of its standard
-  // errors: drawn anew, one in 400 comparisons fails if the theory is off by all that it may be.
+  // errors: with new seeds, one in 400 comparisons fails if the error of the theory is the largest allowed.
   for (const std::string_view name : PoissonPulses::events())
     for (const double mu : {0.05, 0.2, 0.5}) {
       const PoissonPulses event = PoissonPulses::event(name);
@@ -574,7 +575,7 @@ TEST_CASE("PulseChain says where it does not hold", "[pulse_chain]") {
   CHECK(m.displacement_variance.value[0] == 0);
 }
 
-TEST_CASE("PulseChain refuses what it does not cover", "[pulse_chain]") {
+TEST_CASE("PulseChain rejects arguments that it does not cover", "[pulse_chain]") {
   const PulseChain chain;
   const auto refused = [&](const PulseShape& shape, const char* why) {
     CHECK_THROWS_WITH(chain.predict(block(1), PoissonPulses(1, 1, 1, 10, {.shape = shape}), late),

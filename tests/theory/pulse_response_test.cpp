@@ -1,4 +1,5 @@
-// What one pulse does: the closed forms of thesis 5.2 as facts of the motion, its limits, and the linear system's.
+// The response to one pulse: the closed forms of thesis 5.2 as facts of the motion, its limits, and the linear
+// system's.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -197,7 +198,7 @@ TEST_CASE("the damping of figure 5.3 has the block's rms velocity", "[pulse_resp
   }
 }
 
-TEST_CASE("pulse_response refuses what is no pulse", "[pulse_response]") {
+TEST_CASE("pulse_response rejects arguments that are not a pulse", "[pulse_response]") {
   using Catch::Matchers::ContainsSubstring;
   const double nan = std::nan("");
   CHECK_THROWS_WITH(pulse_response(block(1), nan, 1), "pulse_response: b must be finite, got nan m/s^2");

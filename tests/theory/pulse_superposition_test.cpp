@@ -1,4 +1,4 @@
-// Superposition of pulses: independent numbers, limits, scaling, and what other laws and shapes add.
+// Superposition of pulses: independent values, limits, scaling, and the effects of other laws and shapes.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -218,7 +218,7 @@ TEST_CASE("from rest: rates are derivatives, and late moments are lines beside t
 
 TEST_CASE("from rest: rare pulses follow an ensemble's at every time", "[pulse_superposition][statistics]") {
   // Overlaps matter by a few times lambda dt = 0.003: 3 %. Three standard errors on top, 80 comparisons of fixed seeds:
-  // drawn anew one of them would fail one time in five if each were at its bound.
+  // with new seeds, one of them would fail one time in five if each were at its bound.
   for (const double sigma : {1.0, 3.0}) {
     const Slider slider(Coulomb(1, 1.6));
     const PoissonPulses pulses(3e-3, 1, sigma, 8);
@@ -246,7 +246,7 @@ TEST_CASE("from rest: rare pulses follow an ensemble's at every time", "[pulse_s
 
 TEST_CASE("unequal levels and amplitudes of nonzero mean drift", "[pulse_superposition][statistics]") {
   // Rare pulses: superposition becomes right, and the ensemble says so. Three standard errors, five comparisons of
-  // fixed seeds: drawn anew they would fail one time in 75. What overlaps do at lambda Dt = 1e-3 is a part in 200.
+  // fixed seeds: with new seeds, they would fail one time in 75. What overlaps do at lambda Dt = 1e-3 is a part in 200.
   const PoissonPulses plain(1e-3, 1, 3, 4e4);
   PoissonOptions exponential;  // one-sided amplitudes of mean square 1
   exponential.quantile = PoissonPulses::each([](double u) { return -std::log1p(-u) / std::numbers::sqrt2; });
@@ -432,7 +432,7 @@ TEST_CASE("whether a caster escapes is asked of all the excitation, not of the t
   const PoissonPulses strong(0.5, 1, 2, 600);
   CHECK_THROWS_WITH(PulseSuperposition().predict(Slider(Caster(1, 3)), strong, std::vector<double>{1.0}),
                     ContainsSubstring("its rms displacement exceeds four times"));
-  // Times after the end are asked for as well.
+  // Times after the end are allowed, too.
   const PoissonPulses early(0.5, 1, 2, 30);
   CHECK_NOTHROW(PulseSuperposition().predict(Slider(Caster(1, 10)), early, std::vector<double>{30.0}));
   CHECK_THROWS_WITH(PulseSuperposition().predict(Slider(Caster(1, 10)), early, std::vector<double>{6e3}),
@@ -448,7 +448,7 @@ TEST_CASE("where overlaps cannot be looked into the remark says so", "[pulse_sup
 
 namespace {
 
-/// A law that counts how often it is asked.
+/// A law that counts its evaluations.
 struct Counted {
   static inline std::size_t asked = 0;
   template <class T>
@@ -507,7 +507,7 @@ TEST_CASE("the largest |x| of Brownian motion", "[pulse_superposition]") {
   CHECK_THROWS_WITH(peak_from_growth(1, -1, 0.5), ContainsSubstring("duration"));
 }
 
-TEST_CASE("PulseSuperposition refuses what it does not cover", "[pulse_superposition]") {
+TEST_CASE("PulseSuperposition rejects arguments that it does not cover", "[pulse_superposition]") {
   const PoissonPulses pulses(0.5, 1, 2, 100);
   CHECK_THROWS_WITH(PulseSuperposition().predict(Slider(Coulomb(1), 2), pulses, late), ContainsSubstring("spring"));
   CHECK_THROWS_WITH(PulseSuperposition().predict(block(1), pulses, std::vector<double>{-1}),

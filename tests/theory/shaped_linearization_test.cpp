@@ -108,7 +108,7 @@ TEST_CASE("a fit says by how much it misses its spectrum", "[shaping_filter]") {
   const Spectrum band = Spectrum::band_pass(1, 2, 4);
   CHECK(misfit(band, 8) < misfit(band, 6));
   CHECK(misfit(band, 6) < misfit(band, 4));
-  // Frequency and level are no more than units.
+  // Frequency and level only set the units.
   CHECK(relative(misfit(Spectrum::band_pass(1e-6, 2e3, 4e3), 8), misfit(band, 8)) < 1e-3);
 }
 
@@ -260,7 +260,7 @@ TEST_CASE("stationary linearization is where the general one ends", "[shaped_lin
       if (wn > 0) CHECK(relative(late.displacement_variance.value[0], std::pow(p.displacement_std, 2)) < 1e-8);
       if (wn > 0) CHECK(apart(by_gauss.predict(slider, spectrum, std::array<double, 1>{200}), late) < 1e-7);
     }
-  // The same for what only the general one covers.
+  // The same for cases that only the general equations cover.
   const std::array<double, 1> long_after = {300};
   const auto ends = [&](const auto& slider, const ShapedNoise& noise) {
     return apart(by_gauss.predict(slider, noise, long_after), by_gauss.stationary(slider, noise));

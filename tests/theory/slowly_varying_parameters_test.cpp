@@ -1,4 +1,4 @@
-// Slowly varying parameters: the coefficients, every branch, where they are stable, and what transients come to.
+// Slowly varying parameters: the coefficients, every branch and its stability, and the final states of transients.
 #include "stickslip/theory/slowly_varying_parameters.hpp"
 
 #include <cmath>
@@ -25,7 +25,7 @@ const double half = std::sqrt(0.5);  // natural frequency of wn^2 = 0.5 (rad/s)^
 
 double relative(double value, double expected) { return std::abs(value - expected) / std::abs(expected); }
 
-// ---- laws of one's own, which say nothing of their work
+// ---- user-defined laws, which do not state their work
 
 struct OwnCaster {
   double slip_level, reach;
@@ -145,7 +145,7 @@ TEST_CASE("rolling resistance of a caster is Coulomb friction beside its own", "
       const double sum = S(Caster(1, reach)) + S(Coulomb(0.3)), whole = S(Caster(1, reach, 0.3));
       CHECK(std::abs(whole - sum) <= 4e-15 * std::abs(sum));
     }
-  // On a spring in resonance it holds what a caster without it does not.
+  // On a spring in resonance, it limits a motion that a caster without it does not limit.
   const Slider plain(Caster(1, 0.5), 2), rolling(Caster(1, 0.5, 0.3), 2);
   CHECK(std::isfinite(Theory(plain).min_amplitude(0.3)));
   CHECK(std::isinf(Theory(rolling).min_amplitude(0.3)));  // B < 4 rolling / pi
@@ -435,7 +435,7 @@ TEST_CASE("the least amplitude is where friction's first harmonic is B", "[svp]"
   CHECK(svp.min_amplitude(1e-6) == Approx(2 * 2 * 0.3 / 1e-6).epsilon(1e-12));
 }
 
-// ---- what holds for all
+// ---- properties of all solutions
 
 TEST_CASE("response and frequency are each other's inverse", "[svp]") {
   std::mt19937_64 bits(1);
@@ -577,7 +577,7 @@ TEST_CASE("at resonance the amplitude grows in proportion to time", "[svp]") {
 }
 
 TEST_CASE("a motion that B cannot keep up comes to rest, in a time that is known", "[svp]") {
-  // Far off resonance nothing drives: dA/dt = -4 a / (2 pi omega) until A = 0.
+  // Far off resonance the force has no effect: dA/dt = -4 a / (2 pi omega) until A = 0.
   const Theory svp(Coulomb(1));
   const double stops = 2 * pi * 3 / 4 * 0.01;
   const std::vector<double> times{0, stops / 2, stops * 0.99, stops * 1.01, 100 * stops};
@@ -633,7 +633,7 @@ TEST_CASE("from below the unstable solution a caster comes to rest, from above i
   // Started larger still, it turns about the stable solution so widely that it passes the center, where friction is.
   const auto wide = svp.response(1, 0.5)[1];
   CHECK(svp.settles_on(1, 0.5, 1.5 * wide.amplitude, wide.phase).amplitude == 0);
-  // On a spring at resonance: for ever outward, or to rest.
+  // On a spring at resonance: growth without bound, or rest.
   const Theory spring(Slider(Caster(1, 1), 1));
   const auto resonant = spring.response(1, 1);
   CHECK(spring.settles_on(1, 1, 1.01 * resonant[0].amplitude, resonant[0].phase).amplitude == infinity);
@@ -667,7 +667,7 @@ TEST_CASE("unequal levels on a spring are those of their mean about another plac
   const Slider slider(Coulomb(1, 1.6), 0.7);
   const double exact = orbits(slider, 10.4, 1.1).at(0).amplitude;
   CHECK(unequal.response(10.4, 1.1).at(0).amplitude == Approx(exact).epsilon(0.007));
-  // It begins where it lies, at x = 0, and comes to swing about the center.
+  // It begins at rest at x = 0, and ends in oscillations about the center.
   const HarmonicMotion motion(10.4, 1.1, 2000);
   const std::vector<double> times{0, 1900, 1900 + pi / 1.1};
   const Moments m = unequal.predict(motion, times);
@@ -678,7 +678,7 @@ TEST_CASE("unequal levels on a spring are those of their mean about another plac
 
 // ---- errors
 
-TEST_CASE("SlowlyVaryingParameters names what it refuses", "[svp][errors]") {
+TEST_CASE("SlowlyVaryingParameters names the arguments that it rejects", "[svp][errors]") {
   CHECK_THROWS_WITH(Theory(Coulomb(1, 1.6)),
                     "SlowlyVaryingParameters: the law must resist both ways alike, or the mass drifts; got 1 m/s^2 "
                     "forward, 1.6 m/s^2 backward at x = 0");

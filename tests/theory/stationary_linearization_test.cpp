@@ -113,7 +113,7 @@ TEST_CASE("a band without an upper edge is the limit of broad ones", "[stationar
   CHECK(method.predict(Coulomb(3), Spectrum::band_pass(2, 0, 1e12)).damping == Approx(white.damping).epsilon(1e-10));
 }
 
-TEST_CASE("quadrature finds what the closed form says", "[stationary_linearization]") {
+TEST_CASE("quadrature agrees with the closed form", "[stationary_linearization]") {
   for (const auto& [low, width] :
        {std::pair{0.0, 0.4}, {0.01, 2.0}, {1.0, 0.32}, {2.0, 2.0}, {1e-3, 1e3}, {50.0, 3.0}}) {
     CAPTURE(low, width);
@@ -304,7 +304,7 @@ TEST_CASE("from rest the linear system comes to its stationary velocity", "[stat
   // The displacement keeps the ground velocity that it began with, over zeta: more than (4.45) has.
   const double offset = 2 * (1 / band - 1 / (2 * band)) / (p.damping * p.damping);
   CHECK(p.transient(std::array{1e6}).displacement_variance.value[0] ==
-        Approx(std::pow(p.displacement_std, 2) + offset).epsilon(1e-5));  // what is left falls as 1/t
+        Approx(std::pow(p.displacement_std, 2) + offset).epsilon(1e-5));  // the rest decreases as 1/t
 }
 
 TEST_CASE("from rest: early, late, and how the moments hang together", "[stationary_linearization]") {
@@ -353,7 +353,7 @@ TEST_CASE("from rest under white noise it is the exact answer", "[stationary_lin
 }
 
 TEST_CASE("the linear system of an ensemble is the one that was predicted", "[stationary_linearization]") {
-  // Figures 4.4 and 4.6. Seed fixed; drawn anew it would fail one time in 30: 12 comparisons within three standard
+  // Figures 4.4 and 4.6. Seed fixed; with a new seed it would fail one time in 30: 12 comparisons within three standard
   // errors, each off 27 times in 10,000. The lines of the spectrum are 0.0016 apart, a tenth of what would be seen.
   const double band = 20 / (pi * pi);
   const Spectrum spectrum = Spectrum::band_pass(1, band, 2 * band);
@@ -378,7 +378,7 @@ TEST_CASE("the linear system of an ensemble is the one that was predicted", "[st
 TEST_CASE("linearization is right of the velocity, and wrong of the displacement",
           "[stationary_linearization][statistics]") {
   // Thesis 4.5, figures 4.4, 4.6: velocities within 10 %, and a displacement variance that grows where none is
-  // predicted. What is asserted is off by twenty standard errors and more: no seed would fail it.
+  // predicted. The asserted differences are twenty standard errors or more: no seed would fail.
   const double band = 20 / (pi * pi);
   const Spectrum spectrum = Spectrum::band_pass(1, band, 2 * band);
   const StationaryPrediction p = method.predict(Coulomb(1), spectrum);
@@ -392,7 +392,7 @@ TEST_CASE("linearization is right of the velocity, and wrong of the displacement
   CHECK_THAT(p.remark, ContainsSubstring("drifts"));
 }
 
-TEST_CASE("what stationary linearization does not cover is refused", "[stationary_linearization]") {
+TEST_CASE("arguments that stationary linearization does not cover are rejected", "[stationary_linearization]") {
   const Spectrum band = Spectrum::band_pass(1, 2, 4);
   CHECK_THROWS_WITH(method.predict(Coulomb(1, 2), band),
                     ContainsSubstring("same both ways") && ContainsSubstring("2 m/s^2 backward"));

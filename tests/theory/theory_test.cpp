@@ -69,7 +69,7 @@ static_assert(Theory<SlowlyVaryingParameters, Block, HarmonicMotion> &&
               Theory<SlowlyVaryingParameters, Cart, HarmonicMotion> &&
               Theory<SlowlyVaryingParameters, Own, HarmonicMotion>);
 
-// What the types alone exclude does not compile.
+// Combinations that the types exclude do not compile.
 static_assert(!Theory<WhiteNoise, Cart, double> && !Theory<StationaryLinearization, Cart, Spectrum> &&
               !Theory<PulseChain, Cart, PoissonPulses> && !Theory<PulseChain, Block, Spectrum> &&
               !Theory<EquivalentLinearization, Block, HarmonicMotion> &&

@@ -254,8 +254,8 @@ TEST_CASE("without friction no stationary velocity: its variance and the growth 
 }
 
 TEST_CASE("ensembles with a level each way spread and drift so", "[white_noise_theory][statistics]") {
-  // Held loads of step dt are wrong by O(dt), which halving shows, in the same motions. Fixed seed; drawn anew, one of
-  // five checks within three standard errors would fail 1 time in 75.
+  // Held loads of step dt are wrong by O(dt), which halving shows, in the same motions. Fixed seed; with a new seed,
+  // one of five checks within three standard errors would fail 1 time in 75.
   const Coulomb law(1, 2);
   const auto run = [&](double dt) {
     EnsembleOptions options;
@@ -295,7 +295,7 @@ TEST_CASE("without friction, (3.41) to (3.43)", "[white_noise_theory]") {
                  std::exp(-4 / (4 * 0.3 * pi * 2)) / std::sqrt(4 * pi * 0.3 * pi * 2)) < 1e-14);
 }
 
-TEST_CASE("nothing but a^2 t / S0 matters", "[white_noise_theory]") {
+TEST_CASE("the result depends on a^2 t / S0 alone", "[white_noise_theory]") {
   for (const auto& [a, s0] : {std::pair{3.0, 0.2}, std::pair{1e-40, 1e-50}, std::pair{1e30, 1e40}}) {
     const double time = s0 / a / a, velocity = s0 / a, displacement = velocity * time;
     const WhiteNoise noise = WhiteNoise::coulomb(a, s0);
@@ -325,7 +325,7 @@ TEST_CASE("a start at rest is answered with zeros", "[white_noise_theory]") {
   CHECK(unit.absolute_moment(2, 0) == 0);
 }
 
-TEST_CASE("what white noise does not cover is refused", "[white_noise_theory]") {
+TEST_CASE("arguments that the white-noise theory does not cover are rejected", "[white_noise_theory]") {
   CHECK_THROWS_WITH(WhiteNoise::coulomb(1, 0.0), ContainsSubstring("s0 must be positive and finite, got 0 m^2/s^3"));
   CHECK_THROWS_AS(WhiteNoise::coulomb(1, not_a_number), std::invalid_argument);
   CHECK_THROWS_AS(WhiteNoise::coulomb(1, -1.0), std::invalid_argument);

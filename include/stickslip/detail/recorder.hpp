@@ -36,7 +36,7 @@ concept FlowWithDamper = requires(const Flow& flow, double time) {
 };
 
 /// Accumulates the sums over slips and stores the events.
-/// @tparam in_steps  slips come in steps, possibly so many per segment that they must report progress themselves
+/// @tparam in_steps  slips come in steps, possibly enough per segment that they must report progress themselves
 /// @tparam loaded    normal force may vary, and there may be stops: the event loop supplies the work against friction
 template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>, bool loaded = false>
 class Recorder {

@@ -23,7 +23,7 @@ struct Member {
   M motion;
 };
 
-/// A source of members: (seed, index) names one for ever.
+/// A source of members: (seed, index) always names the same one.
 ///
 /// `time_base()` is what all ground motions have in common, or nothing where their durations differ: then there are no
 /// statistics by time. `configuration()` tells all that the members depend on, so that only what belongs together is

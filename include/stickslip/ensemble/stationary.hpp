@@ -25,7 +25,7 @@ struct Stationary {
   /// first. NaN with fewer than four times.
   Estimate velocity_trend;
   /// Why the averages are not shown to be stationary values; empty where nothing speaks against it. A trend speaks
-  /// against it that is so many of its errors from 0, either way, as Student's t of members - 2 degrees of freedom
+  /// against it that is this many of its errors from 0, either way, as Student's t of members - 2 degrees of freedom
   /// exceeds with probability `false_alarm`: 3.29 of many members. Where the halves are independent that error is twice
   /// the one of velocity_variance: a linear drift stays unseen, half of the time, until its ends are 6.6 standard
   /// errors off the average. A variance that is the same in both halves and changes within them is not seen. Fewer than

@@ -62,8 +62,8 @@ struct GaussianOptions {
 ///
 /// Motions of one whole period have no mean (see `GaussianOptions::zero_frequency` and `period`).
 ///
-/// Immutable; motions may be made on any number of threads at once. The same (seed, member) names the same motion for
-/// ever: phases are rows of random numbers (random.hpp), one number a line. Bits are the same on machines of the same
+/// Immutable; motions may be made on any number of threads at once. The same (seed, member) always names the same
+/// motion: phases are rows of random numbers (random.hpp), one number a line. Bits are the same on machines of the same
 /// instruction set with the same FFTW; elsewhere the motions agree to round-off.
 ///
 /// Reference: M. Shinozuka, C.-M. Jan, Digital simulation of random processes and its applications, J. Sound Vib. 25

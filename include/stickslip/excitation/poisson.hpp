@@ -129,8 +129,8 @@ class PoissonPulses {
   double duration() const noexcept { return duration_; }
   const Options& options() const noexcept { return options_; }
 
-  /// One motion, from 0 to `duration()`: values held between uneven times, exact. The same (seed, member) gives the
-  /// same motion for ever.
+  /// One motion, from 0 to `duration()`: values held between uneven times, exact. The same (seed, member) always
+  /// gives the same motion.
   ///
   /// Where no pulse acts the acceleration is exactly zero, and elsewhere it is the sum of the acting pulses to about
   /// one rounding: the sum is carried along with the errors of its additions, and set to zero when the last pulse ends.
@@ -161,7 +161,7 @@ class PoissonPulses {
   /// @param t  [s], finite and at least 0
   double ground_displacement_variance(double t) const;
 
-  /// All that the motions depend on, as one JSON object. A distribution of amplitudes is told by what it does: the
+  /// All that the motions depend on, as one JSON object. A distribution of amplitudes is identified by its values: the
   /// hash of 1024 of its quantiles, each as a float.
   std::string configuration() const;
 

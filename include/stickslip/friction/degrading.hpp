@@ -17,8 +17,8 @@
 namespace stickslip {
 
 /// Friction whose slip level depends on how far the slider has slid, forward and backward alike: a(s), linear between
-/// knots (s_i, a_i) and constant before the first and after the last. s is State::sliding_distance [m]. At rest it
-/// holds the level that it has come to.
+/// knots (s_i, a_i) and constant before the first and after the last. s is State::sliding_distance [m]. At rest
+/// the level stays at its present value.
 ///
 /// Between two knots, in a slip one way, x'' = p(t) - sgn(x') (a + k (s - s_0)) with k = (a_(i+1) - a_i) / (s_(i+1) -
 /// s_i): the motion of constant friction with a spring k, which pushes away where the level falls. It grows or decays

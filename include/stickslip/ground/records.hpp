@@ -35,8 +35,8 @@ std::vector<RecordFormat> record_formats();
 /// within, it is still that format.
 std::optional<RecordFormat> record_format(std::string_view content);
 
-/// Reads one component of a strong-motion record; its format is told by the content, never by the file's name. See
-/// `record_formats` for the list.
+/// Reads one component of a strong-motion record; its format is recognized by the content, never by the file's name.
+/// See `record_formats` for the list.
 ///
 /// Columns of numbers are acceleration alone, with `dt` from the options, or seconds and one or several accelerations,
 /// parted by a comma, a semicolon, a tab or blanks. Commas are decimal points where columns are parted by something

@@ -7,7 +7,7 @@
 //
 // Coefficients are of any scalar with arithmetic and those functions: doubles, or several side by side (lanes).
 //
-// At hand: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent; a whole one also of 0), sin, cos,
+// Available: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent; a whole one also of 0), sin, cos,
 // sinh, cosh, tanh, sech.
 #pragma once
 

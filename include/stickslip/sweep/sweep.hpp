@@ -32,7 +32,7 @@ struct SweepOptions {
   Polarity polarity = Polarity::both;
   bool settle = false;  ///< continue under zero ground acceleration after the last sample until the slider rests
   Contact contact = Contact::flight;  ///< what a slider does where the ground falls away from under it
-  unsigned threads = 0;               ///< at most so many; 0: as many as the machine has
+  unsigned threads = 0;               ///< maximum number; 0: as many as the machine has
   std::function<void(const SweepProgress&)> progress{};  ///< called ten times a second; may throw to stop the work
 };
 

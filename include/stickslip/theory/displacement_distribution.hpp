@@ -11,7 +11,7 @@
 
 namespace stickslip::detail {
 
-/// So many slips are expected, as likely of any length between two bounds.
+/// An expected number of slips, as likely of any length between two bounds.
 struct SlipPiece {
   double from, to;  ///< bounds in either order, [m]
   double count;     ///< expected number of slips

@@ -16,7 +16,7 @@
 
 namespace stickslip::theory {
 
-/// The synchronised-arrival chain: Coulomb friction under Poisson pulses, without simulation. The library's usual pulse
+/// The synchronized-arrival chain: Coulomb friction under Poisson pulses, without simulation. The library's usual pulse
 /// theory for Coulomb friction.
 ///
 /// Pulses may begin at the nodes of a lattice alone, as many as Poisson's law gives to each: ground acceleration is

@@ -158,7 +158,7 @@ Ride ride(const Slider<Law>& slider, const PulseShape& shape, double b, double d
          [&](double now, const Ride& there) { knot(begin + now, there); });
   }
   const double end = shape.length() * dt;
-  // What round-off leaves of a velocity would take for ever to stop where the slip level is zero.
+  // What round-off leaves of a velocity would never stop where the slip level is zero.
   if (std::abs(ride.state.velocity) <= rounding) ride.state = State::at(ride.state.displacement, 0);
   knot(end, ride);
   if (const double more = coast(slider, ride); more > 0) knot(end + more, ride);

@@ -170,9 +170,9 @@ class SlowlyVaryingParameters {
   /// always meets, and (C/A - omega^2) (C' - omega^2) + S S'/A > 0, (2.19).
   ///
   /// Rest, A = 0, is not among them: it is there for every omega; see `rests`. At resonance, omega = wn, no amplitude
-  /// is stable: Coulomb friction lets it grow for ever where B exceeds 4 a / pi, the caster from its unstable solution
-  /// on. Without friction there is the one amplitude B / |omega^2 - wn^2|, which is neutral and counts as stable. At a
-  /// fold, to round-off, where two solutions meet, both, one or none of them.
+  /// is stable: Coulomb friction lets it grow indefinitely where B exceeds 4 a / pi, the caster from its unstable
+  /// solution on. Without friction there is the one amplitude B / |omega^2 - wn^2|, which is neutral and counts as
+  /// stable. At a fold, to round-off, where two solutions meet, both, one or none of them.
   ///
   /// @param B      amplitude of the force per unit mass, and so of the ground acceleration [m/s^2], positive and finite
   /// @param omega  [rad/s], positive and finite
@@ -226,7 +226,7 @@ class SlowlyVaryingParameters {
                               const std::function<void()>& progress = {}) const;
 
   /// The solution that a motion comes to in the end: one of `response`, or rest (amplitude 0), or, at resonance, an
-  /// infinite amplitude. Without friction, the one about which it turns for ever.
+  /// infinite amplitude. Without friction, the one about which it turns indefinitely.
   ///
   /// The averaged equations contract areas, by (S' + S/A) / (2 omega), so that they have no closed orbits, and a motion
   /// which turns about a stable solution once, with all others outside, can't leave it.

@@ -67,7 +67,7 @@ void bind_degrading(py::module_& m) {
 
 a(s), a = mu g the slip level: friction force per unit mass where the normal force is g. s is how far the slider has slid,
 forward and backward alike: `State.sliding_distance`. The level is linear in s between knots, and constant before the first
-and after the last. At rest it holds the level that it has come to.
+and after the last. At rest, the level stays at its present value.
 
 On a one-way slider this is Newmark's block whose yield acceleration falls with displacement, as that of a slope whose soil
 loses strength.

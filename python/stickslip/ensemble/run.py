@@ -110,7 +110,7 @@ def run_ensemble(
     ConvergenceError
         A member does not settle; names it.
     EnsembleError
-        A part failed in the executor, and parts that had not begun are cancelled; or the checkpoint
+        A part failed in the executor, and parts that had not begun are canceled; or the checkpoint
         could not be written when the run ended or was interrupted. `partial` has the members that
         are done.
     OSError

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double unknown = -999;
 
-/// Columns of a Fortran format as `Format=(8F10.5)`, or 0.
+/// Number of columns in a Fortran format such as `Format=(8F10.5)`, or 0.
 std::size_t stated_width(std::string_view line) {
   std::string_view rest = after(after(line, "Format="), "(");
   while (!rest.empty() && is_digit(rest[0])) rest.remove_prefix(1);
@@ -26,7 +26,7 @@ std::size_t stated_width(std::string_view line) {
   return width;
 }
 
-/// The number that starts a line as `100 Real-header values follow on 20 lines`.
+/// The number at the start of a line such as `100 Real-header values follow on 20 lines`.
 std::size_t leading_count(const Reader& reader, std::string_view line, const std::string& what) {
   std::string_view rest = trim(line);
   const std::optional<double> count = take_number(rest);
@@ -84,7 +84,7 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
         channel.name = squeeze(code.substr(0, code.find('.')));
         channel.orientation = seed_orientation(channel.name);
       }
-    // Integer 54: an azimuth from 1, or up and down. 0 is found where it is not known.
+    // Integer 54: an azimuth from 1, or a code for up or down. Some files hold 0 where it is unknown.
     if (channel.orientation.empty() && !azimuth_of(channel.name) && integer.size() > 53) {
       const double sensor = integer[53];
       if (sensor >= 1 && sensor <= 360) channel.orientation = orientation_at(sensor);
@@ -92,7 +92,7 @@ std::vector<Channel> read_cosmos(const Lines& lines) {
     }
     channel.title = joined({event, station, channel.name});
 
-    // Velocity and displacement may follow, with a header of their own or without.
+    // Velocity and displacement may follow, with or without their own header.
     while (has(reader.peek(), " pts")) {
       line = reader.line("samples");
       const std::size_t samples = leading_count(reader, line, "pts");

@@ -17,7 +17,7 @@ bool is_spectra(std::string_view line) { return has(line, "response") && has(lin
 bool is_uncorrected(std::string_view line) { return has(line, "uncorrected accelerogram data"); }
 bool is_end(std::string_view line) { return trim(line).starts_with("/&") || has(line, "end of data"); }
 
-/// Columns of a Fortran format as `(8f10.6)`, or 0.
+/// Number of columns in a Fortran format such as `(8f10.6)`, or 0.
 std::size_t stated_width(std::string_view line) {
   const std::size_t open = line.rfind('(');
   std::string_view rest = open == std::string_view::npos ? std::string_view() : line.substr(open + 1);
@@ -52,7 +52,7 @@ void set_unit(Channel& channel, const std::string& unit) {
     for (double& n : channel.acceleration) n /= 10;
 }
 
-/// What the line of a channel says of it: `Chan  1:  90 Deg   Location: ...`.
+/// The description in the line of a channel: `Chan  1:  90 Deg   Location: ...`.
 std::string orientation_of(const Lines& text) {
   for (std::string_view line : text)
     if (same(trim(line).substr(0, 4), "chan")) {
@@ -79,7 +79,7 @@ std::vector<Channel> read_csmip(const Lines& lines) {
       throw std::invalid_argument(
           "a CSMIP V3 file holds response and Fourier spectra, not an acceleration history; read the V1 or V2 file");
     const bool corrected = !is_uncorrected(reader.peek());
-    reader.done();  // goes past blank lines
+    reader.done();  // skips blank lines
     const Lines text = reader.block(corrected ? 25 : 13, corrected ? "heading of 25 lines" : "heading of 13 lines");
     const std::size_t heading = reader.last() + 1 - text.size();
     if (!has(text[0], "corrected accelerogram"))

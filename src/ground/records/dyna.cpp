@@ -1,4 +1,4 @@
-// ESM and ITACA: the DYNA header, one line a key.
+// ESM and ITACA: the DYNA header, one key per line.
 #include "ground/records/formats.hpp"
 #include "ground/records/reader.hpp"
 
@@ -16,7 +16,7 @@ bool is_header(std::string_view line) {
   return line.find(':') != std::string_view::npos && !line.empty() && !is_digit(line[0]) && !is_sign(line[0]);
 }
 
-/// The line with a key, or the number of lines.
+/// Index of the line with a key, or the number of lines.
 std::size_t find_key(const Lines& lines, std::string_view key) {
   for (std::size_t i = 0; i < lines.size() && (is_header(lines[i]) || trim(lines[i]).empty()); ++i)
     if (same(trim(before(lines[i], ":")), key)) return i;

@@ -30,7 +30,7 @@ constexpr Format formats[] = {
     {{"one column of acceleration", "header, or given", "given", "", ".txt"}, is_column, read_table},
     {{"two columns or more, seconds and acceleration", "header, or given", "from the times", "", ".csv, .txt"},
      is_table,
-     read_table},  // last: it takes whatever has a number
+     read_table},  // last: it accepts any file with a number
 };
 
 }  // namespace

@@ -53,14 +53,14 @@ struct Format {
   std::vector<Channel> (*read)(const Lines&);
 };
 
-/// The names of all, for a message.
+/// The names of all formats, for a message.
 std::string known_formats();
 
 /// The format of a file.
-/// @throws std::invalid_argument  none is known
+/// @throws std::invalid_argument  if no format is recognized
 const Format& recognize(const Lines& lines);
 
-/// Where a SEED channel points, as HNE: its last letter where that is a direction, or nothing.
+/// The direction of a SEED channel such as HNE: its last letter if that is a direction, otherwise nothing.
 std::string seed_orientation(std::string_view code);
 
 }  // namespace stickslip::records

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t header_lines = 17;
 
-/// What a line of the header says after its label.
+/// The text after the label of a header line.
 std::string_view value(const Lines& lines, std::string_view label, std::size_t& line) {
   for (line = 0; line < header_lines; ++line)
     if (same(lines[line].substr(0, label.size()), label)) return trim(lines[line].substr(label.size()));

@@ -1,4 +1,4 @@
-// Reads a record file from line to line.
+// Reads a record file line by line.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace stickslip::records {
 
-/// Reads on from line to line.
+/// A cursor over the lines of a file.
 class Reader {
  public:
   explicit Reader(const Lines& lines) : lines_(lines) {}
 
-  /// The next line that is not blank; `what` is said to be missing where there is none.
+  /// The next line that is not blank; if there is none, the error says that `what` is missing.
   std::string_view line(const std::string& what) {
     if (done()) throw std::invalid_argument("the file ends before its " + what);
     return lines_[at_++];
   }
 
-  /// The next `count` lines, as they stand.
+  /// The next `count` lines, unchanged.
   Lines block(std::size_t count, const std::string& what) {
     if (count > lines_.size() - at_) throw std::invalid_argument("the file ends within its " + what);
     const auto first = lines_.begin() + static_cast<std::ptrdiff_t>(at_);
@@ -51,14 +51,14 @@ class Reader {
     return at_ == lines_.size();
   }
 
-  /// Refuses to go on from a line that should not be there.
+  /// Rejects the file if lines follow.
   void require_end(std::size_t samples) {
     if (!done()) refuse_line(at_, "more than the " + std::to_string(samples) + " samples the header states");
   }
 
   std::string_view peek() { return done() ? std::string_view() : lines_[at_]; }
 
-  /// Index of the line last taken.
+  /// Index of the last line read.
   std::size_t last() const { return at_ - 1; }
 
  private:

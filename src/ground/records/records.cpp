@@ -90,7 +90,7 @@ Lines split(std::string_view text) {
   return lines;
 }
 
-// ---- what the caller asked for
+// ---- the caller's request
 
 [[noreturn]] void refuse_choice(const std::vector<Channel>& channels, const std::string& wanted) {
   constexpr std::size_t longest = 12;
@@ -102,7 +102,7 @@ Lines split(std::string_view text) {
   throw std::invalid_argument("select one component by name or number, available: " + known + "; got " + quote(wanted));
 }
 
-/// Those that are wanted: all where `wanted` is empty, otherwise the one of that name or number.
+/// The requested ones: all if `wanted` is empty, otherwise the one with that name or number.
 std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wanted) {
   if (wanted.empty()) return channels;
   std::size_t matches = 0, index = 0;
@@ -125,13 +125,13 @@ std::vector<Channel> choose(std::vector<Channel> channels, const std::string& wa
 /// A unit of acceleration and how many m/s^2 it is.
 using Unit = std::pair<std::string_view, double>;
 
-/// The unit of that name, however it is written.
+/// The unit with that name, in any spelling.
 Unit unit_named(std::string_view name) {
   static constexpr Unit units[] = {
       {"g", standard_gravity}, {"m/s^2", 1},       {"cm/s^2", 0.01},   {"gal", 0.01},
       {"mm/s^2", 0.001},       {"ft/s^2", 0.3048}, {"in/s^2", 0.0254},
   };
-  // Every way to write a unit is brought to the one in the table.
+  // Every spelling of a unit is reduced to the one in the table.
   constexpr std::size_t longest = 32;  // the names below with room to spare
   std::string unit;
   for (const char c : name)
@@ -171,7 +171,7 @@ double step(std::optional<double> stated, std::optional<double> given) {
   return stated ? *stated : *given;
 }
 
-/// Refuses a time step over ten times the median one.
+/// Rejects a time step more than ten times the median one.
 void refuse_gaps(const GroundMotion& motion) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < motion.segments(); ++i) steps.push_back(motion.segment(i).duration);
@@ -207,7 +207,7 @@ RecordComponent component_of(Channel channel, const std::string& name, const Rec
           std::move(units)};
 }
 
-/// All that are wanted, of what a file holds.
+/// All requested components of a file.
 std::vector<RecordComponent> parse(std::string content, const std::string& file, const RecordOptions& options,
                                    bool only_one) {
   try {

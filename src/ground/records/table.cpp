@@ -14,7 +14,7 @@
 namespace stickslip::records {
 namespace {
 
-/// Whether a line starts with a number, be it NaN or infinite.
+/// Whether a line starts with a number, including NaN and infinity.
 bool is_row(std::string_view line) {
   line = trim(line);
   const std::string_view token = line.substr(0, line.find_first_of(" \t,;"));
@@ -40,7 +40,7 @@ std::vector<std::string_view> bracketed(std::string_view line) {
   return texts;
 }
 
-/// The labels in a line, one a column, or none.
+/// The labels in a line, one per column, or none.
 std::vector<std::string_view> split_labels(std::string_view line, std::size_t columns) {
   line = trim(line);
   while (line.starts_with('#')) line = trim(line.substr(1));
@@ -98,9 +98,10 @@ void read_table_header(const Lines& lines, std::size_t rows, std::size_t columns
     channel.title = title.empty() || channel.name.empty() ? title : joined({title, channel.name});
 }
 
-/// How finely times are printed: to so many places, as by %.2f, or to so many digits, as by %.3e and %g.
+/// The precision of printed times: a number of decimal places, as with %.2f, or of significant digits, as with %.3e
+/// and %g.
 ///
-/// Zeros at the end may be left out: the most places and the most digits count.
+/// Trailing zeros may be left out: the maximum number of places and of digits counts.
 class Resolution {
  public:
   void add(std::string_view token) {
@@ -140,10 +141,10 @@ class Resolution {
   std::vector<int> decades_{};  // of the first digit of each time
 };
 
-/// The smallest step with which even times can lie between two bounds each.
+/// The smallest step for which even times can lie within their bounds.
 ///
-/// It is the steepest line from an upper bound to a later lower one. A line that is not steep enough is replaced by the
-/// one that exceeds it most, until none does.
+/// It is the steepest line from an upper bound to a later lower bound. A line that is not steep enough is replaced by
+/// the one that exceeds it most, until none does.
 double smallest_step(const std::vector<double>& lower, const std::vector<double>& upper) {
   const std::size_t last = lower.size() - 1;
   for (double step = (lower[last] - upper[0]) / static_cast<double>(last);;) {
@@ -164,17 +165,17 @@ double smallest_step(const std::vector<double>& lower, const std::vector<double>
   }
 }
 
-/// The step of times that are even as far as they are printed: the shortest decimal that fits them all.
+/// The step of times that are even within their printed precision: the shortest decimal that fits them all.
 std::optional<double> even_step(const std::vector<double>& times, const std::vector<double>& units) {
   const std::size_t count = times.size();
   const double length = times.back() - times.front(), mean = length / static_cast<double>(count - 1);
   const double coarsest = *std::ranges::max_element(units);
   const double farthest = std::max(std::abs(times.front()), std::abs(times.back()));
   const double sums =
-      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if added up
+      2 * static_cast<double>(count) * std::numeric_limits<double>::epsilon() * farthest;  // if accumulated
   if (!std::isfinite(length)) return std::nullopt;
-  // Rounding explains uneven steps only where a missing sample could not hide in it, and in more than a handful. A
-  // tenth more than a print's rounding is for times computed in single precision.
+  // Rounding explains uneven steps only where it is too small to hide a missing sample, and only in records that are
+  // long against it. The margin exceeds the rounding of a print by a tenth, for times computed in single precision.
   for (const double rounding : {0., 0.55}) {
     if (rounding > 0 && (mean < 2 * coarsest || length < 100 * coarsest)) break;
     std::vector<double> lower(count), upper(count), minus_lower(count), minus_upper(count);
@@ -194,7 +195,7 @@ std::optional<double> even_step(const std::vector<double>& times, const std::vec
   return std::nullopt;
 }
 
-/// The fields of a row. Blanks around one comma or semicolon belong to it.
+/// The fields of a row. Blanks around a single comma or semicolon belong to the separator.
 void split_row(std::string_view row, std::vector<std::string_view>& fields) {
   fields.clear();
   row = trim(row);

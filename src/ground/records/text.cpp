@@ -116,7 +116,7 @@ std::optional<double> take_number(std::string_view& text) {
     standard.append(token.substr(0, numeral.mantissa)).append("e").append(token.substr(numeral.exponent));
     token = standard;
   }
-  if (token.starts_with('+')) token.remove_prefix(1);  // from_chars takes no plus
+  if (token.starts_with('+')) token.remove_prefix(1);  // from_chars rejects a leading plus
   double value = 0;
   if (std::from_chars(token.data(), token.data() + token.size(), value).ec != std::errc()) return std::nullopt;
   text.remove_prefix(numeral.end);
@@ -171,7 +171,7 @@ std::string stated_units(std::string_view line) {
   std::string_view rest = after(line, "unit");
   if (!rest.empty() && lower(rest[0]) == 's') rest.remove_prefix(1);
   const std::size_t start = rest.find_first_not_of(" \t:=");
-  if (start == 0 || start == std::string_view::npos) return {};  // another word, as United
+  if (start == 0 || start == std::string_view::npos) return {};  // another word, such as United
   rest.remove_prefix(start);
   if (same(rest.substr(0, 3), "of ")) rest = trim(rest.substr(3));
   rest = rest.substr(0, rest.find_first_of(" \t,;("));

@@ -25,16 +25,16 @@ std::string_view trim(std::string_view text);
 /// Bytes of the UTF-8 sequence at the front of `text`, or 0.
 std::size_t sequence(std::string_view text);
 
-/// Text from outside as valid UTF-8 of at most `longest` bytes, with blanks for control characters.
+/// External text as valid UTF-8 of at most `longest` bytes, with blanks for control characters.
 std::string printable(std::string_view text, std::size_t longest);
 
-/// A name in a file, every run of blanks as one.
+/// A name in a file, with each run of blanks reduced to one.
 std::string squeeze(std::string_view text);
 
-/// Without the blanks and the one comma or semicolon at the front.
+/// The text without leading blanks and one leading comma or semicolon.
 std::string_view after_separator(std::string_view text);
 
-/// Where `key` starts in `text`, in upper or lower case, or npos.
+/// Position of `key` in `text`, ignoring case, or npos.
 std::size_t find(std::string_view text, std::string_view key);
 
 inline bool has(std::string_view text, std::string_view key) { return find(text, key) != std::string_view::npos; }
@@ -54,9 +54,9 @@ inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 inline bool is_sign(char c) { return c == '+' || c == '-'; }
 
-/// The number at the front of a text, as C or Fortran print it: +.5, 1.0D-03.
+/// The number at the front of a text, as C or Fortran prints it: +.5, 1.0D-03.
 ///
-/// Fortran leaves out the letter of a large exponent: 1.234-100 is 1.234E-100, while 1.234-100.5 are two numbers.
+/// Fortran omits the letter of a large exponent: 1.234-100 is 1.234E-100, while 1.234-100.5 are two numbers.
 struct Numeral {
   explicit Numeral(std::string_view text) {
     const auto is = [text](std::size_t at, auto... kinds) { return at < text.size() && (kinds(text[at]) || ...); };
@@ -89,10 +89,10 @@ struct Numeral {
 /// Takes the finite number at the front of `text`.
 std::optional<double> take_number(std::string_view& text);
 
-/// Appends the numbers of a line, and returns where one fails, or nothing.
+/// Appends the numbers of a line. Returns the position of the first error, or nothing.
 ///
-/// A sign may part two numbers. Columns of `width` characters are resorted to where numbers run together
-/// without one: a file's own word on its columns is less sure than its blanks.
+/// A sign may separate two numbers. Columns of `width` characters are used only where numbers run together without a
+/// sign: the width that a file declares is less reliable than its blanks.
 std::string_view append_numbers(std::vector<double>& values, std::string_view line, std::size_t width);
 
 /// The number after a label, as in `DT= .01`, or nothing; `rest` becomes what follows it.
@@ -103,7 +103,7 @@ std::size_t as_count(double value, std::size_t line, std::string_view what);
 /// Whether a unit is the second.
 bool is_second(std::string_view unit);
 
-/// What a line says after "unit": `units of G.`, `units=cm/sec2(04)`, `Unit: m/s^2`.
+/// The unit that a line states after the word "unit": `units of G.`, `units=cm/sec2(04)`, `Unit: m/s^2`.
 std::string stated_units(std::string_view line);
 
 }  // namespace stickslip::records
