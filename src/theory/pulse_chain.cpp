@@ -258,8 +258,9 @@ class Pairs {
         fine_(std::move(fine)),
         single_(alone(0, 1)) {}
 
-  /// At the chain's lattice of amplitudes, `slots` to a step; or, for none of it, by the limit of both. Of pulses that
-  /// began within 0, 1/2, 1, ... steps, the last ones of all.
+  /// Moments of single pulses and of pairs; for pairs the integral over the delay, and its sum over the chain's lattice
+  /// of times with `slots` points per step. That sum is taken on the chain's lattice of amplitudes, or with `limit`
+  /// extrapolated as all else. Entry k counts pulses that began within k/2 steps; the last entry counts all.
   std::vector<PairMoments> table(int slots, bool limit) {
     std::vector<Sums> integral(single_.size()), lattice(single_.size());
     const int count = static_cast<int>(steps_.values.size()), most = 2 * count;
@@ -684,7 +685,7 @@ std::vector<Slot> Chain::solve(const std::function<void()>& progress) const {
     // The total is 1, except for the omitted probability.
     for (Raw* const raw : {&sums.half, &sums.whole})
       for (double& m : *raw) m /= total;
-    Raw s{};  // sums of the fields: those of the moments but for what was left out, which would add up
+    Raw s{};  // sums of the fields; subtracting them keeps the omitted probability from adding up over the steps
     for (std::size_t n = mirrored_ ? 2 : 1; n < Order; n += mirrored_ ? 2 : 1) {
       for (const double f : next[n]) s[n - 1] += f;
       s[n - 1] /= total;
