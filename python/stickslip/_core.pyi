@@ -1824,7 +1824,7 @@ def integrate(
     settle: bool = False,
     contact: Literal["flight", "clipped"] = "flight",
     sliding_distance: _Number = 0.0,
-    heat: SurfaceHeat = ...,
+    heat: SurfaceHeat | None = None,
 ) -> Response: ...
 
 class State(metaclass=_Pybind11Type):
@@ -1833,7 +1833,7 @@ class State(metaclass=_Pybind11Type):
         displacement: _Number = 0.0,
         velocity: _Number = 0.0,
         sliding_distance: _Number = 0.0,
-        heat: SurfaceHeat = ...,
+        heat: SurfaceHeat | None = None,
     ) -> None: ...
     @property
     def heat(self) -> SurfaceHeat: ...

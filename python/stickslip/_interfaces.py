@@ -22,8 +22,8 @@ _TABLE = (
         "PTFE bearing, unlubricated",
         0.05,
         0.16,
-        "from slow to fast sliding, less under high pressure; the source's example has mu_slow 0.085,"
-        " mu_fast 0.163 and a rate of 0.77 s/inch (30.3 s/m): use VelocityDependent",
+        "from slow to fast sliding, less under high pressure; the source's example has mu_slow"
+        " 0.085, mu_fast 0.163 and a rate of 0.77 s/inch (30.3 s/m): use VelocityDependent",
         "OpenSees manual, friction models",
     ),
     (

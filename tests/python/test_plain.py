@@ -96,7 +96,7 @@ def test_signatures_say_what_a_call_takes():
         (
             ss.integrate,
             "(slider, motion, *, displacement=0.0, velocity=0.0, settle=False, contact='flight',"
-            " sliding_distance=0.0)",
+            " sliding_distance=0.0, heat=None)",
         ),
         (ss.GroundMotion.scaled, "(self, factor)"),
         (ss.Response.plot, "(self, *, figure=None, title=None)"),

@@ -54,7 +54,14 @@ r = ss.integrate(block, quake, settle=True)
 x: NDArray[np.float64] = r.displacement
 kinds = r.events["kind"]
 law: (
-    ss.Coulomb | ss.Caster | ss.VelocityDependent | ss.Stribeck | ss.Degrading | ss.StaticKinetic
+    ss.Coulomb
+    | ss.Caster
+    | ss.VelocityDependent
+    | ss.Stribeck
+    | ss.Degrading
+    | ss.KumarFriction
+    | ss.Law
+    | ss.StaticKinetic
 ) = r.slider.law
 work: float = r.energy.input + r.energy.dissipated + r.energy.kinetic + r.energy.elastic
 forces: NDArray[np.float64] = r.force + r.acceleration

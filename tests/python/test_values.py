@@ -79,7 +79,7 @@ EXAMPLES = {
         ),
     ],
     ss.Law: [ss.Law(resist=math.hypot), ss.Law(resist=math.hypot, hold=math.fsum)],
-    ss.SurfaceHeat: [ss.SurfaceHeat(), ss.SurfaceHeat(range(40))],
+    ss.SurfaceHeat: [ss.SurfaceHeat(), ss.SurfaceHeat(range(42))],
     ss.StaticKinetic: [
         ss.StaticKinetic(static=2, kinetic=1),
         ss.StaticKinetic(static=(2, 3), kinetic=1),
@@ -95,7 +95,7 @@ EXAMPLES = {
         ss.State(),
         ss.State(1.0, 0.5),
         ss.State(1.0, 0.5, 2.0),
-        ss.State(1.0, 0.5, heat=ss.SurfaceHeat(range(40))),
+        ss.State(1.0, 0.5, heat=ss.SurfaceHeat(range(42))),
         ss.advance(BLOCK, ss.State(), 0.1, 9, vertical_start=-20),
     ],
     ss.Slider: [

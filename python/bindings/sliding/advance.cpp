@@ -45,15 +45,17 @@ sliding_distance : float, optional
     Sliding distance so far, forward and backward alike [m], at least 0; for laws that depend on it, such as
     `Degrading`.
 heat : SurfaceHeat, optional
-    Heat left in the sliding surface, for laws that depend on its temperature: `KumarFriction`.)")
-      .def(py::init([](double displacement, double velocity, double sliding_distance, const SurfaceHeat& heat) {
+    Heat left in the sliding surface, for laws that depend on its temperature: `KumarFriction`. Without it the surface
+    is cold.)")
+      .def(py::init([](double displacement, double velocity, double sliding_distance,
+                       const std::optional<SurfaceHeat>& heat) {
              State state = State::at(displacement, velocity);
              state.sliding_distance = sliding_distance;
-             state.heat = heat;
+             if (heat) state.heat = *heat;
              return state;
            }),
            py::arg("displacement") = 0.0, py::arg("velocity") = 0.0, py::arg("sliding_distance") = 0.0,
-           py::arg("heat") = SurfaceHeat())
+           py::arg("heat") = py::none())
       .def_readonly("displacement", &State::displacement, "x [m].")
       .def_readonly("velocity", &State::velocity, "x' [m/s].")
       .def_property_readonly(

@@ -22,9 +22,14 @@ ResponseWithInputs integrate_under(const S& slider, const py::object& motion, co
 
 ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& motion, double displacement,
                                  double velocity, bool settle, const std::string& contact, double sliding_distance,
-                                 const SurfaceHeat& heat) {
-  const IntegrateOptions options{displacement,        velocity,         settle, contact_of(contact, "integrate"),
-                                 check_for_interrupt, sliding_distance, heat};
+                                 const std::optional<SurfaceHeat>& heat) {
+  const IntegrateOptions options{displacement,
+                                 velocity,
+                                 settle,
+                                 contact_of(contact, "integrate"),
+                                 check_for_interrupt,
+                                 sliding_distance,
+                                 heat.value_or(SurfaceHeat())};
   if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
   if (py::isinstance<HarmonicMotion>(motion))
     return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
@@ -37,7 +42,7 @@ ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& moti
 void bind_integrate(py::module_& m) {
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
-        py::arg("sliding_distance") = 0.0, py::arg("heat") = SurfaceHeat(),
+        py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(),
         R"(Integrate the response of a slider to a ground motion.
 
 x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2); (2.27), (2.28); on
@@ -68,7 +73,7 @@ sliding_distance : float, optional
     `response.state.sliding_distance` of the response before.
 heat : SurfaceHeat, optional
     Heat left in the sliding surface at the start, for laws that depend on its temperature: `response.state.heat` of the
-    response before.
+    response before. Without it the surface is cold.
 
 Returns
 -------

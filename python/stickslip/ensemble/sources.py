@@ -57,8 +57,15 @@ class SliderSource(Protocol):
 
 
 AnySlider: TypeAlias = (
-    "Slider | Coulomb | Caster | VelocityDependent | Stribeck | Degrading | KumarFriction | Law"
-    " | StaticKinetic"
+    Slider
+    | Coulomb
+    | Caster
+    | VelocityDependent
+    | Stribeck
+    | Degrading
+    | KumarFriction
+    | Law
+    | StaticKinetic
 )
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
