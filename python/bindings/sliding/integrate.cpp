@@ -1,4 +1,5 @@
 #include <concepts>
+#include <optional>
 
 #include "bindings.hpp"
 #include "sliding/response.hpp"
