@@ -2,7 +2,7 @@
 
     python examples/01_one_record.py [RECORD] [--mu 0.2] [--out DIR]
 
-Without a record of yours it takes Kobe 1995, from the package pyslammer.
+Without a record file the example uses Kobe 1995, from the package pyslammer.
 """
 
 import argparse

@@ -2,10 +2,11 @@
 
     python examples/02_caster.py [RECORD] [--mu 0.5] [--trail 0.04] [--width 0.032] [--out DIR]
 
-The wheels stand across the motion at first, and scrub as they pivot: the slip level falls off as
-sech(x / reach). Within about the reach that is sure; beyond it the wheels come into line with the
-motion, where small disturbances, which the model leaves out, decide. Without a record of yours it
-takes two of the package pyslammer: one makes the cabinet roll, one leaves it within the reach.
+At first the wheels stand across the motion, and scrub as they pivot: the slip level falls off as
+sech(x / reach). The law is reliable within about the reach; beyond it the wheels are in line with
+the motion, and small disturbances that the model omits decide what follows. Without a record file
+the example uses two records of the package pyslammer: under one the cabinet rolls away, under the
+other it stays within the reach.
 """
 
 import argparse

@@ -2,10 +2,10 @@
 
     python examples/03_isolated_floor.py [RECORD ...] [--period 3] [--out DIR]
 
-With more friction the floor moves less on its isolators, but shakes what stands on it more. What it
-transmits is known without sampling: mu g + wn^2 peak, just before it turns back where it is
-farthest; a floor that never slips has all of the ground's acceleration.
-Without records of yours it takes the 18 of the package pyslammer.
+With more friction the floor moves less on its isolators, but its contents are shaken more. The
+largest acceleration of a floor that slips is mu g + wn^2 peak, just before it turns back at its
+largest displacement; a floor that never slips has the acceleration of the ground.
+Without record files the example uses the 18 records of the package pyslammer.
 """
 
 import argparse

@@ -3,9 +3,9 @@
     python examples/04_slope.py [RECORD] [--degrees 5] [--yield-g 0.1] [--out DIR]
 
 Newmark's block slides downhill only. A block on a gentle slope can be pushed uphill as well: under
-horizontal shaking it yields at g tan(phi - slope) downhill and at g tan(phi + slope) uphill, mu =
-tan(phi). A record does not say which way the slope faces, so both are tried. Without a record of
-yours it takes Kobe 1995, from the package pyslammer.
+horizontal shaking it yields at g tan(phi - slope) downhill and at g tan(phi + slope) uphill, with
+mu = tan(phi). A record does not state which way the slope faces, so the example runs both
+directions. Without a record file it uses Kobe 1995, from the package pyslammer.
 """
 
 import argparse

@@ -2,8 +2,8 @@
 
     python examples/09_pulses_of_a_record.py [RECORD] [--out DIR]
 
-The record's strong motion is taken as a portion of a stationary process. Rectangular pulses have
-two parameters to fit its spectrum by; a pulse of minimum phase has all of the spectrum.
+The strong motion of the record is treated as a part of a stationary process. Rectangular pulses fit
+its spectrum with two parameters; a pulse of minimum phase has the whole spectrum.
 """
 
 import argparse
