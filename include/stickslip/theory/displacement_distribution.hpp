@@ -11,13 +11,13 @@
 
 namespace stickslip::detail {
 
-/// An expected number of slips, as likely of any length between two bounds.
+/// An expected number of slips whose length is uniformly distributed between two bounds.
 struct SlipPiece {
   double from, to;  ///< bounds in either order, [m]
   double count;     ///< expected number of slips
 };
 
-/// All the slips expected, and what is known of them more exactly than from the pieces.
+/// All expected slips, with count and moments that are more accurate than those of the pieces.
 struct Slips {
   std::vector<SlipPiece> pieces{};
   double count = 0;                ///< expected number of slips
@@ -25,10 +25,11 @@ struct Slips {
   double least = 0, greatest = 0;  ///< bounds that x exceeds with a probability below 1e-13 each [m]
 };
 
-/// Slips of gamma-distributed lengths: the density of either way is as |d|^(k-1) exp(-|d| / theta), one k, two theta.
+/// Slips of gamma-distributed lengths: in each direction the density is proportional to |d|^(k-1) exp(-|d| / theta),
+/// with a common k and one theta per direction.
 /// @param count    expected number, at least 0
-/// @param moments  sums of their powers, expected [m] to [m^4]: four equations for k, both theta and how many go which
-///                 way. Where the fourth is below the least possible for that number of slips, the least is taken
+/// @param moments  sums of their powers, expected [m] to [m^4]: four equations for k, both theta and the fraction of
+///                 slips in each direction. A fourth moment below the minimum for that count is replaced by the minimum
 /// @throws std::invalid_argument where the kurtosis is below that by more than 0.1
 Slips gamma_slips(double count, const std::array<double, 4>& moments);
 
@@ -41,15 +42,15 @@ namespace stickslip::theory {
 ///
 ///     E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) dd),      cumulants kappa_n = int d^n nu(d) dd
 ///
-/// the thesis's program at the end of 5.3: all moments, by them the characteristic function, by it the density. There
-/// is an atom at x = 0, the chance exp(-int nu) that nothing slips; the rest has a density. Made by
+/// This is the program that the thesis outlines at the end of 5.3: moments, characteristic function, density. There
+/// is an atom at x = 0, the probability exp(-int nu) that nothing slips; the rest has a density. Made by
 /// `PulseSuperposition::distribution` from what single pulses do; `PulseChain::distribution` fits slips of
 /// gamma-distributed lengths to four cumulants and the atom.
 ///
 /// The density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes` points of a
 /// window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their number and
-/// mean kept. Atom and cumulants are to 1e-12; the tabulated variance is up to 2e-4 too large for up to 1e5 slips
-/// expected, which moves probabilities by some 3e-5; quantiles are to that and to one step of the grid. Slips of
+/// mean kept. Atom and cumulants are accurate to 1e-12; the tabulated variance is up to 2e-4 too large for up to 1e5
+/// slips expected, which moves probabilities by some 3e-5; quantiles are to that and to one step of the grid. Slips of
 /// vanishing length are frequent: near x = 0 the density may grow as x^-1/2, and there it is a mean over a step.
 ///
 /// Reference: thesis 5.3, (5.21) to (5.28); W. Feller, An Introduction to Probability Theory and Its Applications,
@@ -58,12 +59,12 @@ class DisplacementDistribution {
  public:
   static constexpr std::size_t nodes = std::size_t{1} << 17;
 
-  /// Quantiles of probabilities nearer to 0 or 1 are refused: the FFT leaves an error of 1e-13.
+  /// `quantile` rejects probabilities closer to 0 or 1: the FFT leaves an error of 1e-13.
   static constexpr double min_probability = 1e-9;
 
   explicit DisplacementDistribution(const detail::Slips& slips);
 
-  /// The chance that nothing slips, exp(-`slips()`): the probability of exactly x = 0.
+  /// The probability that nothing slips, exp(-`slips()`): the probability of exactly x = 0.
   double atom() const noexcept { return atom_; }
 
   /// Expected number of slips.
@@ -74,23 +75,23 @@ class DisplacementDistribution {
   double skewness() const noexcept;                           ///< kappa_3 / kappa_2^(3/2); NaN where nothing ever slips
   double kurtosis() const noexcept;  ///< 3 + kappa_4 / kappa_2^2, 3 of a Gaussian law; NaN where nothing ever slips
 
-  /// Where the density is tabulated, ascending and even, [m]; empty where nothing ever slips.
+  /// Displacements at which the density is tabulated, ascending and evenly spaced [m]; empty where nothing ever slips.
   std::span<const double> displacement() const noexcept { return displacement_; }
 
-  /// Of the part without the atom [1/m]: its integral is 1 - `atom()`.
+  /// Density of the part without the atom [1/m]; its integral is 1 - `atom()`.
   std::span<const double> density() const noexcept { return density_; }
 
   /// The probability that the displacement is at most x [m].
   /// @throws std::invalid_argument for NaN
   double cdf(double x) const;
 
-  /// The least displacement that is not exceeded with a probability [m]; exactly 0 within the atom.
+  /// The smallest displacement that x does not exceed with the given probability [m]; exactly 0 within the atom.
   /// @param probability  at least 1e-9 and at most 1 - 1e-9
   /// @throws std::invalid_argument naming the value
   double quantile(double probability) const;
 
-  /// The characteristic function E[exp(iux)], from the tabulated law: its logarithm is to a relative
-  /// 2e-4 where u is of the order of 1 / std. Takes 2 ms.
+  /// The characteristic function E[exp(iux)], from the tabulated law: its logarithm is accurate to a
+  /// relative 2e-4 where u is of the order of 1 / std. Takes 2 ms.
   /// @param u  [1/m], finite
   /// @throws std::invalid_argument naming the value
   std::complex<double> characteristic(double u) const;

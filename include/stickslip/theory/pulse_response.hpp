@@ -1,4 +1,4 @@
-// What one pulse does to a slider at rest.
+// The response of a slider at rest to one pulse.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace stickslip::theory {
 /// The motion that one pulse of ground acceleration causes.
 struct PulseResponse {
   std::vector<double> time;          ///< [s] from the arrival of the pulse on
-  std::vector<double> displacement;  ///< x, less where it lay before [m]
+  std::vector<double> displacement;  ///< x minus the initial position [m]
   std::vector<double> velocity;      ///< x' [m/s]
   double offset = 0;                 ///< the last displacement [m], thesis (5.8); infinite where it never stops
   double peak = 0;                   ///< largest |displacement| over all time [m]
@@ -39,7 +39,7 @@ struct PulseResponse {
 
 namespace stickslip::detail {
 
-/// Along the way of a response.
+/// The state during a response to a pulse, with the accumulated integral of x'^2.
 struct Ride {
   State state{};
   double velocity_square = 0;  ///< integral of x'^2 so far [m^2/s]
@@ -52,8 +52,8 @@ struct Ride {
   }
 };
 
-/// Calls knot(time since the call, ride) where a motion under a held ground acceleration stops or turns. Coulomb
-/// friction: closed forms, nothing of the event loop.
+/// Advances the slider under a constant ground acceleration and calls knot(time since the call, ride) at stops and
+/// reversals. Coulomb friction: closed forms, without the event loop.
 template <class Knot>
 void hold(const Slider<Coulomb>& slider, double n, double duration, Ride& ride, Knot&& knot) {
   const Coulomb& law = slider.law();
@@ -71,8 +71,8 @@ void hold(const Slider<Coulomb>& slider, double n, double duration, Ride& ride, 
   if (!equal(acceleration, 0)) ride.uniform(left, acceleration * left);
 }
 
-/// Any law: by the event loop. Between events the velocity is analytic, so that its square is integrated by
-/// Gauss-Legendre quadrature of eight points.
+/// The same for any law, by the event loop. Between events the velocity is analytic, so that its square is integrated
+/// by Gauss-Legendre quadrature of eight points.
 template <FrictionLaw Law, class Knot>
 void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot&& knot) {
   struct Watch {
@@ -99,7 +99,7 @@ void hold(const Slider<Law>& slider, double n, double duration, Ride& ride, Knot
   }
 }
 
-/// Lets it slide on over ground at rest until it stops; returns how long that takes [s], infinite where it never does.
+/// Lets the slider slide over ground at rest until it stops. Returns the time to stop [s], infinite if it never stops.
 inline double coast(const Slider<Coulomb>& slider, Ride& ride) {
   const double v = ride.state.velocity;
   if (equal(v, 0)) return 0;
@@ -112,8 +112,8 @@ template <FrictionLaw Law>
 double coast(const Slider<Law>& slider, Ride& ride) {
   constexpr double never_stops = std::numeric_limits<double>::infinity();
   constexpr int max_doublings = 30;
-  // To where it stops under the level here; but not so far beyond x = 0, where the level may be all there is, that the
-  // times of events would lose their digits.
+  // The time to stop under the level at the current position. It is limited beyond x = 0, because the level may vanish
+  // away from x = 0 and a long step would cost the event times their precision.
   const auto first_step = [&] {
     const Direction direction = direction_of(ride.state.mode);
     const double x = std::abs(ride.state.displacement), v = std::abs(ride.state.velocity);
@@ -130,7 +130,7 @@ double coast(const Slider<Law>& slider, Ride& ride) {
     double stopped = step;
     try {
       hold(slider, 0, step, ride, [&](double now, const Ride&) { stopped = now; });
-    } catch (const ConvergenceError&) {  // where the level is as good as zero
+    } catch (const ConvergenceError&) {  // the level is practically zero
       step = never_stops;
       continue;
     }
@@ -143,8 +143,8 @@ struct NoKnot {
   void operator()(double, const Ride&) const noexcept {}
 };
 
-/// One pulse from rest at `position`, its end waited for; calls knot(time, ride) at the edges of the pulse, at stops
-/// and turns, and at the end. The slider has no spring.
+/// Simulates one pulse from rest at `position` until the slider stops; calls knot(time, ride) at the edges of the
+/// pulse, at stops and turns, and at the end. The slider has no spring.
 template <FrictionLaw Law, class Knot = NoKnot>
 Ride ride(const Slider<Law>& slider, const PulseShape& shape, double b, double dt, double position, Knot&& knot = {}) {
   Ride ride{State::at(position, 0)};
@@ -158,7 +158,7 @@ Ride ride(const Slider<Law>& slider, const PulseShape& shape, double b, double d
          [&](double now, const Ride& there) { knot(begin + now, there); });
   }
   const double end = shape.length() * dt;
-  // What round-off leaves of a velocity would never stop where the slip level is zero.
+  // A velocity that is only round-off would never stop where the slip level is zero.
   if (std::abs(ride.state.velocity) <= rounding) ride.state = State::at(ride.state.displacement, 0);
   knot(end, ride);
   if (const double more = coast(slider, ride); more > 0) knot(end + more, ride);
@@ -179,7 +179,7 @@ inline void require_no_spring(double natural_frequency, const char* theory) {
 
 namespace stickslip::theory {
 
-/// What one pulse does to a slider at rest, thesis (5.7), (5.8), (5.32): x'' + level sgn x' = -b w(t / dt).
+/// The response of a slider at rest to one pulse, thesis (5.7), (5.8), (5.32): x'' + level sgn x' = -b w(t / dt).
 ///
 /// Coulomb friction in closed form (its velocity is straight between the instants that are answered without `times`),
 /// any other law by the event loop, `advance`: a pulse is a few held loads, and what it does is not random.
@@ -187,11 +187,11 @@ namespace stickslip::theory {
 /// @param b         amplitude [m/s^2], finite
 /// @param dt        half width [s], positive and finite; the unit of the shape's times
 /// @param shape     of the pulse
-/// @param position  where it lies before [m], finite: matters where the slip level depends on it
-/// @param times     where to answer [s], ascending, finite, at least 0; empty: the edges of the pulse, stops and turns
+/// @param position  initial position [m], finite; matters only if the slip level depends on the position
+/// @param times     output times [s], ascending, finite, at least 0; empty: the edges of the pulse, stops and turns
 /// @return displacements less `position`; all over where the motion is
 /// @throws std::invalid_argument naming the value
-/// Coulomb: to round-off, 30 ns; others: to about 1e-10, some 20 us.
+/// Accuracy and cost: Coulomb to round-off, 30 ns; other laws to about 1e-10, some 20 us.
 template <FrictionLaw Law>
 PulseResponse pulse_response(const Slider<Law>& slider, double b, double dt, const PulseShape& shape = {},
                              double position = 0, std::span<const double> times = {}) {
@@ -242,14 +242,14 @@ PulseResponse pulse_response(const Slider<Law>& slider, double b, double dt, con
   return response;
 }
 
-/// What the symmetric rectangular pulse does to a mass on a viscous damper, thesis (5.2), (5.14), corrected (5.15):
-/// x'' + damping x' = -n(t).
+/// The response of a mass on a viscous damper to the symmetric rectangular pulse, thesis (5.2), (5.14), corrected
+/// (5.15): x'' + damping x' = -n(t).
 ///
-/// In a form that does not cancel, down to no damping at all. It leaves no offset, whatever the damping above 0.
+/// Evaluated without cancellation, down to zero damping. Any positive damping leaves no offset.
 /// @param damping  zeta [1/s], finite and at least 0
 /// @param b        amplitude [m/s^2], finite
 /// @param dt       half width [s], positive and finite
-/// @param times    where to answer [s], ascending, finite, at least 0; empty: 0, dt and 2 dt
+/// @param times    output times [s], ascending, finite, at least 0; empty: 0, dt and 2 dt
 /// @return `stop` is infinite (0 where b = 0)
 /// @throws std::invalid_argument naming the value
 PulseResponse viscous_pulse_response(double damping, double b, double dt, std::span<const double> times = {});

@@ -1,4 +1,4 @@
-// What a theory is: it says whether it covers a slider under an excitation, and predicts the moments of the motion.
+// The concept of a theory: it reports whether it covers a slider under an excitation, and predicts the moments.
 #pragma once
 
 #include <concepts>
@@ -18,23 +18,23 @@ namespace stickslip::theory {
 /// Whether a theory covers a slider under an excitation and, if not, why.
 struct Coverage {
   std::string reason{};    ///< why not, in one sentence; empty where it does
-  bool excitation = true;  ///< false where the theory is for excitations of another kind, whatever slides
+  bool excitation = true;  ///< false if the theory does not cover this kind of excitation for any slider
 
   explicit operator bool() const noexcept { return reason.empty(); }
 };
 
 /// A theory T predicts the moments of a slider S under an excitation E without simulating it. It has
 ///
-///     name()                                the name, with the options that tell it from its variants
+///     name()                                the name, with the options that distinguish its variants
 ///     covers(slider, excitation)            a Coverage, from the slider and the excitation alone, in microseconds
 ///     predict(slider, excitation, times)    Moments at `times` [s] from rest on
 ///
-/// `covers` can be asked about any slider and excitation. Where it says no, `predict` does not compile or throws
-/// std::invalid_argument with the same reason. Where it says yes, `predict` may still throw what only the computation
-/// finds: std::invalid_argument for times out of range or a caster that escapes, ConvergenceError.
+/// `covers` accepts any slider and excitation. If it returns false, `predict` does not compile or throws
+/// std::invalid_argument with the same reason. If it returns true, `predict` may still throw for conditions that only
+/// the computation detects: std::invalid_argument for times out of range or a caster that escapes, ConvergenceError.
 ///
-/// An excitation is white noise by its level S0 [m^2/s^3], a `Spectrum`, a `GaussianExcitation`, `PoissonPulses` or a
-/// `HarmonicMotion`.
+/// An excitation is white noise, given by its level S0 [m^2/s^3], a `Spectrum`, a `GaussianExcitation`, `PoissonPulses`
+/// or a `HarmonicMotion`.
 template <class T, class S, class E>
 concept Theory = requires(const T& theory, const S& slider, const E& excitation, std::span<const double> times) {
   { theory.name() } -> std::convertible_to<std::string>;
@@ -46,9 +46,9 @@ concept Theory = requires(const T& theory, const S& slider, const E& excitation,
 
 namespace stickslip::detail {
 
-/// What a theory that takes an `Excitation` answers about an excitation `e` of any type: no where `e` cannot be one,
-/// else what `check` throws.
-/// @param other  says what is covered instead
+/// The coverage by a theory that takes an `Excitation`, for an excitation `e` of any type. The theory does not cover
+/// `e` if `e` does not convert to `Excitation`, or if `check` throws; the reason is then the message of the exception.
+/// @param other  the reason given if the types do not convert; lists what the theory covers
 template <class Excitation, class E, class Check>
 theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   if constexpr (!std::convertible_to<const E&, const Excitation&>) {
@@ -66,14 +66,14 @@ theory::Coverage coverage(const E& e, const char* other, const Check& check) {
   }
 }
 
-/// Refuses a law that is none of position alone.
+/// Rejects a law whose level depends on more than the position.
 template <FrictionLaw Law>
 [[noreturn]] void refuse_law(const std::string& theory) {
   throw std::invalid_argument(theory + ": a resistance that depends on the " +
                               (MemoryLaw<Law> ? "distance slid" : "speed") + " is not covered");
 }
 
-/// Refuses what no theory covers: slopes, stops and pendulums, a resistance that depends on the speed or the distance
+/// Rejects what no theory covers: slopes, stops and pendulums, a resistance that depends on the speed or the distance
 /// slid, and static friction that differs from kinetic.
 template <FrictionLaw Law>
 void require_one_level(const Slider<Law>& slider, const std::string& theory) {
@@ -91,7 +91,7 @@ void require_one_level(const Slider<Law>& slider, const std::string& theory) {
   }
 }
 
-/// The same, and a damper beside friction.
+/// Rejects what `require_one_level` rejects, and a damper in addition to friction.
 template <FrictionLaw Law>
 void require_plain(const Slider<Law>& slider, const std::string& theory) {
   require(equal(slider.damping(), 0), theory + ": a slider with a damper is not covered, damping must be 0",
