@@ -16,10 +16,10 @@
 
 namespace stickslip {
 
-/// What the ground does between two samples: a straight line, or the earlier value held.
+/// The ground acceleration between two samples: a straight line, or the earlier value held constant.
 enum class Interpolation { linear, constant };
 
-/// A component of a ground motion: along the slider's axis, horizontal across it, or vertical.
+/// A component of a ground motion: along the slider's axis, horizontal and perpendicular to it, or vertical.
 enum class Component { axis, transverse, vertical };
 
 inline const char* name_of(Component component) noexcept {
@@ -29,17 +29,17 @@ inline const char* name_of(Component component) noexcept {
 /// The acceleration history n(t) of the ground [m/s^2], at even or uneven times.
 ///
 /// `acceleration()` is along the slider's axis. `with_components` adds the other horizontal and the vertical component
-/// on the same times; without them a motion has one component. Peaks, integrals and intensity measures are those of the
-/// axis; `component` gives each of the others as a motion along the axis.
+/// at the same times; without them a motion has one component. Peaks, integrals and intensity measures refer to the
+/// component along the axis; `component` returns any other component as a motion along the axis.
 ///
 /// N samples make N - 1 segments; the motion lasts from the first time to the last. With
 /// `Interpolation::linear` the acceleration is a straight line between samples (thesis 4.56); with
-/// `Interpolation::constant` a value holds until the next time, and the last value closes the motion
-/// without acting.
+/// `Interpolation::constant` each value holds until the next time, and the last value only marks the end of the motion
+/// and does not act.
 ///
-/// Immutable, and checked once when made: every sample finite and at most 1e100 m/s^2 in magnitude (so that
-/// no energy can overflow silently), at least two of them, `dt` positive, `times` increasing. Steps that are held may
-/// share a time (a piece of no length); lines may not.
+/// Immutable. The constructor checks that there are at least two samples, every sample is finite and at most
+/// 1e100 m/s^2 in magnitude (so that no energy can overflow silently), `dt` is positive and `times` increase. With
+/// `Interpolation::constant`, consecutive times may be equal (a segment of zero duration).
 class GroundMotion {
  public:
   static constexpr double max_acceleration = 1e100;  ///< [m/s^2]
@@ -48,7 +48,7 @@ class GroundMotion {
   /// @param acceleration  n at the samples [m/s^2], at least two, finite
   /// @param dt            time between samples [s], positive and finite
   /// @param name          where the motion comes from; shown in plots and messages
-  /// @throws std::invalid_argument naming the value refused (and its index)
+  /// @throws std::invalid_argument names the invalid value (and its index)
   GroundMotion(std::vector<double> acceleration, double dt, Interpolation interpolation = Interpolation::linear,
                std::string name = {})
       : acceleration_(std::move(acceleration)), dt_(dt), interpolation_(interpolation), name_(std::move(name)) {
@@ -58,8 +58,8 @@ class GroundMotion {
   }
 
   /// Samples at given times.
-  /// @param times  [s], as many as samples, finite and increasing (not decreasing, for values that are held)
-  /// @throws std::invalid_argument naming the value refused (and its index)
+  /// @param times  [s], one per sample, finite and increasing (with `Interpolation::constant`, non-decreasing)
+  /// @throws std::invalid_argument names the invalid value (and its index)
   GroundMotion(std::vector<double> acceleration, std::vector<double> times,
                Interpolation interpolation = Interpolation::linear, std::string name = {})
       : acceleration_(std::move(acceleration)),
@@ -89,25 +89,25 @@ class GroundMotion {
   /// Ground acceleration along the axis at the samples [m/s^2].
   std::span<const double> acceleration() const noexcept { return acceleration_; }
 
-  /// The horizontal component across the axis at the samples [m/s^2]; empty where there is none.
+  /// The horizontal component perpendicular to the axis at the samples [m/s^2]; empty if there is none.
   std::span<const double> transverse() const noexcept { return transverse_; }
 
-  /// The vertical component at the samples [m/s^2], positive upward; empty where there is none.
+  /// The vertical component at the samples [m/s^2], positive upward; empty if there is none.
   std::span<const double> vertical() const noexcept { return vertical_; }
 
   bool has_transverse() const noexcept { return !transverse_.empty(); }
   bool has_vertical() const noexcept { return !vertical_.empty(); }
 
-  /// Time of sample i [s]; past the last sample times continue with the last step.
+  /// Time of sample i [s]; after the last sample, times continue with the last step.
   double time(std::size_t i) const noexcept {
     if (times_.empty() || i < samples()) return Pieces(*this).time(i);
     return times_.back() + static_cast<double>(i - segments()) * last_step();
   }
 
-  /// Time between samples [s], or NaN where the times are uneven.
+  /// Time between samples [s]; NaN if the times are uneven.
   double dt() const noexcept { return dt_; }
 
-  /// The last time between samples that is not zero [s].
+  /// The last nonzero time between samples [s].
   double last_step() const noexcept {
     if (times_.empty()) return dt_;
     std::size_t i = segments() - 1;
@@ -115,20 +115,21 @@ class GroundMotion {
     return times_.back() - times_[i];
   }
 
-  /// From the first sample to the last [s].
+  /// Time from the first sample to the last [s].
   double duration() const noexcept { return time(samples() - 1) - time(0); }
 
   Interpolation interpolation() const noexcept { return interpolation_; }
   const std::string& name() const noexcept { return name_; }
 
-  /// Where the axis points: an azimuth as "N28W" or "332" [degrees clockwise from north], or "up"; empty where that is
-  /// not known. The transverse component then points 90 degrees clockwise from it.
+  /// Orientation of the axis: an azimuth such as "N28W" or "332" [degrees clockwise from north], or "up"; empty if
+  /// unknown. The transverse component points 90 degrees clockwise from the axis.
   const std::string& orientation() const noexcept { return orientation_; }
 
   /// Largest magnitude of the ground acceleration along the axis [m/s^2], the PGA.
   double peak_acceleration() const noexcept { return peak_; }
 
-  /// The pieces as a loop wants them: what is the same for all is looked up once. Refers to the motion.
+  /// Fast access to the segments in a loop: the interpolation and the kind of times are looked up once. Holds pointers
+  /// into the motion, which must outlive it.
   class Pieces {
    public:
     explicit Pieces(const GroundMotion& motion) noexcept
@@ -138,7 +139,7 @@ class GroundMotion {
           dt_(motion.dt_) {}
 
     double time(std::size_t i) const noexcept {
-      const auto steps = static_cast<std::ptrdiff_t>(i);  // signed numbers are doubles at once, others take a jump
+      const auto steps = static_cast<std::ptrdiff_t>(i);  // conversion to double needs no branch if signed
       return times_ == nullptr ? static_cast<double>(steps) * dt_ : times_[i];
     }
     Segment segment(std::size_t i) const noexcept {
@@ -150,13 +151,14 @@ class GroundMotion {
     double dt_;
   };
 
-  /// The i-th piece, between samples i and i + 1.
+  /// The i-th segment, between samples i and i + 1.
   Segment segment(std::size_t i) const noexcept { return Pieces(*this).segment(i); }
 
-  /// The same motion with these components beside the axis, on its times and interpolated as it is.
+  /// A copy of the motion with these additional components, at the same times and with the same interpolation.
   /// @param transverse  the other horizontal component at the samples [m/s^2], finite; empty for none
   /// @param vertical    the vertical component [m/s^2], positive upward, finite; empty for none
-  /// @throws std::invalid_argument  another number of samples than the axis has; naming the value refused and its index
+  /// @throws std::invalid_argument  the number of samples differs from that of the axis; a value is invalid (the
+  ///                                message names it and its index)
   GroundMotion with_components(std::vector<double> transverse, std::vector<double> vertical = {}) const {
     GroundMotion result = *this;
     result.transverse_ = std::move(transverse);
@@ -165,14 +167,14 @@ class GroundMotion {
     return result;
   }
 
-  /// The same motion, which says that its axis points there; see `orientation`. Not checked.
+  /// A copy of the motion with this orientation of its axis (see `orientation`). The text is not checked.
   GroundMotion with_orientation(std::string orientation) const {
     GroundMotion result = *this;
     result.orientation_ = std::move(orientation);
     return result;
   }
 
-  /// One component alone, as a motion along the axis. The orientation of a transverse component is not known to it.
+  /// One component alone, as a motion along the axis. The orientation of a transverse component is left empty.
   /// @throws std::invalid_argument  a component that the motion does not have
   GroundMotion component(Component which) const {
     GroundMotion result = *this;
@@ -185,8 +187,8 @@ class GroundMotion {
     return result.with_components({});
   }
 
-  /// The same motion with every acceleration multiplied by `factor` (finite). A negative factor turns the horizontal
-  /// components around and never the vertical one, which is multiplied by the magnitude.
+  /// A copy of the motion with every acceleration multiplied by `factor` (finite). A negative factor reverses the
+  /// horizontal components but not the vertical one, which is multiplied by the magnitude of the factor.
   GroundMotion scaled(double factor) const {
     detail::require(std::isfinite(factor), "GroundMotion: a scale factor must be finite", factor);
     GroundMotion result = *this;
@@ -197,8 +199,8 @@ class GroundMotion {
     return result;
   }
 
-  /// Whether samples of all components, times, interpolation, name and orientation are the same; even times differ from
-  /// a list of them.
+  /// True if the samples of all components, times, interpolation, name and orientation are equal. A motion with `dt`
+  /// never equals one with a list of times, even if the times are the same.
   friend bool operator==(const GroundMotion& a, const GroundMotion& b) {
     const bool same_dt = detail::equal(a.dt_, b.dt_) || (std::isnan(a.dt_) && std::isnan(b.dt_));
     return same_dt && a.times_ == b.times_ && a.acceleration_ == b.acceleration_ && a.transverse_ == b.transverse_ &&
@@ -234,8 +236,8 @@ class GroundMotion {
   }
 
   std::vector<double> acceleration_;
-  std::vector<double> transverse_{}, vertical_{};  // empty where there are none
-  std::vector<double> times_{};                    // empty where samples are evenly spaced
+  std::vector<double> transverse_{}, vertical_{};  // empty if there are none
+  std::vector<double> times_{};                    // empty if samples are evenly spaced
   double dt_ = std::numeric_limits<double>::quiet_NaN();
   double peak_ = 0;
   Interpolation interpolation_;

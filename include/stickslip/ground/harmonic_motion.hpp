@@ -1,4 +1,4 @@
-// The ground that moves with one frequency.
+// Harmonic ground motion.
 #pragma once
 
 #include <cmath>
@@ -13,19 +13,19 @@
 
 namespace stickslip {
 
-/// A ground acceleration of one frequency, thesis (2.28): -n(t) = B cos(omega t), from t = 0 on.
+/// A harmonic ground acceleration, thesis (2.28): -n(t) = B cos(omega t), from t = 0 on.
 ///
-/// Nothing of it is sampled: a slider slides exactly under the cosine. Samples say only where the response is asked
-/// for: at 0, dt, 2 dt, ... and at the end.
+/// The ground motion is not sampled: the slider is integrated under the exact cosine. Samples only define the times at
+/// which the response is returned: 0, dt, 2 dt, ... and the end.
 class HarmonicMotion {
  public:
   /// @param amplitude  B [m/s^2], positive and at most 1e100
   /// @param omega      angular frequency [rad/s], positive, with a finite square
-  /// @param duration   [s], positive and finite, at most 2^45 periods (in doubles, time then tells
-  ///                   the phase to 0.05)
-  /// @param dt         time between samples of the response [s], positive and finite; longer than the duration leaves
-  ///                   its two ends; at most 2^40 samples
-  /// @throws std::invalid_argument naming the value
+  /// @param duration   [s], positive and finite, at most 2^45 periods (at that time the round-off of a double is a
+  ///                   phase of 0.05 rad)
+  /// @param dt         time between samples of the response [s], positive and finite; if it exceeds the duration, only
+  ///                   the start and the end are samples; at most 2^40 samples
+  /// @throws std::invalid_argument names the value
   HarmonicMotion(double amplitude, double omega, double duration, double dt)
       : amplitude_(amplitude), omega_(omega), duration_(duration), dt_(dt) {
     check();
@@ -33,11 +33,11 @@ class HarmonicMotion {
     detail::require(duration / dt <= max_samples,
                     "HarmonicMotion: dt must leave at most 2^40 samples of " + detail::shortest(duration) + " s", dt,
                     "s");
-    // A duration that is a whole number of dt but for its rounding has no short last step.
+    // No short last step if the duration is a multiple of dt up to round-off.
     segments_ = static_cast<std::size_t>(std::max(std::ceil(duration / dt * (1 - 0x1p-50)), 1.0));
   }
 
-  /// Sampled 64 times a period.
+  /// The response is sampled 64 times per period.
   HarmonicMotion(double amplitude, double omega, double duration)
       : HarmonicMotion(amplitude, omega, duration, usual_dt(amplitude, omega, duration)) {}
 
@@ -52,7 +52,7 @@ class HarmonicMotion {
   std::size_t samples() const noexcept { return segments_ + 1; }
   std::size_t segments() const noexcept { return segments_; }
 
-  /// Time of sample i [s]; past the last sample times continue with `last_step`.
+  /// Time of sample i [s]; after the last sample, times continue with `last_step`.
   double time(std::size_t i) const noexcept {
     return i < segments_ ? static_cast<double>(i) * dt_ : duration_ + static_cast<double>(i - segments_) * dt_;
   }
@@ -63,19 +63,19 @@ class HarmonicMotion {
   /// Ground acceleration n at a time [m/s^2].
   double acceleration(double time) const noexcept { return -amplitude_ * std::cos(phase(time)); }
 
-  /// omega t without its whole cycles [rad], right to round-off however many there were.
-  /// @param rounding  of the time, to be added to it [s]
+  /// omega t minus its whole cycles [rad], exact to round-off for any number of cycles.
+  /// @param rounding  rounding error of the time, which is added to it [s]
   double phase(double time, double rounding = 0) const noexcept {
-    // The rounding of the product is known, and 2 pi is written with 150 bits.
+    // The fused multiply-add gives the rounding error of the product; 2 pi has 150 bits.
     constexpr double high = 2 * std::numbers::pi, middle = 0x1.1a62633145c07p-52, low = -0x1.f1976b7ed8fbcp-108;
     const double angle = omega_ * time, rest = std::fma(omega_, time, -angle) + omega_ * rounding;
     const double cycles = std::nearbyint(angle / high);
     return std::fma(-cycles, high, angle) + (rest - cycles * middle - cycles * low);
   }
 
-  /// The same motion in samples, with straight lines between them.
-  /// @param step  time between samples [s], positive; the last may come after the end
-  /// @throws std::invalid_argument as GroundMotion
+  /// The same motion as a GroundMotion, with straight lines between samples.
+  /// @param step  time between samples [s], positive; the last sample may be after the end
+  /// @throws std::invalid_argument  as for GroundMotion
   GroundMotion sampled(double step) const {
     detail::require(std::isfinite(step) && step > 0 && duration_ / step <= max_samples,
                     "HarmonicMotion: step must be positive and leave at most 2^40 samples", step, "s");

@@ -1,4 +1,4 @@
-// Any motion of the ground.
+// Any ground motion.
 #pragma once
 
 #include <concepts>
@@ -8,7 +8,7 @@
 
 namespace stickslip {
 
-/// What the ground does: straight pieces between samples, or one harmonic.
+/// A ground motion: straight segments between samples, or one harmonic.
 template <class M>
 concept Motion = std::same_as<M, GroundMotion> || std::same_as<M, HarmonicMotion>;
 

@@ -11,96 +11,95 @@
 
 namespace stickslip {
 
-/// What a record file may leave open.
+/// What a record file may leave unspecified.
 struct RecordOptions {
-  std::string units{};         ///< of the acceleration, as `acceleration_unit` knows them; empty: as the file states
-  std::string component{};     ///< its name in the file (in either case) or its number from 1; empty: the only one
-  std::optional<double> dt{};  ///< time between samples [s], of one column of numbers; none: as the file states
-  bool gaps = false;           ///< whether a gap, a time step over ten times the median one, is kept
+  std::string units{};         ///< of the acceleration, as accepted by `acceleration_unit`; empty: as the file states
+  std::string component{};     ///< its name in the file (case-insensitive) or its number from 1; empty: the only one
+  std::optional<double> dt{};  ///< time between samples [s], for a single column of numbers; none: as the file states
+  bool gaps = false;           ///< keep gaps (time steps over ten times the median) instead of rejecting the file
 };
 
 /// A format of record files.
 struct RecordFormat {
   std::string_view name;
-  std::string_view units;      ///< where they come from
-  std::string_view time_step;  ///< where it comes from
+  std::string_view units;      ///< where the units come from
+  std::string_view time_step;  ///< where the time step comes from
   std::string_view reference;
-  std::string_view extension;  ///< of usual file names; it is not looked at
+  std::string_view extension;  ///< usual file extension; not used for detection
 };
 
-/// All formats that are read, in the order in which they are tried.
+/// All supported formats, in the order in which they are tried.
 std::vector<RecordFormat> record_formats();
 
-/// The format that some content is in, or nothing where it is in none of them, or is no text. Of a file that is damaged
-/// within, it is still that format.
+/// The format of the content; nothing if no format matches or the content is not text. A file that is damaged later on
+/// still has its format.
 std::optional<RecordFormat> record_format(std::string_view content);
 
-/// Reads one component of a strong-motion record; its format is recognized by the content, never by the file's name.
-/// See `record_formats` for the list.
+/// Read one component of a strong-motion record. The format is detected from the content, never from the file name. See
+/// `record_formats` for the list.
 ///
-/// Columns of numbers are acceleration alone, with `dt` from the options, or seconds and one or several accelerations,
-/// parted by a comma, a semicolon, a tab or blanks. Commas are decimal points where columns are parted by something
-/// else and each comma is between digits. Any number of lines may come before: comments (`#`) and text. Units are read
-/// from column labels, as `Time (s), Acceleration (g)`, or from a line as `# units: cm/s^2`; the names of several
-/// components from the labels. Times that are even to the places or digits they are printed with become a step dt, the
-/// shortest decimal that fits them all, and the clock starts at 0 whatever the first time. Other times are kept as they
-/// are, also in lists of less than 100 units of the last place, or with steps of less than two: the times 0, 1, 2, 4
-/// are not rounded.
+/// Columns of numbers contain either acceleration alone, with `dt` from the options, or seconds and one or more
+/// accelerations, separated by a comma, a semicolon, a tab or blanks. Commas are decimal points if columns have another
+/// separator and each comma is between digits. Any number of header lines may precede: comments (`#`) and text. Units
+/// are read from column labels, such as `Time (s), Acceleration (g)`, or from a line such as `# units: cm/s^2`; the
+/// names of several components are read from the labels. Times that are even to their printed precision are replaced by
+/// a step dt, the shortest decimal that fits them all, and the motion starts at 0 whatever the first time. Other times
+/// are kept unchanged, and so are lists that span less than 100 units of the last printed place or have steps of less
+/// than two: the times 0, 1, 2, 4 are not rounded.
 ///
-/// Numbers are as C or Fortran print them: 1.5D-03 and 1.5-103 have an exponent, and a sign may separate numbers that
-/// run together. A field that overflowed (`*****`) and a hexadecimal number are errors.
+/// Numbers may have the formats of C or Fortran: 1.5D-03 and 1.5-103 have an exponent, and a sign may separate numbers
+/// that run together. A field that overflowed (`*****`) and a hexadecimal number are errors.
 ///
-/// The samples are those of the file, all of them: GeoNet counts its stated peak times from after the samples it put
-/// before the record (5 s, say), the motion counts them too. K-NET and KiK-net files and V1 files are not corrected:
-/// take their offset away with `detrended`.
+/// All samples of the file are kept. GeoNet pads its records at the front (by 5 s, for example) and states peak times
+/// from the end of the padding; the time of the motion includes the padding. K-NET, KiK-net and V1 files are
+/// uncorrected: remove their offset with `detrended`.
 ///
-/// UTF-8 (with or without byte-order mark) and Latin-1 are read, with LF or CRLF line ends. Names and messages are
-/// valid UTF-8 whatever the file holds: U+FFFD stands for what is no character, a blank for a control character. Names
-/// are cut to 256 bytes each.
+/// Files may be UTF-8 (with or without byte-order mark) or Latin-1, with LF or CRLF line ends. Names and messages are
+/// always valid UTF-8: U+FFFD replaces invalid characters, and a blank replaces each control character. Names are cut
+/// to 256 bytes each.
 ///
 /// @param file     an existing regular file
-/// @param options  units and dt, where the file has none (others than the file's are refused); component, where the
-///                 file has several (in a file with one, its number is 1); whether gaps are kept
-/// @return  the acceleration in m/s^2, linear between samples, named by the event, station and component as the file
-///          gives them, or else by the file's stem; with the orientation that the file states
+/// @param options  units and dt, if the file has none (values that differ from the file's are rejected); component, if
+///                 the file has several (the only component of a file has number 1); whether gaps are kept
+/// @return  the acceleration in m/s^2, linear between samples, named by the event, station and component that the file
+///          states, otherwise by the stem of the file name; with the orientation that the file states
 /// @throws std::filesystem::filesystem_error  file missing, unreadable or not a regular file, with the system's code
-/// @throws std::invalid_argument  naming the file and the line or value refused: no known format; velocity,
-///                 displacement, spectra or raw counts; no units, unknown units, or not those of `options`, and so for
-///                 the time step; other than one component meant; text, NaN or infinity among the numbers; fewer or
+/// @throws std::invalid_argument  names the file and the invalid line or value: no known format; velocity,
+///                 displacement, spectra or raw counts; units or time step missing, unknown or different from those of
+///                 `options`; not exactly one component selected; text, NaN or infinity among the numbers; fewer or
 ///                 more samples than the header states; fewer than two; a time step that is not positive; times that do
 ///                 not increase; a gap
 ///
-/// Linear in the file's length: about 1 ms for 10,000 samples.
+/// Time is linear in the file size: about 1 ms for 10,000 samples.
 GroundMotion read_record(const std::filesystem::path& file, const RecordOptions& options = {});
 
-/// `read_record` of what a file would hold.
-/// @param file  its name, for messages and for the motion where the content gives none; `archive.zip::member` is a file
-/// in
-///              an archive
+/// `read_record` for content in memory.
+/// @param file  file name for messages, and for the motion if the content gives no name; `archive.zip::member` is a
+///              file in an archive
 GroundMotion parse_record(std::string_view content, const std::string& file, const RecordOptions& options = {});
 
 /// One of the components of a record.
 struct RecordComponent {
   GroundMotion motion;
-  std::string name{};   ///< as the file has it, empty where it has none
-  std::string start{};  ///< when it begins, in the file's own words; empty where it does not say
-  std::string units{};  ///< of the acceleration, as the file states it; empty where it states none
+  std::string name{};   ///< as the file states it; empty if it states none
+  std::string start{};  ///< start time as the file writes it; empty if it states none
+  std::string units{};  ///< of the acceleration, as the file states it; empty if it states none
 };
 
-/// All components of a record in the order of the file, or the one that the options name.
+/// All components of a record in the order of the file, or the one selected by the options.
 /// @throws as `read_record`
 std::vector<RecordComponent> read_components(const std::filesystem::path& file, const RecordOptions& options = {});
 
-/// `read_components` of what a file would hold.
+/// `read_components` for content in memory.
 std::vector<RecordComponent> parse_components(std::string_view content, const std::string& file,
                                               const RecordOptions& options = {});
 
-/// How many m/s^2 one unit of acceleration is: `acceleration_unit("gal")` is 0.01.
+/// A unit of acceleration in m/s^2: `acceleration_unit("gal")` is 0.01.
 ///
 /// @param name  g, m/s^2, cm/s^2, gal, mm/s^2, ft/s^2 or in/s^2, in upper or lower case, with or without blanks; also
 ///              g's, and s^2 as s2, s**2, sec2, s/s, sec/sec
 /// @return  [m/s^2]; g is the standard gravity, 9.80665 m/s^2
-/// @throws std::invalid_argument  listing the units known
+/// @throws std::invalid_argument  unknown unit; lists the known ones
 double acceleration_unit(std::string_view name);
 
 }  // namespace stickslip
