@@ -15,18 +15,20 @@ namespace stickslip {
 /// Four casters under a rigid mass, thesis (2.27): the slip level is a sech(x / reach) + rolling. The thesis writes 3l
 /// for the reach and has no rolling resistance.
 ///
-/// Rolling resistance acts along the wheel, on the part |tanh(x / reach)| of the way that it rolls. The law takes it as
-/// the same everywhere: too much by up to `rolling` where the wheel stands across the motion and scrubs.
+/// Rolling resistance acts along the wheel, on the fraction |tanh(x / reach)| of the distance that it rolls. The law
+/// takes it as constant. This overestimates the resistance, by up to `rolling` where the wheel is perpendicular to the
+/// motion and scrubs.
 ///
-/// The law holds while the wheels are neither in line with the motion nor flipped round: |x| up to about the reach is
-/// sure (thesis A.2); beyond it the real wheel is sensitive to small disturbances.
+/// The law holds while the wheels are neither aligned with the motion nor flipped around. This is certain for |x| up to
+/// about the reach (thesis A.2); beyond it a real wheel is sensitive to small disturbances.
 class Caster {
  public:
   static constexpr bool symmetric = true;
 
-  /// @param slip_level  a, force per unit mass at x = 0, the wheel across the motion [m/s^2], finite and at least 0
-  /// @param reach       the distance over which the level falls off [m], positive; infinite is Coulomb friction
-  /// @param rolling     rolling resistance and that of the bearings, per unit mass [m/s^2], finite and at least 0
+  /// @param slip_level  a, force per unit mass at x = 0, where the wheel is perpendicular to the motion [m/s^2],
+  ///                    finite and at least 0
+  /// @param reach       the distance over which the level falls off [m], positive; infinite for Coulomb friction
+  /// @param rolling     resistance of rolling and of the bearings, per unit mass [m/s^2], finite and at least 0
   /// @throws std::invalid_argument naming the value
   Caster(double slip_level, double reach, double rolling = 0)
       : slip_level_(slip_level), reach_(reach), rolling_(rolling + 0.0) {  // minus zero is zero
@@ -37,19 +39,20 @@ class Caster {
                     "m/s^2");
   }
 
-  /// From the mechanics of a rigid wheel that is pivoted behind its contact line (thesis appendix A, corrected).
+  /// The law from the mechanics of a rigid wheel that trails its pivot (thesis appendix A, corrected).
   ///
-  /// The wheel of width w trails its pivot by l and scrubs along its line of contact. Balance of the moments about the
-  /// pivot gives B = |2 v_n / (w theta')| of the contact's midpoint,
+  /// The wheel of width w trails its pivot by l and scrubs along its line of contact. The balance of moments about the
+  /// pivot determines B = |2 v_n / (w theta')| at the midpoint of the contact line,
   ///     (B^2 + 4 (l/w) B) asinh(1/B) = sqrt(1 + B^2),
-  /// and with it the slip level a = mu g s, s = B asinh(1/B), and the reach l + w B / 2. The thesis drops a term in
-  /// (A.12), which gives B = 4 l/w, s = B asinh(1/B) and the reach 3 l: too much friction, at the wrong reach.
+  /// and B determines the slip level a = mu g s, s = B asinh(1/B), and the reach l + w B / 2. The thesis drops a term
+  /// in (A.12), which gives B = 4 l/w, s = B asinh(1/B) and the reach 3 l. Its friction is too high and its reach is
+  /// wrong.
   ///
-  /// @param mu           coefficient of friction of wheel and floor, finite and at least 0
+  /// @param mu           coefficient of friction between wheel and floor, finite and at least 0
   /// @param trail        l, horizontal distance from pivot to wheel axis [m], positive and finite
   /// @param wheel_width  w, length of the line of contact [m], positive and finite
   /// @param rolling_mu   coefficient of rolling resistance, finite and at least 0: rolling = rolling_mu g. It acts
-  ///                     along the wheel, through the pivot, and leaves the balance as it is.
+  ///                     along the wheel, through the pivot, and does not change the balance of moments.
   /// @throws std::invalid_argument naming the value
   static Caster from_geometry(double mu, double trail, double wheel_width, double rolling_mu = 0) {
     check_geometry(mu, trail, wheel_width, rolling_mu);
@@ -58,8 +61,8 @@ class Caster {
             rolling_mu * standard_gravity};
   }
 
-  /// The same by the thesis's own (A.15), (A.16) with the signs put right, (A.20) and (A.27), to compare: a = mu g
-  /// (4 l/w) asinh(w / 4 l), reach 3 l.
+  /// The law by the formulas of the thesis, for comparison: (A.15), (A.16) with corrected signs, (A.20) and (A.27).
+  /// They give a = mu g (4 l/w) asinh(w / 4 l) and the reach 3 l.
   static Caster from_geometry_thesis(double mu, double trail, double wheel_width, double rolling_mu = 0) {
     check_geometry(mu, trail, wheel_width, rolling_mu);
     const double b = 4 * (trail / wheel_width);
@@ -75,11 +78,12 @@ class Caster {
     return slip_level_ * sech(x / reach_) + rolling_;
   }
 
-  /// Work per unit mass against friction in sliding `distance` >= 0 from `from` [m^2/s^2]: a reach times the difference
-  /// of two Gudermannians, in a form that does not cancel, and that of rolling.
+  /// Work per unit mass against friction in sliding `distance` >= 0 from `from` [m^2/s^2]. The work of scrubbing is
+  /// the slip level times the reach times the difference of two Gudermannians, evaluated without cancellation;
+  /// the work of rolling resistance is added to it.
   double work(double from, double distance, Direction direction) const noexcept {
     const double half = distance / 2 / reach_;
-    if (half < 0x1p-60) return resist(from, direction) * distance;  // which does not change over so short a way
+    if (half < 0x1p-60) return resist(from, direction) * distance;  // constant over so short a distance
     const double middle = std::abs(from / reach_ + sign(direction) * half);
     const double ratio = std::exp(half - middle) * -std::expm1(-2 * half) / (1 + std::exp(-2 * middle));
     const double scrubbing = slip_level_ * (reach_ * (2 * std::atan(ratio)));  // ratio = sinh(half) / cosh(middle)
@@ -96,8 +100,9 @@ class Caster {
                     wheel_width, "m");
   }
 
-  // With B = 1 / sinh y the balance of moments is 4 (l/w) y sinh y = sinh y cosh y - y, free of cancellation but for
-  // its right side at small y; it rises with y from 0 (a broad wheel) to infinity (a thin one), as 2 y / 3 at first.
+  // With B = 1 / sinh y the balance of moments is 4 l/w = (sinh y cosh y - y) / (y sinh y). Only the numerator cancels,
+  // at small y, where it is a series. The quotient increases with y from 0 (a wide wheel) to infinity (a thin one); for
+  // small y it is 2 y / 3.
   static double contact_angle(double trail_over_width) {
     const auto exceeds = [&](double y) {
       const double z = 2 * y, z2 = z * z;

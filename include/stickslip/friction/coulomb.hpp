@@ -12,11 +12,11 @@
 
 namespace stickslip {
 
-/// Coulomb friction, thesis (2.20): the slip level is a = mu g, whatever the position.
+/// Coulomb friction, thesis (2.20): the slip level is a = mu g at any position.
 ///
 /// The two directions may differ: `forward` is the level against forward sliding (x' > 0), `backward` against backward
-/// sliding. With an infinite level one way the block is Newmark's, which only slides the other way. (A slope is the
-/// slider's, see Mounting.)
+/// sliding. With an infinite `backward` level the slider is a Newmark block, which slides only forward. (The slope of
+/// the ground is a property of the slider, see Mounting.)
 class Coulomb {
  public:
   static constexpr bool constant_while_sliding = true;

@@ -16,16 +16,17 @@
 
 namespace stickslip {
 
-/// Friction whose slip level depends on how far the slider has slid, forward and backward alike: a(s), linear between
-/// knots (s_i, a_i) and constant before the first and after the last. s is State::sliding_distance [m]. At rest
-/// the level stays at its present value.
+/// Friction whose slip level a(s) depends on the total sliding distance s, State::sliding_distance [m]: forward plus
+/// backward. It is linear between knots (s_i, a_i) and constant before the first knot and after the last. At rest the
+/// level does not change.
 ///
-/// Between two knots, in a slip one way, x'' = p(t) - sgn(x') (a + k (s - s_0)) with k = (a_(i+1) - a_i) / (s_(i+1) -
-/// s_i): the motion of constant friction with a spring k, which pushes away where the level falls. It grows or decays
-/// exponentially then, with the rate sqrt(-k), and swings with sqrt(k) where the level rises.
+/// Between two knots, in a slip in one direction, x'' = p(t) - sgn(x') (a + k (s - s_0)) with k = (a_(i+1) - a_i) /
+/// (s_(i+1) - s_i). This is the motion under constant friction with a spring of stiffness k. Where the level falls, k
+/// is negative and the motion grows or decays exponentially with the rate sqrt(-k); where the level rises, it
+/// oscillates with the angular frequency sqrt(k).
 class Degrading {
  public:
-  /// The law within a piece, for a slip one way from a place.
+  /// The law between two knots, for a slip in one direction from a given state.
   class Piece {
    public:
     template <class T>
@@ -33,7 +34,7 @@ class Degrading {
       const Line& line = direction == Direction::forward ? forward_ : backward_;
       return line.level + (sign(direction) * line.slope) * (x - from_);
     }
-    /// The derivative of the level by the distance slid [1/s^2].
+    /// The derivative of the level with respect to the sliding distance [1/s^2].
     double slope(Direction direction) const noexcept {
       return (direction == Direction::forward ? forward_ : backward_).slope;
     }
@@ -49,14 +50,14 @@ class Degrading {
     double from_;
   };
 
-  /// @param distances  s_i, at the knots [m]: at least one, finite, at least 0 and increasing
-  /// @param levels     a_i [m/s^2], one for each, finite and at least 0
+  /// @param distances  s_i of the knots [m]: at least one, finite, at least 0 and increasing
+  /// @param levels     a_i of the knots [m/s^2], one for each distance, finite and at least 0
   /// @throws std::invalid_argument naming the value
   Degrading(std::vector<double> distances, std::vector<double> levels)
       : Degrading(std::move(distances), levels, levels) {}
 
   /// @param levels    against forward sliding [m/s^2]
-  /// @param backward  against backward sliding [m/s^2], likewise
+  /// @param backward  against backward sliding [m/s^2], with the same requirements
   Degrading(std::vector<double> distances, std::vector<double> levels, std::vector<double> backward)
       : distances_(std::move(distances)), forward_(std::move(levels)), backward_(std::move(backward)) {
     detail::require(!distances_.empty(), "Degrading: distances must hold at least one", 0);
@@ -79,13 +80,13 @@ class Degrading {
   const std::vector<double>& levels() const noexcept { return forward_; }
   const std::vector<double>& backward() const noexcept { return backward_; }
 
-  /// The law as it goes on from a state.
+  /// The law that applies from a state on.
   Piece at(const State& state) const noexcept {
     const std::size_t next = next_knot(state.sliding_distance);
     return {line(forward_, next, state.sliding_distance), line(backward_, next, state.sliding_distance),
             state.displacement};
   }
-  /// The way to the next knot [m].
+  /// Distance to the next knot [m].
   double ahead(const State& state, Direction) const noexcept {
     return knot_after(state.sliding_distance) - state.sliding_distance;
   }

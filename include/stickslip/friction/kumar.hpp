@@ -19,8 +19,9 @@ namespace stickslip {
 ///     kp = 0.7^(0.02 (p - p0)),            p and p0 in MPa
 ///     kv = 1 - 0.5 exp(-rate |v|),
 ///     kT = 0.79 (0.7^(0.02 T) + 0.40),     T in degrees Celsius
-/// p = static_pressure N/g is the pressure under the normal force N. At rest it holds what resists at no speed. T is
-/// the temperature at the middle of the sliding surface, which friction heats while the slider covers it,
+/// p = static_pressure N/g is the pressure under the normal force N per unit mass. Friction at rest is limited by the
+/// resistance at zero speed. T is the temperature at the middle of the sliding surface, which friction heats while the
+/// slider covers it,
 ///     T = T0 + sqrt(D) / (k sqrt(pi)) times the integral of q(t - tau) / sqrt(tau) over tau > 0,
 ///     q = mu p |v| while |x| < contact_radius sqrt(pi/4), else 0
 ///
@@ -31,10 +32,10 @@ class KumarFriction {
   static constexpr bool symmetric = true;
 
   struct Parameters {
-    double mu_ref = 0;              ///< at high speed, p = p0 and 20 degrees [1], finite and at least 0
+    double mu_ref = 0;              ///< mu at high speed, p = p0 and 20 degrees Celsius [1], finite and at least 0
     double static_pressure = 0;     ///< p where N = g [Pa], positive and finite
     double reference_pressure = 0;  ///< p0 [Pa], positive and finite
-    double contact_radius = 0;      ///< of the slider [m], positive; infinite where it always covers the middle
+    double contact_radius = 0;      ///< of the slider [m], positive; infinite if it always covers the middle
     double temperature = 20;        ///< T0 [degrees Celsius], from -100 to 400
     double rate = 100;              ///< [s/m], finite and at least 0
     double diffusivity = 4.44e-6;   ///< D, of the steel [m^2/s], positive and finite
@@ -86,32 +87,32 @@ class KumarFriction {
 
   const Parameters& parameters() const noexcept { return parameters_; }
 
-  /// What resists under a normal force of `weight` times g, divided by the weight, with the heat's half-integral H [W
-  /// s^(1/2)/m^2] [m/s^2].
+  /// Resistance under a normal force of `weight` times g, divided by `weight` [m/s^2]. `half_integral` is H, the
+  /// half-integral of the heat [W s^(1/2)/m^2].
   double level(double speed, double weight, double half_integral) const noexcept {
     const double celsius = parameters_.temperature + warming_ * half_integral;
     return (detail::equal(weight, 1) ? static_scale_ : scale(weight)) *
            (1 - 0.5 * std::exp(-parameters_.rate * speed)) * (power_of_seven_tenths(0.02 * celsius) + 0.40);
   }
 
-  /// T [degrees Celsius].
+  /// Temperature T of the surface [degrees Celsius].
   double temperature(const State& state) const noexcept {
     return parameters_.temperature + warming_ * state.heat.half_integral();
   }
-  /// The heat's half-integral at a temperature [W s^(1/2)/m^2].
+  /// Half-integral of the heat at a temperature [W s^(1/2)/m^2].
   double half_integral_at(double temperature) const noexcept {
     return warming_ > 0 ? (temperature - parameters_.temperature) / warming_ : 0;
   }
 
   Now at(const State& state, double weight = 1) const noexcept { return {*this, weight, state.heat.half_integral()}; }
 
-  /// Heat per area and per friction force per unit mass and speed [kg/m^2].
+  /// Heat flux into the middle of the surface, divided by the speed and the friction force per unit mass [kg/m^2].
   double heating(const State& state, Direction direction) const noexcept {
     const double place = sign(direction) * state.displacement;
     return place >= -edge_ && place < edge_ ? parameters_.static_pressure / standard_gravity : 0;
   }
 
-  /// The way to where the slider comes to cover the middle of the surface, or leaves it [m].
+  /// Distance to the next position at which the slider begins or ceases to cover the middle of the surface [m].
   double ahead(const State& state, Direction direction) const noexcept {
     const double place = sign(direction) * state.displacement;
     return place < -edge_ ? -edge_ - place : place < edge_ ? edge_ - place : std::numeric_limits<double>::infinity();
@@ -123,7 +124,7 @@ class KumarFriction {
   }
 
  private:
-  // g mu_ref kp and the constant of kT [m/s^2].
+  // g mu_ref kp times the constant factor of kT [m/s^2].
   double scale(double weight) const noexcept {
     const double pressure = (parameters_.static_pressure * weight - parameters_.reference_pressure) * 1e-6;
     return 0.79 * standard_gravity * parameters_.mu_ref * power_of_seven_tenths(0.02 * pressure);
@@ -133,9 +134,9 @@ class KumarFriction {
   }
 
   Parameters parameters_;
-  double warming_;  // of the surface, per half-integral [K m^2 / (W s^(1/2))]
+  double warming_;  // temperature rise of the surface per half-integral [K m^2 / (W s^(1/2))]
   double static_scale_;
-  double edge_;  // |x| where the slider leaves the middle of the surface [m]
+  double edge_;  // |x| beyond which the slider does not cover the middle of the surface [m]
 };
 
 }  // namespace stickslip

@@ -12,7 +12,7 @@ namespace stickslip {
 /// A friction law defines one or two functions. Each returns a non-negative friction force per unit mass [m/s^2]:
 ///
 ///     resist(x, direction) or resist(x, direction, speed)    // resistance to sliding at x [m] and speed |x'| [m/s]
-///     hold(x, direction)                                     // largest friction at rest against sliding that way
+///     hold(x, direction)                                     // largest friction at rest against that direction
 ///
 /// Without `hold`, friction at rest is limited by the resistance at zero speed. `resist` is a template over its
 /// scalars: one line serves doubles, power series, and several of either in SIMD lanes. It names none of these types
@@ -42,7 +42,7 @@ concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, doub
 template <class Law>
 concept MemorylessLaw = PositionLaw<Law> || SpeedLaw<Law>;
 
-/// A law that is defined by numbers only, such as a table or a function of another language. It declares `static
+/// A law that is defined by numbers only, such as a table or a function in another language. It declares `static
 /// constexpr bool numeric = true;`, and its `resist` need not be a template. It must be continuous in x and speed. The
 /// motion is computed by collocation, to 1e-10 of the scale.
 template <class Law>
@@ -57,8 +57,8 @@ concept NumericLaw = MemorylessLaw<Law> && requires {
 ///     pass(state, direction)   // moves a state to the end of that distance: x and the sliding distance
 ///
 /// The level must be continuous there. If the law that `at` returns is linear in x, it defines `slope(direction)`,
-/// the derivative of the resistance with respect to the distance slid that way [1/s^2]. The motion is then known in
-/// closed form.
+/// the derivative of the resistance with respect to the distance slid in that direction [1/s^2]. The motion is then
+/// known in closed form.
 template <class Law>
 concept MemoryLaw = std::copy_constructible<Law> &&
     requires(const Law& law, const State& state, State& there, Direction direction) {
@@ -71,12 +71,12 @@ concept MemoryLaw = std::copy_constructible<Law> &&
 /// heats, State::heat:
 ///
 ///     at(state, weight)            // the law under a normal force of weight times g
-///     level(speed, weight, H)      // what resists, times the weight, with the heat's half-integral H [m/s^2]
-///     heating(state, direction)    // heat per area that a slip makes where the temperature is taken, per force per
-///                                  // unit mass and speed [kg/m^2]; constant along `ahead`
-///     temperature(state)           // of the surface [degrees Celsius]
+///     level(speed, weight, H)      // resistance divided by the weight, at the half-integral H of the heat [m/s^2]
+///     heating(state, direction)    // heat flux where the temperature is taken, divided by speed and by the friction
+///                                  // force per unit mass [kg/m^2]; constant over the distance `ahead`
+///     temperature(state)           // temperature of the surface [degrees Celsius]
 ///     half_integral_at(T)          // H at a temperature [W s^(1/2)/m^2]
-/// `at(state)` is `at(state, 1)`.
+/// `at(state)` is equivalent to `at(state, 1)`.
 template <class Law>
 concept HeatedLaw = MemoryLaw<Law> && requires(const Law& law, const State& state, Direction direction, double value) {
   { law.at(state, value) } -> MemorylessLaw;
@@ -90,7 +90,7 @@ template <class Law>
 concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
 
 /// The law that applies from a state on, under a normal force of `weight` times g: `law.at(...)` for a law with memory,
-/// else the law itself.
+/// otherwise the law itself.
 template <FrictionLaw Law>
 decltype(auto) law_at(const Law& law, const State& state, double weight = 1) {
   if constexpr (HeatedLaw<Law>)
@@ -101,7 +101,7 @@ decltype(auto) law_at(const Law& law, const State& state, double weight = 1) {
     return law;
 }
 
-/// A law that is linear in x while it slides one way.
+/// A law that is linear in x while the slider moves in one direction.
 template <class Law>
 concept LinearLaw = PositionLaw<Law> && requires(const Law& law, Direction direction) {
   { law.slope(direction) } -> std::convertible_to<double>;
@@ -133,7 +133,7 @@ double hold(const Law& law, double x, Direction direction) {
     return resists;
 }
 
-/// A law whose resistance is constant while the slider moves one way. The law declares this with
+/// A law whose resistance is constant while the slider moves in one direction. The law declares this with
 /// `static constexpr bool constant_while_sliding = true;`. Its motion between events is known in closed form.
 template <class Law>
 concept ConstantLevelLaw = FrictionLaw<Law> && requires {
@@ -154,8 +154,8 @@ concept LawWithWork = PositionLaw<Law> && requires(const Law& law, double x, Dir
   { law.work(x, x, direction) } -> std::convertible_to<double>;
 };
 
-/// The work against friction of a law of position [m^2/s^2]. Without a closed form it is computed by ten-point
-/// Gauss-Legendre quadrature, which is accurate over short distances only.
+/// The work against friction of a law that depends on position only [m^2/s^2]. Without a closed form it is computed by
+/// ten-point Gauss-Legendre quadrature, which is accurate over short distances only.
 template <PositionLaw Law>
 double friction_work(const Law& law, double from, double distance, Direction direction) {
   if constexpr (LawWithWork<Law>) {

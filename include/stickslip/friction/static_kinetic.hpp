@@ -13,23 +13,24 @@
 
 namespace stickslip {
 
-/// A slider that holds more at rest than what resists sliding: at rest while |load| <= hold, then the sliding law. A
-/// slip that stops sticks where |load| <= hold.
+/// Friction whose limit at rest exceeds the resistance to sliding. A slider at rest stays at rest while |load| <= hold;
+/// then the sliding law applies. A slip that stops sticks if |load| <= hold.
 ///
-/// The response is not a continuous function of the input: where a slip all but stops, or a load all but reaches the
-/// static level, the least change decides whether it sticks.
+/// The response is not a continuous function of the input: if a slip nearly stops, or a load nearly reaches the static
+/// level, an arbitrarily small change decides whether the slider sticks.
 ///
-/// @tparam Law  of sliding; a sliding law that holds more itself goes on to. Of one with a memory the static level
-/// stays,
-///              and must be at least its level at the start
+/// @tparam Law  the sliding law. Where its resistance at zero speed exceeds the static level, that resistance limits
+///              friction at rest. If the law has memory, the static level does not change with it, and must be at least
+///              the level of the law at the start
 template <FrictionLaw Law = Coulomb>
 class StaticKinetic {
  public:
   static constexpr bool constant_while_sliding = ConstantLevelLaw<Law>;
   static constexpr bool numeric = NumericLaw<Law>;
 
-  /// @param sliding       what resists sliding
-  /// @param static_level  what holds at rest, both ways, force per unit mass [m/s^2]; at least what resists there
+  /// @param sliding       the sliding law
+  /// @param static_level  largest friction at rest in both directions, force per unit mass [m/s^2]; at least
+  ///                      that of the sliding law at x = 0
   /// @throws std::invalid_argument naming the value
   StaticKinetic(Law sliding, double static_level) : StaticKinetic(std::move(sliding), static_level, static_level) {}
 

@@ -1,4 +1,4 @@
-// Friction that falls from a static to a kinetic level as sliding gets faster.
+// Friction that falls from a static to a kinetic level with increasing speed.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace stickslip {
 
 /// The Stribeck law:
 ///     a(|x'|) = a_kinetic + (a_static - a_kinetic) exp(-(|x'| / velocity)^exponent)
-/// At rest it holds a_static; it breaks away without a jump.
+/// The limit of friction at rest is a_static. The friction force does not jump at breakaway.
 ///
 /// Source: B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools and compensation
 /// methods for the control of machines with friction, Automatica 30 (1994), 1083-1138.
@@ -21,9 +21,9 @@ class Stribeck {
   static constexpr int max_exponent = 31;
 
   /// @param static_level   a_static, force per unit mass at rest [m/s^2], finite and at least the kinetic one
-  /// @param kinetic_level  a_kinetic, that at high speed [m/s^2], finite and at least 0
-  /// @param velocity       of which the level has fallen by 63 % of the difference [m/s], positive
-  /// @param exponent       a whole number from 1 to 31
+  /// @param kinetic_level  a_kinetic, force per unit mass at high speed [m/s^2], finite and at least 0
+  /// @param velocity       speed at which the level has fallen by 63 % of the difference [m/s], positive
+  /// @param exponent       an integer from 1 to 31
   /// @throws std::invalid_argument naming the value
   Stribeck(double static_level, double kinetic_level, double velocity, int exponent)
       : static_(static_level), kinetic_(kinetic_level), velocity_(velocity), exponent_(exponent) {

@@ -1,4 +1,4 @@
-// Friction that changes with the speed of sliding, from a slow level to a fast one.
+// Friction that changes with speed, from a level at rest to a level at high speed.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,10 @@
 
 namespace stickslip {
 
-/// Friction that depends on the speed |x'|, as that of PTFE and other liners of sliding isolators:
+/// Friction that depends on the speed |x'|, as for PTFE and other liners of sliding isolators:
 ///     a(|x'|) = a_fast - (a_fast - a_slow) exp(-rate |x'|)
-/// At rest it holds a_slow. A liner has a_slow < a_fast; with a_slow > a_fast friction weakens with speed.
+/// The limit of friction at rest is a_slow. Liners have a_slow < a_fast. If a_slow > a_fast, friction decreases with
+/// speed.
 ///
 /// Source: M. C. Constantinou, A. Mokha, A. Reinhorn, Teflon bearings in base isolation II: Modeling, Journal of
 /// Structural Engineering 116 (1990), 455-474.
@@ -20,8 +21,8 @@ class VelocityDependent {
   static constexpr bool symmetric = true;
 
   /// @param slow  a_slow, force per unit mass at rest [m/s^2], finite and at least 0
-  /// @param fast  a_fast, that at high speed [m/s^2], finite and at least 0
-  /// @param rate  [s/m], finite and at least 0; at 1 / rate 63 % of the change is done
+  /// @param fast  a_fast, force per unit mass at high speed [m/s^2], finite and at least 0
+  /// @param rate  [s/m], finite and at least 0; 63 % of the change is reached at a speed of 1 / rate
   /// @throws std::invalid_argument naming the value
   VelocityDependent(double slow, double fast, double rate) : slow_(slow), fast_(fast), rate_(rate) {
     detail::require(std::isfinite(slow) && slow >= 0, "VelocityDependent: slow must be finite and at least 0", slow,

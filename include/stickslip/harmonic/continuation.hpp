@@ -1,4 +1,4 @@
-// A branch of periodic motions, followed over the frequency of the ground.
+// Continuation of a branch of periodic motions over the frequency of the ground motion.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 
 namespace stickslip {
 
-/// Orbits that hang together, along the response curve.
+/// A connected branch of orbits along the response curve.
 struct OrbitBranch {
   std::vector<Orbit> orbits;       ///< in order along the curve
   std::vector<std::size_t> folds;  ///< indices of the orbits at which the curve turns back in frequency
@@ -32,22 +32,23 @@ struct OrbitBranch {
 
 struct ContinuationOptions {
   double max_step = 0.05;  ///< largest relative change of state and frequency from orbit to orbit, up to 0.5
-  double max_amplitude = std::numeric_limits<double>::infinity();  ///< the branch ends beyond it [m]
+  double max_amplitude = std::numeric_limits<double>::infinity();  ///< the branch ends above this [m]
   std::size_t max_orbits = 10'000;                                 ///< in each direction
-  std::function<void()> progress{};                                ///< called at each orbit; may throw to stop the work
+  std::function<void()> progress{};                                ///< called at each step; may throw to stop the work
 };
 
 namespace detail {
 
-/// Follows one curve of orbits as the frequency changes, by pseudo-arclength: the next orbit is sought on a line across
-/// the way that the last two point, along which the frequency may turn back.
+/// Follows one curve of orbits over the frequency by pseudo-arclength continuation: Newton's method seeks the next
+/// orbit on a plane perpendicular to the tangent of the curve. The frequency may turn back along the curve.
 template <FrictionLaw Law>
 class BranchFollower {
  public:
   BranchFollower(const Slider<Law>& slider, double load, double low, double high, const ContinuationOptions& options)
       : slider_(slider), load_(load), low_(low), high_(high), options_(options) {}
 
-  /// Orbits from `first` on, itself left out, with the frequency rising at first (way = 1) or falling (-1).
+  /// Compute the orbits after `first`, which is not included. The frequency initially rises for way = 1 and falls for
+  /// way = -1.
   OrbitBranch follow(const Orbit& first, double way) const {
     OrbitBranch branch;
     Point last = point_on(first);
@@ -58,11 +59,11 @@ class BranchFollower {
       const auto next = try_correct(last, direction, step);
       if (!next) {
         step /= 2;
-        if (step < shortest_step * options_.max_step) break;  // here the branch ends, or is not to be followed
+        if (step < shortest_step * options_.max_step) break;  // the branch ends here or cannot be followed
         continue;
       }
       const double omega = next->omega();
-      if (omega < low_ || omega > high_) {  // the last orbit is at the end of the range itself
+      if (omega < low_ || omega > high_) {  // the last orbit lies exactly at the end of the range
         if (auto end = at_frequency(*next, std::clamp(omega, low_, high_), last))
           branch.orbits.push_back(std::move(*end));
         break;
@@ -84,7 +85,7 @@ class BranchFollower {
       const bool closed = branch.orbits.size() > 8 && close(orbit, first);
       branch.orbits.push_back(orbit);
       if (closed) break;
-      // where it turns is not met by the place at which the motion is looked at
+      // The phase moves with the orbit, so that no turning point reaches the phase at which the state is compared.
       const Point moved = point_on(orbit);
       direction = tangent(moved, secant(last, moved));
       last = moved;
@@ -114,7 +115,7 @@ class BranchFollower {
     return with_finder(slider_, load_, omega, std::forward<Work>(work));
   }
 
-  /// The motion a quarter of a period after it has left its highest x.
+  /// The state a quarter of a period after the slider has left its maximum x.
   Point point_on(const Orbit& orbit) const {
     constexpr double quarter = std::numbers::pi / 2;
     double high = -std::numeric_limits<double>::infinity(), time = 0;
@@ -129,8 +130,8 @@ class BranchFollower {
   }
 
   struct Equations {
-    Vector miss{};        // of x and x'; and 0
-    Vector rows[2] = {};  // what each changes by
+    Vector miss{};        // residuals of x and x', then 0
+    Vector rows[2] = {};  // gradients of the residuals with respect to Point::y
   };
 
   std::array<double, 2> miss(const Point& point) const {
@@ -154,7 +155,8 @@ class BranchFollower {
       e.rows[1] = {vx / omega, 1 + vv, 0};
       return e;
     });
-    // By differences, for it only says which way to go: where it leads is found by the miss alone.
+    // Finite differences suffice: the derivative only determines the direction of steps, while the accuracy of an orbit
+    // depends on the residual alone.
     constexpr double little = 1e-6;
     Point more = point, less = point;
     more.y[2] += little;
@@ -164,7 +166,7 @@ class BranchFollower {
     return result;
   }
 
-  // Along the curve, to the side of `onward`.
+  // Unit tangent of the curve, oriented along `onward`.
   Vector tangent(const Point& point, const Vector& onward) const {
     const Equations e = equations(point);
     Vector t = cross(e.rows[0], e.rows[1]);
@@ -173,7 +175,7 @@ class BranchFollower {
     return t;
   }
 
-  // The orbit on the plane that stands across `direction`, a step away.
+  // The orbit on the plane perpendicular to `direction` at the distance `step`.
   std::optional<Point> correct(const Point& from, const Vector& direction, double step) const {
     Point point = from;
     for (std::size_t i = 0; i < 3; ++i) point.y[i] += step * direction[i];
@@ -199,7 +201,7 @@ class BranchFollower {
     return std::nullopt;
   }
 
-  // Near resonance a caster's orbits go to infinity, where they are not to be computed any more.
+  // Near resonance the amplitude of a caster's orbits tends to infinity, and the integration eventually fails.
   std::optional<Point> try_correct(const Point& from, const Vector& direction, double step) const {
     try {
       return correct(from, direction, step);
@@ -208,7 +210,7 @@ class BranchFollower {
     }
   }
 
-  // Between two orbits of which the curve turns back: where its direction has no part in frequency.
+  // The fold between two orbits: the point at which the frequency component of the tangent is zero.
   std::optional<Point> find_fold(const Point& from, const Vector& direction, double step) const {
     double low = 0, high = step, low_value = direction[2], high_value = 0;
     std::optional<Point> best = correct(from, direction, high);
@@ -229,7 +231,7 @@ class BranchFollower {
   }
 
   std::optional<Orbit> at_frequency(const Point& near, double omega, const Point& last) const {
-    // on the straight line between the two
+    // The initial guess lies on the straight line between the two points.
     Point point = near;
     const double part = (std::log(omega) - last.y[2]) / (near.y[2] - last.y[2]);
     for (std::size_t i = 0; i < 3; ++i) point.y[i] = last.y[i] + part * (near.y[i] - last.y[i]);
@@ -244,7 +246,7 @@ class BranchFollower {
     return at(point.omega(), [&](const auto& finder) { return finder.describe({point.phase, point.state()}); });
   }
 
-  // From `last` to `point`, both where `point` is looked at.
+  // The difference from `last` to `point`, both at the phase of `point`.
   Vector secant(const Point& last, const Point& point) const {
     const State state = at(last.omega(), [&](const auto& finder) {
       constexpr double cycle = 2 * std::numbers::pi;
@@ -268,18 +270,18 @@ class BranchFollower {
 
 }  // namespace detail
 
-/// The orbits that hang together with one, along the response curve: by pseudo-arclength continuation over the
-/// frequency, which goes on round folds to the unstable orbits behind them.
+/// Follow the branch of the response curve through a given orbit, by pseudo-arclength continuation over the frequency.
+/// The continuation passes folds and follows the unstable orbits beyond them.
 ///
-/// @param slider   the one that `from` is an orbit of
-/// @param from     where to begin, not a rest
-/// @param low      least frequency [rad/s], positive; `from` lies between it and `high`
-/// @param high     greatest frequency [rad/s]
-/// @param options  how finely, how far
-/// @return `from` and the orbits on both sides of it, up to where the branch leaves the frequencies asked for, ends, or
-///         closes; the folds are orbits of it
+/// @param slider   the slider of the orbit `from`
+/// @param from     the orbit to start from, not at rest
+/// @param low      minimum frequency [rad/s], positive; the frequency of `from` lies between `low` and `high`
+/// @param high     maximum frequency [rad/s]
+/// @param options  step size and limits
+/// @return `from` and the orbits on both sides of it, up to where the branch leaves the frequency range, ends, or
+///         closes; folds are orbits of the branch
 /// @throws std::invalid_argument  a value out of its range
-/// Takes some fifteen half periods of motion an orbit: 20 to 40 us with constant friction, 1 to 4 ms for a caster.
+/// Each orbit takes about fifteen half periods of motion: 20 to 40 us with constant friction, 1 to 4 ms for a caster.
 /// Reference: H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977).
 template <FrictionLaw Law>
 OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double low, double high,
@@ -317,7 +319,7 @@ OrbitBranch continuation(const Law& law, const Orbit& from, double low, double h
 
 }  // namespace stickslip
 
-#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 

@@ -1,4 +1,4 @@
-// Periodic motions of a slider under a harmonic ground, found exactly: by shooting on the map over half a period.
+// Exact periodic motions of a slider under a harmonic ground motion, by shooting on the half-period map.
 #pragma once
 
 #include <algorithm>
@@ -33,18 +33,19 @@ struct Matrix2 {
   double xx = 1, xv = 0, vx = 0, vv = 1;
 };
 
-/// Follows what becomes of a small change of the state, through slips, reversals and stops (an observer).
+/// Propagates a small change of the state through slips, reversals and stops (an observer).
 ///
-/// Along a slip the flow knows. At a reversal x'' jumps from a to b, and a change of x' with it becomes b/a as large:
-/// the saltation matrix is diag(1, b/a). At an arrest no change of x' is left: diag(1, 0). To break away takes nothing.
+/// Along a slip the flow supplies the variation. At a reversal x'' jumps from a to b, which multiplies a change of x'
+/// by b/a: the saltation matrix is diag(1, b/a). At an arrest no change of x' remains: diag(1, 0). At breakaway the
+/// change of the state remains as it is.
 class Variation {
  public:
   explicit Variation(const State& state) {
     if (state.mode == Mode::stuck) jump(0);
   }
 
-  Matrix2 matrix;          // of (x, x')
-  double determinant = 1;  // of it: the product of all jumps, as a slip itself loses nothing
+  Matrix2 matrix;          // derivative of (x, x') with respect to the initial (x, x')
+  double determinant = 1;  // of the matrix: the product of all jumps, because a slip itself preserves area
 
   template <class Flow>
   void follow(const Flow& flow, double t) {
@@ -72,7 +73,7 @@ class Variation {
   bool turned_ = false;
 };
 
-/// Keeps the events of a piece of motion and its friction work (an observer).
+/// Collects the events of a motion and its work against friction (an observer).
 template <FrictionLaw Law>
 struct CycleRecorder {
   const Law& law;
@@ -94,7 +95,7 @@ class OrbitFinder {
   OrbitFinder(const Slider<Law>& slider, const Flows& flows, double load, double omega)
       : slider_(slider), flows_(flows), load_(load), omega_(omega) {}
 
-  /// Where the slider is at a phase of the load.
+  /// The state of the slider at a phase of the load.
   struct Place {
     double phase;
     State state;
@@ -108,8 +109,8 @@ class OrbitFinder {
     return state;
   }
 
-  /// What half a period leaves to be desired: the sum of the state and of the one half a period later, x in units of
-  /// `scale` and x' in units of omega scale.
+  /// The residual of symmetry: the sum of the state and of the state half a period later, x in units of `scale` and x'
+  /// in units of omega scale.
   struct Miss {
     double x, v;
     double size() const noexcept { return std::max(std::abs(x), std::abs(v)); }
@@ -119,7 +120,7 @@ class OrbitFinder {
             (from.state.velocity + half_later.velocity) / (omega_ * scale)};
   }
 
-  /// Newton's method on the half-period map; nothing where it does not converge.
+  /// Newton's method on the half-period map; empty if it does not converge.
   std::optional<Place> shoot(Place place, double scale) const {
     Variation variation(place.state);
     State later = after(place, std::numbers::pi, variation);
@@ -147,13 +148,13 @@ class OrbitFinder {
       if (!better || equal(now.size(), 0)) break;
     }
     if (now.size() > close_enough) return std::nullopt;
-    // What rests there is left with some round-off of a velocity, and would be seen to stop once more.
+    // A slider that is at rest here has a velocity of round-off size, which would cause one more arrest.
     if (later.mode == Mode::stuck && std::abs(place.state.velocity) <= close_enough * omega_ * scale)
       place.state = State::at(place.state.displacement, 0);
     return place;
   }
 
-  /// All there is to know of the orbit through a place.
+  /// All properties of the orbit through a place.
   Orbit describe(const Place& place) const {
     Orbit orbit{};
     orbit.load = load_;
@@ -193,7 +194,8 @@ class OrbitFinder {
     return orbit;
   }
 
-  /// Of minus the matrix; the determinant is known better than by its difference of products.
+  /// Eigenvalues of minus the matrix. The product of the jumps gives the determinant more accurately than the
+  /// difference of products of the matrix.
   static std::array<std::complex<double>, 2> eigenvalues(const Variation& variation) {
     const double half = -(variation.matrix.xx + variation.matrix.vv) / 2, determinant = variation.determinant;
     const double discriminant = half * half - determinant;
@@ -205,9 +207,10 @@ class OrbitFinder {
     return {one, equal(one, 0) ? 0 : determinant / one};
   }
 
-  static constexpr double close_enough = 1e-11;  // a miss, of the amplitude: beyond it Newton's method goes on
+  // Largest residual of an orbit, relative to its amplitude. Newton's method continues while the residual is larger.
+  static constexpr double close_enough = 1e-11;
 
-  /// The symmetric orbits that have been found, by amplitude.
+  /// All symmetric orbits that the search finds, in order of amplitude.
   std::vector<Orbit> find(const std::function<void()>& progress) const {
     std::vector<Orbit> found;
     if (load_ <= level(0)) found.push_back(rest());
@@ -215,7 +218,7 @@ class OrbitFinder {
       if (!found.empty()) return found;
       if (const auto orbit = without_stops()) {
         found.push_back(*orbit);
-        return found;  // friction lets no two motions part, and these two would
+        return found;  // two motions never diverge under constant friction, but two orbits would
       }
       if (equal(slider_.stiffness(), 0)) return {with_stops()};
     }
@@ -246,10 +249,10 @@ class OrbitFinder {
     return orbit;
   }
 
-  // Den Hartog's orbit (1931): with the friction +a on the way back, from x = A to -A,
+  // Den Hartog's orbit (1931). With the friction force +a during backward sliding, from x = A to -A,
   //     x = a/wn^2 (1 - cos wn t) + D sin wn t + G cos(omega t + theta),   G = B / (wn^2 - omega^2),
   //     D = -a/wn^2 tan(pi wn / 2 omega),  A = G cos(theta),  G omega sin(theta) = wn D;
-  // it is one if it neither stops nor turns on its way.
+  // This is an orbit if the slider neither stops nor reverses in between.
   std::optional<Orbit> without_stops() const {
     const double wn = slider_.natural_frequency(), angle = std::numbers::pi / 2 * (wn / omega_);
     const double tangent = wn > 0 ? std::tan(angle) / wn : std::numbers::pi / (2 * omega_);
@@ -267,18 +270,19 @@ class OrbitFinder {
     return orbit;
   }
 
-  // Without a spring it rests until the load outgrows friction, slips, and stops.
+  // Without a spring the slider rests until the load exceeds friction, slips, and stops.
   Orbit with_stops() const {
     const double phase = -std::acos(level(0) / load_);
     const double way = after({phase, {}}, std::numbers::pi).displacement;
     return describe({phase - 0x1p-20, State::at(-way / 2, 0)});
   }
 
-  // Any symmetric orbit turns or stops at its highest x, A > 0, and goes back from there at a phase theta at which the
-  // load lets it: an arc, whose beginning is where it breaks away from a stop. For all A and all of the arc the miss is
-  // laid on a grid; where its two parts are both zero on a triangle, as if it were linear, Newton's method goes on. On
-  // the beginning of the arc x' is missed by nothing, and x alone must change sign. Two orbits next to a fold may be
-  // closer than the grid: so where the miss is less than all around, they are sought too.
+  // Every symmetric orbit reverses or stops at its maximum x, A > 0. It leaves this position at a phase theta at which
+  // the load permits backward sliding. These phases form an arc; a slider that has stopped breaks away at the start of
+  // the arc. The residual is computed on a grid over A and the arc. Newton's method starts in each triangle of the grid
+  // in which both components of the linearly interpolated residual are zero. At the start of the arc the residual of x'
+  // is zero, and only the residual of x must change sign. Two orbits near a fold may be closer to each other than the
+  // grid spacing; Newton's method therefore also starts at local minima of the residual.
   void search(std::vector<Orbit>& found, const std::function<void()>& progress) const {
     const auto [least, largest] = amplitudes();
     const double usual = load_ / (omega_ * omega_ + slider_.stiffness());
@@ -289,7 +293,8 @@ class OrbitFinder {
     if (equal(least, 0)) rows.push_back({.free = load_ > level(0), .misses = {{{-1, 0}}}});
     for (double amplitude = begin; amplitude < largest * step; amplitude *= step) {
       if (progress) progress();
-      rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));  // so far goes a slip without stops
+      // Orbits without stops have amplitudes above 1e-3 usual.
+      rows.push_back(row_at(amplitude, amplitude > 1e-3 * usual ? columns : 0));
     }
     for (std::size_t i = 1; i < rows.size(); ++i) {
       if (progress) progress();
@@ -301,18 +306,18 @@ class OrbitFinder {
 
   static constexpr int columns = 20;
 
-  /// The miss of one amplitude along the arc.
+  /// The residual along the arc for one amplitude.
   struct Row {
     double amplitude = 0;
-    bool free = false;          // it can go back from there
-    double begin = 0, end = 0;  // of the arc [rad]
+    bool free = false;          // whether the slider can slide backward from the amplitude
+    double begin = 0, end = 0;  // phases at which the arc begins and ends [rad]
     int columns = 0;
-    std::array<Miss, OrbitFinder::columns + 1> misses{{{2, 0}}};  // what does not go is there half a period later
+    std::array<Miss, OrbitFinder::columns + 1> misses{{{2, 0}}};  // 2: the slider does not move from there
 
     double phase(double column) const noexcept { return begin + (end - begin) * (column / OrbitFinder::columns); }
   };
 
-  // What is too fast to be computed is no orbit.
+  // A motion that is too fast to be computed is not an orbit.
   Miss miss_from(double phase, double displacement) const {
     const Place turn{phase, State::at(displacement, 0)};
     try {
@@ -324,18 +329,19 @@ class OrbitFinder {
 
   Row row_at(double amplitude, int wanted) const {
     Row row{.amplitude = amplitude};
-    const double held = slider_.stiffness() * amplitude - level(amplitude);  // the load must be less
+    // The slider slides backward if the load is below `held`.
+    const double held = slider_.stiffness() * amplitude - level(amplitude);
     row.free = held > -load_;
     if (!row.free) return row;
     const bool always = held >= load_;
     row.begin = always ? 0 : std::acos(held / load_);
-    row.end = (always ? 2 : 2 - 1e-3) * std::numbers::pi - row.begin;  // at the end of the arc itself it does not go
+    row.end = (always ? 2 : 2 - 1e-3) * std::numbers::pi - row.begin;  // no slip begins at the end of the arc itself
     row.columns = wanted;
     for (int j = 0; j <= wanted; ++j) row.misses[static_cast<std::size_t>(j)] = miss_from(row.phase(j), amplitude);
     return row;
   }
 
-  // Between two amplitudes, at the beginning of the arc, if their misses of x differ in sign.
+  // Search between two amplitudes, at the start of the arc, if their residuals of x differ in sign.
   void search_beginning(const Row& before, const Row& row, std::vector<Orbit>& found) const {
     if ((before.misses[0].x > 0) == (row.misses[0].x > 0)) return;
     double low = before.amplitude, high = row.amplitude;
@@ -347,7 +353,7 @@ class OrbitFinder {
     if (middle.free && middle.misses[0].size() < 1e-3) keep(middle.begin, middle.amplitude, found);
   }
 
-  // In the triangles between two rows on which the miss, were it linear, comes to zero.
+  // Search the triangles between two rows in which the linearly interpolated residual is zero.
   void search_between(const Row& before, const Row& row, std::vector<Orbit>& found) const {
     struct Corner {
       const Row* row;
@@ -378,7 +384,7 @@ class OrbitFinder {
     }
   }
 
-  // Around the places of the middle row at which the miss is less than all around.
+  // Search around the local minima of the residual in the middle row.
   void search_dips(const Row& before, const Row& row, const Row& after, std::vector<Orbit>& found) const {
     const auto beginning = [](const Row& r) { return std::abs(r.misses[0].x); };
     if (before.free && row.free && beginning(row) < beginning(before) && beginning(row) < beginning(after)) {
@@ -415,9 +421,9 @@ class OrbitFinder {
     }
   }
 
-  // The orbit next to a turn at x = A, unless it is known.
+  // Add the orbit near a turning point at x = A to `found`, unless it is already there.
   void keep(double phase, double displacement, std::vector<Orbit>& found) const try {
-    constexpr double quarter = std::numbers::pi / 2;  // away from the turn, where the map is not smooth
+    constexpr double quarter = std::numbers::pi / 2;  // away from the turning point, where the map is not smooth
     const auto place = shoot({phase + quarter, after({phase, State::at(displacement, 0)}, quarter)}, displacement);
     if (!place) return;
     const Orbit orbit = describe(*place);
@@ -427,11 +433,11 @@ class OrbitFinder {
       return apart <= 1e-6 * orbit.amplitude;
     };
     if (orbit.amplitude > 0 && std::ranges::none_of(found, same)) found.push_back(orbit);
-  } catch (const ConvergenceError&) {  // Newton's method has gone astray
+  } catch (const ConvergenceError&) {  // Newton's method left the range that can be computed
   }
 
-  // Between which the amplitude is: the harmonic n of x, times |wn^2 - n^2 omega^2|, is the load's less that of
-  // friction, which is at most 4 level / pi n. At resonance no bound is left but one of reason.
+  // Bounds of the amplitude. The n-th harmonic of x, times |wn^2 - n^2 omega^2|, equals that of the load minus that of
+  // friction, which is at most 4 level / (pi n). At resonance this gives no upper bound, and a practical one is used.
   std::pair<double, double> amplitudes() const {
     const double wn = slider_.natural_frequency(), usual = load_ / (omega_ * omega_ + slider_.stiffness());
     double highest = level(0);
@@ -492,7 +498,7 @@ void check_orbit_arguments(const Slider<Law>& slider, double load, double omega,
   }
 }
 
-/// The same orbit about a place that lies farther by `distance` [m].
+/// The same orbit with its center shifted by `distance` [m].
 inline Orbit moved(Orbit orbit, double distance) {
   if (equal(distance, 0)) return orbit;
   orbit.center += distance;
@@ -505,31 +511,32 @@ inline Orbit moved(Orbit orbit, double distance) {
 
 /// The exact symmetric periodic motions of a slider under -n(t) = B cos(omega t),
 ///     x'' + resist(x) sgn(x') + wn^2 x = B cos(omega t),                          thesis (2.27), (2.28), (2.50)
-/// of which slowly varying parameters, (2.16), give an approximation. A damper, static friction that differs from
-/// kinetic, and friction that depends on the speed are not covered.
+/// The method of slowly varying parameters, (2.16), approximates them. A damper, static friction that differs from
+/// kinetic, and friction that depends on the speed or the sliding distance are not covered.
 ///
-/// Constant friction: one orbit if B > a. Without stops it is Den Hartog's, in closed form; without a spring that is
-/// A = sqrt(B^2 - (pi a/2)^2) / omega^2 for B/a >= sqrt(1 + pi^2/4), and below it stops twice a cycle. At resonance, wn
-/// = omega, there is none for B >= 4 a/pi: the amplitude grows without bound. Other laws: all that a search of the
-/// turning points finds, stable or not; a grid of twelve amplitudes a decade and twenty phases, whose cells are refined
-/// by Newton's method on the half-period map. The rest at x = 0 is entered, with amplitude 0, where B is at most the
-/// slip level there. Orbits that are not symmetric are not looked for.
+/// Constant friction has one orbit if B > a. If the slider does not stop, it is Den Hartog's orbit, in closed form;
+/// without a spring this is A = sqrt(B^2 - (pi a/2)^2) / omega^2 for B/a >= sqrt(1 + pi^2/4), and for smaller B/a the
+/// slider stops twice per cycle. At resonance, wn = omega, there is no orbit for B >= 4 a/pi: the amplitude grows
+/// without bound. For other laws the result contains all orbits, stable or not, that a search of the turning points
+/// finds: on a grid of at least twelve amplitudes per decade and twenty phases, whose cells are refined by Newton's
+/// method on the half-period map. The state of rest at x = 0 is included, with amplitude 0, if B is at most the slip
+/// level there. Asymmetric orbits are not sought.
 ///
-/// Coulomb friction of unequal levels on a spring: with x = center + y, center = (backward - forward) / (2 wn^2), it is
-/// that of the mean level, a = (forward + backward) / 2; its orbits lie about the center.
+/// Coulomb friction with unequal levels on a spring: with x = center + y, center = (backward - forward) / (2 wn^2), the
+/// motion y is that under the mean level, a = (forward + backward) / 2. The orbits lie around the center.
 ///
-/// @param slider  a law with equal levels both ways, and an optional spring; or Coulomb friction of any finite levels
-///                on a spring
+/// @param slider  a law with equal levels in both directions, and an optional spring; or Coulomb friction with any
+///                finite levels on a spring
 /// @param load    B [m/s^2], positive and at most 1e100
 /// @param omega   [rad/s], positive, with a finite square
 /// @param progress  called several times per second; may throw to stop the work; optional
-/// @return orbits in order of amplitude
+/// @return the orbits in order of amplitude
 /// @throws std::invalid_argument  a value out of its range; levels that differ by direction without a spring
 ///                                (the slider drifts)
-/// Orbits are true to some 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us
-/// without a spring, 20 us with one and 2 ms where it stops; a caster 10 to 200 ms, longer in proportion where a stiff
-/// spring swings many times a period. Reference: J. P. Den Hartog, Forced vibrations with combined Coulomb and viscous
-/// friction, Trans. ASME 53 (1931).
+/// Orbits are accurate to about 1e-13 of their amplitude, times their largest multiplier. Constant friction takes 7 us
+/// without a spring, 20 us with a spring and 2 ms with a spring and stops. A caster takes 10 to 200 ms, and
+/// proportionally longer if a stiff spring oscillates many times per period. Reference: J. P. Den Hartog, Forced
+/// vibrations with combined Coulomb and viscous friction, Trans. ASME 53 (1931).
 template <FrictionLaw Law>
 std::vector<Orbit> orbits(const Slider<Law>& slider, double load, double omega,
                           const std::function<void()>& progress = {}) {
@@ -546,9 +553,9 @@ std::vector<Orbit> orbits(const Law& law, double load, double omega, const std::
   return orbits(Slider<Law>(law), load, omega, progress);
 }
 
-/// Where the slider is on its orbit.
-/// @param slider  the one that `orbit` is an orbit of
-/// @param times   [s], finite, in any order: the orbit has neither beginning nor end
+/// Compute the states of a slider on its orbit at given times.
+/// @param slider  the slider of the orbit
+/// @param times   [s], finite, in any order; the orbit continues without beginning or end
 /// @return the state at each time
 template <FrictionLaw Law>
 std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, const std::vector<double>& times) {
@@ -577,7 +584,7 @@ std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, cons
 
 }  // namespace stickslip
 
-#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 

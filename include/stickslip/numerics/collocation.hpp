@@ -1,4 +1,4 @@
-// Polynomials through values at Chebyshev's points.
+// Polynomials through values at Chebyshev points.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace stickslip::numerics {
 
-/// Polynomials on [0, 1] of the given degree, each by its values at the points where Chebyshev's polynomial is extreme,
-/// both ends among them.
+/// Polynomials on [0, 1] of the given degree, each represented by its values at the extrema of the Chebyshev
+/// polynomial, which include both ends.
 template <int degree>
 class Collocation {
  public:
@@ -21,16 +21,16 @@ class Collocation {
   using Matrix = std::array<Values, points>;
 
   Values nodes{};            ///< t_i, ascending from 0 to 1
-  Matrix integral{};         ///< of the k-th basis polynomial from 0 to t_i
-  Matrix double_integral{};  ///< of (t_i - t) times it from 0 to t_i
-  Matrix half_integral{};    ///< of it over sqrt(t_i - t) from 0 to t_i
+  Matrix integral{};         ///< [i][k]: integral of the k-th basis polynomial from 0 to t_i
+  Matrix double_integral{};  ///< integral of (t_i - t) times that polynomial from 0 to t_i
+  Matrix half_integral{};    ///< integral of that polynomial divided by sqrt(t_i - t) from 0 to t_i
 
   static const Collocation& get() noexcept {
     static const Collocation made;
     return made;
   }
 
-  /// Coefficients of Chebyshev's polynomials of 2 t - 1.
+  /// Coefficients in the Chebyshev polynomials of 2 t - 1.
   Values chebyshev(const Values& values) const noexcept {
     Values c{};
     for (int j = 0; j <= degree; ++j)
@@ -38,9 +38,9 @@ class Collocation {
     return c;
   }
 
-  /// Coefficients of powers of t from those of Chebyshev's polynomials, the last of which are left out while they come
-  /// to less than `noise` together: powers would make more of them.
-  /// @return the degree
+  /// Coefficients of powers of t from those of Chebyshev polynomials. The last coefficients are dropped as long as the
+  /// sum of their magnitudes is at most `noise`, because the conversion to powers would amplify them.
+  /// @return the degree of the result
   static int powers(const Values& chebyshev, double noise, Values& result) noexcept {
     int last = degree;
     for (double dropped = 0; last > 0; --last) {
@@ -92,7 +92,7 @@ class Collocation {
   }
 
   Matrix transform_{};
-  Matrix powers_{};  // of t, in Chebyshev's polynomials of 2 t - 1
+  Matrix powers_{};  // [j][k]: coefficient of t^k in the j-th Chebyshev polynomial of 2 t - 1
 };
 
 }  // namespace stickslip::numerics

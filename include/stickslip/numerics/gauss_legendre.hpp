@@ -1,4 +1,4 @@
-// Gauss and Legendre's quadrature.
+// Gauss-Legendre quadrature.
 #pragma once
 
 #include <array>
@@ -8,14 +8,15 @@
 
 namespace stickslip::numerics {
 
-/// Nodes, ascending, and weights of Gauss and Legendre's rule on [0, 1]: exact for polynomials up to degree
-/// 2 points - 1. Computed by the compiler, to the last bit where `long double` has more digits than `double`.
+/// Nodes, in ascending order, and weights of the Gauss-Legendre rule on [0, 1], which is exact for polynomials up to
+/// degree 2 points - 1. They are computed at compile time and are accurate to the last bit if `long double` has more
+/// digits than `double`.
 template <std::size_t points>
 struct GaussLegendre {
   std::array<double, points> nodes{}, weights{};
 
-  // By Newton's method on Legendre's polynomial divided by the zeros found before, which falls to the next one from
-  // above, and once more on the polynomial itself.
+  // Newton's method on the Legendre polynomial divided by the factors of the zeros already found decreases
+  // monotonically to the next zero. One more Newton step uses the polynomial itself.
   constexpr GaussLegendre() {
     std::array<long double, points> zeros{};
     for (std::size_t i = 0; i < points; ++i) {
@@ -52,7 +53,7 @@ struct GaussLegendre {
 template <std::size_t points>
 inline constexpr GaussLegendre<points> gauss_legendre{};
 
-/// Calls use(x, weight) for each point between `from` and `to`, in this order.
+/// Calls use(x, weight) for each node of the rule on [from, to], in order from `from` to `to`.
 template <std::size_t points, class Use>
 constexpr void gauss_points(double from, double to, Use&& use) {
   const double length = to - from;

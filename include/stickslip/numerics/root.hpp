@@ -1,4 +1,4 @@
-// Where a function is zero, or a condition begins to hold, within a bracket.
+// The zero of a function, or the threshold of a condition, within a bracket.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,9 @@
 
 namespace stickslip::numerics {
 
-/// The first number at which a condition holds that does not hold at `low`, and holds at `high` and wherever it held
-/// before: by bisection, to the last bit.
-/// Cost: as many calls as a double has bits, more where `low` is 0 and the number is tiny.
+/// The smallest number at which a condition holds, by bisection to the last bit. The condition must be false at `low`,
+/// true at `high`, and true above any number at which it is true.
+/// Cost: about as many calls as a double has bits; more if `low` is 0 and the result is tiny.
 template <std::predicate<double> Condition>
 double first_where(double low, double high, Condition&& holds) {
   for (;;) {
@@ -23,10 +23,10 @@ double first_where(double low, double high, Condition&& holds) {
   }
 }
 
-/// The zero between `a` and `b` of a continuous function f, fa = f(a) and fb = f(b) of opposite signs: by inverse
-/// quadratic interpolation where that converges, else by bisection.
-/// @param tolerance  absolute, at least 0, on top of two roundings of the zero
-/// Cost: some 5 to 10 calls where f is smooth.
+/// The zero between `a` and `b` of a continuous function f, where fa = f(a) and fb = f(b) have opposite signs. Uses
+/// inverse quadratic interpolation where it converges, otherwise bisection.
+/// @param tolerance  absolute, at least 0, in addition to two roundings of the zero
+/// Cost: about 5 to 10 calls if f is smooth.
 /// Reference: T. R. Chandrupatla, Advances in Engineering Software 28 (1997), 145-149.
 template <class F>
 double root(F&& f, double a, double fa, double b, double fb, double tolerance = std::numeric_limits<double>::min()) {

@@ -1,7 +1,9 @@
-// A formula of a friction law together with its derivative by x, as series: how a slip answers to a small change.
+// The formula of a friction law and its derivative with respect to x, both as power series. They determine the
+// first-order response of a slip to a small change of its start.
 //
-// Call a law's `level` on a `Dual` of the variable and it returns a Dual: the level's series and its slope's. The rules
-// of differentiation are those of series.hpp's functions, which make the series of what they build.
+// A law's `resist`, called with a `Dual` of the variable, returns a Dual: the series of the resistance and the series
+// of its slope. The operators below apply the rules of differentiation; the functions of series.hpp compute the series
+// of the resulting expressions.
 #pragma once
 
 #include <utility>
@@ -50,7 +52,7 @@ template <class V, class D> auto sech(Dual<V, D> a) { return dual(sech(a.value),
 template <class V, class D> auto tanh(Dual<V, D> a) { return dual(tanh(a.value), sech(a.value) * sech(a.value) * a.slope); }
 // clang-format on
 
-/// The slope's series of what a law returns: of a number, none.
+/// The series of the slope of a value that a law returns; zero if the law returns a number.
 inline Constant slope_of(double) noexcept { return {0}; }
 template <class V, class D>
 D slope_of(const Dual<V, D>& a) {

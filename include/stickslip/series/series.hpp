@@ -1,14 +1,16 @@
-// Power series in time, order by order: what a friction law becomes along a motion.
+// Power series in time, computed order by order: a friction law evaluated along a motion.
 //
-// Call a law's `resist` on a `Variable` and it returns an expression whose type is the formula. Each node of it holds
-// its own coefficients; `update(k)` computes the k-th from those of its operands up to k, by the recurrences of
-// automatic differentiation (Griewank & Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 13). All orders up to n cost
-// O(n^2) for each product or function, nothing is allocated, and the compiler sees the whole formula.
+// A law's `resist`, called with a `Variable`, returns an expression whose type encodes the formula. Each node of the
+// expression stores its own coefficients; `update(k)` computes the k-th from those of its operands up to k, by the
+// recurrences of automatic differentiation (Griewank & Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 13). All
+// orders up to n cost O(n^2) for each product or function, nothing is allocated, and the compiler can optimize the
+// whole formula.
 //
-// Coefficients are of any scalar with arithmetic and those functions: doubles, or several side by side (lanes).
+// Coefficients can be of any scalar type that has arithmetic and these functions: double, or several doubles in SIMD
+// lanes.
 //
-// Available: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent; a whole one also of 0), sin, cos,
-// sinh, cosh, tanh, sech.
+// Available: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent; with an integer exponent also at
+// 0), sin, cos, sinh, cosh, tanh, sech.
 #pragma once
 
 #include <array>
@@ -29,7 +31,7 @@ inline double sech(double x) noexcept {
 
 namespace detail {
 
-/// sech and tanh of the same number.
+/// sech and tanh of one number.
 template <class Scalar>
 struct SechTanh {
   Scalar sech, tanh;
@@ -37,7 +39,7 @@ struct SechTanh {
 
 inline SechTanh<double> sech_tanh(double x) noexcept {
   const double y = std::abs(x);
-  const double e1 = y < 0.5 ? std::expm1(-y) : std::exp(-y) - 1;  // either form is exact where it is used
+  const double e1 = y < 0.5 ? std::expm1(-y) : std::exp(-y) - 1;  // each form is accurate where it is used
   const double e = y < 0.5 ? 1 + e1 : std::exp(-y);
   return {2 * e / (1 + e * e), std::copysign(-e1 * (1 + e) / (1 + e * e), x)};
 }
@@ -48,7 +50,7 @@ namespace series {
 
 inline constexpr int highest_order = 30;
 
-/// 1/k, for k = 1 to highest_order + 1: the recurrences divide by orders all the time.
+/// 1/k, for k = 1 to highest_order + 1: the recurrences often divide by the order.
 inline constexpr auto reciprocal = [] {
   struct {
     double of[highest_order + 2];
@@ -58,8 +60,8 @@ inline constexpr auto reciprocal = [] {
   return table;
 }();
 
-/// Coefficients 0 to highest_order. Unset when made, and not copied with an expression: they belong to the place where
-/// they are computed.
+/// Coefficients 0 to highest_order. They are uninitialized on construction and not copied with an expression: they
+/// belong to the node that computes them.
 template <class Scalar>
 class CoefficientsOf {
  public:
@@ -74,18 +76,19 @@ class CoefficientsOf {
 };
 using Coefficients = CoefficientsOf<double>;
 
-/// Anything with coefficients that are computed in order.
+/// A type with coefficients that are computed in order.
 template <class S>
 concept Series = requires(S s, const S& c, int k) {
   s.update(k);
   { c[k] } -> std::convertible_to<typename S::Scalar>;
 };
 
-/// a b + c; lanes have one of their own.
+/// a b + c. SIMD lanes define their own overload.
 inline double multiply_add(double a, double b, double c) noexcept { return a * b + c; }
 
-/// Sum of a_i b_(k-i) over i = first..k, k >= first. The coefficients found last, which are at both ends, come last,
-/// and the others go in two parts: an addition must wait for what it adds.
+/// Sum of a_i b_(k-i) over i = first..k, k >= first. The first and the last term contain the most recently computed
+/// coefficients and are added last. The other terms form two independent sums, because each addition must wait for the
+/// result of the previous one.
 template <class A, class B>
 auto convolve(const A& a, const B& b, int first, int k) noexcept {
   using Scalar = std::remove_cvref_t<decltype(a[k])>;
@@ -100,7 +103,7 @@ auto convolve(const A& a, const B& b, int first, int k) noexcept {
   return Scalar((even + odd + a[k] * b[0]) + a[first] * b[k - first]);
 }
 
-/// The independent function of time: its coefficients are set from outside.
+/// The argument of a formula, a function of time whose coefficients are set from outside.
 template <class S>
 struct VariableOf {
   using Scalar = S;
@@ -119,7 +122,7 @@ struct ConstantOf {
 };
 using Constant = ConstantOf<double>;
 
-// Functions of doubles, beside which those of other scalars are found by argument-dependent lookup.
+// Functions of doubles. Argument-dependent lookup finds those of other scalars.
 using detail::sech_tanh;
 using std::cos;
 using std::cosh;
@@ -129,7 +132,7 @@ using std::pow;
 using std::sin;
 using std::sinh;
 
-/// What a law returned for series: they, or where it returned a number a constant.
+/// The return value of a law as a series: the series itself, or a constant if the law returned a number.
 template <class Scalar, Series S>
 S series_of(const S& level) noexcept {
   return level;
@@ -191,7 +194,7 @@ struct Quotient {
   Scalar operator[](int k) const noexcept { return c[k]; }
 };
 
-/// The derivative of a series, (k + 1) a_(k+1), as far as `a` is known.
+/// The derivative of a series, (k + 1) a_(k+1), up to the known order of `a`.
 template <Series A>
 struct Derivative {
   const A& a;
@@ -250,14 +253,14 @@ struct Power {
   Scalar operator[](int k) const noexcept { return p[k]; }
 };
 
-/// a^exponent for a whole exponent from 1 to 31, by products: a may be 0.
+/// a^exponent for an integer exponent from 1 to 31, by products: a may be 0.
 template <Series A>
 struct WholePower {
   using Scalar = typename A::Scalar;
   A a;
   int exponent;
   std::array<CoefficientsOf<Scalar>, 5> squares{};   // a, a^2, a^4, ...
-  std::array<CoefficientsOf<Scalar>, 5> products{};  // of those that the exponent is made of, up to each
+  std::array<CoefficientsOf<Scalar>, 5> products{};  // of the squares that the exponent contains, up to each bit
   void update(int k) noexcept {
     a.update(k);
     squares[0][k] = a[k];
@@ -278,7 +281,7 @@ struct WholePower {
   }
 };
 
-/// Two functions that are each other's derivative, f' = g a' and g' = sign f a': sin and cos (-1), sinh and cosh (+1).
+/// Two functions that satisfy f' = g a' and g' = sign f a': sin and cos (sign = -1), sinh and cosh (sign = +1).
 template <Series A, int sign>
 struct Pair {
   using Scalar = typename A::Scalar;
@@ -306,7 +309,8 @@ struct Second : Pair<A, sign> {
   auto operator[](int k) const noexcept { return this->g[k]; }
 };
 
-/// sech and tanh by the angle whose sine is sech, w = sech(a) a': sech' = -tanh w, tanh' = sech w. Bounded everywhere.
+/// sech and tanh as the sine and cosine of an angle whose derivative is -w, w = sech(a) a': sech' = -tanh w and tanh' =
+/// sech w. Both are bounded everywhere.
 template <Series A>
 struct Hyperbolic {
   using Scalar = typename A::Scalar;
@@ -337,7 +341,7 @@ struct Tanh : Hyperbolic<A> {
   auto operator[](int k) const noexcept { return this->tangent[k]; }
 };
 
-// The operators and functions a law is written with, found by argument-dependent lookup.
+// The operators and functions available to laws, found by argument-dependent lookup.
 // clang-format off
 template <Series A>           Affine<A>     operator-(A a)           { return {a, -1, 0}; }
 template <Series A>           Affine<A>     operator+(A a, double b) { return {a, 1, b}; }
