@@ -130,8 +130,8 @@ class BranchFollower {
   }
 
   struct Equations {
-    Vector miss{};        // residuals of x and x', then 0
-    Vector rows[2] = {};  // gradients of the residuals with respect to Point::y
+    Vector miss{};        // mismatches of x and x', then 0
+    Vector rows[2] = {};  // gradients of the mismatches with respect to Point::y
   };
 
   std::array<double, 2> miss(const Point& point) const {
@@ -156,7 +156,7 @@ class BranchFollower {
       return e;
     });
     // Finite differences suffice: the derivative only determines the direction of steps, while the accuracy of an orbit
-    // depends on the residual alone.
+    // depends on the mismatch alone.
     constexpr double little = 1e-6;
     Point more = point, less = point;
     more.y[2] += little;

@@ -109,7 +109,7 @@ class OrbitFinder {
     return state;
   }
 
-  /// The residual of symmetry: the sum of the state and of the state half a period later, x in units of `scale` and x'
+  /// The mismatch of symmetry: the sum of the state and of the state half a period later, x in units of `scale` and x'
   /// in units of omega scale.
   struct Miss {
     double x, v;
@@ -207,7 +207,7 @@ class OrbitFinder {
     return {one, equal(one, 0) ? 0 : determinant / one};
   }
 
-  // Largest residual of an orbit, relative to its amplitude. Newton's method continues while the residual is larger.
+  // Largest mismatch of an orbit, relative to its amplitude. Newton's method continues while the mismatch is larger.
   static constexpr double close_enough = 1e-11;
 
   /// All symmetric orbits that the search finds, in order of amplitude.
@@ -279,10 +279,10 @@ class OrbitFinder {
 
   // Every symmetric orbit reverses or stops at its maximum x, A > 0. It leaves this position at a phase theta at which
   // the load permits backward sliding. These phases form an arc; a slider that has stopped breaks away at the start of
-  // the arc. The residual is computed on a grid over A and the arc. Newton's method starts in each triangle of the grid
-  // in which both components of the linearly interpolated residual are zero. At the start of the arc the residual of x'
-  // is zero, and only the residual of x must change sign. Two orbits near a fold may be closer to each other than the
-  // grid spacing; Newton's method therefore also starts at local minima of the residual.
+  // the arc. The mismatch is computed on a grid over A and the arc. Newton's method starts in each triangle of the grid
+  // in which both components of the linearly interpolated mismatch are zero. At the start of the arc the mismatch of x'
+  // is zero, and only the mismatch of x must change sign. Two orbits near a fold may be closer to each other than the
+  // grid spacing; Newton's method therefore also starts at local minima of the mismatch.
   void search(std::vector<Orbit>& found, const std::function<void()>& progress) const {
     const auto [least, largest] = amplitudes();
     const double usual = load_ / (omega_ * omega_ + slider_.stiffness());
@@ -306,7 +306,7 @@ class OrbitFinder {
 
   static constexpr int columns = 20;
 
-  /// The residual along the arc for one amplitude.
+  /// The mismatch along the arc for one amplitude.
   struct Row {
     double amplitude = 0;
     bool free = false;          // whether the slider can slide backward from the amplitude
@@ -341,7 +341,7 @@ class OrbitFinder {
     return row;
   }
 
-  // Search between two amplitudes, at the start of the arc, if their residuals of x differ in sign.
+  // Search between two amplitudes, at the start of the arc, if their mismatches of x differ in sign.
   void search_beginning(const Row& before, const Row& row, std::vector<Orbit>& found) const {
     if ((before.misses[0].x > 0) == (row.misses[0].x > 0)) return;
     double low = before.amplitude, high = row.amplitude;
@@ -353,7 +353,7 @@ class OrbitFinder {
     if (middle.free && middle.misses[0].size() < 1e-3) keep(middle.begin, middle.amplitude, found);
   }
 
-  // Search the triangles between two rows in which the linearly interpolated residual is zero.
+  // Search the triangles between two rows in which the linearly interpolated mismatch is zero.
   void search_between(const Row& before, const Row& row, std::vector<Orbit>& found) const {
     struct Corner {
       const Row* row;
@@ -384,7 +384,7 @@ class OrbitFinder {
     }
   }
 
-  // Search around the local minima of the residual in the middle row.
+  // Search around the local minima of the mismatch in the middle row.
   void search_dips(const Row& before, const Row& row, const Row& after, std::vector<Orbit>& found) const {
     const auto beginning = [](const Row& r) { return std::abs(r.misses[0].x); };
     if (before.free && row.free && beginning(row) < beginning(before) && beginning(row) < beginning(after)) {
