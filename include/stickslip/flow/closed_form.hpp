@@ -10,7 +10,7 @@
 
 namespace stickslip {
 
-/// What a flow has come to after a time.
+/// The progress of a flow after a given time.
 struct Progress {
   double distance;       ///< slid since its start [m]
   double speed;          ///< [m/s]
@@ -18,36 +18,36 @@ struct Progress {
   double mean_distance;  ///< mean of the distance over the time since the start [m]
 };
 
-/// The beginning of a slip or of a part of one, seen in the direction of sliding: speed is |x'|, and the net
-/// acceleration (load less friction less spring) is positive where the slip speeds up. Unequal levels, slopes and the
-/// sign of the motion have vanished into it.
+/// The start of a slip or of a part of one, expressed in the direction of sliding: speed is |x'|, and the net
+/// acceleration (load minus friction minus spring force) is positive if the slip speeds up. It already accounts for
+/// unequal levels, slopes and the sign of the motion.
 struct Start {
   double speed;         ///< [m/s], at least 0
   double acceleration;  ///< [m/s^2]; exactly 0 on breaking away
-  double gain;          ///< of the load until the end of the flow's duration, linear in time [m/s^2]
+  double gain;          ///< change of the load over the flow's duration, linear in time [m/s^2]
 
   double gain_within(double t, double duration) const noexcept { return t < duration ? gain * (t / duration) : gain; }
 
-  /// Work of the load within a time in which it comes from `load` to `load + gained` [m^2/s^2].
+  /// Work of the load over a time in which it changes from `load` to `load + gained` [m^2/s^2].
   template <class Flow>
   double work(const Flow&, double load, double gained, double /*t*/, const Progress& end) const noexcept {
     return (load + gained) * end.distance - gained * end.mean_distance;
   }
 };
 
-/// The same where the normal force varies. For flows of constant levels it is a Start like others: what friction loses
-/// or gains with the normal force is in its gain. Others take the load's gain and the weight apart.
+/// A start under a variable normal force. Flows with constant levels use it as a plain Start: its `gain` includes the
+/// change of friction with the normal force. Other flows use `load_gain` and the weight separately.
 struct LoadStart : Start {
-  double load_gain;      ///< of the load until the end of the flow's duration, in the direction of sliding [m/s^2]
-  double weight;         ///< N+ / g now
-  double weight_gained;  ///< until the end of the flow's duration
-  double level;          ///< what resists under the weight g now [m/s^2]
+  double load_gain;      ///< change of the load over the flow's duration, in the direction of sliding [m/s^2]
+  double weight;         ///< N+ / g at the start
+  double weight_gained;  ///< change of the weight over the flow's duration
+  double level;          ///< resistance at the start under a normal force of g [m/s^2]
 
   double gain_within(double t, double duration) const noexcept {
     return t < duration ? load_gain * (t / duration) : load_gain;
   }
 
-  /// Work against a constant level within t [m^2/s^2].
+  /// Work against a constant level up to time t [m^2/s^2].
   double friction_work(double t, double duration, const Progress& end) const noexcept {
     const double gained = t < duration ? weight_gained * (t / duration) : weight_gained;
     return level * ((weight + gained) * end.distance - gained * end.mean_distance);
@@ -58,7 +58,7 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 
 namespace detail {
 
-/// The roots are formed again from numbers near 1, where their squares leave the range of doubles.
+/// `first_root` with its arguments scaled to near 1, for arguments whose squares would overflow or underflow.
 [[gnu::noinline]] inline double first_root_scaled(double u, double a, double j) noexcept {
   const double largest = std::max(u, std::max(std::abs(a), std::abs(j)));
   const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
@@ -69,9 +69,9 @@ namespace detail {
 
 }  // namespace detail
 
-/// First root y other than 0 of j y^2 / 2 + a y + u, u >= 0, on the line that runs from 0 to infinity and comes back
-/// from minus infinity to 0: where the roots of a speed lie that starts at u with the slope a. NaN where there is none.
-/// Neither form cancels.
+/// The first root y other than 0 of j y^2 / 2 + a y + u, u >= 0, in the order 0 to infinity, then minus infinity to 0.
+/// The roots of a speed that starts at u with slope a lie in this order. NaN if there is no root. Neither of the two
+/// formulas suffers from cancellation.
 inline double first_root(double u, double a, double j) noexcept {
   const double square = a * a, product = 2 * j * u;
   const double magnitude = square + std::abs(product);
@@ -80,33 +80,33 @@ inline double first_root(double u, double a, double j) noexcept {
   return a < 0 ? 2 * u / (root - a) : -(a + root) / j;
 }
 
-/// Constant friction from a given start: thesis (4.51) to (4.53), (2.44), exact but for round-off.
+/// Constant friction from a given start: thesis (4.51) to (4.53), (2.44), exact up to round-off.
 ///
-/// `Oscillator` knows the solution: `Polynomial` without a spring, `Harmonic` with one. In either the speed's zeros are
-/// the roots of one quadratic.
+/// `Oscillator` supplies the solution: `Polynomial` without a spring, `Harmonic` with one. In both cases the zeros of
+/// the speed are the roots of a quadratic.
 template <class Oscillator>
 class ClosedForm {
  public:
   ClosedForm(const Oscillator& oscillator, const Start& start, double duration) noexcept
       : oscillator_(oscillator), start_(start), duration_(duration), end_(oscillator.basis(duration)) {}
 
-  /// How far the solution may be trusted from its start [s].
+  /// Time from the start over which the solution is valid [s].
   double horizon() const noexcept { return duration_; }
 
-  /// First time within the duration at which the speed comes to zero, the start left out; 0 where the slip cannot
-  /// begin; `never` where there is none.
+  /// First time after the start, within the duration, at which the speed reaches zero; 0 if the slip cannot begin;
+  /// `never` if the slip does not stop.
   double first_stop() const noexcept {
     const auto [u, a, gain] = start_;
     const double last_speed = oscillator_.speed(start_, end_);
     const bool one_arch = oscillator_.one_arch(duration_);
-    // Within one arch a speed that ends above zero can have stopped on the way only if it fell at first and rises at
-    // the end.
+    // Within one arch, a speed that ends above zero can have reached zero before only if it falls at the start and
+    // rises at the end.
     if (one_arch && last_speed > 0 && (a >= 0 || oscillator_.acceleration(start_, end_) <= 0)) return never;
     if (detail::equal(u, 0) && a <= 0) return a < 0 || gain <= 0 ? 0 : never;
-    // In units of the duration all terms are speeds, which neither overflow nor underflow where it matters.
+    // With time in units of the duration, all terms are speeds, which do not overflow or underflow where it matters.
     const double stop = oscillator_.first_stop(u, a * duration_, gain * duration_, duration_);
     if (stop <= duration_) return stop;
-    return one_arch && last_speed <= 0 ? duration_ : never;  // past the end by rounding alone
+    return one_arch && last_speed <= 0 ? duration_ : never;  // the root exceeds the duration only by rounding
   }
 
   Progress at(double t) const noexcept {

@@ -1,4 +1,4 @@
-// Friction by numbers alone, or with a temperature, by collocation.
+// The motion under friction that is defined by numbers only, or that depends on temperature, by collocation.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ namespace detail {
 
 using Nodes = numerics::Collocation<8>;
 
-/// How a heated surface cools and is heated within a step, kept while steps are equally long.
+/// Cooling and heating of a surface within a step. Coefficients are cached while the step length stays the same.
 class Cooling {
  public:
-  /// Of the heat of before, at the nodes of a step.
+  /// Half-integrals of the heat from before the step, at the nodes of the step.
   [[gnu::noinline]] Nodes::Values half_integrals(const SurfaceHeat& heat, double step) {
     if (!heat.warm()) return {};
     if (!alike(step, step_)) {
@@ -34,7 +34,7 @@ class Cooling {
     return heat.half_integrals_after(left_);
   }
 
-  /// Heats it for a part of a step.
+  /// Heat the surface for a fraction `part` of a step.
   [[gnu::noinline]] void heat(SurfaceHeat& heat, const Nodes::Values& q, double step, double part) {
     if (part < 1) return heat.heat(q, SurfaceHeat::Step(part * step), part);
     if (!alike(step, heating_step_)) heating_.emplace(heating_step_ = step);
@@ -42,7 +42,7 @@ class Cooling {
   }
 
  private:
-  // Steps of a record differ by the rounding of their times.
+  // Time steps of a record differ by round-off.
   static bool alike(double one, double other) noexcept { return std::abs(one - other) <= 1e-12 * one; }
 
   double step_ = -1;
@@ -53,15 +53,16 @@ class Cooling {
 
 }  // namespace detail
 
-/// Friction of a law that gives numbers only, or that depends on the temperature: the acceleration is a polynomial of
-/// degree 8 in time that satisfies, at nine Chebyshev points of the step,
+/// A slip under a law that is defined by numbers only, or that depends on temperature. The acceleration is a polynomial
+/// of degree 8 in time that satisfies, at nine Chebyshev points of the step,
 ///     d'' = a + g(t) - wn^2 d - c (d' - u) - [w resist(x0 +- d, d') - w0 resist(x0, u)],   thesis (2.27), (2.50)
 /// with the terms of TaylorFlow. It is found by iteration. The step (the horizon) is shortened until the last
-/// coefficients of the acceleration make no more than 1e-11 of the speed (1e-8 with a temperature), and until it ends
-/// not far beyond a stop: beyond it the resistance is continued as an odd function of the speed.
+/// coefficients of the acceleration contribute at most 1e-11 of the speed (1e-8 with temperature), and until the step
+/// ends shortly after a stop. After the stop the speed is negative; there the resistance is continued to be odd about
+/// its value at zero speed.
 ///
-/// Heat that friction makes within the step acts on the step: its half-integral is a matrix times the heat at the
-/// nodes.
+/// Frictional heat generated within the step affects the step itself: its half-integral is a matrix times the heat at
+/// the nodes.
 template <FrictionLaw Law, class SlipStart = Start>
 class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   using Base = PowerSeriesFlow<SlipStart>;
@@ -73,14 +74,14 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   static constexpr bool heated = HeatedLaw<Law>;
 
  public:
-  /// Kept out of line: inlined wherever a flow is made, it would take a compiler minutes.
+  /// Kept out of line: inlining it wherever a flow is made would take a compiler minutes.
   /// @param longest  step to try first [s]
   [[gnu::noinline]] CollocationFlow(const Slider<Law>& slider, Direction direction, const State& state,
                                     const SlipStart& start, double duration, double longest, detail::Cooling& cooling)
       : Base(slider.mounting(), direction, state.displacement, start, duration, longest),
         law_(slider.law()),
         cooling_(cooling) {
-    if (detail::equal(start.speed, 0) && start.acceleration < 0) {  // it stops where it is
+    if (detail::equal(start.speed, 0) && start.acceleration < 0) {  // the slip cannot begin
       stand();
       return;
     }
@@ -101,12 +102,12 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   /// As `ClosedForm::first_stop`, within the horizon.
   double first_stop() const noexcept { return stop_; }
 
-  /// Work against friction within t [m^2/s^2].
+  /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const noexcept {
     return integral(t, [&](const Progress& at, double s) { return power(friction_, s) * at.speed; });
   }
 
-  /// Hands on the heat made within t.
+  /// Update the surface with the heat generated up to time t.
   void heat(double t, SurfaceHeat& surface) const requires heated {
     if (heating_ > 0 && t > 0)
       cooling_.heat(surface, heat_, horizon_, t / horizon_);
@@ -121,7 +122,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
     return sum;
   }
 
-  // What resists at a node [m/s^2].
+  // Resistance at a node [m/s^2].
   double level(std::size_t i, double x, double speed, double half_integral) const {
     const auto at = [&](double v) {
       if constexpr (heated)
@@ -132,7 +133,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
     return speed >= 0 ? at(speed) : 2 * at(0) - at(-speed);
   }
 
-  // Finds the motion over the horizon.
+  // Compute the motion over the horizon. Returns false if the horizon must be shortened.
   bool solve() {
     const Nodes& nodes = Nodes::get();
     const double h = horizon_, s = sign(direction_), damping = mounting_.damping, root_h = std::sqrt(h);
@@ -140,7 +141,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
     Values a{}, v{}, d{}, force{}, q{};
     for (std::size_t i = 0; i < n; ++i) a[i] = start_.acceleration + gain_.at(h, nodes.nodes[i]);
     a[0] = start_.acceleration;
-    const auto pull = [&](std::size_t i, double way) {  // the spring's, above that of the start
+    const auto pull = [&](std::size_t i, double way) {  // change of the spring force since the start
       if constexpr (loaded)
         if (mounting_.pendulum) {
           const double now = weight(0), then = weight(nodes.nodes[i]);
@@ -177,7 +178,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         change = std::max(change, std::abs(net - a[i]));
         a[i] = net;
       }
-      // The next change would be less by the factor of this one to the last.
+      // The next change would be smaller by the ratio of this change to the previous one.
       if (sweep > 0 && (h * change * change <= convergence * fastest * previous || change <= 4 * round_off * terms))
         break;
       if (sweep > 3 && change > previous / 2) return false;
@@ -258,7 +259,7 @@ class Collocating {
 
  private:
   const Slider<Law>& slider_;
-  mutable double last_step_ = never;  // that a flow was shortened to [s]
+  mutable double last_step_ = never;  // step to which a flow was last shortened [s]
   mutable detail::Cooling cooling_;
 };
 

@@ -19,7 +19,7 @@ namespace stickslip {
 
 namespace detail {
 
-/// wn^2 [1/s^2]; below 0 where wn is: a spring that pushes away.
+/// wn^2 with the sign of wn [1/s^2]; negative for a spring that pushes away from its center.
 inline double stiffness_of(double natural_frequency) noexcept {
   return natural_frequency * std::abs(natural_frequency);
 }
@@ -32,14 +32,14 @@ inline double excess_damping(double half, double natural_frequency) noexcept {
 
 }  // namespace detail
 
-/// What a mass on a damper c and a spring wn has come to after a time. From rest under a load of one its velocity is
-/// `impulse`, the solution of y'' + c y' + wn^2 y = 0 that starts at 0 with the slope 1; `decay` is its derivative, the
-/// velocity that is left of one. `step`, `ramp` and `curve` are each the integral of the one before. Under a load that
-/// runs straight, q + s t net of spring and friction at the start,
+/// Basis functions of the motion of a mass with a damper c and a spring wn, at a given time. `impulse` is the solution
+/// of y'' + c y' + wn^2 y = 0 with y(0) = 0 and y'(0) = 1: the velocity from rest under a unit load. `decay` is its
+/// derivative: the velocity that remains of a unit velocity. `step`, `ramp` and `curve` are successive integrals of
+/// `impulse`. Under a load that is linear in time, q + s t net of spring and friction at the start,
 ///     v(t) = u decay + q impulse + s step,    d(t) = u impulse + q step + s ramp.
-/// All five are entire functions of c t and (wn t)^2: under-, over- and critically damped alike, with or without a
-/// spring, to round-off; a time of many radians costs as many roundings more. Where wn is negative the spring pushes
-/// away, with the stiffness -wn^2.
+/// Apart from powers of t, all five are entire functions of c t and (wn t)^2. They are accurate to round-off for
+/// under-, over- and critically damped motion, with or without a spring; round-off grows in proportion to the time in
+/// radians. If wn is negative, the spring pushes away from its center, with stiffness -wn^2.
 struct DampedBasis {
   double duration;  ///< [s]
   double decay = 1, impulse = 0, step = 0, ramp = 0, curve = 0;
@@ -48,7 +48,8 @@ struct DampedBasis {
   /// @param natural_frequency  wn [rad/s]
   DampedBasis(double damping, double natural_frequency, double time) noexcept : duration(time) {
     const double wn = natural_frequency, half = damping / 2, stiffness = detail::stiffness_of(wn);
-    const double apart = half > wn ? 2 * std::sqrt(detail::excess_damping(half, wn)) : 0;  // of the two rates of decay
+    const double apart =
+        half > wn ? 2 * std::sqrt(detail::excess_damping(half, wn)) : 0;  // difference of the two decay rates
     if (apart * time > 1) {
       from_rates(half + apart / 2, stiffness / (half + apart / 2), apart);
       return;
@@ -61,9 +62,9 @@ struct DampedBasis {
     duration = time;
   }
 
-  /// The same for twice the time.
+  /// Double the time.
   void double_time(double stiffness) noexcept {
-    const double h = duration, position = 1 - stiffness * step;  // of a unit displacement
+    const double h = duration, position = 1 - stiffness * step;  // what remains of a unit displacement
     *this = {2 * h,
              decay * decay - stiffness * impulse * impulse,
              impulse * (position + decay),
@@ -80,8 +81,8 @@ struct DampedBasis {
   DampedBasis(double time, double decay_, double impulse_, double step_, double ramp_, double curve_) noexcept
       : duration(time), decay(decay_), impulse(impulse_), step(step_), ramp(ramp_), curve(curve_) {}
 
-  // Two rates of decay far enough apart: divided differences of e^-y and of its remainders (1 - e^-y) / y, ..., of
-  // which none cancels.
+  // Two well separated decay rates: divided differences of e^-y and of its remainders (1 - e^-y) / y, ..., all free of
+  // cancellation.
   void from_rates(double fast, double slow, double apart) noexcept {
     const double u = duration;
     const auto remainders = [](double y) {
@@ -130,10 +131,11 @@ struct DampedBasis {
   }
 };
 
-/// The integral of v^2 over a time, as a form in (u, q, s) of `DampedBasis`.
+/// The integral of v^2 over a time, as a quadratic form in (u, q, s) of `DampedBasis`.
 class DampedSquare {
  public:
-  /// By Gauss-Legendre quadrature of eight points over a time in which little changes, which is then doubled.
+  /// Uses 8-point Gauss-Legendre quadrature over a time so short that the motion changes little, then doubles that
+  /// time.
   DampedSquare(double damping, double natural_frequency, double duration) noexcept {
     if (detail::equal(duration, 0)) return;
     const double stiffness = detail::stiffness_of(natural_frequency);
@@ -163,7 +165,7 @@ class DampedSquare {
 
  private:
   void double_time(double k, const DampedBasis& at) noexcept {
-    // (u, q, s) after the time, of those before it.
+    // Maps (u, q, s) at the start to (u, q, s) at the end.
     const double after[3][3] = {
         {at.decay, at.impulse, at.step}, {-k * at.impulse, 1 - k * at.step, at.duration - k * at.ramp}, {0, 0, 1}};
     const auto first = form_;
@@ -178,12 +180,12 @@ class DampedSquare {
 
 class DampedFlow;
 
-/// A damper, and a spring if wn > 0: makes the flows of constant friction.
+/// Makes the flows of constant friction with a damper, and with a spring if wn is not 0.
 class Damped {
  public:
   /// @param damping            c [1/s], at least 0
-  /// @param natural_frequency  wn [rad/s]; below 0 the spring pushes away, as in `DampedBasis`
-  /// @param usual_duration     a time whose basis is kept [s], as records have segments of one length
+  /// @param natural_frequency  wn [rad/s]; if negative, the spring pushes away, as in `DampedBasis`
+  /// @param usual_duration     time whose basis is precomputed [s]; the segments of a record have equal length
   Damped(double damping, double natural_frequency,
          double usual_duration = std::numeric_limits<double>::quiet_NaN()) noexcept
       : damping_(damping),
@@ -198,9 +200,9 @@ class Damped {
   double damping() const noexcept { return damping_; }
   double stiffness() const noexcept { return stiffness_; }
 
-  /// Pull of the spring per unit mass [m/s^2].
+  /// Spring force per unit mass [m/s^2].
   double pull(double displacement) const noexcept { return stiffness_ * displacement; }
-  /// Drag of the damper per unit mass [m/s^2].
+  /// Damper force per unit mass [m/s^2].
   double drag(double speed) const noexcept { return damping_ * speed; }
 
   bool usual(double t) const noexcept { return detail::equal(t, usual_duration_); }
@@ -209,11 +211,11 @@ class Damped {
     return usual(t) ? usual_square_ : DampedSquare(damping_, natural_frequency_, t);
   }
 
-  /// Whether so little changes within t that a power series is fastest.
+  /// Whether the motion changes so little up to time t that a power series is fastest.
   bool soon(double t) const noexcept { return (damping_ + std::abs(natural_frequency_)) * t <= 1; }
 
-  /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` where there is
-  /// none. With the half rate c/2 taken out it is a cosine and a sine, or their hyperbolic like.
+  /// The first time after the start at which the acceleration a decay + rise impulse is zero; `never` if there is none.
+  /// Apart from the factor exp(-c t/2), the acceleration is a cosine plus a sine, or their hyperbolic counterparts.
   double turn(double a, double rise) const noexcept {
     const double slope = a * (damping_ / 2) - rise;
     if (swings_) {
@@ -224,7 +226,7 @@ class Damped {
     if (!(ratio > 0 && z < 1)) return never;
     return z > 0 ? ratio * (std::atanh(z) / z) : ratio;
   }
-  /// The time from one zero of the acceleration to the next; `never` where there is one at most.
+  /// The time from one zero of the acceleration to the next; `never` if there is at most one.
   double half_period() const noexcept { return swings_ ? std::numbers::pi / rate_ : never; }
 
   DampedFlow flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept;
@@ -235,14 +237,14 @@ class Damped {
   double damping_, natural_frequency_, stiffness_;
   double usual_duration_;
   bool swings_;
-  double rate_;  // of the swing [rad/s], or half the difference of the two rates of decay [1/s]
+  double rate_;  // angular frequency [rad/s] if it oscillates, else half the difference of the two decay rates [1/s]
   DampedBasis usual_basis_;
   DampedSquare usual_square_;
 };
 
-/// Constant friction and a damper from a given start, in closed form: x'' + c x' + wn^2 x = p(t) - a, exact but for
-/// round-off. Between two zeros of the acceleration, which are known, the speed runs one way: at most one root is left
-/// to be found, in a bracket.
+/// Constant friction and a damper from a given start, in closed form: x'' + c x' + wn^2 x = p(t) - a, exact up to
+/// round-off. The zeros of the acceleration are known, and the speed is monotonic between them. At most one root
+/// therefore remains to be found, within a known bracket.
 class DampedFlow {
  public:
   DampedFlow(const Damped& damped, const Start& start, double duration) noexcept
@@ -266,7 +268,7 @@ class DampedFlow {
     const bool rises = a_ > 0 || (detail::equal(a_, 0) && rise_ > 0);
     if (detail::equal(u_, 0) && !rises) return 0;
     if (one_arch && last <= 0) return root(0, duration_, end_);
-    // It falls from `begin` to `end` for the first time; each later time its least value is higher.
+    // The speed first falls from `begin` to `end`; every later minimum is higher.
     double begin = 0, end = damped_.turn(a_, rise_);
     if (rises) begin = std::exchange(end, end + damped_.half_period());
     if (!(begin < duration_)) return never;
@@ -277,7 +279,7 @@ class DampedFlow {
   Progress at(double t) const noexcept { return soon_ ? expanded().at(t / duration_) : progress(damped_.basis(t)); }
   Progress at_horizon() const noexcept { return end_; }
 
-  /// Work on the damper within t [m^2/s^2].
+  /// Work on the damper up to time t [m^2/s^2].
   double damped_work(double t) const noexcept {
     return damped_.damping() *
            (soon_ && !damped_.usual(t) ? expanded().square(t / duration_) : damped_.square(t).of(u_, q_, s_));
@@ -286,7 +288,7 @@ class DampedFlow {
  private:
   /// The speed as a power series, for time in units of the duration: v'' = rise - c v' - wn^2 (v - u).
   struct Expansion {
-    static constexpr int terms = 20;  // of which the last is below round-off, (c + wn) t being 1 at most
+    static constexpr int terms = 20;  // the last is below round-off, as (c + wn) t <= 1
     double duration;
     double v[terms];
 
@@ -302,8 +304,8 @@ class DampedFlow {
       return {distance * part * duration, speed, slope / duration, mean * part * duration};
     }
 
-    /// The integral of v^2, by Gauss-Legendre quadrature of eight points, which go through the series side by side: off
-    /// by 1e-18 of it.
+    /// The integral of v^2, by 8-point Gauss-Legendre quadrature with a relative error of 1e-18. The series is
+    /// evaluated at all points in parallel.
     double square(double part) const noexcept {
       constexpr const auto& rule = numerics::gauss_legendre<8>;
       double value[8];
@@ -334,8 +336,9 @@ class DampedFlow {
             b.duration > 0 ? b.integral_of_distance(u_, q_, s_) / b.duration : 0};
   }
 
-  // By Newton's method, for whose slope nothing is evaluated anew, within the bracket, in which the speed comes through
-  // zero once, to `last` <= 0. The first guess is that of the parabola through both ends.
+  // The only zero of the speed between `low` and `high`, where the speed has fallen to `last` <= 0. Newton's method,
+  // kept within the bracket; the slope is available without further evaluation. The first guess is the zero of a
+  // parabola through both ends.
   double root(double low, double high, const Progress& last) const noexcept {
     if (detail::equal(last.speed, 0)) return high;
     const double h = high - low, fall = last.acceleration * h, first = low > 0 ? at(low).speed : u_;
@@ -356,7 +359,7 @@ class DampedFlow {
   const Damped& damped_;
   double u_, a_, q_, s_, rise_, duration_;
   bool soon_;
-  mutable Expansion expansion_{0, {}};  // made when it is first needed
+  mutable Expansion expansion_{0, {}};  // computed on first use
   Progress end_;
 };
 

@@ -1,4 +1,4 @@
-// Constant friction with a spring: the displacement is a sine, a cosine and a line in time.
+// Constant friction with a spring: the displacement is the sum of a sine, a cosine and a linear function of time.
 #pragma once
 
 #include <array>
@@ -13,13 +13,14 @@
 
 namespace stickslip {
 
-/// With the speed u and the net acceleration a at the start and a load that gains g within t,
+/// With speed u and net acceleration a at the start, and a load that increases by g over the time t,
 ///     speed = u b0 + a b1 + g b2 / t,    distance = u b1 + a b2 + g b3 / t,
-/// where b0 = cos(wn t) and each b is the integral of the one before; without a spring they would be 1, t, t^2/2, ...
+/// where b0 = cos(wn t) and each further b is the integral of the previous one; without a spring they are 1, t, t^2/2,
+/// ...
 ///
-/// In y = (2/wn) tan(wn t / 2) the speed has the roots of the quadratic that it has without a spring, but for wn^2 u /
-/// 2 taken from the load's rate. Its whole period is the line from 0 to infinity and back from minus infinity to 0:
-/// what does not stop within a period never does.
+/// In terms of y = (2/wn) tan(wn t / 2), the zeros of the speed are the roots of the same quadratic as without a
+/// spring, except that the quadratic coefficient is reduced by wn^2 u / 2. Over one period, y runs from 0 to infinity
+/// and from minus infinity to 0. A slip that does not stop within a period never stops.
 class Harmonic {
  public:
   struct Basis {
@@ -28,7 +29,7 @@ class Harmonic {
   };
 
   /// @param natural_frequency  wn [rad/s], positive
-  /// @param usual_duration     a time whose basis is kept [s], as records have segments of one length
+  /// @param usual_duration     time whose basis is precomputed [s]; the segments of a record have equal length
   explicit Harmonic(double natural_frequency, double usual_duration = std::numeric_limits<double>::quiet_NaN()) noexcept
       : w_(natural_frequency), usual_duration_(usual_duration), usual_basis_(compute(usual_duration)) {}
 
@@ -54,7 +55,7 @@ class Harmonic {
     return (2 / w_) * (std::atan(w_ * y / 2) + (std::signbit(y) ? std::numbers::pi : 0.0));
   }
 
-  /// Pull of the spring per unit mass [m/s^2].
+  /// Spring force per unit mass [m/s^2].
   double pull(double displacement) const noexcept { return w_ * w_ * displacement; }
   static constexpr double drag(double) noexcept { return 0; }
 
@@ -63,7 +64,7 @@ class Harmonic {
   }
 
  private:
-  // b3 and b4 cancel where wn t is small, and so would the others made from them where it is large.
+  // The closed forms of b3 and b4 suffer from cancellation at small wn t; the series would at large wn t.
   Basis compute(double t) const noexcept {
     const double w2 = w_ * w_, z = w2 * t * t;
     if (z < 2) {
@@ -75,8 +76,8 @@ class Harmonic {
     return {1 - w2 * b2, b1, b2, b1 / t, b2 / t, (1 - b1 / t) / w2, (0.5 - b2 / (t * t)) / w2};
   }
 
-  // 1/n! - z/(n+2)! + z^2/(n+4)! - ..., below round-off after eleven terms for z < 2; in two sums, as an addition must
-  // wait for the one before it.
+  // 1/n! - z/(n+2)! + z^2/(n+4)! - ..., below round-off after eleven terms for z < 2. Even and odd terms are summed
+  // separately, to shorten the chain of dependent additions.
   template <int n>
   static double inverse_factorials(double z) noexcept {
     static constexpr auto terms = [] {

@@ -8,7 +8,7 @@
 
 namespace stickslip {
 
-/// With the speed u and the net acceleration a at the start and a load that gains g within t,
+/// With speed u and net acceleration a at the start, and a load that increases by g over the time t,
 ///     speed = u + a t + g t / 2,    distance = u t + a t^2 / 2 + g t^2 / 6.
 struct Polynomial {
   using Basis = double;  // the time itself
@@ -30,10 +30,11 @@ struct Polynomial {
   /// @param u, a, g  speed, and acceleration and gain times the duration [m/s]
   static double first_stop(double u, double a, double g, double duration) noexcept {
     const double root = first_root(u, a, g);
-    return root >= 0 && !std::signbit(root) ? root * duration : never;  // one that underflowed is +0, or -0 and before
+    return root >= 0 && !std::signbit(root) ? root * duration
+                                            : never;  // an underflowed root is +0, or -0 if it lies before the start
   }
 
-  /// No spring pulls.
+  /// Zero: there is no spring.
   static constexpr double pull(double) noexcept { return 0; }
   static constexpr double drag(double) noexcept { return 0; }
 

@@ -1,4 +1,4 @@
-// A motion that is known as a power series in time.
+// A motion given as a power series in time.
 #pragma once
 
 #include <array>
@@ -168,8 +168,8 @@ inline SinusoidalGainSeries gain_series(const SinusoidalStart& start, double dur
 
 }  // namespace detail
 
-/// A slip whose acceleration is a power series in time, however its coefficients are found: its first stop, its motion
-/// and the work done.
+/// A slip whose acceleration is a power series in time: its first stop, its motion and the work done. Derived classes
+/// compute the coefficients.
 template <class SlipStart>
 class PowerSeriesFlow {
  protected:
@@ -184,13 +184,13 @@ class PowerSeriesFlow {
   /// Net acceleration at the start [m/s^2].
   double acceleration() const noexcept { return start_.acceleration; }
 
-  /// Work on the damper within t [m^2/s^2].
+  /// Work on the damper up to time t [m^2/s^2].
   double damped_work(double t) const noexcept {
     if (detail::equal(mounting_.damping, 0)) return 0;
     return mounting_.damping * integral(t, [](const Progress& at, double) { return at.speed * at.speed; });
   }
 
-  /// Work that the deviation of the normal force from g does on a pendulum within t [m^2/s^2]: the integral of
+  /// Work done on a pendulum up to time t by the deviation of the normal force from g [m^2/s^2]: the integral of
   /// wn^2 (1 - w) x x'.
   double pendulum_work(double t) const noexcept requires loaded {
     if (!mounting_.pendulum) return 0;
@@ -227,8 +227,8 @@ class PowerSeriesFlow {
 
   double stiffness() const noexcept { return mounting_.natural_frequency * mounting_.natural_frequency; }
 
-  // The integral of a function of the motion within t. 20-point Gauss-Legendre quadrature is exact for products of two
-  // series whose last terms are below round-off.
+  // The integral of a function of the motion up to time t. 20-point Gauss-Legendre quadrature is exact for products of
+  // two series whose last terms are below round-off.
   template <class Function>
   double integral(double t, Function&& of) const {
     return horizon_ * numerics::gauss_integral<20>(0, t / horizon_, [&](double s) { return of(at_part(s), s); });

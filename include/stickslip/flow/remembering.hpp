@@ -1,4 +1,4 @@
-// Friction that changes with the distance slid.
+// Flows of friction that changes with the sliding distance.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 
 namespace stickslip {
 
-/// Friction that is linear in the distance slid, in closed form: a level that rises by k a meter is constant friction
-/// with a spring that is stiffer by k,
-///     d'' = a + g(t) - (wn^2 + k) d - c (d' - u),
-/// and where wn^2 + k is negative one that pushes away.
+/// Friction that is linear in the sliding distance, in closed form. A level that rises by k per meter is equivalent to
+/// constant friction with a spring whose stiffness is larger by k:
+///     d'' = a + g(t) - (wn^2 + k) d - c (d' - u).
+/// If wn^2 + k is negative, the spring pushes away from its center.
 class LinearLevelFlow {
  public:
-  /// @param level  what resists at the start [m/s^2]
+  /// @param level  resistance at the start [m/s^2]
   /// @param slope  k [1/s^2]
   LinearLevelFlow(double damping, double stiffness, double level, double slope, const Start& start, double duration)
       : level_(level),
@@ -37,16 +37,16 @@ class LinearLevelFlow {
   Progress at(double t) const noexcept { return flow_.at(t); }
   Progress at_horizon() const noexcept { return flow_.at_horizon(); }
 
-  /// Work on the damper within t [m^2/s^2].
+  /// Work on the damper up to time t [m^2/s^2].
   double damped_work(double t) const noexcept { return damped_.damping() > 0 ? flow_.damped_work(t) : 0; }
-  /// Work against friction within t [m^2/s^2].
+  /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const noexcept {
     const double way = t < horizon() ? at(t).distance : at_horizon().distance;
     return way * (level_ + slope_ / 2 * way);
   }
 
  private:
-  // What grows by more than e^16 could leave the range of doubles long before the level's piece is over.
+  // A motion that grows by more than e^16 could overflow long before the linear piece of the level ends.
   static double reach(double duration, double stiffness) noexcept {
     return stiffness < 0 ? std::min(duration, 16 / std::sqrt(-stiffness)) : duration;
   }
@@ -59,8 +59,8 @@ class LinearLevelFlow {
   DampedFlow flow_;
 };
 
-/// Makes the flows of a slider whose law has a memory, from the law as it goes on from each state: where it is linear
-/// and the load is, too, in closed form, else in Taylor series.
+/// Makes the flows of a slider whose law has memory, from the law that applies from each state on. The flow has a
+/// closed form if both that law and the load are linear; otherwise it is a Taylor series.
 template <MemoryLaw Law>
 class Remembering {
  public:
@@ -70,7 +70,7 @@ class Remembering {
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
   bool pendulum() const noexcept { return slider_.mounting().pendulum; }
 
-  /// A flow ends its life before the next is made.
+  /// The returned flow must be destroyed before the next call.
   template <class SlipStart>
   auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
     if constexpr (std::same_as<SlipStart, Start> && LinearLaw<Now>) {
@@ -90,7 +90,7 @@ class Remembering {
   mutable std::optional<Slider<Now>> now_;
 };
 
-/// Makes the flows that serve a law under any load.
+/// Makes flows that support the law under any load.
 template <FrictionLaw Law>
 auto general_flows(const Slider<Law>& slider) {
   if constexpr (HeatedLaw<Law> || NumericLaw<Law>)

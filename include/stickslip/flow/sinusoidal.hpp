@@ -1,4 +1,4 @@
-// Constant friction under a load that is a cosine in time: the displacement is a parabola and a cosine.
+// Constant friction under a load that is a cosine in time: the displacement is the sum of a parabola and a cosine.
 #pragma once
 
 #include <array>
@@ -13,36 +13,36 @@
 
 namespace stickslip {
 
-/// The beginning of a slip under a load that is a cosine, seen in the direction of sliding as in `Start`: the load goes
-/// on as amplitude cos(phase + frequency t).
+/// The start of a slip under a load that is a cosine, expressed in the direction of sliding as in `Start`: the load is
+/// amplitude cos(phase + frequency t).
 struct SinusoidalStart {
   double speed;         ///< [m/s], at least 0
   double acceleration;  ///< net [m/s^2]; exactly 0 on breaking away
-  double amplitude;     ///< of the load, negative where the slip goes backward [m/s^2]
+  double amplitude;     ///< of the load, in the direction of sliding; may be negative [m/s^2]
   double frequency;     ///< omega [rad/s], positive
   double phase;         ///< of the load at the start [rad]
 
-  /// What the load has gained after a time [m/s^2], in a form that does not cancel.
+  /// Change of the load since the start [m/s^2], in a form free of cancellation.
   double gain_within(double t, double /*duration*/) const noexcept {
     const double half = frequency * t / 2;
     return -2 * amplitude * std::sin(phase + half) * std::sin(half);
   }
 
-  /// Work of the load within a time, of which `load` is its value at the start [m^2/s^2].
+  /// Work of the load up to time t, where `load` is its value at the start [m^2/s^2].
   template <class Flow>
   double work(const Flow& flow, double load, double /*gain*/, double t, const Progress& end) const noexcept {
     return load * end.distance + flow.work_of_gain(t);
   }
 };
 
-/// Constant friction without a spring under a load A cos(phase + omega t), in closed form: thesis (2.28). With the
-/// speed u and the net acceleration a at the start,
+/// Constant friction without a spring under a load A cos(phase + omega t), in closed form: thesis (2.28). With
+/// speed u and net acceleration a at the start,
 ///     speed = u + a t + V,  V = -A (omega^2 cos(phase) b3 + omega sin(phase) b2),
-/// where each b is the integral of the one before and b0 = cos(omega t), as in `Harmonic`: no difference of large
-/// numbers, however short the time.
+/// where b0 = cos(omega t) and each further b is the integral of the previous one, as in `Harmonic`. This form has no
+/// differences of large numbers, however short the time.
 ///
-/// The net acceleration is A cos(phase + omega t) less the slip level: its zeros are known, between them the speed runs
-/// one way, and from cycle to cycle its least value falls by 2 pi level / omega.
+/// The net acceleration is A cos(phase + omega t) minus the slip level. Its zeros are known, the speed is monotonic
+/// between them, and the minimum speed decreases by 2 pi level / omega from cycle to cycle.
 class SinusoidalFlow {
  public:
   SinusoidalFlow(const Harmonic& oscillator, const SinusoidalStart& start, double duration) noexcept
@@ -61,17 +61,17 @@ class SinusoidalFlow {
     const auto [u, a, amplitude, omega, phase] = start_;
     if (detail::equal(u, 0) && (a < 0 || (detail::equal(a, 0) && sine_ >= 0))) return 0;
 
-    // So fast that no push could stop it in time, as most of short pieces.
+    // The speed is too high for any load to stop the slip within the duration; most short segments end here.
     if (u > (std::abs(amplitude) + std::abs(cosine_ - a)) * duration_) return never;
 
-    // In the phase of a push that is greatest at 0, the speed rises within -turn and turn and falls elsewhere.
+    // With the phase measured from the maximum of the load, the speed rises between -turn and turn and falls elsewhere.
     constexpr double cycle = 2 * std::numbers::pi;
     const double push = std::abs(amplitude), level = cosine_ - a;
     const double room = (push - level) / (2 * push);
     const double turn = room > 0 ? 2 * std::asin(std::sqrt(std::min(room, 1.0))) : 0;
     const double now = std::remainder(amplitude < 0 ? phase + std::numbers::pi : phase, cycle);
     const bool rises = a > 0 || (detail::equal(a, 0) && sine_ < 0);
-    double falls_from = rises ? std::max(turn - now, 0.0) : 0;                               // phase gone until then
+    double falls_from = rises ? std::max(turn - now, 0.0) : 0;                               // phase elapsed until then
     double least = rises || now >= -turn ? std::max(cycle - turn - now, 0.0) : -turn - now;  // at the end of the fall
     if (falls_from >= omega * duration_) return never;
 
@@ -96,11 +96,10 @@ class SinusoidalFlow {
   /// Net, at the start [m/s^2].
   double acceleration() const noexcept { return start_.acceleration; }
 
-  /// What becomes of a small change of the distance and the speed at the start: to each its share of either after t,
-  /// row by row.
+  /// Sensitivity of the distance and the speed at time t to those at the start: a 2 x 2 matrix in row-major order.
   std::array<double, 4> variation(double t) const noexcept { return {1, t, 0, 1}; }
 
-  /// Work of what the load has gained since the start [m^2/s^2]: the integral of V' (u + a t + V).
+  /// Work of the change of the load since the start [m^2/s^2]: the integral of V' (u + a t + V).
   double work_of_gain(double t) const noexcept {
     const Harmonic::Basis b = detail::equal(t, duration_) ? end_ : oscillator_.basis(t);
     const double v = gained_speed(b, t);
@@ -125,8 +124,8 @@ class SinusoidalFlow {
             0};
   }
 
-  // The zero of a speed that falls from `low` to `high` and has come to zero there, by Newton's method in a bracket:
-  // the slope is there already, which `numerics::root` has no use for.
+  // The zero of a speed that falls from `low` to `high` and is at or below zero at `high`, by bracketed Newton
+  // iteration. The slope is available at no cost; `numerics::root` would not use it.
   double polish(double low, double high) const noexcept {
     for (double t = low + (high - low) / 2;;) {
       const Harmonic::Basis b = oscillator_.basis(t);
@@ -151,10 +150,10 @@ class SinusoidalFlow {
 /// Makes the flows of constant friction without a spring under a load of one frequency.
 class Sinusoidal {
  public:
-  /// @param usual_duration  as of `Harmonic`
+  /// @param usual_duration  as in `Harmonic`
   explicit Sinusoidal(double omega, double usual_duration) noexcept : oscillator_(omega, usual_duration) {}
 
-  /// No spring pulls.
+  /// Zero: there is no spring.
   static constexpr double pull(double) noexcept { return 0; }
   static constexpr double drag(double) noexcept { return 0; }
 

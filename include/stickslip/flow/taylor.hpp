@@ -36,7 +36,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
       Base::horizon_, Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_;
 
  public:
-  /// Out of line: inlined wherever a flow is made, it doubles the time that a law takes to compile.
+  /// Kept out of line: inlining it wherever a flow is made doubles the compile time of a law.
   /// @param longest  step to try first [s]
   [[gnu::noinline]] TaylorFlow(const Slider<Law>& slider, Direction direction, double displacement,
                                const SlipStart& start, double duration, double longest = never)
@@ -73,7 +73,8 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
       return find_first_stop();
   }
 
-  /// As `SinusoidalFlow::variation`: the series of y'' = -(wn^2 +- resist'(x)) y - c y' from (1, 0) and from (0, 1).
+  /// As `SinusoidalFlow::variation`, from the series of y'' = -(wn^2 +- resist'(x)) y - c y' from (1, 0) and from (0,
+  /// 1).
   std::array<double, 4> variation(double t) const requires PositionLaw<Law> {
     constexpr int order = series::highest_order;
     const double h = horizon_;
@@ -100,7 +101,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     return {value[0], value[1] * h, rate[0] / h, rate[1]};
   }
 
-  /// Work against friction within t [m^2/s^2].
+  /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const {
     return integral(t, [&](const Progress& at, double part) {
       return weight(part) * at.speed *
@@ -109,8 +110,8 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   }
 
  private:
-  // A level that changes fast only at low speeds does not show this at high speed. The equation of motion must
-  // therefore also hold at the minimum of the speed.
+  // A level that changes fast only at low speeds cannot be recognized as such at high speed. The equation of motion
+  // must therefore also hold at the minimum of the speed.
   bool balanced_where_slowest() {
     double slowest = stop_ < never ? stop_ / horizon_ : 1;
     if (detail::equal(slowest, 1) && start_.acceleration < 0 && end_.acceleration > 0)
@@ -216,7 +217,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
 
   const Slider<Law>& slider_;
-  double level_here_;    // [m/s^2]
+  double level_here_;    // at the start [m/s^2]
   double fastest_ = 0;   // the largest term of the speed [m/s]
   double stop_ = never;  // kept where the law depends on the speed [s]
 };
@@ -225,7 +226,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
 template <FrictionLaw Law>
 struct Taylor {
   const Slider<Law>& slider;
-  mutable double last_step = never;  // to which a flow was last shortened, for long segments of motion [s]
+  mutable double last_step = never;  // step to which a flow was last shortened, for long segments [s]
 
   double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
   double drag(double speed) const noexcept { return slider.damping() * speed; }
