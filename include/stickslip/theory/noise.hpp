@@ -1,4 +1,5 @@
-// The noise that theories take: white by its level, stationary by its spectrum, or shaped by a filter and an envelope.
+// Descriptions of noise for the theories: white noise, stationary noise with a spectrum, filtered noise with an
+// envelope.
 #pragma once
 
 #include <optional>
@@ -13,8 +14,8 @@
 
 namespace stickslip::theory {
 
-/// White ground acceleration by its level S0, two-sided, R(t) = 2 pi S0 delta(t): a number, a white spectrum, or an
-/// excitation that has one.
+/// White ground acceleration, given by its two-sided level S0, R(t) = 2 pi S0 delta(t): a number, a white spectrum, or
+/// an excitation that has one.
 class WhiteLevel {
  public:
   /// @param s0  [m^2/s^3], positive and finite
@@ -33,7 +34,7 @@ class WhiteLevel {
   double s0_;
 };
 
-/// Stationary Gaussian ground acceleration by its spectrum. A number is the level of white noise.
+/// Stationary Gaussian ground acceleration, given by its spectrum. A number is the level of white noise.
 class StationaryNoise {
  public:
   StationaryNoise(Spectrum spectrum) : spectrum_(std::move(spectrum)) {}
@@ -52,7 +53,7 @@ class StationaryNoise {
   Spectrum spectrum_;
 };
 
-/// Ground acceleration that is white noise through a filter, with an envelope: all that second moments know of an
+/// Ground acceleration that is filtered white noise with an envelope. This determines the second moments of an
 /// excitation. A number is the level of white noise.
 class ShapedNoise {
  public:
@@ -65,19 +66,19 @@ class ShapedNoise {
   ShapedNoise(Spectrum spectrum) : source_(std::move(spectrum)) {}
   ShapedNoise(ShapingFilter filter) : source_(std::move(filter)) {}
 
-  /// The spectrum, from time zero on, times the envelope.
+  /// The stationary motion, from time zero on, times the envelope.
   /// @throws std::invalid_argument for white noise without a line at zero frequency
   ShapedNoise(const GaussianExcitation& excitation);
 
-  /// Pulses have the second moments of white noise through a filter that answers an impulse with the pulse; the
-  /// envelope multiplies that white noise.
+  /// Pulses have the second moments of white noise through a filter whose impulse response is the pulse; the envelope
+  /// multiplies the white noise.
   /// @throws std::invalid_argument for amplitudes whose mean is not 0
   ShapedNoise(const PoissonPulses& pulses);
 
-  /// @throws std::invalid_argument  where no filter fits, see `ShapingFilter::of`
+  /// @throws std::invalid_argument  if no filter fits, see `ShapingFilter::of`
   ShapingFilter filter(const ShapingFilter::Fit& fit) const;
 
-  /// The level of white noise that is stationary from time zero on; none for other noise.
+  /// The level if the noise is white and stationary from time zero on; otherwise none.
   std::optional<double> white() const;
 
   const std::optional<Envelope>& envelope() const noexcept { return envelope_; }
@@ -88,8 +89,8 @@ class ShapedNoise {
   /// Whether the acceleration has its stationary variance at time zero; otherwise the filter starts from rest.
   bool stationary_start() const noexcept { return stationary_start_; }
 
-  /// Whether each member's ground velocity returns to where it began although the spectrum does not vanish at zero
-  /// frequency: Gaussian excitation of one whole period, without its line there.
+  /// Whether the ground velocity of each member returns to its initial value although the spectrum does not vanish at
+  /// zero frequency: Gaussian excitation over one whole period, without the line at zero frequency.
   bool returns() const noexcept { return returns_; }
 
  private:
