@@ -1,4 +1,4 @@
-// What a random source of ground motions is.
+// The concept of a random source of ground motions.
 #pragma once
 
 #include <concepts>
@@ -9,9 +9,9 @@
 
 namespace stickslip {
 
-/// A random source of ground motions: (seed, member) always names the same one. All motions begin at the same time and
-/// last `duration()` [s]; `configuration()` tells all that they depend on, so that only what belongs together is
-/// merged. It must be safe to call concurrently.
+/// A random source of ground motions: the same (seed, member) always gives the same motion. All motions begin at the
+/// same time and last `duration()` [s]. `configuration()` contains everything that they depend on, so that only
+/// ensembles under the same excitation are merged. It must be safe to call concurrently.
 template <class E>
 concept Excitation = requires(const E& excitation, std::uint64_t number) {
   { excitation.sample(number, number) } -> std::same_as<GroundMotion>;

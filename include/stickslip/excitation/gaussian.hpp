@@ -17,32 +17,34 @@
 
 namespace stickslip {
 
-/// How a `GaussianExcitation` makes its motions.
+/// Options of `GaussianExcitation`.
 struct GaussianOptions {
-  /// What the ground does between samples.
+  /// Interpolation between samples.
   Interpolation interpolation = Interpolation::linear;
 
-  /// Samples joined by lines have less of the high frequencies than the sum of cosines they were taken from: the lines
-  /// multiply the Fourier amplitude at omega by sinc^2(u), u = omega dt / 2, values held by sinc(u). With the
-  /// correction the samples get the reciprocal, so that the motion that acts has the spectrum that was asked for,
-  /// exactly at every line. (That is 1/sinc^4 for the density; thesis (4.57), (4.58) as corrected in the errata.)
+  /// Whether to correct for the interpolation. Straight lines between samples reduce the high frequencies of the sum of
+  /// cosines: the Fourier amplitude at omega is multiplied by sinc^2(u), u = omega dt / 2, and by sinc(u) for held
+  /// values. The correction multiplies the samples by the reciprocal, so that the motion that acts has exactly the
+  /// specified spectrum at every line. (For the density the factor is 1/sinc^4; thesis (4.57), (4.58) as corrected in
+  /// the errata.)
   bool correct_interpolation = true;
 
-  /// Rayleigh amplitudes: each motion is then truly Gaussian, whatever the number of lines, but its own variance
-  /// differs from member to member. Otherwise the amplitudes are fixed, as in the thesis, and only phases are random.
+  /// Whether amplitudes are random (Rayleigh distributed). The process is then Gaussian for any number of lines, but
+  /// the variance of a single motion differs from member to member. Otherwise amplitudes are fixed, as in the thesis,
+  /// and only phases are random.
   bool random_amplitudes = false;
 
-  /// The line at zero frequency too, with variance S(0) domega: a random constant for each member. Without it a motion
-  /// of one whole period has no mean: its ground velocity comes back to where it began, and a spectrum that reaches
-  /// down to zero loses the band |omega| < domega / 2.
+  /// Whether to include the line at zero frequency, with variance S(0) domega: a random constant for each member.
+  /// Without it a motion of one whole period has a mean of zero, so that its ground velocity returns to the initial
+  /// value, and a spectrum that extends to zero loses the band |omega| < domega / 2.
   bool zero_frequency = false;
 
-  /// Samples after which the motion would repeat itself; 0 for as many as there are, at least as many. A longer period
-  /// puts the lines closer together, the end of a motion no longer joins its beginning, and a motion may have a mean:
-  /// the remedy for periodicity, and for bands that reach zero or are narrow. Cost grows with the period.
+  /// Number of samples after which the motion would repeat itself, at least `samples`; 0 means `samples`. A longer
+  /// period reduces the distance between lines, removes the periodicity within a motion, and allows a motion a nonzero
+  /// mean. Use it for narrow bands and for bands that extend to zero. The cost grows with the period.
   std::size_t period = 0;
 
-  /// Multiplies the samples: the motion is then no longer stationary.
+  /// Factor on the samples by time; the motion is then not stationary.
   std::optional<Envelope> envelope{};
 
   friend bool operator==(const GaussianOptions&, const GaussianOptions&) = default;
@@ -53,18 +55,18 @@ struct GaussianOptions {
 ///     n(m dt) = sum_k 2 sqrt(S(k domega) domega) cos(k domega m dt + phi_k),   k = 1 .. period / 2,      thesis (4.49)
 ///     domega = 2 pi / (period dt)
 ///
-/// by one inverse FFT a motion. At the Nyquist frequency pi / dt two lines of the whole line, +-k, are one cosine,
-/// which is a line of variance S domega and not 2 S domega: with all lines, zero included, the samples of white noise
-/// have variance 2 pi S0 / dt. (A line at an edge of the band counts in full.)
+/// by one inverse FFT per motion. At the Nyquist frequency pi / dt the two lines +-k are a single cosine, with variance
+/// S domega instead of 2 S domega. With all lines, including zero, the samples of white noise therefore have the
+/// variance 2 pi S0 / dt. (A line at an edge of the band counts in full.)
 ///
-/// With fixed amplitudes the kurtosis of the motion is 3 - 1.5 / effective_lines(): what has to be large for a motion
-/// to be Gaussian is the number of lines in the band, not that of samples.
+/// With fixed amplitudes the kurtosis of the motion is 3 - 1.5 / effective_lines(): a motion is Gaussian if the number
+/// of lines in the band is large, not the number of samples.
 ///
-/// Motions of one whole period have no mean (see `GaussianOptions::zero_frequency` and `period`).
+/// Motions of one whole period have a mean of zero (see `GaussianOptions::zero_frequency` and `period`).
 ///
-/// Immutable; motions may be made on any number of threads at once. The same (seed, member) always names the same
-/// motion: phases are rows of random numbers (random.hpp), one number a line. Bits are the same on machines of the same
-/// instruction set with the same FFTW; elsewhere the motions agree to round-off.
+/// Immutable; motions may be made on any number of threads at once. The same (seed, member) always gives the same
+/// motion: phases are from streams of random numbers (random.hpp), one number per line. The bits are the same on
+/// machines with the same instruction set and the same FFTW; elsewhere the motions agree to round-off.
 ///
 /// Reference: M. Shinozuka, C.-M. Jan, Digital simulation of random processes and its applications, J. Sound Vib. 25
 /// (1972), 111-128; thesis 4.4.
@@ -72,11 +74,11 @@ class GaussianExcitation {
  public:
   using Options = GaussianOptions;
 
-  /// Purposes of the rows of random numbers (`RandomStream`): phasors, and exponential numbers for Rayleigh amplitudes.
-  /// Number i is that of the i-th line from the first that has an amplitude.
+  /// Purposes of the streams of random numbers (`RandomStream`): phasors, and exponential numbers for Rayleigh
+  /// amplitudes. Number i belongs to the i-th line, counted from the first with a nonzero amplitude.
   static constexpr std::uint32_t phase_purpose = 0x70686173, amplitude_purpose = 0x7261796c;
 
-  /// Memory that `sample` works in, to be used again and again, by one thread at a time.
+  /// Reusable working memory of `sample`, for one thread at a time.
   class Workspace {
    public:
     Workspace() = default;
@@ -95,26 +97,26 @@ class GaussianExcitation {
   };
 
   /// @param spectrum  two-sided, of the motion. One with an upper edge must have it at or below the Nyquist frequency
-  ///                  pi / dt; one without is cut there, see `lost_variance`
+  ///                  pi / dt; others are truncated there, see `lost_variance`
   /// @param dt        between samples [s], positive and finite
   /// @param samples   of one motion, at least 2
-  /// @throws std::invalid_argument for a value out of its range; for a band beyond the Nyquist frequency (saying
-  ///         which dt would do); for a band in which no line lies (saying which period would do); for a period of
-  ///         more than 2147483647 samples
+  /// @throws std::invalid_argument for a value out of range; for a band beyond the Nyquist frequency (stating a
+  ///         suitable dt); for a band without a line (stating a suitable period); for a period of more than 2147483647
+  ///         samples
   GaussianExcitation(Spectrum spectrum, double dt, std::size_t samples, Options options = {});
 
   /// One motion, from time 0 to `duration()`.
   /// Cost: a Philox block of 10 rounds for four lines and an FFT of the period.
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const;
 
-  /// The same accelerations [m/s^2] into `acceleration`, `samples()` of them; nothing is allocated once `workspace` has
-  /// grown.
+  /// Writes the same accelerations [m/s^2] to `acceleration`, which holds `samples()` values. Allocates nothing if
+  /// `workspace` was used before.
   void sample(std::uint64_t seed, std::uint64_t member, std::span<double> acceleration, Workspace& workspace) const;
 
   /// The same motions sampled `factor` times finer: the same lines with the same phases and amplitudes, the same
-  /// duration. Lines or steps between finer samples are nearer to the sum of cosines, so that the error of the
-  /// interpolation, which falls as dt^2 (linear) or dt (constant), can be seen to vanish. Without correction every
-  /// `factor`-th sample is the coarse one, to round-off.
+  /// duration. Lines or steps between finer samples are closer to the sum of cosines: use it to check that the
+  /// error of the interpolation decreases as dt^2 (linear) or dt (constant). Without correction every `factor`-th
+  /// sample equals the coarse one, to round-off.
   /// @param factor  at least 1
   /// @throws std::invalid_argument for 0, and for more than 2147483647 samples in a period
   GaussianExcitation refined(std::size_t factor) const;
@@ -128,10 +130,10 @@ class GaussianExcitation {
 
   Interpolation interpolation() const noexcept { return options_.interpolation; }
 
-  /// With `period` the number of samples that is used.
+  /// The options, with `period` replaced by the number of samples in use.
   const Options& options() const noexcept { return options_; }
 
-  /// How many times finer than it was made, and the time between samples then [s].
+  /// The refinement factor, and the time between samples before the refinement [s].
   std::size_t refinement() const noexcept { return refinement_; }
   double coarse_dt() const noexcept { return coarse_dt_; }
 
@@ -144,23 +146,24 @@ class GaussianExcitation {
   /// Number of lines with an amplitude.
   std::size_t lines() const noexcept;
 
-  /// (sum p)^2 / sum p^2 over the variances p that the lines give the samples: how many lines of equal strength would
-  /// be as Gaussian.
+  /// The number of lines of equal strength with the same kurtosis: (sum p)^2 / sum p^2 over the variances p of the
+  /// lines.
   double effective_lines() const noexcept;
 
-  /// A period, a power of two (times the refinement), with which there are at least that many effective lines
-  /// [samples]. Cost: that of making such an excitation.
-  /// @throws std::invalid_argument where it would be beyond 2147483647
+  /// A period [samples], a power of two (times the refinement), that gives at least `lines` effective lines. Cost: that
+  /// of constructing such an excitation.
+  /// @throws std::invalid_argument if it would exceed 2147483647
   std::size_t period_for(double effective_lines) const;
 
-  /// Share of the spectrum's variance beyond the Nyquist frequency, from 0 to 1; 1 for white noise, whose variance is
-  /// infinite.
+  /// Fraction of the variance of the spectrum beyond the Nyquist frequency, from 0 to 1; 1 for white noise, whose
+  /// variance is infinite.
   double lost_variance() const;
 
-  /// All that the motions depend on, as one JSON object, numbers in the shortest form that reads back the same.
+  /// Everything that the motions depend on, as one JSON object, with numbers in the shortest form that reads back
+  /// exactly.
   std::string configuration() const;
 
-  /// Equal excitations make the same motions.
+  /// Equal excitations give the same motions.
   friend bool operator==(const GaussianExcitation& a, const GaussianExcitation& b) {
     return a.spectrum_ == b.spectrum_ && detail::equal(a.coarse_dt_, b.coarse_dt_) && a.refinement_ == b.refinement_ &&
            a.samples_ == b.samples_ && a.options_ == b.options_;
@@ -177,13 +180,13 @@ class GaussianExcitation {
   Options options_;
   double dt_;
   std::size_t samples_;
-  double coarse_dt_;            // before it was refined: its Nyquist frequency ends the band
+  double coarse_dt_;            // before the refinement: its Nyquist frequency is the upper limit of the band
   std::size_t refinement_ = 1;  // dt_ is coarse_dt_ / refinement_
   double line_spacing_;
   std::size_t first_line_ = 0;
   std::vector<double> target_;     // variance of the lines from first_line_ on, of the motion that acts [m^2/s^4]
   std::vector<double> amplitude_;  // their Fourier coefficients: half a cosine's amplitude, corrected [m/s^2]
-  std::vector<double> envelope_;   // its values at the samples; empty where there is none
+  std::vector<double> envelope_;   // values at the samples; empty if there is no envelope
   std::shared_ptr<const Transform> transform_;
 };
 

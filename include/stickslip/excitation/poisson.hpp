@@ -20,28 +20,28 @@
 
 namespace stickslip {
 
-/// What makes `PoissonPulses` other than the thesis's.
+/// Options that go beyond the pulses of the thesis.
 struct PoissonOptions {
-  /// Pulses arrive from one pulse length before time zero on, so that the whole motion is a portion of a stationary
-  /// one. Otherwise, as thesis 5.4 starts up, no pulse begins before time zero: the variance rises from 0 to its
-  /// stationary value within one pulse length, 2 Dt. (The thesis lets its clock run from -10/lambda and drops what
-  /// arrives before zero. A Poisson process has no memory: to begin at zero is the same.)
+  /// Whether pulses arrive from one pulse length before time zero on, so that the whole motion is stationary.
+  /// Otherwise, as in thesis 5.4, no pulse begins before time zero, and the variance rises from 0 to its stationary
+  /// value within one pulse length, 2 Dt. (The thesis starts the process at -10/lambda and drops all arrivals before
+  /// zero. Because a Poisson process has no memory, this is equivalent to a start at zero.)
   bool stationary_start = false;
 
   PulseShape shape{};
 
-  /// Distribution of the amplitudes: puts its quantile function in place of each uniform number in (0, 1), one by one,
-  /// whatever their number. `PoissonPulses::each` makes it from a function of one number. Empty: Gaussian, (5.30).
+  /// Distribution of the amplitudes: replaces each uniform number in (0, 1) of an array by its quantile.
+  /// `PoissonPulses::each` creates it from a function of one number. Empty: Gaussian, (5.30).
   ///
   /// An amplitude is b = sigma * quantile(u). So that sigma stays the rms amplitude, on which the closed forms rest,
-  /// the distribution must have a mean square of 1; the exact value is taken on trust, what is off by a quarter is
-  /// refused. (It should have mean 0 as well, or the ground's mean acceleration is lambda E[b] int w, thesis 5.18.)
-  /// Called from several threads at once where motions are made on several.
+  /// the distribution must have a mean square of 1; the exact value is not checked, but an error of a quarter is
+  /// rejected. (It should have mean 0 as well, or the ground's mean acceleration is lambda E[b] int w, thesis 5.18.)
+  /// It is called concurrently if motions are generated on several threads.
   std::function<void(std::span<double>)> quantile{};
 
-  /// Multiplies the amplitude of each pulse by the envelope's value where the pulse arrives (at time zero, where it
-  /// arrives before). Not the acceleration itself: so each pulse stays a pulse of its shape, leaves no net velocity
-  /// where the shape leaves none, and the motion stays piecewise constant, hence exact.
+  /// Factor on the amplitude of each pulse, evaluated at its arrival (at time zero for earlier arrivals). It does not
+  /// multiply the acceleration: each pulse keeps its shape and its zero net velocity, and the motion remains piecewise
+  /// constant, hence exact.
   std::optional<Envelope> envelope{};
 };
 
@@ -50,13 +50,13 @@ struct PoissonOptions {
 ///     n(t) = sum_k b_k w(t - t_k)
 ///
 /// The t_k arrive as a Poisson process of rate lambda; the b_k are independent, by default Gaussian with mean zero and
-/// standard deviation sigma; w is +1 for the half width Dt, then -1 for Dt, so that a pulse moves the ground by b Dt^2
-/// and leaves it without velocity. A motion is cut at its duration, where pulses may still act.
+/// standard deviation sigma; w is +1 for the half width Dt, then -1 for Dt, so that a pulse displaces the ground by
+/// b Dt^2 and leaves no velocity. A motion ends at its duration, even if pulses still act.
 ///
-/// The closed forms (`variance` to `ground_displacement_variance`) are of the stationary process, without envelope:
-/// with the thesis's start-up they hold from one pulse length, 2 Dt, on.
+/// The closed forms (`variance` to `ground_displacement_variance`) apply to the stationary process without an envelope:
+/// with the start of the thesis, from one pulse length, 2 Dt, on.
 ///
-/// Immutable; motions may be made on any number of threads at once.
+/// Immutable; motions may be generated on several threads at once.
 ///
 /// Reference: thesis 5.3, 5.4, 5.6, corrected (5.6) of the errata; Y. K. Lin, Probabilistic Theory of Structural
 /// Dynamics (1967), pp. 87-94.
@@ -64,14 +64,14 @@ class PoissonPulses {
  public:
   using Options = PoissonOptions;
 
-  /// A motion with more steps than this on average, 4.8 GB, is refused.
+  /// Motions with more steps than this on average (4.8 GB) are rejected.
   static constexpr double max_steps = 3e8;
 
   /// @param rate        lambda, pulses per second, positive and finite
   /// @param half_width  Dt [s], positive and finite; the unit of the shape's times
   /// @param sigma       rms amplitude of the pulses [m/s^2], positive and finite
   /// @param duration    of the motion [s], positive and finite
-  /// @throws std::invalid_argument naming the value refused; also for more than `max_steps` steps (rate x duration x
+  /// @throws std::invalid_argument naming the rejected value; also for more than `max_steps` steps (rate x duration x
   ///         the times of the shape) and for an `Options::quantile` that is not finite or whose mean square is not 1
   PoissonPulses(double rate, double half_width, double sigma, double duration, Options options = {});
 
@@ -99,23 +99,23 @@ class PoissonPulses {
   static PoissonPulses event(std::string_view name, Options options = {});
 
   /// Pulses of minimum phase whose spectral density (5.20) is a given one: `PulseShape::from_spectrum`, with a half
-  /// width of 1 s, so that the shape's times are seconds. Below pi / dt `density` is the spectrum, within the
-  /// tolerance; above, the pieces of constant acceleration leave an image of it. Rate and sigma share lambda sigma^2:
-  /// sigma is the rms of the largest acceleration of a pulse. Many pulses at a time, a large rate times the length of
-  /// the pulse, make a process that is nearly Gaussian.
+  /// width of 1 s, so that the shape's times are seconds. Below pi / dt `density` equals the spectrum, within the
+  /// tolerance; above it, the constant pieces cause an image of the spectrum. The spectrum determines only the product
+  /// lambda sigma^2; sigma is the rms of the largest acceleration of a pulse. If many pulses overlap (a large rate
+  /// times the length of the pulse), the process is nearly Gaussian.
   /// @param spectrum  of the ground acceleration
   /// @param rate      lambda, pulses per second, positive and finite
   /// @param duration  of the motion [s], positive and finite
   /// @param dt, tolerance  as of `PulseShape::from_spectrum`
   /// @param options   all but the shape
-  /// @throws std::invalid_argument naming the value refused, and where `options` has another shape
+  /// @throws std::invalid_argument naming the rejected value, and if `options` has another shape
   static PoissonPulses from_spectrum(const Spectrum& spectrum, double rate, double duration, double dt,
                                      double tolerance = 1e-3, Options options = {});
 
-  /// The names that `event` knows.
+  /// The names of the events of `event`.
   static std::span<const std::string_view> events() noexcept;
 
-  /// A quantile function of one number as `Options::quantile` wants it.
+  /// Converts a quantile function of one number for `Options::quantile`.
   template <std::regular_invocable<double> Function>
   static auto each(Function function) {
     return [function = std::move(function)](std::span<double> numbers) {
@@ -132,14 +132,16 @@ class PoissonPulses {
   /// One motion, from 0 to `duration()`: values held between uneven times, exact. The same (seed, member) always
   /// gives the same motion.
   ///
-  /// Where no pulse acts the acceleration is exactly zero, and elsewhere it is the sum of the acting pulses to about
-  /// one rounding: the sum is carried along with the errors of its additions, and set to zero when the last pulse ends.
+  /// The acceleration is exactly zero where no pulse acts, and elsewhere the sum of the acting pulses to about one
+  /// rounding: the running sum includes the rounding errors of its additions, and is set to zero when the last pulse
+  /// ends.
   ///
   /// Cost: linear in the number of steps, three for each pulse; a shape of K times makes K, with a factor log K.
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const;
 
-  /// The pulses of one member: arrival times [s], ascending, below `duration()`, and amplitudes [m/s^2]. The vectors'
-  /// memory is used again. Pulse i takes number i of the member's rows of exponential and normal (or uniform) numbers.
+  /// The pulses of one member: arrival times [s], ascending, below `duration()`, and amplitudes [m/s^2]. The memory of
+  /// the vectors is reused. Pulse i uses number i of the member's streams of exponential and normal (or uniform)
+  /// numbers.
   void pulses(std::uint64_t seed, std::uint64_t member, std::vector<double>& arrivals,
               std::vector<double>& amplitudes) const;
 

@@ -9,7 +9,7 @@
 
 namespace stickslip {
 
-/// median * exp(beta Z), Z a standard normal number.
+/// Lognormal distribution: median * exp(beta Z) with a standard normal Z.
 class Lognormal {
  public:
   /// @param median  positive and finite
@@ -20,14 +20,14 @@ class Lognormal {
   double median() const noexcept { return median_; }
   double beta() const noexcept { return beta_; }
 
-  /// The value that is not exceeded with a probability in (0, 1).
+  /// The quantile of a probability in (0, 1).
   double quantile(double probability) const;
 
  private:
   double median_, beta_;
 };
 
-/// A normal distribution, cut off at bounds: values beyond do not occur, those between keep their proportions.
+/// A normal distribution truncated at bounds.
 class Normal {
  public:
   /// @param mean, std  of the distribution without bounds; finite, std at least 0
@@ -41,14 +41,14 @@ class Normal {
   double low() const noexcept { return low_; }
   double high() const noexcept { return high_; }
 
-  /// The value that is not exceeded with a probability in (0, 1).
+  /// The quantile of a probability in (0, 1).
   double quantile(double probability) const;
 
  private:
   double mean_, std_, low_, high_;
 };
 
-/// Every value between two bounds is equally likely.
+/// Uniform distribution between two bounds.
 class Uniform {
  public:
   /// @param low, high  finite, low <= high
@@ -58,17 +58,17 @@ class Uniform {
   double low() const noexcept { return low_; }
   double high() const noexcept { return high_; }
 
-  /// The value that is not exceeded with a probability in (0, 1).
+  /// The quantile of a probability in (0, 1).
   double quantile(double probability) const;
 
  private:
   double low_, high_;
 };
 
-/// The distribution of a parameter; a number is always that number.
+/// The distribution of a parameter; a number is a constant.
 using Distribution = std::variant<double, Lognormal, Normal, Uniform>;
 
-/// The value that is not exceeded with a probability.
+/// The quantile of a probability.
 /// @param probability  in (0, 1)
 /// @throws std::invalid_argument naming the value
 double quantile(const Distribution& distribution, double probability);

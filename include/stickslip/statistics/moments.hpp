@@ -1,4 +1,4 @@
-// Means and covariances of displacement and velocity by time: what theories predict and ensembles measure.
+// Means and covariances of displacement and velocity by time: predicted by theories and measured by ensembles.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace stickslip {
 
-/// The first and second moments of displacement and velocity by time. A theory and an ensemble both answer with this.
+/// The first and second moments of displacement and velocity by time. Theories and ensembles both return this.
 ///
-/// The errors are standard errors of an ensemble; those of a theory are zero: it has no scatter, and is wrong by what
-/// it neglects.
+/// The errors are the standard errors of an ensemble. Those of a theory are zero, because it has no scatter; its error
+/// comes from its assumptions.
 struct Moments {
   std::vector<double> time;         ///< [s]
   Estimates displacement_mean;      ///< of x [m]
@@ -19,9 +19,9 @@ struct Moments {
   Estimates covariance;             ///< of x and x' [m^2/s]
   Estimates velocity_mean;          ///< of x' [m/s]
   Estimates velocity_variance;      ///< of x' [m^2/s^2]
-  Estimate growth_rate;  ///< of the displacement variance once the velocity is stationary [m^2/s]; NaN where it
-                         ///< never is, or is not known
-  std::string remark;    ///< what to know before trusting the figures; empty where there is nothing
+  Estimate growth_rate;             ///< of the displacement variance once the velocity is stationary [m^2/s]; NaN if it
+                                    ///< never is, or if unknown
+  std::string remark;               ///< limits on the reliability of the values; empty if none
 };
 
 }  // namespace stickslip

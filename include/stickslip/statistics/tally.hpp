@@ -1,4 +1,4 @@
-// Sums over the members of an ensemble, in one pass, stable, and mergeable.
+// Sums over the members of an ensemble: one pass, numerically stable, mergeable.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@
 
 namespace stickslip {
 
-/// A figure and its standard error, in the same unit.
+/// A value and its standard error, in the same unit.
 struct Estimate {
   double value = 0;
   double error = 0;
 };
 
-/// Figures and their standard errors, one for each time or frequency.
+/// Values and their standard errors, one for each time or frequency.
 struct Estimates {
   std::vector<double> value;
   std::vector<double> error;
 };
 
-/// A figure between its confidence bounds, in the same unit.
+/// A value and its confidence bounds, in the same unit.
 struct Interval {
   double value = 0;
   double low = 0;
@@ -37,19 +37,19 @@ namespace detail {
 /// The features of a member in the central part of the motion, of which an ensemble keeps means and covariances.
 enum Feature : std::size_t {
   velocity,         ///< mean of x' [m/s]
-  increment_half,   ///< x in the middle less x at the beginning [m]
-  increment_whole,  ///< x at the end less x at the beginning [m]
+  increment_half,   ///< x in the middle minus x at the beginning [m]
+  increment_whole,  ///< x at the end minus x at the beginning [m]
   velocity_square,  ///< mean of (x' - its mean over members)^2 [m^2/s^2]
   velocity_fourth,  ///< ... of the fourth power [m^4/s^4]
   product,          ///< mean of both deviations' product [m^2/s]
-  growth,           ///< how fast the square of the displacement grows [m^2/s], see Stationary::growth_rate
-  trend,            ///< velocity_square over the second half less that over the first [m^2/s^2]
+  growth,           ///< growth rate of the squared displacement [m^2/s], see Stationary::growth_rate
+  trend,            ///< velocity_square over the second half minus that over the first [m^2/s^2]
   features
 };
 
-/// What a set of members leaves behind: for each time the joint moments of displacement and velocity about their means,
-/// for each frequency the mean and scatter of the velocity periodogram, mean and scatter of the features, and, where it
-/// is asked for, for each time the moments of the ground acceleration.
+/// The sums over a set of members: for each time the joint moments of displacement and velocity about their means,
+/// for each frequency the mean and scatter of the velocity periodogram, mean and scatter of the features, and, if
+/// requested, for each time the moments of the ground acceleration.
 ///
 /// Two sets merge into their union: each is shifted to the common mean and the sums are added (Pebay 2008,
 /// SAND2008-6212).
@@ -68,7 +68,7 @@ class Tally {
         ground_times_(ground_acceleration ? times : 0),
         sums_(size(times, frequencies, ground_acceleration)) {}
 
-  /// How many sums there are.
+  /// Number of sums.
   static constexpr std::size_t size(std::size_t times, std::size_t frequencies,
                                     bool ground_acceleration = false) noexcept {
     return moments * times + 2 * frequencies + features * (features + 1) +
@@ -79,7 +79,7 @@ class Tally {
   std::size_t frequencies() const noexcept { return frequencies_; }
   bool ground_acceleration() const noexcept { return ground_times_ > 0; }
 
-  /// Members in it.
+  /// Number of members.
   std::uint64_t count = 0;
 
   /// One moment at all times.
@@ -94,7 +94,7 @@ class Tally {
     return {density_mean().data() + frequencies_, frequencies_};
   }
 
-  /// One moment of the ground acceleration at all times; empty where it was not asked for.
+  /// One moment of the ground acceleration at all times; empty if not requested.
   std::span<double> moment(GroundMoment m) noexcept { return {ground() + m * ground_times_, ground_times_}; }
   std::span<const double> moment(GroundMoment m) const noexcept {
     return {ground() + m * ground_times_, ground_times_};
@@ -105,7 +105,7 @@ class Tally {
   double mean(std::size_t feature) const noexcept { return tail()[feature]; }
   double scatter(std::size_t a, std::size_t b) const noexcept { return tail()[features + a * features + b]; }
 
-  /// All sums in a row, to be kept and read back.
+  /// All sums in one array, for storage.
   std::span<double> sums() noexcept { return sums_; }
   std::span<const double> sums() const noexcept { return sums_; }
 
@@ -117,11 +117,11 @@ class Tally {
   /// feature; nothing if all are within bounds.
   std::optional<std::size_t> out_of_range() const;
 
-  /// Whether some members can have these sums: all finite, those of even powers not negative, none so large that
-  /// merging could overflow.
+  /// Whether these sums are possible for a set of members: all finite, those of even powers not negative, none so large
+  /// that merging could overflow.
   bool is_possible() const;
 
-  /// Becomes the tally of both. Which is the left one decides the last bits.
+  /// Merge with another tally. The order of the two affects the last bits.
   void merge(const Tally& right);
 
   friend bool operator==(const Tally&, const Tally&) = default;
@@ -139,9 +139,9 @@ class Tally {
   std::vector<double> sums_;
 };
 
-/// Tallies of blocks of members, merged pair by pair in a binary tree over the block's number. A pair is merged as soon
-/// as both halves are there and never otherwise, so the sums have the same bits in whatever order, and from however
-/// many parts, the blocks came together.
+/// Tallies of blocks of members, merged in pairs in a binary tree over the number of the block. A pair is merged as
+/// soon as both halves exist, and never otherwise. The sums therefore have the same bits for any order of the blocks
+/// and any division into parts.
 class TallyTree {
  public:
   struct Place {
@@ -150,16 +150,16 @@ class TallyTree {
     friend auto operator<=>(const Place&, const Place&) = default;
   };
 
-  /// @pre `place` does not overlap with what is here
+  /// @pre `place` does not overlap with the blocks already added
   void insert(Place place, Tally tally);
 
-  /// Whether it holds blocks of that place.
+  /// Whether it has blocks of that place.
   bool overlaps(Place place) const;
 
-  /// Members in it.
+  /// Number of members.
   std::uint64_t count() const;
 
-  /// All that is here, merged in the order of the members.
+  /// All blocks, merged in the order of the members.
   Tally total() const;
 
   const std::map<Place, Tally>& nodes() const noexcept { return nodes_; }
@@ -170,8 +170,9 @@ class TallyTree {
   std::map<Place, Tally> nodes_;
 };
 
-/// Positive values that are too many to be kept, counted in bins of constant relative width: a quantile is right to
-/// 0.05 % (DDSketch: Masson, Rim and Lee 2019, doi:10.14778/3352063.3352135). Counts merge exactly, in any order.
+/// Counts of positive values in bins of constant relative width, for more values than can be stored. Quantiles are
+/// accurate to 0.05 % (DDSketch: Masson, Rim and Lee 2019, doi:10.14778/3352063.3352135). Counts merge exactly, in any
+/// order.
 class Sketch {
  public:
   static constexpr double accuracy = 5e-4;
@@ -181,14 +182,14 @@ class Sketch {
   void merge(const Sketch& other);
 
   std::uint64_t count() const noexcept { return count_; }
-  /// The value that has `rank` others before it in ascending order.
+  /// The value with `rank` smaller values before it in ascending order.
   double value_at(std::uint64_t rank) const;
-  /// How many exceed the level.
+  /// Number of values that exceed the level.
   std::uint64_t above(double level) const;
 
   /// Counts by bin: bin i holds the values about ((1 + accuracy) / (1 - accuracy))^i, the lowest one the zeros.
   std::map<std::int32_t, std::uint64_t> bins() const { return bins_; }
-  /// @throws std::invalid_argument for a bin that no double falls into, a count of 0, or 2^64 values and more
+  /// @throws std::invalid_argument for a bin that contains no double, a count of 0, or 2^64 values and more
   static Sketch from_bins(std::map<std::int32_t, std::uint64_t> bins);
 
   friend bool operator==(const Sketch&, const Sketch&) = default;
