@@ -24,7 +24,7 @@ namespace stickslip {
 /// The hysteresis loop with the largest displacement, per unit mass.
 struct Loop {
   double displacement;  ///< D, the peak |x| [m]
-  double force;         ///< F, of spring and friction as the slider arrives there [m/s^2]
+  double force;         ///< F, of spring and friction on arrival there [m/s^2]
   double area;          ///< E_d, energy that a cycle of amplitude D dissipates [m^2/s^2]
 
   /// k_eff = F / D, of the secant [1/s^2].
@@ -33,7 +33,7 @@ struct Loop {
   /// 2 pi / sqrt(k_eff) [s].
   double period() const noexcept { return 2 * std::numbers::pi / std::sqrt(stiffness()); }
 
-  /// E_d / (2 pi k_eff D^2), a part of critical damping.
+  /// E_d / (2 pi k_eff D^2), a fraction of critical damping.
   double damping() const noexcept { return area / (2 * std::numbers::pi * force * displacement); }
 };
 
@@ -72,20 +72,20 @@ void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, do
 
 }  // namespace detail
 
-/// The hysteresis loop with the largest displacement, as sliding isolators are designed by.
+/// The hysteresis loop with the largest displacement, as used in the design of sliding isolators.
 ///
-/// D is the peak |x|, F the force of spring and friction there, before the slider turns or stops. An earthquake
-/// response closes no loop. The area is therefore that of a cycle from D to -D and back: 4 D times the energy per meter
-/// that friction and damper took in the swing up to the peak. In a steady cycle about x = 0 that is the area of the
-/// loop. With Coulomb friction of level a, and wn^2 of a spring,
+/// D is the peak |x|, F the force of spring and friction there, before the slider reverses or stops. The response to an
+/// earthquake does not close a loop. The area is therefore that of a cycle from D to -D and back: 4 D times the energy
+/// per meter that friction and damper dissipated in the half cycle up to the peak. In a steady cycle about x = 0 this
+/// is the area of the loop. With Coulomb friction of level a, and wn^2 of a spring,
 ///     k_eff = wn^2 + a / D,    E_d = 4 a D,    E_d / (2 pi k_eff D^2) = (2 / pi) a / (a + wn^2 D).
 ///
-/// @param slider    the slider that moved, on a spring
-/// @param motion    the ground motion it moved under
-/// @param response  what `integrate` returned for them
-/// @throws std::invalid_argument  no spring; it never slips; |x| is largest at the start, or at the end of a slip that
-///                                is not over
-/// As accurate as `integrate`. One pass over the events, and the motion of that swing again.
+/// @param slider    the slider, on a spring
+/// @param motion    its ground motion
+/// @param response  the result of `integrate` for them
+/// @throws std::invalid_argument  no spring; it never slips; |x| is largest at the start, or at the end of the motion
+///                                during a slip
+/// Accuracy: that of `integrate`. Cost: one pass over the events, and the integration of that half cycle.
 template <FrictionLaw Law, Motion M>
 Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& response) {
   detail::require_plain_mounting(slider, "largest_loop");
@@ -112,7 +112,7 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
                                 " m, where no slip ends: at the start, or at the end of a motion that is not over "
                                 "(settle continues it)");
 
-  // Back to the last turn the other way, or to the start.
+  // Back to the last reversal from the other direction, or to the start.
   const double s = events[peak].displacement < 0 ? -1 : 1;
   const auto way = [&](std::size_t k) { return s * (events[k].displacement - events[k - 1].displacement); };
   std::size_t turn = peak;

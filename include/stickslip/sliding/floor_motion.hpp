@@ -1,4 +1,4 @@
-// The absolute acceleration of the sliding mass, which shakes what stands on it.
+// The absolute acceleration of the sliding mass.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 namespace stickslip {
 namespace detail {
 
-/// What the ground does in step i of a motion, and after its end.
+/// The ground motion in step i, and after the end of the motion.
 inline Segment ground_step(const GroundMotion& motion, std::size_t i) {
   return i < motion.segments() ? motion.segment(i) : Segment{motion.time(i + 1) - motion.time(i), 0, 0};
 }
@@ -38,7 +38,7 @@ inline double ground_at(const HarmonicMotion& motion, std::size_t i, double time
   return i < motion.segments() ? motion.acceleration(time) : 0;
 }
 
-/// The motion between two samples or events, by which it does not stop or turn.
+/// The motion between two consecutive samples or events, without a stop or reversal between them.
 template <FrictionLaw Law, Motion M>
 class FloorPiece {
  public:
@@ -70,7 +70,7 @@ class FloorPiece {
 
   double duration() const { return duration_; }
 
-  /// Whether the acceleration runs straight.
+  /// Whether the acceleration is linear in time.
   bool straight() const {
     if (stuck_) return std::same_as<M, GroundMotion>;
     return ConstantLevelLaw<Law> && equal(slider_.stiffness(), 0) && equal(slider_.damping(), 0);
@@ -82,12 +82,12 @@ class FloorPiece {
     if (equal(s, 0)) return absolute(from_.displacement, from_.velocity);
     if (equal(s, 1)) return absolute(to_.displacement, to_.velocity);
     const double h = duration_, t = s * h;
-    if constexpr (ConstantLevelLaw<Law> && std::same_as<M, GroundMotion>) {  // in closed form
+    if constexpr (ConstantLevelLaw<Law> && std::same_as<M, GroundMotion>) {  // closed form
       const DampedBasis b(slider_.damping(), slider_.natural_frequency(), t);
       const double q = a_[0] + slider_.damping() * from_.velocity, slope = (n_[0] - n_[1]) / h;
       const double u = from_.velocity;
       return absolute(from_.displacement + b.distance(u, q, slope), b.velocity(u, q, slope));
-    } else {  // the polynomial of the fifth degree that has x, x' and x'' of both ends
+    } else {  // the polynomial of degree 5 with the x, x' and x'' of both ends
       const double r = 1 - s, gone = to_.displacement - from_.displacement;
       const double x = from_.displacement + s * s * s * (10 - 15 * s + 6 * s * s) * gone +
                        h * (s * r * r * r * (1 + 3 * s) * from_.velocity - r * s * s * s * (1 + 3 * r) * to_.velocity) +
@@ -100,7 +100,7 @@ class FloorPiece {
     }
   }
 
-  /// How far the acceleration runs from its chord, at three places [m/s^2].
+  /// Distances of the acceleration from its chord at three times [m/s^2].
   double sag() const {
     double sag = 0;
     for (const double s : {0.25, 0.5, 0.75})
@@ -141,26 +141,28 @@ class FloorPiece {
 
 }  // namespace detail
 
-/// The absolute acceleration x'' + n of the mass, -(friction + damper + spring), as straight pieces: what shakes the
-/// equipment on a sliding floor. `response_spectrum` of it is the floor spectrum.
+/// The absolute acceleration x'' + n of the mass, -(friction + damper + spring), in linear pieces. It is the input to
+/// equipment on a sliding floor; its `response_spectrum` is the floor spectrum.
 ///
-/// It jumps where a slip begins, turns or stops: there a piece ends. While the slider sticks it is the ground's
-/// acceleration, and while it slides under a constant level without spring and damper it is that level: exact.
-/// Elsewhere each time step is cut into as many equal pieces as keep their chords within `tolerance` of it.
+/// It jumps at the start of a slip, at a reversal and at a stop; a piece ends there. While the slider sticks it equals
+/// the ground acceleration, and while it slides under a constant level without spring and damper it equals that level;
+/// both are exact. Otherwise each time step is divided into equal pieces, so many that their chords are within
+/// `tolerance`.
 ///
-/// @param slider     the slider that moved
-/// @param motion     the ground motion it moved under
-/// @param response   what `integrate` returned for them; not truncated
-/// @param tolerance  how far a chord may be off, as a fraction of the largest absolute acceleration, from 1e-10 to 1
-/// @return pieces [s], [m/s^2] from the first sample to the last of the response; settle it, or the floor stops moving
-///         with the ground
-/// @throws std::invalid_argument  a tolerance out of range, a truncated response, one of another motion
-/// Accuracy: `tolerance`; round-off for constant levels without spring and damper. With them the curve that is cut is
-/// itself exact; under laws whose level changes, and under a HarmonicMotion, it is a polynomial of the fifth degree
-/// between samples and events, whose error falls with the sixth power of the time step (of a law that depends on the
-/// temperature, whose level is taken at the middle between them, with the first). An absolute acceleration that
-/// is off by e changes a pseudo-acceleration of damping ratio z by at most e coth(pi z / (2 sqrt(1 - z^2))): 12.7 e at
-/// 5 %. Cost: one pass over samples and events, and some 30 ns for each piece.
+/// @param slider     the slider
+/// @param motion     its ground motion
+/// @param response   the result of `integrate` for them; not truncated
+/// @param tolerance  maximum error of a chord, as a fraction of the largest absolute acceleration, from 1e-10 to 1
+/// @return pieces [s], [m/s^2] from the first to the last sample of the response. Use `settle`, otherwise the floor
+/// stops
+///         together with the ground motion
+/// @throws std::invalid_argument  a tolerance out of range, a truncated response, a response to another motion
+/// Accuracy: `tolerance`; round-off for constant levels without spring and damper. With them the curve
+/// that is divided is exact; under laws with a variable level, and under a HarmonicMotion, it is a polynomial of degree
+/// 5 between samples and events, with an error that decreases with the sixth power of the time step (for a law that
+/// depends on the temperature, evaluated at the middle of each interval, with the first power). An error e of the
+/// absolute acceleration changes a pseudo-acceleration of damping ratio z by at most e coth(pi z / (2 sqrt(1 -
+/// z^2))): 12.7 e at 5 %. Cost: one pass over samples and events, and about 30 ns per piece.
 template <FrictionLaw Law, Motion M>
 std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, const Response& response,
                                   double tolerance = 1e-6) {
@@ -178,7 +180,7 @@ std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, co
   std::vector<detail::FloorPiece<Law, M>> pieces;
   pieces.reserve(samples + response.events.size());
   const std::vector<Event>& events = response.events;
-  std::size_t next = 0;  // the first event that is still to come, or the end
+  std::size_t next = 0;  // the next event, or the end
   detail::SlidAlong slid(response);
   const auto sample = [&](std::size_t i) {
     return Event{motion.time(i), response.displacement[i], response.velocity[i], EventKind::end};
@@ -211,7 +213,7 @@ std::vector<Segment> floor_motion(const Slider<Law>& slider, const M& motion, co
     largest = std::max({largest, std::abs(piece.acceleration(0)), std::abs(piece.acceleration(1))});
     if (!piece.straight()) sag = std::max(sag, piece.sag());
   }
-  // A chord of half the length is off by a quarter; one number of parts for all keeps their durations the same.
+  // Halving a chord divides its error by four. All parts of a step have the same duration.
   const double parts = largest > 0 ? std::ceil(std::sqrt(4.0 / 3 * sag / (tolerance * largest))) : 1;
   std::vector<Segment> result;
   for (const auto& piece : pieces) {

@@ -22,12 +22,12 @@ namespace stickslip {
 /// Forces per unit mass at the samples of a response [m/s^2], positive where they pull toward negative x:
 ///     x'' + friction + damper + spring = p,    on level ground p = -n,
 /// so that the absolute acceleration of the mass along x is g sin(slope) - (friction + damper + spring). The force of a
-/// stop is an impulse, or what holds the slider there, which counts as friction.
+/// stop is an impulse; the force that holds a slider at a stop counts as friction.
 struct Forces {
   std::vector<double> friction;     ///< resist N+/g sgn(x') during a slip; p - spring while the slider sticks
   std::vector<double> damper;       ///< c x'
   std::vector<double> spring;       ///< wn^2 x; of a pendulum times N+/g
-  std::vector<double> normal;       ///< N+, 0 while the slider flies
+  std::vector<double> normal;       ///< N+, 0 while the slider is in flight
   std::vector<std::uint8_t> stuck;  ///< 1 while the slider sticks, else 0
   double downhill = 0;              ///< g sin(slope)
 
@@ -40,7 +40,7 @@ struct Forces {
 
 namespace detail {
 
-/// The way along a response, from one of its samples or events to the next: how far the slider has slid.
+/// The sliding distance along a response, from one sample or event to the next.
 class SlidAlong {
  public:
   explicit SlidAlong(const Response& response) {
@@ -48,7 +48,7 @@ class SlidAlong {
     state_.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
   }
 
-  /// Between samples and events x runs one way.
+  /// x is monotonic between samples and events.
   const State& to(double displacement) noexcept {
     state_.sliding_distance += std::abs(displacement - state_.displacement);
     state_.displacement = displacement;
@@ -59,7 +59,7 @@ class SlidAlong {
   State state_;
 };
 
-/// Which of the samples of a response comes last at a time or before.
+/// The last sample of a response at or before a time.
 template <Motion M>
 std::size_t sample_at(const M& motion, const Response& response, double time) {
   std::size_t first = 0, last = response.displacement.size();
@@ -70,7 +70,7 @@ std::size_t sample_at(const M& motion, const Response& response, double time) {
   return first;
 }
 
-/// The heat at the surface at a time, by the temperatures at the samples, straight between them; none where the law
+/// The heat of the surface at a time, from the temperatures at the samples with linear interpolation; none if the law
 /// does not depend on it.
 template <FrictionLaw Law, Motion M>
 SurfaceHeat heat_at(const Law& law, const M& motion, const Response& response, double time) {
@@ -89,8 +89,9 @@ SurfaceHeat heat_at(const Law& law, const M& motion, const Response& response, d
 /// of the motion the value just before it, then 0.
 inline std::vector<double> acting(const GroundMotion& motion, std::span<const double> component, std::size_t samples) {
   std::vector<double> n(component.begin(), component.end());
-  if (motion.interpolation() == Interpolation::constant && !n.empty()) {  // the last value never acts, nor do pieces of
-    const std::size_t end = motion.segments();                            // no length
+  if (motion.interpolation() == Interpolation::constant &&
+      !n.empty()) {                             // the last value never acts, nor do segments of
+    const std::size_t end = motion.segments();  // zero duration
     std::size_t last = end - 1;
     while (equal(motion.time(last), motion.time(end))) --last;  // the duration is positive
     n[end] = n[last];
@@ -121,13 +122,13 @@ inline std::vector<double> acting(const HarmonicMotion& motion, std::size_t samp
 
 /// The forces on a slider during a response.
 ///
-/// At a sample where a slip begins, turns or stops, or where a held ground acceleration jumps, the values are those
+/// At a sample at which a slip begins, reverses or stops, or a held ground acceleration jumps, the values are those
 /// just after it. At the end of the ground motion they balance its last value (of held values, the last that acts);
 /// after that the ground acceleration is 0.
 ///
-/// @param slider    the slider that moved
-/// @param motion    the ground motion it moved under
-/// @param response  what `integrate` returned for them
+/// @param slider    the slider
+/// @param motion    its ground motion
+/// @param response  the result of `integrate` for them
 /// @return vectors as long as `response.displacement`
 /// Friction is as accurate as the displacement and the velocity. One pass over the samples and events.
 template <FrictionLaw Law, Motion M>
@@ -160,7 +161,8 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
     if (sticks) {
       result.friction[i] = load - result.spring[i];
     } else {
-      // Where a slip begins at the sample, its direction shows in where it goes, or in the load if that is round-off.
+      // If a slip begins at the sample, its direction is that of the next displacement, or of the load if that is
+      // round-off.
       const double gone = events[next].displacement - events[next - 1].displacement;
       const double way = !detail::equal(v, 0) ? v : !detail::equal(gone, 0) ? gone : load - result.spring[i];
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;

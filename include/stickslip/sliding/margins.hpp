@@ -1,4 +1,4 @@
-// By how much the decisions of a response fell as they did.
+// Margins of the decisions in a response: stick or slip, impact or not.
 #pragma once
 
 #include <cmath>
@@ -20,25 +20,25 @@
 
 namespace stickslip {
 
-/// By how much the closest decisions of a response fell as they did; relative, infinite where none fell.
+/// Relative margins of the closest decisions of a response; infinite if there was no decision.
 ///
-/// A margin near round-off, 1e-12 say, means that the last digits of the input decided. Static friction above kinetic
-/// then gives another response for the least change of it; where static and kinetic friction are equal the response is
-/// continuous, and the decision alone hangs on them.
+/// If a margin is near round-off, for example 1e-12, the last digits of the input decided. With static friction above
+/// kinetic friction, the smallest change of the input may then give another response. With equal static and kinetic
+/// friction the response is continuous, and only the decision itself depends on these digits.
 struct Margins {
-  /// The smallest |load - level| / level of stick and slip. The load is q = p - wn^2 x, the level what the law says
-  /// times N+/g, and the comparisons are those with
-  /// - what holds in either direction, where a slip ends: it sticks, or turns round;
-  /// - what resists sliding, where a slip ends in a zero of velocity: it stops, or only slows down;
-  /// - what holds, at each maximum of q / level of a rest: it stays;
-  /// - what holds, at the next such maximum after a breakaway, x as at rest: it leaves.
-  /// Comparisons with a level that is zero or infinite do not count, nor does the way into a breakaway, on which the
-  /// load passes through the level.
+  /// The smallest |load - level| / level of stick and slip. The load is q = p - wn^2 x, and the level is that of the
+  /// law times N+/g. The comparisons are those with
+  /// - the holding level in either direction, at the end of a slip: stick or reversal;
+  /// - the resistance to sliding, at the end of a slip with zero velocity: stop or only deceleration;
+  /// - the holding level, at each maximum of q / level during a rest: the slider stays;
+  /// - the holding level, at the next such maximum after a breakaway, with x as at rest: the slider leaves.
+  /// Comparisons with a level that is zero or infinite do not count, nor does the approach to a breakaway, during which
+  /// the load passes through the level.
   double load = std::numeric_limits<double>::infinity();
 
-  /// The smallest way, over the distance of the stop from x = 0, by which a stop was missed or met: where a slip ends,
-  /// the way that was left; in an impact at speed v under a load that slows the slider down, the way v^2 / (2 (a - q))
-  /// that it would have gone on, with a what resists.
+  /// The smallest distance, relative to the distance of the stop from x = 0, by which a stop was missed or exceeded. At
+  /// the end of a slip this is the remaining distance; at an impact with speed v under a decelerating load q, it is the
+  /// distance v^2 / (2 (a - q)) that the slider would have continued, with the resistance a.
   double impact = std::numeric_limits<double>::infinity();
 };
 
@@ -93,7 +93,7 @@ class MarginFinder {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  /// Load without friction, and what a level is multiplied by.
+  /// The load without friction, and the factor on a level.
   struct Net {
     double load, weight;
   };
@@ -101,7 +101,8 @@ class MarginFinder {
     const double weight = std::max(now.normal, 0.0) / standard_gravity;
     return {now.load - slider_.stiffness() * (slider_.mounting().pendulum ? weight : 1) * x, weight};
   }
-  /// What is left of a level, over it, under a load that goes in a direction; infinite where that decides nothing.
+  /// The unused part of a level under a load in the given direction, relative to the level; infinite if it decides
+  /// nothing.
   static double left_of(double level, Direction direction, const Net& net) noexcept {
     const double weighed = level < infinite ? level * net.weight : infinite;
     return weighed > 0 && weighed < infinite ? 1 - sign(direction) * net.load / weighed : infinite;
@@ -117,9 +118,9 @@ class MarginFinder {
     if (distance < infinite) margins_.impact = std::min(margins_.impact, std::abs(way) / distance);
   }
 
-  /// A slip ended: it turned round, or stopped.
-  /// @param x       where it began [m]
-  /// @param forced  its velocity was brought to zero by a stop or a landing
+  /// A slip ended, in a reversal or a stop.
+  /// @param x       start of the slip [m]
+  /// @param forced  whether a stop or a landing brought the velocity to zero
   void ended(const Event& e, double x, bool forced) {
     const Net now = net(history_.after(e.time), e.displacement);
     for (const Direction direction : {Direction::forward, Direction::backward})
@@ -130,8 +131,8 @@ class MarginFinder {
     count_impact(bounds_.room(direction, e.displacement), direction);
   }
 
-  /// The maxima of load / level in both directions between two times; but for the last time in the direction in which
-  /// it then breaks away, if it does.
+  /// The maxima of load / level in both directions between two times, without the final one in the direction of the
+  /// breakaway that follows, if any.
   void rested(double from, double to, double x, Mode leaves = Mode::stuck) {
     for (const Direction direction : {Direction::forward, Direction::backward}) {
       double last = infinite;
@@ -147,13 +148,13 @@ class MarginFinder {
     }
   }
 
-  /// It broke away, from a rest since a time.
+  /// The slider broke away, after a rest since a given time.
   void broke_away(double since, const Event& e) {
     const double x = e.displacement;
     const Net now = net(history_.after(e.time), x);
     const Direction direction = now.load > 0 ? Direction::forward : Direction::backward;
     if (since < e.time) rested(since, e.time, x, mode_of(direction));
-    double least = infinite;  // left of the level
+    double least = infinite;  // unused part of the level
     history_.nodes(e.time, infinite, [&](const Load& load) {
       const double left = held(direction, x, net(load, x));
       if (!(left <= least)) return false;
@@ -163,7 +164,7 @@ class MarginFinder {
     count(least);
   }
 
-  /// @param x  where the slip began [m]
+  /// @param x  start of the slip [m]
   void hit(const Event& e, double x) {
     const Direction direction = !equal(e.velocity, 0) ? (e.velocity > 0 ? Direction::forward : Direction::backward)
                                 : e.displacement >= x ? Direction::forward
@@ -184,13 +185,13 @@ class MarginFinder {
 
 }  // namespace detail
 
-/// By how much the closest decisions of a response fell as they did.
-/// @param slider    the slider that moved
-/// @param motion    the ground motion it moved under
-/// @param response  what `integrate` returned for them
-/// Where the level depends on a temperature, that is taken straight between samples, and during a rest as at its end.
-/// A velocity that all but touches zero without an event is no decision here, nor is a landing. One pass over events
-/// and samples.
+/// The margins of the closest decisions of a response.
+/// @param slider    the slider
+/// @param motion    its ground motion
+/// @param response  the result of `integrate` for them
+/// If the level depends on a temperature, the temperature is linear between samples, and constant during a rest, as at
+/// its end. A velocity that almost reaches zero without an event does not count, nor does a landing. Cost: one pass
+/// over events and samples.
 template <FrictionLaw Law, Motion M>
 Margins margins(const Slider<Law>& slider, const M& motion, const Response& response) {
   const auto history = detail::load_history(motion, slider.slope());

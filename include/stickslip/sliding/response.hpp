@@ -9,7 +9,7 @@
 
 namespace stickslip {
 
-/// What a slider does where the ground falls away from under it faster than it falls itself, N = g + a_z < 0.
+/// Behavior of a slider while the ground accelerates away from it faster than it can fall, N = g + a_z < 0.
 enum class Contact {
   /// It is in flight without friction, with the gap y'' = -N; spring, damper and stops continue to act. It lands when
   /// y = 0, plastically, with a friction impulse -mu |y'| against x' that can stop the slider but not reverse it.
@@ -37,7 +37,7 @@ struct Event {
   EventKind kind;
 };
 
-/// Where the energy of the motion along x went, per unit mass [J/kg = m^2/s^2]:
+/// The energy balance of the motion along x, per unit mass [J/kg = m^2/s^2]:
 ///     initial + input = dissipated + damped + impact + kinetic + elastic.
 struct Energy {
   double initial = 0;     ///< kinetic and elastic at the start
@@ -48,31 +48,31 @@ struct Energy {
   double elastic = 0;     ///< wn^2 x^2 / 2 at the end
   double impact = 0;      ///< lost on stops, the sum of (1 - restitution^2) x'^2 / 2
 
-  /// What does not add up [m^2/s^2]: round-off.
+  /// The residual of the balance [m^2/s^2]: round-off.
   double imbalance() const noexcept { return initial + input - dissipated - damped - impact - kinetic - elastic; }
 };
 
 /// The motion of a slider under one ground motion.
 struct Response {
-  /// x at the samples of the motion [m]. Where `integrate` was asked to settle and the slider still moves at the last
-  /// of them, further samples follow at the motion's last step, up to the first at or after rest; `time(i)` of the
-  /// motion is the time of each.
+  /// x at the samples of the motion [m]. With `settle`, if the slider still moves at the last sample, further samples
+  /// follow with the last time step of the motion, up to the first at or after rest. Sample i is at `time(i)` of the
+  /// motion.
   std::vector<double> displacement;
   std::vector<double> velocity;  ///< x' at the same times [m/s]
   std::vector<Event> events;     ///< in order of time; the last is the end
   double peak = 0;               ///< largest |x| over all time, not only at samples [m]
   double residual = 0;           ///< x at the end [m]; final if the slider rests
-  double sliding_distance = 0;   ///< length of the way slid [m]
+  double sliding_distance = 0;   ///< path length in both directions [m]
   double time_sliding = 0;       ///< [s]
   Energy energy;
-  std::vector<double> gap;  ///< between slider and ground at the same times, while it flies [m]; empty if it never did
+  std::vector<double> gap;  ///< between slider and ground at the same times, in flight [m]; empty if never in flight
   /// Whether displacement and velocity end before the slider rests, at ten times the number of samples of the motion.
-  /// All else is that of the final rest.
+  /// All other values are those of the final rest.
   bool truncated = false;
-  Contact contact = Contact::flight;  ///< what was asked of it where the ground falls away from under it
+  Contact contact = Contact::flight;  ///< the model used where N < 0
   std::string components = "axis";    ///< of the ground motion that acted, joined by " + "
   State state;                        ///< at the end: a motion can be continued from it
-  /// Of the sliding surface at the same times [degrees Celsius], where the law depends on it; else empty.
+  /// Temperature of the sliding surface at the same times [degrees Celsius]; empty if the law does not depend on it.
   std::vector<double> temperature;
 };
 

@@ -1,4 +1,4 @@
-// How a response changes with a parameter.
+// Derivatives of a response with respect to a parameter.
 #pragma once
 
 #include <array>
@@ -31,18 +31,18 @@
 
 namespace stickslip {
 
-/// What a response is differentiated by.
+/// The parameter with respect to which a response is differentiated.
 enum class Parameter {
   slip_level,         ///< the levels of sliding and rest, forward and backward alike [m/s^2]
   kinetic,            ///< the levels of sliding alone [m/s^2]
-  static_level,       ///< the levels of rest alone, where they are above those of sliding [m/s^2]
+  static_level,       ///< the levels at rest alone, if above those of sliding [m/s^2]
   natural_frequency,  ///< wn [rad/s]
   damping,            ///< c [1/s]
   slope,              ///< of the ground [degrees]
   scale               ///< a factor on all components of the ground motion, 1 here
 };
 
-/// Derivatives of a response by a parameter: [m], [m/s] over the unit of the parameter.
+/// Derivatives of a response with respect to a parameter: [m], [m/s] per unit of the parameter.
 struct Sensitivity {
   double peak = 0;      ///< of the peak displacement
   double residual = 0;  ///< of the displacement at the end
@@ -53,7 +53,7 @@ struct Sensitivity {
 
 namespace detail {
 
-/// What a change of the parameter by one changes at once.
+/// Direct effects of a unit change of the parameter.
 struct Change {
   double kinetic = 0, held = 0;  // levels [m/s^2]
   double stiffness = 0, damping = 0;
@@ -92,10 +92,10 @@ struct Propagator {
   }
 };
 
-/// Runs beside a slider with constant levels and carries the change of its motion: between events the linear
+/// Follows a slider with constant levels and computes the variation of its motion: between events by the linear
 /// variational equation
 ///     dv' = dp - s d(a N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx,
-/// by its propagator and Gauss-Legendre quadrature; at events the jumps that come of the shift of their times.
+/// with its propagator and Gauss-Legendre quadrature; at events by the jumps that result from the shift of their times.
 template <FrictionLaw Law>
 class VariationalMotion : public NoRecorder {
  public:
@@ -154,11 +154,11 @@ class VariationalMotion : public NoRecorder {
 
   void event(EventKind kind, double time, const State& state) {
     NoRecorder::event(kind, time, state);
-    const double since = time - time_;  // a rest, or nothing
+    const double since = time - time_;  // a rest, or zero
     const bool struck = last_ == EventKind::impact && !(since > 0);
     time_ = time;
     const double s = sign(direction_);
-    const auto push = [&](double way, double speed) {  // acceleration while it slides that way
+    const auto push = [&](double way, double speed) {  // acceleration during sliding in that direction
       const Direction direction = way > 0 ? Direction::forward : Direction::backward;
       return net(state.displacement) - way * kinetic(direction, state.displacement) * weight() -
              slider_.damping() * way * speed;
@@ -175,7 +175,7 @@ class VariationalMotion : public NoRecorder {
         if (at_wall(state.displacement)) dx_ = 0;
         break;
       case EventKind::impact: {
-        note_peak(state.displacement, 0);  // a stop stays where it is
+        note_peak(state.displacement, 0);  // the position of a stop is fixed
         const double e = slider_.mounting().stops.restitution(), speed = std::abs(state.velocity);
         const double before = push(s, speed), after = push(-s, e * speed);
         dv_ = -e * dv_ + (e * before + after) * dx_ / state.velocity;
@@ -201,7 +201,7 @@ class VariationalMotion : public NoRecorder {
   }
 
  private:
-  /// Of the ground [m/s^2], at both ends of a segment.
+  /// Ground acceleration at both ends of a segment [m/s^2].
   struct Ground {
     double n_start = 0, n_end = 0, up_start = 0, up_end = 0;
   };
@@ -240,15 +240,15 @@ class VariationalMotion : public NoRecorder {
   /// Points and weights of the quadrature over a slip or a part of one.
   template <class Use>
   void each_node(double taken, Use&& use) const {
-    // Six points integrate a turn of the product of a motion and a propagator, each of this rate, to round-off.
+    // Six points integrate one cycle of the product of a motion and a propagator, each of this rate, to round-off.
     const double turns = 2 * taken * (slider_.natural_frequency() + slider_.damping());
     const double panels = std::max(1.0, std::min(std::ceil(turns), 4096.0));
     for (double k = 0; k < panels; ++k)
       numerics::gauss_points<6>(taken * (k / panels), taken * ((k + 1) / panels), use);
   }
 
-  /// The moment at which the load reaches a static level depends on the parameter, and the slip begins with a jump of
-  /// the acceleration; unless the load itself jumps through the level, at a time that does not change.
+  /// The time at which the load reaches a static level depends on the parameter, and the slip begins with a jump of the
+  /// acceleration. If the load itself jumps through the level, the time does not change.
   void break_away(const State& state) {
     const Direction direction = direction_of(state.mode);
     const double s = sign(direction), x = state.displacement, level = hold(slider_.law(), x, direction);
@@ -284,7 +284,7 @@ class VariationalMotion : public NoRecorder {
   std::vector<std::array<double, 2>> nodes_;
 };
 
-/// What a parameter changes of a slider; refuses what it does not have.
+/// The effects of a parameter on a slider; rejects a parameter that the slider does not have.
 template <FrictionLaw Law>
 Change change_of(const Slider<Law>& slider, Parameter parameter) {
   constexpr bool has_static = !std::same_as<Law, Coulomb>;
@@ -323,27 +323,27 @@ concept DifferentiableLaw = std::same_as<Law, Coulomb> || std::same_as<Law, Stat
 
 }  // namespace detail
 
-/// Derivatives of a response by a parameter: by the variational equation between events and the jumps of its solution
-/// at events. With s the direction, f the acceleration, q' the rate of the load, a_s and a_k the levels of rest and
-/// sliding, x and v those before the event:
+/// Derivatives of a response with respect to a parameter, by the variational equation between events and jumps of its
+/// solution at events. With the direction s, the acceleration f, the rate of the load q', the levels at rest and during
+/// sliding a_s and a_k, and x and v before the event:
 ///     slip        d(v') = dp - s d(a_k N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx
 ///     arrest      dv = 0
 ///     reversal    dv jumps by the factor f+ / f-
-///     breakaway   dv = -(a_s - a_k) (d(a_s) + s wn^2 dx) / (q' - s a_s'), in the case of level ground
+///     breakaway   dv = -(a_s - a_k) (d(a_s) + s wn^2 dx) / (q' - s a_s'), on level ground
 ///     impact      dx = -e dx,  dv = -e dv + (e f- + f+) dx / v
 ///     peak        d|x| = sgn(x) dx at its time
 ///
 /// @param slider     Coulomb friction, also with a static level; any mounting but a pendulum
-/// @param motion     the ground motion it moved under
-/// @param response   what `integrate` returned for them
-/// @param parameter  by what
+/// @param motion     its ground motion
+/// @param response   the result of `integrate` for them
+/// @param parameter  with respect to which to differentiate
 /// @throws std::invalid_argument  another law, whose level changes during a slip; a pendulum; a parameter that the
 ///                                slider does not have; a slider that leaves the ground; a response that is not
-///                                differentiable there: a velocity that turns without acceleration
-/// With static friction above kinetic the response jumps where a decision changes. The derivative is that between such
-/// jumps, and Margins say how near the next is.
-/// Near round-off. 0.1 us a sample without spring and damper, 0.3 with them, 2 by the natural frequency with a damper:
-/// 3 to 17 times as long as `integrate`.
+///                                differentiable: a velocity that reverses without acceleration
+/// With static friction above kinetic friction the response jumps where a decision changes. The derivative applies
+/// between such jumps; Margins state how close the next one is. Accuracy: near round-off. Cost: 0.1 us per sample
+/// without spring and damper, 0.3 us with them, 2 us for the natural frequency with a damper: 3 to 17 times that of
+/// `integrate`.
 template <FrictionLaw Law>
 Sensitivity sensitivity(const Slider<Law>& slider, const GroundMotion& motion, const Response& response,
                         Parameter parameter) {
