@@ -1,4 +1,4 @@
-// A mass on friction, with what holds it back and what it stands on.
+// A mass with friction, and its mounting: spring, damper, slope and stops.
 #pragma once
 
 #include <cmath>
@@ -16,14 +16,14 @@
 
 namespace stickslip {
 
-/// What a mass is mounted on, beside friction. All of it may be left out.
+/// The mounting of a mass, in addition to friction. All parts are optional.
 struct Mounting {
   double natural_frequency = 0;  ///< wn, of the spring and the mass without friction [rad/s], finite and at least 0
   double damping = 0;            ///< c, of the damper per unit mass [1/s], finite and at least 0; 2 wn damping ratio
   double slope_degrees = 0;      ///< of the ground, forward is downhill [degrees], from 0 to less than 90
   bool one_way = false;          ///< never slides backward
-  Stops stops{};                 ///< that end its way
-  bool pendulum = false;         ///< the spring is a pendulum's: its pull is wn^2 x N+ / g
+  Stops stops{};                 ///< limits of the displacement
+  bool pendulum = false;         ///< the spring is a pendulum: its force is wn^2 x N+ / g
 
   friend bool operator==(const Mounting&, const Mounting&) = default;
 };
@@ -38,7 +38,7 @@ struct Mounting {
 template <FrictionLaw Law>
 class Slider {
  public:
-  /// @param law                what holds and what resists
+  /// @param law                the friction law
   /// @param natural_frequency  wn, of the spring and the mass without friction [rad/s], finite and at least 0; 0 is no
   ///                           spring
   /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the
@@ -47,10 +47,10 @@ class Slider {
   explicit Slider(Law law, double natural_frequency = 0, double damping = 0)
       : Slider(std::move(law), Mounting{natural_frequency, damping}) {}
 
-  /// @param law       what holds and what resists
+  /// @param law       the friction law
   /// @param mounting  spring, damper, slope and stops
-  /// @throws std::invalid_argument naming the value; also where the slider would slide under its own weight with
-  ///                  neither spring nor stop in its way
+  /// @throws std::invalid_argument naming the value; also if the slider would slide under its own weight without
+  ///                  a spring or stop to hold it
   Slider(Law law, const Mounting& mounting) : law_(std::move(law)), mounting_(mounting) {
     mounting_.natural_frequency += 0.0;  // minus zero is zero
     mounting_.damping += 0.0;
@@ -72,13 +72,13 @@ class Slider {
       throw std::invalid_argument("Slider: a pendulum needs a natural_frequency, sqrt(g / radius)");
   }
 
-  /// A slider in cups, thesis (2.49) as corrected: each wheel stands in a bowl and climbs its side, a pendulum of the
-  /// length of the bowl's radius less the wheel's,
+  /// A slider in cups, thesis (2.49) as corrected: each wheel stands in a bowl, which makes the slider a pendulum
+  /// with a length equal to the radius of the bowl minus that of the wheel,
   ///     wn = sqrt(g / (cup_radius - wheel_radius))
-  /// to first order in x / (cup_radius - wheel_radius); the next term is the third.
+  /// to first order in x / (cup_radius - wheel_radius); the next term is of third order.
   /// @param cup_radius    radius of curvature of the bowl [m], finite
-  /// @param wheel_radius  of the wheel that rolls in it [m], at least 0 and less than cup_radius; 0, a point that
-  ///                      slides, is the thesis's form
+  /// @param wheel_radius  of the wheel that rolls in it [m], at least 0 and less than cup_radius; 0, a sliding
+  ///                      point, is the case of the thesis
   /// @param damping       as above
   /// @throws std::invalid_argument naming the value
   static Slider in_cup(Law law, double cup_radius, double wheel_radius = 0, double damping = 0) {
@@ -91,10 +91,10 @@ class Slider {
     return Slider(std::move(law), std::sqrt(standard_gravity / (cup_radius - wheel_radius)), damping);
   }
 
-  /// A friction pendulum: a slider on a spherical dish, whose spring is the normal force's part along it, N+ x /
-  /// radius.
+  /// A friction pendulum: a slider on a spherical dish, whose restoring force is the component of the normal force
+  /// along the dish, N+ x / radius.
   ///     wn = sqrt(g / radius)
-  /// Linear in x: for |x| up to 0.2 radius, where the next term is 2 % of it.
+  /// Linear in x; valid for |x| up to 0.2 radius, where the next term is 2 %.
   /// @param radius    effective radius of curvature of the dish [m], positive and finite
   /// @param mounting  damper, stops; its spring is replaced
   /// @throws std::invalid_argument naming the value
@@ -105,7 +105,7 @@ class Slider {
     return Slider(std::move(law), mounting);
   }
 
-  /// The same mounting under the law as it goes on from a state.
+  /// The same mounting with the law that applies from a given state.
   auto at(const State& state) const requires MemoryLaw<Law> {
     using Now = Slider<decltype(law_.at(state))>;
     return Now(law_.at(state), mounting_, typename Now::Unchecked{});
@@ -121,11 +121,11 @@ class Slider {
   /// c [1/s].
   double damping() const noexcept { return mounting_.damping; }
 
-  /// Of the ground [rad].
+  /// Slope of the ground [rad].
   double slope() const noexcept { return mounting_.slope_degrees * (std::numbers::pi / 180); }
 
-  /// Whether horizontal ground motion is all that loads it: on level ground, both ways, without stops, and with a
-  /// spring that does not depend on the normal force.
+  /// Whether the slider is on level ground, slides both ways, has no stops, and has a spring that does not depend on
+  /// the normal force.
   bool plain() const noexcept { return plain_; }
 
  private:
@@ -142,7 +142,7 @@ class Slider {
 
 namespace detail {
 
-/// Refuses what a function does not cover.
+/// Throws for a mounting that a function does not cover.
 template <FrictionLaw Law>
 void require_plain_mounting(const Slider<Law>& slider, std::string_view function) {
   if (!slider.plain())

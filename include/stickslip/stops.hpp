@@ -1,4 +1,4 @@
-// Walls that end the way of a slider.
+// Stops that limit the displacement of a slider.
 #pragma once
 
 #include <cmath>
@@ -8,14 +8,14 @@
 
 namespace stickslip {
 
-/// Stops at x = forward and x = -backward. A slider that comes to one at speed v leaves it at speed restitution v; a
-/// load toward it is held, however large.
+/// Stops at x = forward and x = -backward. A slider that hits a stop at speed v rebounds at speed restitution v. A
+/// stop resists any load toward it.
 class Stops {
  public:
-  /// None.
+  /// No stops.
   Stops() = default;
 
-  /// On both sides.
+  /// Stops on both sides.
   /// @param gap          distance from x = 0 to either stop [m], positive; infinite: none
   /// @param restitution  e, from 0 to 1
   /// @throws std::invalid_argument naming the value
@@ -35,7 +35,7 @@ class Stops {
   double backward() const noexcept { return backward_; }
   double restitution() const noexcept { return restitution_; }
 
-  /// Whether there is one.
+  /// Whether there is a stop.
   explicit operator bool() const noexcept { return std::isfinite(forward_) || std::isfinite(backward_); }
 
   friend bool operator==(const Stops&, const Stops&) = default;

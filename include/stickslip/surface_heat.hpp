@@ -1,4 +1,4 @@
-// How much of the heat that friction made is left at the surface.
+// The memory of the heat that friction has generated at a surface.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@ namespace stickslip {
 
 /// The memory of a surface that is heated with q(t) [W/m^2] and cools into the solid below: the half-integral
 ///     H(t) = integral of q(t - tau) / sqrt(tau) over tau > 0,
-/// with which the surface of a half-space becomes warmer by sqrt(D) / (k sqrt(pi)) H (H. S. Carslaw, J. C. Jaeger,
-/// Conduction of heat in solids, 2nd ed. 1959, section 2.9).
+/// from which the temperature rise of the surface of a half-space is sqrt(D) / (k sqrt(pi)) H (H. S. Carslaw, J. C.
+/// Jaeger, Conduction of heat in solids, 2nd ed. 1959, section 2.9).
 ///
 /// 1 / sqrt(tau) = integral of exp(u/2 - tau exp(u)) du / sqrt(pi) is summed by the trapezoidal rule, its tails by one
 /// exponential each: 42 exponentials, within 6e-7 of the largest H for heat that lasts from 1 us to 500 s. Each is a
-/// mode y' = q - rate y, so that time costs the same however long the history is.
+/// mode y' = q - rate y, so that the cost does not depend on the length of the history.
 class SurfaceHeat {
  public:
   static constexpr std::size_t modes = 42;
   using Modes = std::array<double, modes>;
 
-  SurfaceHeat() noexcept {}  // the modes of a cold surface are not read
+  SurfaceHeat() noexcept {}  // the modes of a cold surface are not used
   SurfaceHeat(const SurfaceHeat& other) noexcept : warm_(other.warm_) {
     if (warm_) modes_ = other.modes_;
   }
@@ -34,7 +34,7 @@ class SurfaceHeat {
   }
   /// A surface whose modes y_j [J/m^2] are `values`.
   explicit SurfaceHeat(const Modes& values) noexcept : warm_(true), modes_(values) {}
-  /// A surface whose half-integral is H now; how it came to it is lost.
+  /// A surface whose present half-integral is H, without its history.
   static SurfaceHeat with(double half_integral) noexcept {
     SurfaceHeat heat;
     heat.warm_ = half_integral > 0;
@@ -50,7 +50,7 @@ class SurfaceHeat {
   /// y_j [J/m^2].
   Modes values() const noexcept { return warm_ ? modes_ : Modes{}; }
 
-  /// H now [W s^(1/2)/m^2].
+  /// The present H [W s^(1/2)/m^2].
   double half_integral() const noexcept {
     double sum = 0;
     if (warm_)
@@ -64,7 +64,7 @@ class SurfaceHeat {
     const Modes& rate = table().rate;
     Modes left;
     left[0] = std::exp(-rate[0] * time);
-    double less = std::expm1(-rate[1] * time);  // factor - 1: what is near 1 is not rounded
+    double less = std::expm1(-rate[1] * time);  // factor - 1, accurate also near 1
     for (std::size_t j = 1; j + 1 < modes; ++j) {
       left[j] = 1 + less;
       less *= 2 + less;
@@ -73,7 +73,7 @@ class SurfaceHeat {
     return left;
   }
 
-  /// What a time of heating does to the modes: how they decay, and what heat that is a power of time adds.
+  /// The effect of a time step on the modes: their decay, and the contributions of heat that is a power of time.
   class Step {
    public:
     static constexpr int degree = 8;  // of heat
@@ -82,8 +82,8 @@ class SurfaceHeat {
     [[gnu::noinline]] explicit Step(double time) noexcept : time_(time), left_(decay(time)) {
       Modes x;
       for (std::size_t j = 0; j < modes; ++j) x[j] = table().rate[j] * time;
-      // The integral of exp(-x (1 - s)) s^k over s from 0 to 1: the highest by a series of x, for x small, and from it
-      // the others; for x large from the lowest.
+      // The integrals of exp(-x (1 - s)) s^k over s from 0 to 1. For small x the highest k is a series in x, and the
+      // others follow from it downward; for large x the recurrence runs upward from the lowest.
       constexpr double small = 8;
       Modes sum, term;
       for (std::size_t j = 0; j < modes; ++j) term[j] = left_[j], sum[j] = left_[j] / (degree + 1);
@@ -119,7 +119,7 @@ class SurfaceHeat {
     Modes weighted;
     for (std::size_t j = 0; j < modes; ++j) weighted[j] = table().weight[j] * modes_[j];
     for (std::size_t i = 0; i < times; ++i) {
-      double sum[6] = {};  // side by side: terms of one sum would wait for each other
+      double sum[6] = {};  // several sums in parallel: the terms of one sum would wait for each other
       for (std::size_t j = 0; j < modes; j += 6)
         for (std::size_t k = 0; k < 6; ++k) sum[k] += weighted[j + k] * left[i][j + k];
       result[i] = (sum[0] + sum[1]) + (sum[2] + sum[3]) + (sum[4] + sum[5]);
@@ -127,14 +127,14 @@ class SurfaceHeat {
     return result;
   }
 
-  /// Cools for a time [s].
+  /// Cool for a time [s].
   [[gnu::noinline]] void rest(double time) noexcept {
     if (!warm_ || !(time > 0)) return;
     const Modes left = decay(time);
     for (std::size_t j = 0; j < modes; ++j) modes_[j] *= left[j];
   }
 
-  /// Is heated for a step with q = sum of q_k (t / unit)^k [W/m^2]: exact for the modes but for round-off.
+  /// Heat for a step with q = sum of q_k (t / unit)^k [W/m^2]: exact to round-off for the modes.
   /// @param step  of a time that is `part` of the unit
   void heat(const std::array<double, Step::degree + 1>& q, const Step& step, double part = 1) noexcept {
     if (!warm_) modes_.fill(0);

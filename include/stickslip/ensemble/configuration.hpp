@@ -1,4 +1,4 @@
-// What the members of an ensemble depend on.
+// The configuration of an ensemble.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace stickslip {
 
-/// What the members of an ensemble depend on: names, and values as JSON.
+/// Everything that the members of an ensemble depend on: names, and values as JSON.
 using EnsembleConfiguration = std::vector<std::pair<std::string, std::string>>;
 
 }  // namespace stickslip

@@ -1,4 +1,4 @@
-// Statistics over the members of an ensemble, with their standard errors.
+// Statistics over the members of an ensemble, with standard errors.
 #pragma once
 
 #include <cstddef>
@@ -31,101 +31,106 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
 
 /// Statistics over the members of an ensemble, each with its standard error, from the scatter between members.
 ///
-/// All sums are taken in one pass, about means, and merge pair by pair in an order that the members' numbers fix: the
-/// same members give the same bits on any number of threads and in any parts that end on whole blocks.
+/// All sums are computed in one pass, about means, and merged in pairs in an order that depends only on the numbers of
+/// the members: the same members give the same bits for any number of threads and any division into parts of whole
+/// blocks.
 ///
-/// Statistics by time, stationary averages and the velocity's spectrum exist only where all ground motions have one
-/// duration; elsewhere asking for them throws std::domain_error. Peaks, residuals, quantiles and exceedances always do.
+/// Statistics by time, stationary averages and the spectrum of the velocity exist only if all ground motions have the
+/// same duration; otherwise these functions throw std::domain_error. Peaks, residuals, quantiles and exceedances always
+/// exist.
 class Ensemble {
  public:
-  /// What the members depend on, name by name.
+  /// Everything that the members depend on, by name.
   using Configuration = EnsembleConfiguration;
 
-  /// Of each member of a block.
+  /// Results of each member of a block.
   struct Kept {
     std::vector<double> peak, residual;  ///< [m]
     friend bool operator==(const Kept&, const Kept&) = default;
   };
 
-  /// All that an ensemble holds, to be put into a file and read back.
+  /// The complete content of an ensemble, for storage in a file.
   struct Parts {
     Configuration configuration;
     EnsembleTimes times;
     bool velocity_spectrum = false;
     bool ground_acceleration = false;
     detail::TallyTree tallies;
-    std::map<std::uint64_t, std::size_t> cut;  ///< blocks that are not whole, and how many members they have
-    std::map<std::uint64_t, Kept> kept;        ///< by the block's number; empty once there are more than `max_kept`
-    detail::Sketch peaks;                      ///< then this counts them
+    std::map<std::uint64_t, std::size_t> cut;  ///< incomplete blocks and their numbers of members
+    std::map<std::uint64_t, Kept>
+        kept;              ///< by the number of the block; empty if there are more than `max_kept` members
+    detail::Sketch peaks;  ///< counts the peaks in that case
     friend bool operator==(const Parts&, const Parts&) = default;
   };
 
-  /// Of more members than these no single peak and residual is kept; peaks are then counted in bins 0.1 % wide.
+  /// With more members, single peaks and residuals are not kept; peaks are then counted in bins 0.1 % wide.
   static constexpr std::uint64_t max_kept = std::uint64_t{1} << 24;
 
-  /// Times of the statistics there may be.
+  /// Maximum number of times of the statistics.
   static constexpr std::size_t max_times = std::size_t{1} << 24;
 
-  /// Members are simulated and summed in blocks of this many, which the parts of an ensemble may not cut: 64, and fewer
-  /// for motions of more than 16,384 times, so that a block's memory stays bounded.
+  /// Number of members per block, which the parts of an ensemble must not divide: 64, and fewer for motions with more
+  /// than 16,384 times, to bound the memory of a block.
   static std::size_t block(std::size_t times);
 
-  /// @throws std::invalid_argument where the parts do not fit together, or no members can have left them: what is not
-  ///         finite, a negative peak or sum of squares
+  /// @throws std::invalid_argument if the parts do not fit together or are impossible: values that are not finite, a
+  ///         negative peak or sum of squares
   explicit Ensemble(Parts parts);
   const Parts& parts() const noexcept { return parts_; }
 
-  /// Whether they are of one configuration and hold the same members with the same figures.
+  /// Whether the configurations, the members and all values are equal.
   friend bool operator==(const Ensemble&, const Ensemble&) = default;
 
   const Configuration& configuration() const noexcept { return parts_.configuration; }
   std::uint64_t members() const;
 
-  /// Times of the statistics [s]; empty where the ground motions differ in duration.
+  /// Times of the statistics [s]; empty if the ground motions differ in duration.
   std::vector<double> time() const;
 
   Estimates displacement_mean() const;  ///< of x [m], by time
-  /// Of x about its mean, with the divisor members - 1 [m^2], by time.
-  /// @throws std::domain_error with fewer than two members, or without times; so do all that follow up to the spectrum
+  /// Variance of x, with the divisor members - 1 [m^2], by time.
+  /// @throws std::domain_error with fewer than two members, or without times; the following functions, up to the
+  ///         spectrum, also do
   Estimates displacement_variance() const;
   Estimates covariance() const;         ///< of x and x' [m^2/s], by time
   Estimates velocity_mean() const;      ///< of x' [m/s], by time
   Estimates velocity_variance() const;  ///< of x' [m^2/s^2], by time
 
-  /// Of the ground acceleration n [m/s^2], by time; where it jumps, of what it is from then on.
-  /// @throws std::domain_error where it was not asked for, or without times
+  /// Mean of the ground acceleration n [m/s^2], by time; at a jump, of the value after it.
+  /// @throws std::domain_error if it was not requested, or without times
   Estimates ground_acceleration_mean() const;
-  /// Of n about its mean, with the divisor members - 1 [m^2/s^4], by time; thesis 4.4.
+  /// Variance of n, with the divisor members - 1 [m^2/s^4], by time; thesis 4.4.
   /// @throws std::domain_error also with fewer than two members
   Estimates ground_acceleration_variance() const;
 
-  /// All of these and the stationary growth rate, as a theory answers.
+  /// All of these and the stationary growth rate, in the form that theories return.
   Moments moments() const;
 
   Stationary stationary() const;
-  /// @throws std::domain_error also where it was not asked for
+  /// @throws std::domain_error also if it was not requested
   VelocitySpectrum velocity_spectrum() const;
 
-  /// Largest |x| of each member [m], between samples too, in the order of the members.
-  /// @throws std::domain_error where there are more than `max_kept`
+  /// Largest |x| of each member over all time [m], in the order of the members.
+  /// @throws std::domain_error for more than `max_kept` members
   std::vector<double> peak() const;
   /// Last x of each member [m].
   std::vector<double> residual() const;
 
-  /// The peak that a share of the members does not exceed [m]; bounds from order statistics (binomial law), 0 and
-  /// infinity where the members are too few to bound it.
-  /// @param probability  the share, in (0, 1)
+  /// Quantile of the peaks [m]. The bounds are order statistics (binomial distribution), 0 and infinity if there are
+  /// too few members.
+  /// @param probability  fraction of members that do not exceed it, in (0, 1)
   /// @param confidence   of the bounds, in (0, 1)
   /// @throws std::domain_error with fewer than two members
   Interval quantile(double probability, double confidence = 0.95) const;
-  /// The share of members whose peak exceeds a level; bounds of Clopper and Pearson (1934).
+  /// The fraction of members whose peak exceeds a level; bounds of Clopper and Pearson (1934).
   /// @throws std::domain_error with fewer than two members
   /// @param level  [m], at least 0
   Interval exceedance(double level, double confidence = 0.95) const;
 
-  /// Takes in the members of another part of the same ensemble.
-  /// @throws std::invalid_argument where it is of another configuration (says what differs), or holds members that are
-  ///         here already; nothing has changed then
+  /// Add the members of another part of the same ensemble.
+  /// @throws std::invalid_argument if the configurations differ (the message names the difference) or members occur
+  /// twice;
+  ///         this ensemble is then unchanged
   void merge(const Ensemble& other);
 
  private:

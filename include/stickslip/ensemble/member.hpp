@@ -1,4 +1,4 @@
-// Where the members of an ensemble come from.
+// Sources of the members of an ensemble.
 #pragma once
 
 #include <concepts>
@@ -15,19 +15,19 @@
 
 namespace stickslip {
 
-/// A member of an ensemble: what slides, and the motion of the ground under it.
-/// @tparam S, M  a slider and a GroundMotion, or references to what the source keeps
+/// A member of an ensemble: a slider and its ground motion.
+/// @tparam S, M  a slider and a GroundMotion, or references to those in the source
 template <class S, class M>
 struct Member {
   S slider;
   M motion;
 };
 
-/// A source of members: (seed, index) always names the same one.
+/// A source of members: the same (seed, index) always gives the same member.
 ///
-/// `time_base()` is what all ground motions have in common, or nothing where their durations differ: then there are no
-/// statistics by time. `configuration()` tells all that the members depend on, so that only what belongs together is
-/// merged. The source is asked by many threads at a time.
+/// `time_base()` contains the common times of all ground motions, or nothing if their durations differ; there are then
+/// no statistics by time. `configuration()` contains everything that the members depend on, so that only parts of the
+/// same ensemble are merged. Several threads call the source concurrently.
 template <class T>
 concept MemberSource = requires(const T& source, std::uint64_t number) {
   source.member(number, number).slider;
@@ -44,19 +44,19 @@ concept MotionSource = Excitation<T> || requires(const T& motions, std::uint64_t
   { motions.configuration() } -> std::convertible_to<std::string>;
 };
 
-/// A source of sliders: RandomSlider, OneOf<Slider<Coulomb>>, or one's own. `configuration()` is what they depend on.
+/// A source of sliders: RandomSlider, OneOf<Slider<Coulomb>>, or a user-defined one. `configuration()` is as above.
 template <class T>
 concept SliderSource = !MotionSource<T> && requires(const T& sliders, std::uint64_t number) {
   sliders.sample(number, number);
   { sliders.configuration() } -> std::convertible_to<std::string>;
 };
 
-/// Members by index: a slider, or one of a source of them, under a motion of a source.
-/// @tparam S  a Slider, which all members share, or a SliderSource
+/// Members by index: a slider, or the sliders of a source, under the motions of a source.
+/// @tparam S  a Slider for all members, or a SliderSource
 template <class S, MotionSource M>
 class PairedMembers {
  public:
-  /// Both are referred to, and must outlive this.
+  /// Holds references to both, which must outlive it.
   PairedMembers(const S& sliders, const M& motions) : sliders_(sliders), motions_(motions) {}
 
   const S& sliders() const noexcept { return sliders_; }

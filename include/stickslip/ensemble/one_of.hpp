@@ -1,4 +1,4 @@
-// One of a list for each member of an ensemble.
+// A list of sliders or ground motions for the members of an ensemble.
 #pragma once
 
 #include <concepts>
@@ -16,24 +16,23 @@
 
 namespace stickslip {
 
-/// Which of a list a member has.
+/// The choice of an item for a member.
 enum class Order {
   in_turn,  ///< member i has item i modulo the length of the list
-  drawn     ///< each is as likely as any other; (seed, i) fixes it
+  drawn     ///< drawn at random with equal probabilities, determined by (seed, i)
 };
 
 namespace detail {
-/// The time base of motions of one duration (to 1e-9 of it), with the step that all have, if they have one.
+/// The time base of motions of equal duration (to 1e-9 of it), with their common time step, if any.
 std::optional<TimeBase> common_time_base(std::span<const GroundMotion> motions);
-/// A place in a list, drawn from a row of random numbers for this purpose alone.
+/// A position in a list, drawn from a stream of random numbers for this purpose.
 std::size_t drawn_place(std::uint64_t seed, std::uint64_t member, bool of_motions, std::size_t length);
 }  // namespace detail
 
-/// A list of sliders or of ground motions, of which each member of an ensemble has one. Motions may differ in duration
-/// and step, as recorded ones do; they are kept once, and members refer to them.
+/// A list of sliders or of ground motions, one of which each member of an ensemble uses. Motions may differ in duration
+/// and time step. They are stored once, and members refer to them.
 ///
-/// A list of sliders and one of motions that are both taken in turn go side by side: where they are of one length,
-/// member i has item i of both.
+/// If a list of sliders and a list of motions of the same length are both used in turn, member i has item i of both.
 /// @tparam T  a slider (which may be a std::variant of several) or GroundMotion
 template <class T>
 class OneOf {
@@ -61,10 +60,10 @@ class OneOf {
                                          : static_cast<std::size_t>(member % items_.size())];
   }
 
-  /// What all motions have in common; nothing where their durations differ.
+  /// The common times of all motions; nothing if their durations differ.
   std::optional<TimeBase> time_base() const noexcept requires std::same_as<T, GroundMotion> { return time_base_; }
 
-  /// What members depend on, as JSON.
+  /// Everything that the members depend on, as JSON.
   const std::string& configuration() const noexcept { return configuration_; }
 
  private:

@@ -20,29 +20,30 @@
 namespace stickslip {
 
 namespace detail {
-/// Values of a member's parameters: that of distribution j is its quantile at the uniform number j of a row of random
-/// numbers for this purpose alone.
+/// Parameters of a member: parameter j is the quantile of distribution j at the uniform number j of a stream of random
+/// numbers for this purpose.
 void draw(std::span<const Distribution> distributions, std::uint64_t seed, std::uint64_t member,
           std::span<double> values);
 std::string describe_random(std::span<const Distribution> distributions, const std::vector<std::string>& sliders);
 }  // namespace detail
 
-/// A slider for each member of an ensemble, made from random parameters, independent of each other and of the ground
-/// motions. (seed, member) fixes them, and parameter j stays the same where another's distribution is changed:
+/// A slider with random parameters for each member of an ensemble. The parameters are independent of each other and of
+/// the ground motions. (seed, member) determines them; a change of one distribution does not change the other
+/// parameters:
 ///
 ///     RandomSlider blocks([](double mu) { return Coulomb::from_friction(mu); }, Lognormal(0.3, 0.3));
 ///
-/// @tparam Make           makes a law or a slider from as many numbers; many threads call it at a time
-/// @tparam Distributions  of these numbers; one that is given is always that number
+/// @tparam Make           creates a law or a slider from one number per distribution; called concurrently
+/// @tparam Distributions  of these numbers; a plain number is a constant
 template <class Make, std::convertible_to<Distribution>... Distributions>
 class RandomSlider {
  public:
   static constexpr std::size_t parameters = sizeof...(Distributions);
 
-  /// @throws  what `make` throws at the quartiles of all parameters
+  /// @throws  the exceptions of `make` at the quartiles of all parameters
   explicit RandomSlider(Make make, Distributions... distributions)
       : make_(std::move(make)), distributions_{Distribution(distributions)...} {
-    // A function has no name: what it makes stands for it.
+    // A function has no name; the sliders that it creates represent it.
     std::vector<std::string> sliders;
     for (const double probability : {0.25, 0.5, 0.75}) {
       std::array<double, parameters> values;
@@ -60,7 +61,7 @@ class RandomSlider {
   }
 
   /// The slider of a member.
-  /// @throws std::invalid_argument  parameters that the law refuses; names the member and the value
+  /// @throws std::invalid_argument  parameters that the law rejects; names the member and the value
   auto sample(std::uint64_t seed, std::uint64_t member) const {
     try {
       return make_from(values(seed, member));
@@ -69,7 +70,7 @@ class RandomSlider {
     }
   }
 
-  /// What members depend on, as JSON.
+  /// Everything that the members depend on, as JSON.
   const std::string& configuration() const noexcept { return configuration_; }
 
  private:

@@ -80,8 +80,9 @@ class GroundSimulator final : public Simulator {
 /// @throws std::overflow_error    displacements or velocities beyond 1e34 [m, m/s], whose statistics could leave the
 ///                                range of doubles; the message names the member or block
 /// @throws ConvergenceError       a member does not settle, or its law has no power series; the message names the
-/// member An exception from `progress` stops the work; the partial ensemble passed to it remains valid and can be
-/// resumed.
+///                                member
+///
+/// An exception from `progress` stops the work; the partial ensemble passed to it remains valid and can be resumed.
 ///
 /// Cost on one thread: that of `integrate` per member, and about 10 ns per time of the statistics. Memory: 1 kB per
 /// time of the statistics and thread, 16 bytes per member.

@@ -1,4 +1,4 @@
-// How the statistics of an ensemble change with a parameter.
+// Derivatives of the statistics of an ensemble with respect to a parameter.
 #pragma once
 
 #include <concepts>
@@ -47,7 +47,7 @@ struct EnsembleSensitivity {
 
 namespace detail {
 
-/// The last x of a member, and derivatives.
+/// The last x of a member, and its derivatives.
 struct MemberSensitivity {
   double residual = 0;
   Sensitivity derivative{};
@@ -56,7 +56,7 @@ struct MemberSensitivity {
 EnsembleSensitivity ensemble_sensitivity(const EnsembleSensitivityOptions& options,
                                          const std::function<MemberSensitivity(std::uint64_t member)>& differentiate);
 
-/// Refuses sliders whose mean derivative is not the derivative of the mean, or is not known.
+/// Rejects sliders for which the mean of the derivatives is not the derivative of the mean, or is unknown.
 template <FrictionLaw Law>
 void require_differentiable_mean(const Slider<Law>& slider) {
   const auto refuse = [](const std::string& reason) {
@@ -80,7 +80,7 @@ MemberSensitivity member_sensitivity(const Slider<Law>& slider, const GroundMoti
     const Response response = integrate(slider, motion, how);
     return {response.residual, sensitivity(slider, motion, response, parameter)};
   } else {
-    return {};  // refused before
+    return {};  // rejected before
   }
 }
 

@@ -1,4 +1,4 @@
-// When the statistics of an ensemble are taken.
+// The times of the statistics of an ensemble.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace stickslip {
 
-/// The time that all ground motions of an ensemble have in common.
+/// The common times of all ground motions of an ensemble.
 struct TimeBase {
   double duration = 0;  ///< from the first sample to the last [s]
-  double dt = 0;        ///< between samples [s]; 0: they have none in common
+  double dt = 0;        ///< between samples [s]; 0: no common step
 };
 
-/// The times of the statistics: 0, dt, 2 dt, ... of the motion; none where the members' motions differ in duration.
+/// The times of the statistics: 0, dt, 2 dt, ... of the motion; none if the ground motions differ in duration.
 struct EnsembleTimes {
   double dt = 0;          ///< [s]
   std::size_t count = 0;  ///< at least 2, or 0
@@ -28,8 +28,8 @@ struct EnsembleTimes {
 namespace detail {
 
 /// @param dt    as in EnsembleOptions
-/// @param base  where it has samples, times may be every second, third, ... of them
-/// @return no times where there is no base
+/// @param base  if it has a time step, the times are multiples of that step
+/// @return no times without a base
 /// @throws std::invalid_argument  a dt that does not fit, or that is given without a base
 EnsembleTimes ensemble_times(double dt, const std::optional<TimeBase>& base);
 

@@ -48,7 +48,7 @@ struct Energy {
   double elastic = 0;     ///< wn^2 x^2 / 2 at the end
   double impact = 0;      ///< lost on stops, the sum of (1 - restitution^2) x'^2 / 2
 
-  /// The residual of the balance [m^2/s^2]: round-off.
+  /// The imbalance of these terms [m^2/s^2]: round-off.
   double imbalance() const noexcept { return initial + input - dissipated - damped - impact - kinetic - elastic; }
 };
 
