@@ -1,4 +1,4 @@
-// Coulomb friction of unequal levels on a spring: of equal levels, about another place.
+// Coulomb friction with unequal levels on a spring, expressed as equal levels about a shifted center.
 #pragma once
 
 #include <cmath>
@@ -11,17 +11,17 @@
 
 namespace stickslip::detail {
 
-/// A slider, and where its x = 0 lies for the one that it stands for [m].
+/// A slider, and the position of its x = 0 in the coordinates of the original slider [m].
 template <FrictionLaw Law>
 struct Balanced {
   Slider<Law> slider;
   double center;
 };
 
-/// With x = center + y, center = (backward - forward) / (2 wn^2), a block whose levels differ is one of their mean,
+/// With x = center + y, center = (backward - forward) / (2 wn^2), a block with unequal levels is one with their mean,
 ///     y'' + (forward + backward)/2 sgn(y') + c y' + wn^2 y = -n,
-/// which also holds at rest what that one holds. Without a spring, with an infinite level, and under any other law the
-/// slider stays as it is, about 0.
+/// with the same limits at rest. Without a spring, with an infinite level, and for any other law the slider is
+/// unchanged, with center 0.
 template <FrictionLaw Law>
 Balanced<Law> balanced(const Slider<Law>& slider) {
   if constexpr (std::same_as<Law, Coulomb>) {

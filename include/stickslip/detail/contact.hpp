@@ -142,11 +142,11 @@ template <FrictionLaw Law, class Flows, MotionObserver Observer>
   }
 }
 
-/// The event loop over any segment. A slider that stays on the ground and cannot reach a stop needs neither checked.
+/// The event loop over any segment. If the slider stays on the ground and cannot reach a stop, it checks for neither.
 template <FrictionLaw Law, class Flows, MotionObserver Observer>
 [[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const LoadSegment& segment,
                                            const Bounds& bounds, Contact contact, State& state, Observer& observer) {
-  if constexpr (requires { typename Flows::Basis; }) {  // others than ClosedForm cost more than these checks
+  if constexpr (requires { typename Flows::Basis; }) {  // other flows cost more than these checks
     const double first = segment.normal_start, last = segment.normal_end;
     if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1), state)) {
       if (equal(first, standard_gravity) && equal(last, standard_gravity))

@@ -59,8 +59,9 @@ struct Bounds {
   double bound(Direction direction, double x, double level) const noexcept {
     return room(direction, x) <= 0 || (one_way && direction == Direction::backward) ? never : level;
   }
-  /// Whether a slider on a spring of stiffness k per unit mass certainly stays between the bounds during a segment T.
-  /// Friction and dampers only take speed away, so that |v| <= |v0| + T (|p| + k (|x0| + D)) and the way is at most
+  /// Whether a slider on a spring of stiffness k per unit mass certainly stays between the bounds during a segment of
+  /// duration T. Friction and dampers only reduce the speed, so that |v| <= |v0| + T (|p| + k (|x0| + D)), and the
+  /// distance D from x0 is at most
   ///     D = T (|v0| + T/2 (|p| + k |x0|)) / (1 - k T^2 / 2).
   bool out_of_reach(const LoadSegment& segment, double k, const State& state) const noexcept {
     const double nearest = one_way ? 0 : std::min(stops.forward(), stops.backward());
@@ -92,9 +93,10 @@ concept LoadedPiece = requires(const Piece& piece) {
   piece.weight(0.0);
 };
 
-/// When a slider at rest begins to slip, if what holds it changes as its surface cools: `pull(left)` is the spring's
-/// pull and `bound(direction, level)` what holds it at a level. The margins are polynomials on one part of the time
-/// after another, to 1e-9 of the level. Leaves the surface as it is at the departure, or else at the end.
+/// The departure of a slider at rest whose level changes as its surface cools. `pull(left)` is the force of the spring,
+/// and `bound(direction, level)` the load that can be held with a level. The margins are approximated by polynomials on
+/// successive parts of the time, to 1e-9 of the level. On return the surface has the state at the departure, or at the
+/// end if there is none.
 template <HeatedLaw Law, class Piece, class Pull, class Bound>
 [[gnu::noinline]] Departure heated_departure(const Law& law, const Piece& segment, State& state, double left,
                                              Cooling& cooling, const Pull& pull, const Bound& bound) {
@@ -120,7 +122,7 @@ template <HeatedLaw Law, class Piece, class Pull, class Bound>
       resolved = resolved && std::abs(c[c.size() - 1]) + std::abs(c[c.size() - 2]) <= 1e-9 * scale;
       int degree = Nodes::powers(c, 1e-15 * scale, powers);
       const double* from = powers.data();
-      if (!(margin[0] > 0))  // at the level itself it holds
+      if (!(margin[0] > 0))  // a load equal to the level is held
         for (++from, --degree; degree >= 0 && equal(*from, 0);) ++from, --degree;
       if (degree < 0) return never;
       return *from > 0 ? FirstRoot(from, degree).find() : 0;

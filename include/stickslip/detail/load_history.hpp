@@ -21,14 +21,14 @@ struct Load {
   double load, normal;
 };
 
-/// Both as a slider on a slope [rad] feels them; after the motion the ground does not accelerate.
+/// Load and normal force of a slider on a slope [rad]. After the motion the ground acceleration is zero.
 class GroundLoad {
  public:
   GroundLoad(const GroundMotion& motion, double slope) noexcept
       : pieces_(motion, slope), segments_(motion.segments()), still_(load_segment(Segment{1, 0, 0}, slope)) {}
 
-  /// Shows `node(load)` both at the times between which they are monotone: just after `from`, at both ends of each
-  /// segment, just before `to`; until that is false.
+  /// Call `node(load)` at the times between which both are monotonic: just after `from`, at both ends of each segment
+  /// and just before `to`, until it returns false.
   /// @param from  [s], not before the motion
   /// @param to    [s], after `from`; may be infinite
   template <class Node>
@@ -50,7 +50,7 @@ class GroundLoad {
     node(Load{still_.load_start, still_.normal_start});
   }
 
-  /// Both just after a time.
+  /// Load and normal force just after a time.
   Load after(double time) const {
     Load result{};
     nodes(time, std::numeric_limits<double>::infinity(), [&](const Load& load) {
@@ -61,7 +61,7 @@ class GroundLoad {
   }
 
  private:
-  /// The last segment that begins at a time or before.
+  /// The last segment that begins at or before a time.
   std::size_t segment_at(double time) const {
     std::size_t first = 0, last = segments_;
     while (last - first > 1) {
@@ -76,7 +76,7 @@ class GroundLoad {
   LoadSegment still_;
 };
 
-/// The same of a harmonic motion, on level ground.
+/// The same for a harmonic motion, on level ground.
 class HarmonicLoad {
  public:
   HarmonicLoad(const HarmonicMotion& motion, double /*slope*/) noexcept : motion_(motion) {}
@@ -92,7 +92,7 @@ class HarmonicLoad {
       for (double k = first_crest; k < crests; ++k) {
         if (!node(Load{equal(std::fmod(k, 2), 0) ? motion_.amplitude() : -motion_.amplitude(), standard_gravity}))
           return;
-        if (++shown == 4) k = std::max(k, crests - 4);  // all crests are alike
+        if (++shown == 4) k = std::max(k, crests - 4);  // all crests are equal
       }
       if (!node(at(last)) || !(last < to)) return;
     }

@@ -1,4 +1,4 @@
-// Long records, in pieces side by side; of the compiled library.
+// Long records, divided into pieces that are integrated in parallel; part of the compiled library.
 #pragma once
 
 #include <cmath>
@@ -15,18 +15,18 @@ namespace stickslip::detail {
 
 struct HistorySpans;
 
-/// Coulomb friction without a spring forgets where it came from when it sticks: two motions of it that are stuck at the
-/// same sample are the same from there on, but for a constant in x. So a long record is cut in pieces, which start from
-/// rest and are computed side by side, in vector lanes; then each is done again from its true beginning, until both
-/// are stuck.
+/// A block with Coulomb friction and no spring loses its memory when it sticks: two motions that are stuck at the same
+/// sample are identical from then on, except for a constant in x. A long record is therefore divided into pieces, which
+/// start from rest and are integrated in parallel vector lanes. Each piece is then integrated again from its true
+/// initial state, until both motions are stuck.
 /// @pre worth_pieces
 void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state, Recorder<Coulomb>& recorder,
                    const HistorySpans& histories);
 void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state, NoRecorder& none,
                    const HistorySpans& histories);
 
-/// Whether that is possible and quicker. The lanes take squares of speeds and accelerations, which must not underflow;
-/// above a slip level of that size no load does that matters.
+/// Whether this is possible and faster. The lanes square speeds and accelerations, which must not underflow; above this
+/// slip level no relevant load does.
 inline bool worth_pieces(const Slider<Coulomb>& slider, const GroundMotion& motion) noexcept {
   return equal(slider.stiffness(), 0) && equal(slider.damping(), 0) && std::isfinite(motion.dt()) &&
          motion.samples() >= 8192 && std::min(slider.law().forward(), slider.law().backward()) > 1e-100 &&

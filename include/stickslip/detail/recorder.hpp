@@ -1,4 +1,4 @@
-// Keeps the account of a motion while it is computed, or none.
+// Records the events and sums of a motion during integration.
 #pragma once
 
 #include <cmath>

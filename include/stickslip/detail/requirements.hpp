@@ -1,4 +1,4 @@
-// What the compiler must be told: C++20, and arithmetic by the rules of IEEE 754.
+// Requirements on the compiler: C++20, and IEEE 754 arithmetic.
 #pragma once
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L

@@ -104,7 +104,7 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
   const bool short_steps = motion.dt() <= motion.period();
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     const double begin = motion.time(i), end = motion.time(i + 1);
-    if (short_steps && i + 1 < motion.segments()) {  // all of equal length, as if times were not rounded
+    if (short_steps && i + 1 < motion.segments()) {  // equal durations, without the rounding of the times
       piece(begin, end, motion.dt(), motion.phase(begin, std::fma(static_cast<double>(i), motion.dt(), -begin)));
     } else {
       for (double time = begin; time < end;) {

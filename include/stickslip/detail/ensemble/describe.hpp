@@ -1,4 +1,4 @@
-// What makes sliders and ground motions the same, in words.
+// Descriptions of sliders and ground motions, by which they are compared.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ std::string parameters(const KumarFriction& law);
 template <FrictionLaw Law>
 std::string parameters(const StaticKinetic<Law>& law);
 std::string parameters_of_static(const std::string& sliding, double forward, double backward);
-/// A law of somebody's own: its type and a few of its levels.
+/// A user-defined law: its type and a few of its levels.
 std::string parameters(const char* type, std::span<const double> levels);
 template <FrictionLaw Law>
 std::string parameters(const Law& law) {
@@ -58,7 +58,7 @@ std::string parameters(const StaticKinetic<Law>& law) {
   return parameters_of_static(parameters(law.sliding()), law.static_forward(), law.static_backward());
 }
 
-/// What the motion of a slider depends on, as JSON.
+/// Everything that the motion of a slider depends on, as JSON.
 std::string describe(const std::string& law, const Mounting& mounting);
 template <FrictionLaw Law>
 std::string describe(const Slider<Law>& slider) {
@@ -69,7 +69,7 @@ std::string describe(const std::variant<Sliders...>& slider) {
   return std::visit([](const auto& one) { return describe(one); }, slider);
 }
 
-/// Of a list in which a member has one place.
+/// The description of a list from which each member uses one item.
 /// @param order  "in turn" or "drawn"
 std::string describe_list(const std::vector<std::string>& sliders, const char* order);
 /// Motions by their number and a digest of their samples, times and interpolation; names do not matter.

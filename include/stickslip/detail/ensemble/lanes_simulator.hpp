@@ -1,4 +1,4 @@
-// Simulates many members side by side in vector lanes.
+// Simulates many members in parallel vector lanes.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 
 namespace stickslip::detail {
 
-/// Without ground acceleration until they rest.
-/// @param segments  of the motion before
+/// Continue without ground acceleration until all rest.
+/// @param segments  number of segments of the preceding motion
 template <class Law>
 void settle_all(const Slider<Law>& slider, const LaneStates& states, std::uint64_t first_member, std::size_t members,
                 std::size_t segments, const Block& block) {
@@ -36,7 +36,7 @@ void settle_all(const Slider<Law>& slider, const LaneStates& states, std::uint64
   });
 }
 
-/// Under a Gaussian excitation, whose members share their times.
+/// Members under a Gaussian excitation, which have common times.
 template <class Law, class Lanes>
 class LanesSimulator final : public Simulator {
  public:
@@ -70,8 +70,8 @@ class LanesSimulator final : public Simulator {
   }
 
  private:
-  // The ground accelerations of all members, by sample and member; none beyond the last, whatever was there before:
-  // lanes of series are not the same to the last bit beside others.
+  // The ground accelerations of all members, by sample and member. Unused lanes are set to zero, because the last bits
+  // of lanes of series depend on the other lanes.
   void generate(std::uint64_t first_member, std::size_t members, std::size_t width, Block& block) {
     const std::size_t samples = excitation_.samples();
     if (ground_.size() != width * samples) {
@@ -99,8 +99,7 @@ class LanesSimulator final : public Simulator {
 };
 
 #ifdef STICKSLIP_VECTORS
-/// Many members side by side, whatever their law; null where springs or dampers are so stiff that steps in time would
-/// be many.
+/// Members with any law; null if springs or dampers are so stiff that very many time steps would be needed.
 template <LawWithLanes Law>
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Law>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
@@ -111,8 +110,8 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Law>& slider, const Gaus
 }
 #endif
 
-/// The same, by kernels that know the closed form or the law where there is one: Coulomb friction alone, spring and
-/// damper alone, casters alone that roll without resistance.
+/// The same, with specialized kernels where they exist: Coulomb friction alone, spring and damper alone, casters
+/// without rolling resistance alone.
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle);
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,

@@ -34,7 +34,7 @@ class Simulator {
   virtual void simulate(std::uint64_t first_member, std::size_t members, Block& block) = 0;
 };
 
-/// Does the work; an error names the member.
+/// Run the work for a member; errors name the member.
 template <class Work>
 void naming_member(std::uint64_t member, Work&& work, const char* who = "run_ensemble") {
   const auto named = [&](const std::exception& error) {
@@ -49,7 +49,7 @@ void naming_member(std::uint64_t member, Work&& work, const char* who = "run_ens
   }
 }
 
-/// Where the motion of one member of a block goes.
+/// The output of one member of a block.
 struct MemberPlace {
   Block& block;
   std::size_t index;                ///< of the member in the block
@@ -65,7 +65,7 @@ struct MemberPlace {
   }
 };
 
-/// The first `time` of a segment; the last `rest` [s] is left.
+/// The first `time` of a segment, of which `rest` [s] remains.
 inline Segment cut(Segment& segment, double time, double rest) noexcept {
   const double middle = segment.start + (segment.end - segment.start) * (time / segment.duration);
   const Segment taken{time, segment.start, middle};
@@ -78,8 +78,8 @@ inline LoadSegment cut(LoadSegment& segment, double time, double rest) noexcept 
   return taken;
 }
 
-/// Through the pieces of a motion: `go` moves over a segment, `keep` is called at each time of the statistics, which
-/// cuts the segment that it lies in.
+/// Iterate over the segments of a motion: `go` integrates over a segment, and `keep` is called at each time of the
+/// statistics, which divides the segment that contains it.
 template <class Pieces, class Go, class Keep>
 void go_through(const Pieces& pieces, std::size_t segments, const Block& block, Go&& go, Keep&& keep_at) {
   const std::size_t times = block.times().count;
@@ -107,10 +107,10 @@ void go_through(const Pieces& pieces, std::size_t segments, const Block& block, 
   };
   block.check_stopped();
   walk(pieces, segments, 1024, through, [&] { block.check_stopped(); });
-  while (next < times) keep();  // a last time that rounding put past the end
+  while (next < times) keep();  // a last time that exceeds the end by rounding
 }
 
-/// The ground acceleration at the times of the statistics; where it jumps, what it is from then on.
+/// The ground acceleration at the times of the statistics; at a jump, the value after it.
 inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times, std::vector<double>& values) {
   values.resize(times.count);
   const double begin = motion.time(0);
@@ -125,7 +125,7 @@ inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times
   walk(motion, motion.segments(), read_off, [] {});
 }
 
-/// Computes the largest |x| of a member, and checks regularly whether the work is stopped.
+/// Computes the largest |x| of a member, and checks regularly whether the run was stopped.
 template <FrictionLaw Law>
 class PeakObserver {
  public:
@@ -152,14 +152,14 @@ class PeakObserver {
   double peak_ = 0;
 };
 
-// One place for all: inlined wherever it is called it would take a compiler minutes.
+// Out of line: inlined at each call it would take minutes to compile.
 template <FrictionLaw Law, class Flows>
 [[gnu::flatten, gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows,
                                                     const Segment& segment, State& state, PeakObserver<Law>& observer) {
   advance(slider.law(), flows, segment, state, observer);
 }
 
-/// Goes on without ground acceleration until the slider rests.
+/// Continue without ground acceleration until the slider rests.
 template <FrictionLaw Law, class Flows>
 void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, PeakObserver<Law>& observer,
                    const Block& block) {
@@ -169,7 +169,7 @@ void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, 
   });
 }
 
-/// The same of any slider, under load and normal force.
+/// The same for any slider, under load and normal force.
 template <FrictionLaw Law, class Flows>
 [[gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows, const LoadSegment& segment,
                                       Contact contact, State& state, PeakObserver<Law>& observer) {
@@ -177,8 +177,8 @@ template <FrictionLaw Law, class Flows>
   advance(slider.law(), flows, segment, bounds, contact, state, observer);
 }
 
-/// One member from rest at x = 0, through the event loop of `advance`.
-/// @param settle  goes on without ground acceleration until it rests
+/// Simulate one member from rest at x = 0, by the event loop of `advance`.
+/// @param settle  whether to continue without ground acceleration until it rests
 template <FrictionLaw Law>
 void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {
@@ -209,18 +209,18 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
   });
 }
 
-/// Whichever slider it is.
+/// The same for any type of slider.
 template <class... Sliders>
 void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {
   std::visit([&](const auto& one) { simulate_member(one, motion, settle, contact, place); }, slider);
 }
 
-/// Any members, one after the other.
+/// Simulates any members, one after the other.
 template <MemberSource Source>
 class MemberSimulator final : public Simulator {
  public:
-  /// @param source  is referred to
+  /// @param source  held by reference
   MemberSimulator(const Source& source, std::uint64_t seed, bool settle, Contact contact = Contact::flight)
       : source_(source), seed_(seed), settle_(settle), contact_(contact) {}
 
@@ -248,7 +248,7 @@ class MemberSimulator final : public Simulator {
 
 }  // namespace stickslip::detail
 
-#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
 namespace stickslip::detail {
 extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, Contact, const MemberPlace&);
 extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, Contact, const MemberPlace&);

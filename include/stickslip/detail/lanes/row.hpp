@@ -1,4 +1,4 @@
-// A row of sliders, side by side.
+// A row of sliders that are integrated in parallel.
 #pragma once
 
 #include <bit>
@@ -12,28 +12,28 @@
 
 namespace stickslip::detail {
 
-/// Rows are padded to a multiple of this many members, so that any instruction set can take whole vectors.
+/// Rows are padded to a multiple of this number of members, so that any instruction set can use whole vectors.
 inline constexpr std::size_t row_padding = 8;
 
-/// Rows are at most this wide, so that a bit for each member fits into one word.
+/// Maximum width of a row: one bit per member in one word.
 inline constexpr std::size_t max_lanes = 64;
 
-/// The sliders' states, padded to a multiple of `row_padding`. The velocity is exactly 0 where a slider is stuck, and
-/// only there: laws without memory need no more.
+/// The sliders' states, padded to a multiple of `row_padding`. The velocity is exactly 0 if a slider is stuck,
+/// and only then; laws without memory need no other state.
 struct LaneStates {
   double* displacement;  ///< x [m]
   double* velocity;      ///< x' [m/s]
   double* peak;          ///< largest |x| so far [m]
 };
 
-/// The members of a row that need more than the rest, packed so that whole vectors can take them.
+/// The members of a row that need further work, packed into whole vectors.
 struct LaneQueue {
   alignas(64) double displacement[max_lanes];
   double velocity[max_lanes], start[max_lanes], end[max_lanes], peak[max_lanes];
   std::uint8_t lane[max_lanes];
-  std::size_t count = 0;  ///< of the members taken; the first is repeated until vectors are full
+  std::size_t count = 0;  ///< of these members; the first is repeated to fill the vectors
 
-  /// @param members       a bit for each that is taken, at least one
+  /// @param members       one bit per member to take, at least one set
   /// @param ground_start  ground acceleration of each member of the row at the beginning of its segment, and
   /// @param ground_end    at its end
   LaneQueue(std::uint64_t members, const double* ground_start, const double* ground_end, const LaneStates& states) {
@@ -64,13 +64,13 @@ struct LaneQueue {
   }
 };
 
-/// A slider of a row that does not get through its segment.
+/// Error of a slider of a row that cannot complete its segment.
 struct LaneError : ConvergenceError {
   LaneError(const ConvergenceError& error, std::size_t place) : ConvergenceError(error), lane(place) {}
   std::size_t lane;
 };
 
-/// Moves one slider of a row by the event loop for single ones.
+/// Integrate one slider of a row by the event loop for single sliders.
 /// @param from  its displacement and velocity at the beginning of the segment; its peak is that of the row
 /// @throws LaneError
 template <FrictionLaw Law>

@@ -1,4 +1,4 @@
-// Sliders with any analytic law side by side, each over a segment of a ground motion of its own, by power series.
+// Sliders with any analytic law in parallel lanes, each over a segment of its own ground motion, by power series.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace stickslip::detail {
 #include "stickslip/detail/lanes/kernel.inl"
 #undef STICKSLIP_LANES_INLINE
 
-/// A law that becomes a power series of lanes.
+/// A law that can be evaluated as a power series in lanes.
 template <class Law>
 concept LawWithLanes = FrictionLaw<Law> && requires(const Law& law, const series::VariableOf<BaselineVector>& x) {
   series::series_of<BaselineVector>(resist(law, x, Direction::forward, x));
@@ -30,7 +30,7 @@ concept LawWithLanes = FrictionLaw<Law> && requires(const Law& law, const series
 
 /// A slide of several sliders, each in its own direction, over a step of its own:
 ///     u' = s (p(t) - wn^2 x) - c u - resist(x, u),    x' = s u,
-/// as power series in time, of which the unit is the step.
+/// as power series in time, in units of the step.
 template <LawWithLanes Law, class Vector>
 class SlideOfLanes {
   using Mask = typename Vector::Mask;
@@ -53,15 +53,15 @@ class SlideOfLanes {
   Vector resists(Direction direction) const { return resists_at(0, direction); }
   Vector resists(const Mask& back) const { return resists_at(0, back); }
 
-  /// Finds the series.
-  /// @param back          the sliders that go backward
+  /// Compute the series.
+  /// @param back          the sliders that slide backward
   /// @param acceleration  net, at the beginning, in each one's direction [m/s^2]
   /// @param gain          of the load within the step, in each one's direction [m/s^2]
   /// @param step          [s]
-  /// @param wanted        the others may have any
+  /// @param wanted        lanes that are needed; the others may have any result
   void expand(const Mask& back, const Vector& acceleration, const Vector& gain, const Vector& step,
               const Mask& wanted) {
-    constexpr double left_out = ConstantLevelLaw<Law> ? 0x1p-54 : 1e-14;  // of the largest term
+    constexpr double left_out = ConstantLevelLaw<Law> ? 0x1p-54 : 1e-14;  // relative to the largest term
     const double stiffness = slider_.stiffness(), damping = slider_.damping();
     const Vector s = select(back, -1.0, 1.0), to_x = s * step;
     const Vector here = resists(back);
@@ -91,8 +91,8 @@ class SlideOfLanes {
     converges_ = small;
     if constexpr (ConstantLevelLaw<Law>) return;
 
-    // Whether the equation of motion holds at the end of the step, and for those that may have come back to where they
-    // began, also within it.
+    // Whether the equation of motion holds at the end of the step, and within it for sliders that may have returned to
+    // their initial position.
     const Mask recent = max(abs(change[0]), max(abs(change[1]), abs(change[2]))) <= max(abs(here), Vector(1e-290));
     const auto balanced = [&](const Vector& part) {
       Vector x = x_[orders_ + 1], u = 0.0, a = 0.0;  // a: by the unit of time
@@ -107,7 +107,7 @@ class SlideOfLanes {
                            stiffness * abs(x_[0]);
       return abs(off * step - a) <= 20 * left_out * (terms * step + fastest);
     };
-    // Where the level has all but underflowed its series says nothing of what lies ahead, towards the center.
+    // If the level has almost underflowed, its series does not represent the level closer to the center.
     const Mask blind = (here <= 1e-290) & (s * x_[0] < 0.0);
     if (any(blind)) converges_ = converges_ & ~(blind & (resists_now(0.0, u_[0], back) > 1e-290));
     converges_ = converges_ & recent & balanced(1.0);
@@ -117,8 +117,8 @@ class SlideOfLanes {
 
   const Mask& converges() const { return converges_; }
 
-  /// Where the speed surely has no zero: the Bernstein coefficients of its first three terms are above all that the
-  /// others can take away.
+  /// Lanes in which the speed certainly has no zero: the Bernstein coefficients of its first three terms exceed the
+  /// largest possible sum of the others.
   Mask goes_on() const {
     Vector rest = 0.0;
     for (int k = 3; k <= orders_; ++k) rest += abs(u_[k]);
@@ -134,10 +134,10 @@ class SlideOfLanes {
   Vector last_displacement() const { return sum(x_, orders_ + 1); }
   Vector last_speed() const { return sum(u_, orders_); }
 
-  /// The zeros of the speed within the step, but that which a slide from rest begins with.
+  /// The zeros of the speed within the step, except the one at the start of a slide from rest.
   struct Stops {
-    Mask none, one;  ///< where that can be said
-    Vector part;     ///< of the step, where there is one
+    Mask none, one;  ///< lanes in which the number is certain
+    Vector part;     ///< time of the zero, as a fraction of the step
   };
   Stops stops(const Mask& from_rest, const Mask& wanted) const {
     Vector c[max_orders + 1], b[max_orders + 1];
@@ -189,7 +189,7 @@ class SlideOfLanes {
   }
 
   static Vector sum(const series::CoefficientsOf<Vector>& c, int orders) {
-    Vector even = 0.0, odd = 0.0;  // small terms first, apart, as an addition must wait for what it adds
+    Vector even = 0.0, odd = 0.0;  // small terms first, in two independent sums
     int k = orders;
     for (; k >= 2; k -= 2) {
       even += c[k];
@@ -201,26 +201,26 @@ class SlideOfLanes {
 
   const Slider<Law>& slider_;
   series::CoefficientsOf<Vector> x_, u_;  // displacement [m], and speed in its direction [m/s]
-  Series forward_, backward_;             // what resists [m/s^2]
+  Series forward_, backward_;             // resistance [m/s^2]
   int orders_ = 0;                        // of the speed
   Mask converges_{};
 };
 
-/// One slider for all, and the length of the segments.
+/// The slider common to all lanes, and the duration of the segments.
 template <LawWithLanes Law>
 struct SeriesLanes {
   SeriesLanes(const Slider<Law>& one, double segment)
       : slider(one), duration(segment), step(one.damping(), one.natural_frequency(), segment) {}
 
-  /// In units of 1 / wn: longer segments of constant friction go one by one.
+  /// In units of 1 / wn: longer segments with constant friction are integrated one by one.
   static constexpr double longest = 1;
 
   Slider<Law> slider;
   double duration;   ///< of each segment [s]
-  DampedBasis step;  ///< through one, under constant friction
+  DampedBasis step;  ///< over one segment, with constant friction
 };
 
-/// Sliders at rest at x: what holds them [m/s^2].
+/// The holding levels of sliders at rest at x [m/s^2].
 template <LawWithLanes Law, class Vector>
 Vector holds(const Law& law, const Vector& x, const Vector& resists, Direction direction) {
   if constexpr (LawWithHold<Law>) {
@@ -230,7 +230,7 @@ Vector holds(const Law& law, const Vector& x, const Vector& resists, Direction d
   }
 }
 
-/// Where the motion of sliders goes within a segment: through all their slips and rests, to the end or, for some, not.
+/// The motion of sliders through all slips and rests of a segment; some may not reach its end.
 template <LawWithLanes Law, class Vector>
 struct EventsOfLanes {
   using Mask = typename Vector::Mask;
@@ -238,14 +238,14 @@ struct EventsOfLanes {
   const SeriesLanes<Law>& lanes;
   Vector x, v, peak, load, last_load;
 
-  /// Says which came to the end.
+  /// Returns which sliders reached the end.
   Mask run() {
     const Vector h = lanes.duration, rate = (last_load - load) / h;
     const double stiffness = lanes.slider.stiffness(), damping = lanes.slider.damping();
     Vector time = 0.0, step = 1.0;  // in segments
     Vector s = select(v < 0.0, -1.0, 1.0), speed = abs(v), net = load - stiffness * x;
     Mask stuck = v == 0.0, done{}, lost{}, from_rest{};
-    Vector halved = 0.0;  // times in a row
+    Vector halved = 0.0;  // consecutive times
     for (int round = 0; round < 64; ++round) {
       SlideOfLanes<Law, Vector> slide(lanes.slider, x, speed);
       if (any(stuck)) {
@@ -254,7 +254,7 @@ struct EventsOfLanes {
         const Vector last_net = last_load - stiffness * x;
         const DepartureOfLanes<Vector> departure(net, last_net, forward, backward);
         const Mask later = stuck & departure.later, slips = later | (stuck & departure.at_once);
-        // What the load gains beyond the level is positive, however they are rounded.
+        // The excess of the load over the level is positive for any rounding.
         const Vector room = abs(departure.level - net), beyond = abs(last_net - departure.level);
         time = select(later, min(time + (1.0 - time) * (room / (room + beyond)), 1.0), time);
         net = select(later, departure.level, net);
@@ -292,8 +292,9 @@ struct EventsOfLanes {
   static Mask select_mask(const Mask& mask, const Mask& yes, const Mask& no) { return (mask & yes) | (~mask & no); }
 };
 
-/// Most slide on the way they do, or are stuck throughout, which constant friction has in closed form; those that this
-/// does not settle are packed and followed through their events; the few that it leaves go through `advance`.
+/// Most sliders slide throughout a segment without an event, or are stuck throughout; with constant friction both cases
+/// have a closed form. The other sliders are packed and followed through their events; the few that remain are
+/// integrated by `advance`.
 template <class Vector, LawWithLanes Law>
 void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const double* start, const double* end,
                  const LaneStates& states) {
@@ -324,8 +325,8 @@ void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const doubl
       const Vector slope = gain / h;
       there = x + s * (speed * step.impulse + push * step.step + slope * step.ramp);
       last_speed = speed * step.decay + push * step.impulse + slope * step.step;
-      // The acceleration decays and swings; where it swings by a radian at most, it never exceeds the sum of those at
-      // the ends of the step. The speed leaves the straight line between its ends by an eighth of its curvature.
+      // The acceleration is a decaying oscillation; over at most one radian it never exceeds the sum of its values at
+      // the ends of the step. The speed differs from the line between its ends by at most an eighth of its curvature.
       const Vector after = s * (last_load - stiffness * there) - slide.resists(back) - damping * last_speed;
       const Vector most = abs(acceleration) + abs(after);
       const Vector curvature = abs(slope) + stiffness * (max(speed, last_speed) + h * most) + damping * most;
@@ -375,9 +376,9 @@ template <LawWithLanes Law>
 }
 #endif
 
-/// Moves each slider over its segment of ground acceleration, from start[i] to end[i] [m/s^2]:
+/// Integrate each slider over its segment of ground acceleration, from start[i] to end[i] [m/s^2]:
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t)
-/// with the same events as `advance`; by the instructions that this processor has.
+/// with the same events as `advance`, with the instruction set of this processor.
 /// @param members  at most `max_lanes`
 template <LawWithLanes Law>
 void advance_lanes(const SeriesLanes<Law>& lanes, std::size_t members, const double* start, const double* end,
@@ -391,7 +392,7 @@ void advance_lanes(const SeriesLanes<Law>& lanes, std::size_t members, const dou
 
 }  // namespace stickslip::detail
 
-#ifdef STICKSLIP_LIBRARY  // linked to: it holds these
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
 namespace stickslip::detail {
 extern template void advance_lanes(const SeriesLanes<Coulomb>&, std::size_t, const double*, const double*,
                                    const LaneStates&);

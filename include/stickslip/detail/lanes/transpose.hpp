@@ -1,4 +1,4 @@
-// Rows to columns: from records to lanes and back.
+// Transposition between records and lanes.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace stickslip::detail {
 
-/// Element (k, i) of the one becomes element (i, k) of the other; rows are `stride` apart.
-/// @param rows  of what is transposed, a multiple of four
+/// Transpose: element (k, i) of the source becomes element (i, k) of the result; rows are `stride` apart.
+/// @param rows  number of rows, a multiple of four
 void transpose(const double* from, std::size_t rows, std::size_t columns, std::size_t from_stride, double* to,
                std::size_t to_stride);
 

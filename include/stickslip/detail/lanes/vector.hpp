@@ -1,8 +1,9 @@
-// Doubles side by side, in the compiler's own vectors: formulas read like the equations. Each operation goes lane by
-// lane.
+// Vectors of doubles, from the vector extensions of the compiler, so that formulas read like the equations. Operations
+// apply to each lane.
 //
-// There is one for each instruction set. What calls its operations, be it a user's law, must become part of one
-// function that is compiled for that set, [[gnu::target(...), gnu::flatten]]; it is written once, for all.
+// There is one vector type for each instruction set. All code that uses its operations, also a user-defined law, must
+// be inlined into one function that is compiled for that set, [[gnu::target(...), gnu::flatten]]; the code is written
+// once.
 #pragma once
 
 #include <cmath>
@@ -12,7 +13,7 @@
 
 #include "stickslip/series/series.hpp"
 
-#ifdef __GNUC__  // and Clang; others do without
+#ifdef __GNUC__  // also Clang; other compilers do not use lanes
 #define STICKSLIP_VECTORS
 
 namespace stickslip::detail {
@@ -24,7 +25,7 @@ namespace stickslip::detail {
 #define STICKSLIP_VECTOR_BITS(lanes) ((lanes[0] & 1) | (lanes[1] & 2))
 #include "stickslip/detail/lanes/vector.inl"
 
-// Sanitizers would take minutes over what is flattened; Clang flattens one level only.
+// With sanitizers, flattened functions take minutes to compile; Clang flattens one level only.
 #ifdef __SANITIZE_ADDRESS__
 #define STICKSLIP_FLATTEN
 #else
