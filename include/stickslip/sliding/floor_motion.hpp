@@ -146,8 +146,8 @@ class FloorPiece {
 ///
 /// It jumps at the start of a slip, at a reversal and at a stop; a piece ends there. While the slider sticks it equals
 /// the ground acceleration, and while it slides under a constant level without spring and damper it equals that level;
-/// both are exact. Otherwise each time step is divided into equal pieces, so many that their chords are within
-/// `tolerance`.
+/// both are exact. Otherwise each time step is divided into the number of equal pieces that keeps their
+/// chords within `tolerance`.
 ///
 /// @param slider     the slider
 /// @param motion     its ground motion
