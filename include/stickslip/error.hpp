@@ -1,7 +1,7 @@
-// Errors, and how their messages are written.
+// Errors and their messages.
 //
-// Input is checked once, at the door: what is refused is named with its value and the rule it breaks, as
-// `GroundMotion: dt must be positive and finite, got -0.01 s`. Inside, nothing is checked again.
+// Public functions check their input once. The message names the rejected value and the rule, for example
+// `GroundMotion: dt must be positive and finite, got -0.01 s`. Internal functions do not check it again.
 #pragma once
 
 #include <charconv>
@@ -13,7 +13,7 @@
 
 namespace stickslip {
 
-/// A computation that could not reach what was asked of it: the message says how far it came and what to change.
+/// A computation did not converge or complete. The message states how far it came and what to change.
 /// `stickslip.ConvergenceError` (a RuntimeError) in Python.
 class ConvergenceError : public std::runtime_error {
  public:
@@ -37,7 +37,7 @@ inline std::string shortest(double value) {
   throw std::invalid_argument(message);
 }
 
-/// Refuses unless the rule holds.
+/// Throws unless the rule holds.
 inline void require(bool holds, std::string_view rule, double value, std::string_view unit = {}) {
   if (!holds) refuse(rule, value, unit);
 }

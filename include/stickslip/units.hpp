@@ -1,4 +1,4 @@
-// SI everywhere inside; what is not SI is converted here, once.
+// Internal quantities are in SI units; conversions of other units are here.
 #pragma once
 
 #include "stickslip/detail/requirements.hpp"

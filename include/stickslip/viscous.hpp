@@ -1,4 +1,4 @@
-// A mass on a viscous damper: the linear system that stands in for a slider on friction.
+// A mass on a viscous damper: the linear system that approximates a slider with friction.
 #pragma once
 
 #include "stickslip/friction/coulomb.hpp"

@@ -158,16 +158,16 @@ class PoissonPulses {
   double ground_velocity_variance() const noexcept;
 
   /// Variance of the ground displacement [m^2] at large times: lambda sigma^2 (int int w)^2 t; thesis (5.47), (5.49):
-  /// lambda Dt^4 sigma^2 t. From the thesis's start-up the exact value beyond 2 Dt has t - 37/30 Dt instead of t.
-  /// Infinite for a shape that leaves a net velocity: the displacement then grows faster than any line.
+  /// lambda Dt^4 sigma^2 t. With the start of the thesis, the exact value beyond 2 Dt has t - 37/30 Dt instead of t.
+  /// Infinite for a shape that leaves a net velocity: the variance then grows faster than linearly.
   /// @param t  [s], finite and at least 0
   double ground_displacement_variance(double t) const;
 
-  /// All that the motions depend on, as one JSON object. A distribution of amplitudes is identified by its values: the
-  /// hash of 1024 of its quantiles, each as a float.
+  /// Everything that the motions depend on, as one JSON object. A distribution of amplitudes is identified by its
+  /// values: the hash of 1024 of its quantiles, each as a float.
   std::string configuration() const;
 
-  /// Equal excitations make the same motions: distributions of amplitudes are compared by that hash.
+  /// Equal excitations give the same motions; distributions of amplitudes are compared by this hash.
   friend bool operator==(const PoissonPulses& a, const PoissonPulses& b) noexcept {
     return detail::equal(a.rate_, b.rate_) && detail::equal(a.half_width_, b.half_width_) &&
            detail::equal(a.sigma_, b.sigma_) && detail::equal(a.duration_, b.duration_) &&
@@ -181,8 +181,8 @@ class PoissonPulses {
   double sigma_;
   double duration_;
   Options options_;
-  std::vector<double> edges_;        // the shape's times [s]
-  std::uint64_t quantile_hash_ = 0;  // 0 without
+  std::vector<double> edges_;        // times of the shape [s]
+  std::uint64_t quantile_hash_ = 0;  // 0 if there is none
 };
 
 }  // namespace stickslip

@@ -1,4 +1,4 @@
-// The shape of the pulses that random ground motion is made of.
+// The shape of the pulses of a random ground motion.
 #pragma once
 
 #include <span>
@@ -11,35 +11,36 @@ namespace stickslip {
 
 /// The shape w of a pulse: piecewise constant, zero before it starts and after it ends.
 ///
-/// Times are multiples of the half width: one shape serves pulses of any length. With a half width of 1 s they are
-/// seconds.
+/// Times are in units of the half width, so that a shape applies to pulses of any length. With a half width of 1 s they
+/// are in seconds.
 class PulseShape {
  public:
   /// The symmetric rectangular pulse, thesis (5.29): +1 from 0 to 1, -1 from 1 to 2.
   PulseShape() = default;
 
-  /// @param times   where the pieces begin and end, finite and increasing; the first is 0
+  /// @param times   limits of the pieces, finite and increasing; the first is 0
   /// @param values  of the pieces, one fewer than times, finite, not all zero
-  /// @throws std::invalid_argument naming the value refused and its index
+  /// @throws std::invalid_argument naming the rejected value and its index
   PulseShape(std::vector<double> times, std::vector<double> values);
 
-  /// The shape of pulses that have a given spectrum (5.20), to within a constant: its largest |value| is 1.
+  /// The shape of pulses with a given spectrum (5.20), up to a factor: its largest |value| is 1.
   ///
-  /// The spectrum gives the amplitude of the pulse's Fourier transform. That it is zero before it begins gives the
-  /// phase, the Hilbert transform of the amplitude's logarithm (thesis 5.3): of all causal pulses with this amplitude
-  /// it is the one of minimum phase, which has its energy earliest. It is found by FFT on the cepstrum, in pieces of
-  /// length dt, for whose steps the amplitude is corrected. A spectrum that is zero at omega = 0 gets a shape that
-  /// leaves no velocity, exactly but for rounding, and one that falls as omega^4 no displacement either.
-  /// @param spectrum   positive from 0 to pi / dt but for single frequencies, where it may be zero: of other spectra no
-  ///                   pulse that begins at a time exists (Paley and Wiener). That of a record or a band can be given a
-  ///                   floor.
-  /// @param dt         length of a piece, in the unit of the shape's times: seconds for a half width of 1 s; finite
-  ///                   and positive. The spectrum is had below pi / dt; beyond, steps leave an image of it.
+  /// The spectrum determines the amplitude of the Fourier transform of the pulse. Because the pulse is zero before its
+  /// start, the phase is the Hilbert transform of the logarithm of the amplitude (thesis 5.3). Of all causal pulses
+  /// with this amplitude, this is the minimum-phase pulse, whose energy arrives earliest. It is computed by FFT from
+  /// the cepstrum, in pieces of length dt, with the amplitude corrected for the steps. For a spectrum that is zero at
+  /// omega = 0 the shape leaves no velocity, up to rounding; for one that decreases as omega^4 it also leaves no
+  /// displacement.
+  /// @param spectrum   positive from 0 to pi / dt, except at single frequencies, where it may be zero: for other
+  /// spectra
+  ///                   no causal pulse exists (Paley and Wiener). Add a floor to the spectrum of a record or a band
+  /// @param dt         length of a piece, in units of the half width (seconds for a half width of 1 s); finite and
+  ///                   positive. The pulses have the spectrum below pi / dt; the steps cause an image of it above
   /// @param tolerance  the integral of |S of the pulses - S| over that of S, from 0 to pi / dt; from 1e-6 to 0.1. The
-  ///                   shape is cut where that allows it: a tighter one takes more pieces.
-  /// @throws std::invalid_argument naming the value refused, or the frequency at which the spectrum is zero; where
-  ///         half a million pieces do not hold the pulse
-  /// Cost: some ten FFTs of 4,096 to a million points.
+  ///                   shape ends where this tolerance permits: a smaller tolerance needs more pieces
+  /// @throws std::invalid_argument naming the rejected value, or the frequency at which the spectrum is zero; also if
+  ///         half a million pieces do not suffice for the pulse
+  /// Cost: about ten FFTs of 4,096 to a million points.
   /// Reference: thesis 5.3; A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing (1989), 12.
   static PulseShape from_spectrum(const Spectrum& spectrum, double dt, double tolerance = 1e-3);
 
