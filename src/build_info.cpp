@@ -2,8 +2,10 @@
 
 #include <fftw3.h>
 #include <gsl/gsl_version.h>
+#include <hwy/highway.h>
 #include <sundials/sundials_version.h>
 
+#include <Eigen/Core>
 #include <string>
 
 #include "commit.hpp"
@@ -15,6 +17,10 @@ namespace {
 std::string fftw() {
   const std::string text = fftw_version;
   return text.starts_with("fftw-") ? text.substr(5) : text;
+}
+
+std::string release(int major, int minor, int patch) {
+  return std::to_string(major) + '.' + std::to_string(minor) + '.' + std::to_string(patch);
 }
 
 std::string sundials() {
@@ -31,8 +37,10 @@ const BuildInfo& build_info() {
       .build_type = STICKSLIP_BUILD_TYPE,
       .compiler_flags = STICKSLIP_COMPILER_FLAGS,
       .commit = STICKSLIP_COMMIT,
+      .eigen = release(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION),
       .fftw = fftw(),
       .gsl = gsl_version,
+      .highway = release(HWY_MAJOR, HWY_MINOR, HWY_PATCH),
       .sundials = sundials(),
   };
   return info;

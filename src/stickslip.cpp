@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
@@ -56,18 +57,33 @@ int guarded(Work&& work) noexcept {
   }
 }
 
+// The rules are checked at each step: their messages are composed only for an error.
+[[noreturn, gnu::noinline]] void refuse_flag(const char* name, int value) {
+  detail::refuse(std::string("stickslip_slider: ") + name + " must be 0 or 1", value);
+}
+[[noreturn, gnu::noinline]] void refuse_pointer(const char* name) {
+  throw std::invalid_argument(std::string("stickslip: ") + name + " must not be null");
+}
+[[noreturn, gnu::noinline]] void refuse_gap(const char* name, double value) {
+  detail::refuse(std::string("stickslip_slider: ") + name + " must be at least 0", value, "m");
+}
+[[noreturn, gnu::noinline]] void refuse_mode(double mode, double velocity) {
+  detail::refuse("stickslip_state: mode must be the sign of the velocity, " + detail::shortest(velocity) + " m/s",
+                 mode);
+}
+
 void require_pointer(const void* pointer, const char* name) {
-  if (pointer == nullptr) throw std::invalid_argument(std::string("stickslip: ") + name + " must not be null");
+  if (pointer == nullptr) refuse_pointer(name);
 }
 
 bool flag(int value, const char* name) {
-  detail::require(value == 0 || value == 1, std::string("stickslip_slider: ") + name + " must be 0 or 1", value);
+  if (value != 0 && value != 1) refuse_flag(name, value);
   return value == 1;
 }
 
 /// The distance to a stop; infinite if there is none.
 double gap(double given, const char* name) {
-  detail::require(given >= 0, std::string("stickslip_slider: ") + name + " must be at least 0", given, "m");
+  if (!(given >= 0)) refuse_gap(name, given);
   return given > 0 ? given : std::numeric_limits<double>::infinity();
 }
 
@@ -79,54 +95,86 @@ Mounting mounting(const stickslip_slider& s) {
           .stops = Stops(gap(s.gap, "gap"), gap(s.backward_gap, "backward_gap"), s.restitution)};
 }
 
-/// Calls `work` with the slider.
-template <class Work>
-void with_slider(const stickslip_slider* s, Work&& work) {
-  require_pointer(s, "slider");
-  const Contact contact = flag(s->clipped, "clipped") ? Contact::clipped : Contact::flight;
-  const Coulomb sliding(s->slip_level);
-  if (s->static_level == 0)
-    work(Slider(sliding, mounting(*s)), contact);
-  else
-    work(Slider(StaticKinetic(sliding, s->static_level), mounting(*s)), contact);
-}
-
 State state_of(const stickslip_state& s) {
   const double sign = s.velocity > 0 ? 1 : s.velocity < 0 ? -1 : 0;
   detail::require(s.mode == 0 || s.mode == 1 || s.mode == -1, "stickslip_state: mode must be 0, 1 or -1", s.mode);
-  detail::require(sign == 0 || s.mode == sign,
-                  "stickslip_state: mode must be the sign of the velocity, " + detail::shortest(s.velocity) + " m/s",
-                  s.mode);
+  if (sign != 0 && s.mode != sign) refuse_mode(s.mode, s.velocity);
   detail::require(s.in_flight == 0 || s.in_flight == 1, "stickslip_state: in_flight must be 0 or 1", s.in_flight);
   detail::require(s.gap >= 0 && std::isfinite(s.gap), "stickslip_state: gap must be finite and at least 0", s.gap, "m");
   detail::require(std::isfinite(s.gap_velocity), "stickslip_state: gap_velocity must be finite", s.gap_velocity, "m/s");
-  return {s.displacement,   s.velocity, static_cast<Mode>(static_cast<int>(s.mode)),
+  return {s.displacement,   s.velocity, s.mode > 0 ? Mode::forward : s.mode < 0 ? Mode::backward : Mode::stuck,
           s.in_flight == 1, s.gap,      s.gap_velocity};
+}
+
+/// Calls `work` with the slider, and whether it flies where the normal force is negative.
+template <class Work>
+auto with_slider(const stickslip_slider* s, Work&& work) {
+  require_pointer(s, "slider");
+  const Contact contact = flag(s->clipped, "clipped") ? Contact::clipped : Contact::flight;
+  const Coulomb sliding(s->slip_level);
+  if (s->static_level == 0) return work(Slider(sliding, mounting(*s)), contact);
+  return work(Slider(StaticKinetic(sliding, s->static_level), mounting(*s)), contact);
+}
+
+template <class Law>
+void step(const Slider<Law>& slider, Contact contact, const stickslip_segment* segment, stickslip_state* state) {
+  require_pointer(segment, "segment");
+  require_pointer(state, "state");
+  State at = state_of(*state);
+  const stickslip_segment& s = *segment;
+  const Segment horizontal{s.duration, s.start, s.end};
+  NoObserver none;
+  if (s.vertical_start == 0 && s.vertical_end == 0)
+    advance(slider, horizontal, at, none, contact);
+  else
+    advance(slider, detail::load_segment(horizontal, slider.slope(), s.vertical_start, s.vertical_end), at, none,
+            contact);
+  state->displacement = at.displacement;
+  state->velocity = at.velocity;
+  state->mode = static_cast<double>(at.mode);
+  state->in_flight = at.in_flight ? 1 : 0;
+  state->gap = at.gap;
+  state->gap_velocity = at.gap_velocity;
 }
 
 }  // namespace
 }  // namespace stickslip
 
+struct stickslip_model {
+  std::variant<stickslip::Slider<stickslip::Coulomb>, stickslip::Slider<stickslip::StaticKinetic<>>> slider;
+  stickslip::Contact contact;
+};
+
 extern "C" {
+
+int stickslip_create(const stickslip_slider* slider, stickslip_model** model) {
+  using namespace stickslip;
+  return guarded([&] {
+    require_pointer(model, "model");
+    *model = nullptr;
+    *model = with_slider(slider, [](const auto& checked, Contact contact) {
+      return new stickslip_model{checked, contact};
+    });
+  });
+}
+
+int stickslip_step(const stickslip_model* model, const stickslip_segment* segment, stickslip_state* state) {
+  using namespace stickslip;
+  return guarded([&] {
+    require_pointer(model, "model");
+    if (const auto* slider = std::get_if<Slider<Coulomb>>(&model->slider))
+      step(*slider, model->contact, segment, state);
+    else
+      step(std::get<Slider<StaticKinetic<>>>(model->slider), model->contact, segment, state);
+  });
+}
+
+void stickslip_destroy(stickslip_model* model) { delete model; }
 
 int stickslip_advance(const stickslip_slider* slider, const stickslip_segment* segment, stickslip_state* state) {
   using namespace stickslip;
   return guarded([&] {
-    require_pointer(segment, "segment");
-    require_pointer(state, "state");
-    with_slider(slider, [&](const auto& moving, Contact contact) {
-      State at = state_of(*state);
-      const stickslip_segment& s = *segment;
-      const Segment horizontal{s.duration, s.start, s.end};
-      NoObserver none;
-      if (s.vertical_start == 0 && s.vertical_end == 0)
-        advance(moving, horizontal, at, none, contact);
-      else
-        advance(moving, detail::load_segment(horizontal, moving.slope(), s.vertical_start, s.vertical_end), at, none,
-                contact);
-      *state = {at.displacement,          at.velocity, static_cast<double>(at.mode),
-                at.in_flight ? 1.0 : 0.0, at.gap,      at.gap_velocity};
-    });
+    with_slider(slider, [&](const auto& checked, Contact contact) { step(checked, contact, segment, state); });
   });
 }
 

@@ -14,8 +14,10 @@ struct BuildInfo {
   std::string build_type;      ///< such as "Release"
   std::string compiler_flags;  ///< such as "-O3 -DNDEBUG"
   std::string commit;          ///< by `git describe`, with "-dirty" if edited; "unknown" outside a repository
+  std::string eigen;           ///< headers alone, so at compile time
   std::string fftw;            ///< at run time, such as "3.3.10-sse2-avx"
   std::string gsl;
+  std::string highway;  ///< at compile time
   std::string sundials;
 };
 

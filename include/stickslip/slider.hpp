@@ -35,14 +35,22 @@ struct Mounting {
 /// the upward ground acceleration [m/s^2]. On level ground without vertical motion p = -n and N = g. At rest it stays
 /// while
 ///     -hold_backward N+/g <= p - wn^2 x <= hold_forward N+/g.
-template <FrictionLaw Law>
+template <class Law>
 class Slider {
+  static_assert(!detail::LawWithDirectionBeforeSpeed<Law>,
+                "friction law: the order of arguments is resist(x, speed, direction)");
+  static_assert(
+      FrictionLaw<Law> || detail::LawWithDirectionBeforeSpeed<Law>,
+      "friction law: must be copyable and define `resist(x, direction) const` or `resist(x, speed, direction) "
+      "const`, with doubles or template parameters for x and speed, or at, ahead and pass of a law with "
+      "memory; see stickslip/friction/law.hpp");
+
  public:
   /// @param law                the friction law
   /// @param natural_frequency  wn, of the spring and the mass without friction [rad/s], finite and at least 0; 0 is no
   ///                           spring
   /// @param damping            c, of the damper per unit mass [1/s], finite and at least 0; 2 wn times the
-  ///                           damping ratio
+  ///                           damping ratio; its square is finite
   /// @throws std::invalid_argument naming the value
   explicit Slider(Law law, double natural_frequency = 0, double damping = 0)
       : Slider(std::move(law), Mounting{natural_frequency, damping}) {}
@@ -56,8 +64,8 @@ class Slider {
     mounting_.damping += 0.0;
     detail::require(std::isfinite(stiffness()) && natural_frequency() >= 0,
                     "Slider: natural_frequency must be finite and at least 0", natural_frequency(), "rad/s");
-    detail::require(std::isfinite(damping()) && damping() >= 0, "Slider: damping must be finite and at least 0",
-                    damping(), "1/s");
+    detail::require(std::isfinite(damping() * damping()) && damping() >= 0,
+                    "Slider: damping and its square must be finite and at least 0", damping(), "1/s");
     const double degrees = mounting_.slope_degrees;
     detail::require(degrees >= 0 && degrees < 90, "Slider: slope_degrees must be from 0 to less than 90", degrees,
                     "degrees");
@@ -129,7 +137,7 @@ class Slider {
   bool plain() const noexcept { return plain_; }
 
  private:
-  template <FrictionLaw>
+  template <class>
   friend class Slider;
   struct Unchecked {};
   Slider(Law law, const Mounting& mounting, Unchecked) : law_(std::move(law)), mounting_(mounting) {}
@@ -142,12 +150,13 @@ class Slider {
 
 namespace detail {
 
-/// Throws for a mounting that a function does not cover.
+/// Throws for a mounting that a function without vertical motion does not cover. (A pendulum is then a spring.)
 template <FrictionLaw Law>
 void require_plain_mounting(const Slider<Law>& slider, std::string_view function) {
-  if (!slider.plain())
+  const Mounting& on = slider.mounting();
+  if (!equal(on.slope_degrees, 0) || on.one_way || on.stops)
     throw std::invalid_argument(std::string(function) +
-                                ": covers sliders on level ground that slide both ways, without stops and pendulum");
+                                ": covers sliders on level ground that slide both ways, without stops");
 }
 
 }  // namespace detail

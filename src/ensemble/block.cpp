@@ -54,6 +54,9 @@ Block::~Block() = default;
 void Block::begin(std::size_t members) {
   members_ = members;
   grounds_ = 0;
+  impacts_.clear();
+  gaps_ = {};
+  airborne_ = 0;
   tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0, ground_acceleration_);
   tally_.count = members;
   std::fill(central_.begin(), central_.end(), 0.0);
@@ -71,6 +74,12 @@ void Block::row(std::size_t time, const double* displacement, const double* velo
   const std::size_t marks[] = {begin, begin + length / 2, begin + length};
   for (std::size_t i = 0; i < 3; ++i)
     if (time == marks[i]) std::copy_n(displacement, width_, marks_.data() + i * width_);
+}
+
+void Block::impacts(std::size_t member, const Stops& stops, const Impacts& impacts) {
+  impacts_.resize(width_);
+  impacts_[member] = impacts;
+  gaps_.include(gaps_of(stops));
 }
 
 void Block::ground(std::span<const double> acceleration) {

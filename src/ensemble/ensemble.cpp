@@ -40,6 +40,23 @@ std::string differences(const Ensemble::Configuration& a, const Ensemble::Config
   return text;
 }
 
+void add(Ensemble::Hits& sum, const Ensemble::Hits& more) {
+  sum.either += more.either;
+  sum.forward += more.forward;
+  sum.backward += more.backward;
+}
+
+Ensemble::Hits hits_among(const std::map<std::uint64_t, Ensemble::Kept>& kept) {
+  Ensemble::Hits hits;
+  for (const auto& [block, values] : kept)
+    for (const Impacts& one : values.impacts) {
+      hits.either += one.any() ? 1 : 0;
+      hits.forward += one.forward.count > 0 ? 1 : 0;
+      hits.backward += one.backward.count > 0 ? 1 : 0;
+    }
+  return hits;
+}
+
 void check_probability(const char* rule, double value) { detail::require(value > 0 && value < 1, rule, value); }
 
 }  // namespace
@@ -122,7 +139,25 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
       detail::require(std::isfinite(values.residual[i]), "Ensemble: a residual must be finite", values.residual[i],
                       "m");
     }
+    expect(values.impacts.empty() || values.impacts.size() == values.peak.size(),
+           "block " + std::to_string(number) + " has impacts of " + std::to_string(values.impacts.size()) +
+               " members, which do not belong to it");
+    for (const Impacts& one : values.impacts)
+      for (const auto& [side, gap] :
+           {std::pair(one.forward, parts_.gaps.forward), {one.backward, parts_.gaps.backward}}) {
+        detail::require(std::isfinite(side.speed) && side.speed >= 0,
+                        "Ensemble: the speed of an impact must be finite and at least 0", side.speed, "m/s");
+        expect(side.count > 0 ? std::isfinite(gap) : side.speed <= 0, "impacts must be on stops");
+      }
   }
+  for (const double gap : {parts_.gaps.forward, parts_.gaps.backward})
+    detail::require(gap > 0, "Ensemble: the smallest gap of a stop must be positive", gap, "m");
+  const Hits& hits = parts_.hits;
+  expect(hits.either <= parts_.peaks.count() && hits.forward <= hits.either && hits.backward <= hits.either &&
+             hits.either - hits.forward <= hits.backward,
+         "impossible numbers of members that hit a stop: " + std::to_string(hits.forward) + " forward, " +
+             std::to_string(hits.backward) + " backward, " + std::to_string(hits.either) + " on either side");
+  expect(parts_.airborne <= members(), "more members end in flight than there are");
   expect(kept == members(),
          "the parts hold " + std::to_string(members()) + " members and " + std::to_string(kept) + " peaks");
 }
@@ -135,7 +170,10 @@ std::vector<double> Ensemble::time() const {
   return times;
 }
 
-void Ensemble::insert(std::uint64_t block, detail::Tally tally, Kept kept) {
+void Ensemble::insert(std::uint64_t block, detail::Tally tally, Kept kept, const SmallestGaps& gaps,
+                      std::size_t airborne) {
+  parts_.gaps.include(gaps);
+  parts_.airborne += airborne;
   if (kept.peak.size() != Ensemble::block(parts_.times.count)) parts_.cut.emplace(block, kept.peak.size());
   parts_.tallies.insert({0, block}, std::move(tally));
   parts_.kept.emplace(block, std::move(kept));
@@ -146,6 +184,7 @@ void Ensemble::bound_memory() {
   if (parts_.peaks.count() == 0 && members() <= max_kept) return;
   for (const auto& [block, values] : parts_.kept)
     for (const double peak : values.peak) parts_.peaks.add(peak);
+  add(parts_.hits, hits_among(parts_.kept));
   parts_.kept.clear();
 }
 
@@ -163,6 +202,10 @@ void Ensemble::merge(const Ensemble& other) {
   parts_.cut.insert(other.parts_.cut.begin(), other.parts_.cut.end());
   parts_.kept.insert(other.parts_.kept.begin(), other.parts_.kept.end());
   parts_.peaks.merge(other.parts_.peaks);
+  add(parts_.hits, other.parts_.hits);
+  parts_.gaps.include(other.parts_.gaps);
+  parts_.has_impacts = parts_.has_impacts && other.parts_.has_impacts;
+  parts_.airborne += other.parts_.airborne;
   bound_memory();
 }
 
@@ -377,10 +420,14 @@ VelocitySpectrum Ensemble::velocity_spectrum() const {
 
 namespace {
 
-std::vector<double> gathered(const Ensemble::Parts& parts, std::vector<double> Ensemble::Kept::*what) {
+void need_single_members(const Ensemble::Parts& parts) {
   if (parts.peaks.count() != 0)
     throw std::domain_error("Ensemble: the single members of more than " + std::to_string(Ensemble::max_kept) +
-                            " are not kept; quantile and exceedance know their distribution");
+                            " are not kept; quantile, exceedance and impact_probability know their distribution");
+}
+
+std::vector<double> gathered(const Ensemble::Parts& parts, std::vector<double> Ensemble::Kept::*what) {
+  need_single_members(parts);
   std::vector<double> all;
   for (const auto& [block, values] : parts.kept) all.insert(all.end(), (values.*what).begin(), (values.*what).end());
   return all;
@@ -404,6 +451,37 @@ std::uint64_t binomial_quantile(double share, double p, std::uint64_t n) {
 }
 
 }  // namespace
+
+void Ensemble::need_impacts(double gap, const char* side) const {
+  if (!parts_.has_impacts)
+    throw std::domain_error(
+        "Ensemble: impacts are unknown, because members come from a file written before impacts were kept; run the "
+        "ensemble again");
+  if (!std::isfinite(gap)) throw std::domain_error(std::string("Ensemble: no member has a stop") + side);
+}
+
+std::vector<Impacts> Ensemble::impacts() const {
+  need_impacts(parts_.gaps.smallest(), "");
+  need_single_members(parts_);
+  std::vector<Impacts> all;
+  for (const auto& [block, values] : parts_.kept) {
+    all.insert(all.end(), values.impacts.begin(), values.impacts.end());
+    if (values.impacts.empty()) all.resize(all.size() + values.peak.size());
+  }
+  return all;
+}
+
+Interval Ensemble::impact_probability(double confidence) const {
+  need_impacts(parts_.gaps.smallest(), "");
+  return fraction(hits_among(parts_.kept).either + parts_.hits.either, confidence);
+}
+
+Interval Ensemble::impact_probability(Direction side, double confidence) const {
+  const bool forward = side == Direction::forward;
+  need_impacts(forward ? parts_.gaps.forward : parts_.gaps.backward, forward ? " forward" : " backward");
+  const Hits kept = hits_among(parts_.kept);
+  return fraction(forward ? kept.forward + parts_.hits.forward : kept.backward + parts_.hits.backward, confidence);
+}
 
 std::vector<double> Ensemble::peak() const { return gathered(parts_, &Kept::peak); }
 std::vector<double> Ensemble::residual() const { return gathered(parts_, &Kept::residual); }
@@ -432,19 +510,38 @@ Interval Ensemble::quantile(double probability, double confidence) const {
 
 Interval Ensemble::exceedance(double level, double confidence) const {
   detail::require(level >= 0 && std::isfinite(level), "Ensemble: level must be finite and at least 0", level, "m");
+  if (!parts_.has_impacts) need_impacts(0, "");
+  const double gap = parts_.gaps.smallest();
+  if (level > gap)
+    throw std::invalid_argument("Ensemble: level must be at most " + detail::shortest(gap) +
+                                " m, the smallest gap of a stop, which keeps |x| from exceeding it, got " +
+                                detail::shortest(level) +
+                                " m; impact_probability is the fraction of members that hit a stop");
+  std::uint64_t exceeding = 0;
+  if (parts_.peaks.count() != 0) {
+    if (!(level < gap)) need_single_members(parts_);
+    exceeding = parts_.peaks.above(level);
+  }
+  for (const auto& [block, values] : parts_.kept)
+    for (std::size_t i = 0; i < values.peak.size(); ++i) {
+      // A member that hit a stop was at least as far as the level.
+      const bool hit = !values.impacts.empty() && values.impacts[i].any();
+      exceeding += values.peak[i] > level || hit ? 1 : 0;
+    }
+  return fraction(exceeding, confidence);
+}
+
+Interval Ensemble::fraction(std::uint64_t count, double confidence) const {
   check_probability("Ensemble: confidence must lie between 0 and 1", confidence);
   const std::uint64_t members_all = members();
   need_two(members_all);
-  std::uint64_t exceeding = parts_.peaks.count() != 0 ? parts_.peaks.above(level) : 0;
-  for (const auto& [block, values] : parts_.kept)
-    exceeding += static_cast<std::uint64_t>(
-        std::count_if(values.peak.begin(), values.peak.end(), [&](double peak) { return peak > level; }));
-  const auto k = static_cast<double>(exceeding), n = static_cast<double>(members_all);
+  const auto k = static_cast<double>(count), n = static_cast<double>(members_all);
   const double tail = (1 - confidence) / 2;
   // GSL's inverse of the beta distribution fails to converge for one count in ten of 20,000, and would end the process.
   const auto low = [&](double p) { return !(gsl_cdf_beta_P(p, k, n - k + 1) < tail); };
   const auto high = [&](double p) { return !(gsl_cdf_beta_Q(p, k + 1, n - k) > tail); };
-  return {k / n, k == 0 ? 0 : numerics::first_where(0, 1, low), k == n ? 1 : numerics::first_where(0, 1, high)};
+  return {k / n, count == 0 ? 0 : numerics::first_where(0, 1, low),
+          count == members_all ? 1 : numerics::first_where(0, 1, high)};
 }
 
 }  // namespace stickslip

@@ -88,9 +88,11 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
       Ensemble::Kept kept;
       kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
       kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
+      if (const auto impacts = block.impacts(); !impacts.empty())
+        kept.impacts.assign(impacts.begin(), impacts.begin() + static_cast<std::ptrdiff_t>(members));
       check_range(kept, tally, times, number * block_size);
       const std::scoped_lock lock(mutex);
-      ensemble.insert(number, std::move(tally), std::move(kept));
+      ensemble.insert(number, std::move(tally), std::move(kept), block.gaps(), block.airborne());
       done += members;
     }
   };

@@ -53,23 +53,25 @@ std::vector<double> velocities(const GroundMotion& motion, double begin, double 
 }
 
 /// Of the strong part, up to a quarter of the frequency of its samples, which are means over their intervals.
-Densities periodogram(const GroundMotion& motion, const StrongMotion& strong) {
+/// @param finer  values per 1 / duration: with 2, as if zeros followed the strong part for as long again. A sum over
+///               all values then has no products of the beginning with the end, which for a few pulses matter.
+Densities periodogram(const GroundMotion& motion, const StrongMotion& strong, std::size_t finer) {
   const double whole = motion.time(motion.segments()) - motion.time(0);
   const double steps = 8 * static_cast<double>(motion.segments()) * strong.duration / whole;
   std::size_t n = 4096;
   while (static_cast<double>(n) < steps && n < max_samples) n *= 2;
   const double peak = motion.peak_acceleration(), dt = strong.duration / static_cast<double>(n);
   const std::vector<double> velocity = velocities(motion.scaled(1 / peak), strong.begin, strong.end, n);
-  std::vector<double> sample(n);
+  std::vector<double> sample(finer * n);
   const double mean = (velocity[n] - velocity[0]) / static_cast<double>(n);
   for (std::size_t k = 0; k < n; ++k) sample[k] = (velocity[k + 1] - velocity[k] - mean) / dt;
-  std::vector<std::complex<double>> lines(n / 2 + 1);
+  std::vector<std::complex<double>> lines(sample.size() / 2 + 1);
   const auto plan = detail::make_plan([&] {
-    return fftw_plan_dft_r2c_1d(static_cast<int>(n), sample.data(), reinterpret_cast<fftw_complex*>(lines.data()),
-                                FFTW_ESTIMATE);
+    return fftw_plan_dft_r2c_1d(static_cast<int>(sample.size()), sample.data(),
+                                reinterpret_cast<fftw_complex*>(lines.data()), FFTW_ESTIMATE);
   });
   fftw_execute(plan.get());
-  Densities densities{2 * pi / strong.duration, 0, std::vector<double>(n / 4)};
+  Densities densities{2 * pi / strong.duration / static_cast<double>(finer), 0, std::vector<double>(finer * n / 4)};
   for (std::size_t j = 0; j < densities.value.size(); ++j) {
     const double loss = detail::interpolation_loss(Interpolation::constant, densities.omega(j) * dt / 2);
     densities.value[j] = std::norm(lines[j]) / (loss * loss) * (dt / static_cast<double>(n)) / (2 * pi) * peak * peak;
@@ -175,9 +177,12 @@ void find_misfit(PulseFit& fit, const Densities& s) {
       fit.misfit);
 }
 
-/// Of ln Dt: values of a periodogram at different frequencies are independent, each as scattered as it is large. With
-/// the derivatives of the fitted density f by the two logarithms, f and g, least squares have the covariance
-/// A^-1 B A^-1, A = sum (f, g)(f, g)^T, B the same sum weighted with S^2.
+/// Of ln Dt, for values of a periodogram 1 / duration apart, which are independent, each as scattered as it is large.
+/// (If they are n times as close, n neighbors are as one: the variance is n times as large.) With the derivatives of
+/// the fitted density f by the two logarithms, f and g, least squares have the covariance A^-1 B A^-1, A = sum (f,
+/// g)(f, g)^T, B the same sum weighted with S^2. Filtered Poisson pulses are not Gaussian: to B comes kappa sum (f S)
+/// (sum (f S))^T, kappa = E[b^4] / (E[b^2]^2 lambda T) (D. R. Brillinger, Time Series (1981), 5.10, with the
+/// fourth-order spectrum of the pulses). As S is f that is in the direction of the intensity and leaves Dt as it is.
 double relative_error(const PulseFit& fit, const Densities& s) {
   double a11 = 0, a12 = 0, a22 = 0, b11 = 0, b12 = 0, b22 = 0;
   for (std::size_t j = 1; j < s.value.size(); ++j) {
@@ -202,7 +207,7 @@ Spectrum estimate_spectrum(const GroundMotion& motion, double bandwidth) {
                   "estimate_spectrum: the bandwidth must be finite and at least 1 / duration of the strong part, " +
                       detail::shortest(1 / strong.duration) + " Hz",
                   bandwidth, "Hz");
-  const Densities raw = periodogram(motion, strong);
+  const Densities raw = periodogram(motion, strong, 1);
   const double half =
       std::min(std::max(bandwidth * strong.duration - 1, 0.0) / 2, static_cast<double>(raw.value.size()));
   std::vector<double> omega(raw.value.size());
@@ -212,16 +217,26 @@ Spectrum estimate_spectrum(const GroundMotion& motion, double bandwidth) {
 
 PulseFit fit_pulses(const GroundMotion& motion) {
   const StrongMotion strong = strong_motion(motion);
-  Densities s = periodogram(motion, strong);
-  const double highest = s.omega(s.value.size());
   // In units of the peak, whose fourth power may be beyond the range of doubles.
   const double peak = motion.peak_acceleration();
-  for (double& value : s.value) value /= peak * peak;
+  const auto values = [&](std::size_t finer) {
+    Densities s = periodogram(motion, strong, finer);
+    for (double& value : s.value) value /= peak * peak;
+    return s;
+  };
+  const auto averaged = [&](Densities s, std::size_t finer, double frequency) {
+    const double neighbors = static_cast<double>(finer) * strong.duration * frequency / 6;
+    s.value = average(s.value, static_cast<std::size_t>(std::lround(neighbors)));
+    return s;
+  };
+  constexpr std::size_t finer = 2;
+  const Densities s = values(finer);
+  const double highest = s.omega(s.value.size());
   PulseFit result = fit(s, 4 * pi / highest, strong.duration / 8,
                         "where the strong part has " + detail::shortest(strong.duration) + " s");
-  s.value = average(s.value, static_cast<std::size_t>(std::lround(strong.duration * result.center_frequency_hz / 6)));
-  find_misfit(result, s);
-  result.half_width_error = relative_error(result, s) * result.half_width;
+  find_misfit(result, averaged(values(1), 1, result.center_frequency_hz));
+  result.half_width_error = std::sqrt(static_cast<double>(finer)) *
+                            relative_error(result, averaged(s, finer, result.center_frequency_hz)) * result.half_width;
   result.intensity *= peak * peak;
   result.rms_acceleration *= peak;
   return result;

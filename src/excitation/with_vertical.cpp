@@ -13,12 +13,6 @@
 namespace stickslip::detail {
 namespace {
 
-void check(const GroundMotion& motion, const char* which) {
-  if (motion.has_transverse() || motion.has_vertical())
-    throw std::invalid_argument(std::string("WithVertical: the ") + which +
-                                " excitation must make motions of one component, got several");
-}
-
 bool same_times(const GroundMotion& a, const GroundMotion& b) {
   if (a.samples() != b.samples()) return false;
   if (equal(a.dt(), b.dt())) return true;
@@ -80,8 +74,12 @@ std::uint64_t vertical_seed(std::uint64_t seed) {
 }
 
 GroundMotion with_vertical(GroundMotion horizontal, const GroundMotion& vertical, double ratio) {
-  check(horizontal, "horizontal");
-  check(vertical, "vertical");
+  if (horizontal.has_vertical())
+    throw std::invalid_argument(
+        "WithVertical: the horizontal excitation must make motions without a vertical component, got one that has it");
+  if (vertical.has_transverse() || vertical.has_vertical())
+    throw std::invalid_argument(
+        "WithVertical: the vertical excitation must make motions of one component, got several");
   if (horizontal.interpolation() != vertical.interpolation())
     throw std::invalid_argument(
         "WithVertical: both components must be lines between samples or both held values; one is of each kind");
@@ -92,19 +90,23 @@ GroundMotion with_vertical(GroundMotion horizontal, const GroundMotion& vertical
   std::vector<double> up(vertical.acceleration().begin(), vertical.acceleration().end());
   if (!same_times(horizontal, vertical)) {
     const std::vector<double> times = times_of_both(horizontal, vertical);
-    std::vector<double> along, shifted;
+    std::vector<double> along, across, shifted;
     up.clear();
-    Reading n(horizontal), a_z(vertical);
+    const GroundMotion transverse =
+        horizontal.has_transverse() ? horizontal.component(Component::transverse) : horizontal;
+    Reading n(horizontal), a_y(transverse), a_z(vertical);
     for (const double time : times) {
       along.push_back(n.at(time));
+      if (horizontal.has_transverse()) across.push_back(a_y.at(time));
       up.push_back(a_z.at(time));
       shifted.push_back(horizontal.time(0) + time);
     }
     horizontal = GroundMotion(std::move(along), std::move(shifted), horizontal.interpolation(), horizontal.name())
-                     .with_orientation(horizontal.orientation());
+                     .with_orientation(horizontal.orientation())
+                     .with_components(std::move(across));
   }
   for (double& a : up) a *= ratio;
-  return horizontal.with_components({}, std::move(up));
+  return horizontal.with_components({horizontal.transverse().begin(), horizontal.transverse().end()}, std::move(up));
 }
 
 }  // namespace stickslip::detail

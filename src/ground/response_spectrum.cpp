@@ -160,9 +160,10 @@ void check(const std::vector<double>& periods, const std::vector<double>& dampin
           damping[i]);
 }
 
-/// @param peak  the largest magnitude of the ground acceleration [m/s^2]
+/// @param peak   the largest magnitude of the ground acceleration [m/s^2]
+/// @param jumps  of the ground velocity before each row and after the last one [m/s]; empty for none
 ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double peak, std::vector<double> periods,
-                             std::vector<double> damping, SpectrumKind kind) {
+                             std::vector<double> damping, SpectrumKind kind, const std::vector<double>& jumps = {}) {
   const bool of_acceleration = kind == SpectrumKind::pseudo_acceleration || kind == SpectrumKind::acceleration;
   const double rigid = of_acceleration ? peak : 0;
   ResponseSpectrum result{kind, std::move(periods), std::move(damping), {}};
@@ -196,10 +197,20 @@ ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double
     if (row.duration != duration) set_duration(lanes, oscillators, row.duration);
     duration = row.duration;
   };
-  for (const detail::SegmentRow& row : rows) {
-    set(row);
-    sweep_ends(lanes, row);
+  const auto jump_before = [&](std::size_t row) {
+    if (jumps.empty() || jumps[row] == 0) return;
+    for (double& v : lanes.state.v) v -= jumps[row];
+    for (std::size_t i = 0; i < oscillators.size(); ++i) {
+      const Oscillator& o = oscillators[i];
+      lanes.peak[i] = std::max(lanes.peak[i], std::abs(o.of_x * lanes.state.x[i] + o.of_v * lanes.state.v[i]));
+    }
+  };
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    jump_before(r);
+    set(rows[r]);
+    sweep_ends(lanes, rows[r]);
   }
+  jump_before(rows.size());
   for (std::size_t i = 0; i < oscillators.size(); ++i)
     lanes.peak[i] = std::max(lanes.peak[i], largest_free(oscillators[i], lanes.state.x[i], lanes.state.v[i]));
   for (std::size_t i = oscillators.size(); i < lanes.peak.size(); ++i)
@@ -212,9 +223,10 @@ ResponseSpectrum spectrum_of(const std::vector<detail::SegmentRow>& rows, double
         return Course(o, {row.duration, row.start[i], row.end[i]}, x, v).largest(row.duration);
       },
       &oscillators};
-  for (const detail::SegmentRow& row : rows) {
-    set(row);
-    sweep_within(lanes, row, inspector);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    jump_before(r);
+    set(rows[r]);
+    sweep_within(lanes, rows[r], inspector);
   }
   for (std::size_t i = 0; i < oscillators.size(); ++i)
     result.values[places[i]] = lanes.peak[i] * oscillators[i].factor(kind);
@@ -230,10 +242,27 @@ ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<doubl
 }
 
 ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vector<double> periods,
-                                   std::vector<double> damping, SpectrumKind kind) {
+                                   std::vector<double> damping, SpectrumKind kind,
+                                   const std::vector<Impulse>& impulses) {
   check(periods, damping);
+  std::vector<double> jump_before(motion.size() + 1, 0.0);
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    const auto [before, velocity] = impulses[i];
+    const std::string impulse = "response_spectrum: impulses[" + std::to_string(i) + "]";
+    if (before > motion.size())
+      throw std::invalid_argument(impulse + ".before must be at most the number of segments, " +
+                                  std::to_string(motion.size()) + ", got " + std::to_string(before));
+    if (!std::isfinite(velocity)) detail::refuse(impulse + ".velocity must be finite", velocity, "m/s");
+    jump_before[before] += velocity;
+  }
+  if (!impulses.empty() && (kind == SpectrumKind::pseudo_acceleration || kind == SpectrumKind::acceleration) &&
+      std::ranges::find(periods, 0.0) != periods.end())
+    throw std::invalid_argument(
+        "response_spectrum: the acceleration of a rigid oscillator must be finite, but an impact on a stop or a "
+        "landing is an impulse; give periods above 0");
   std::vector<double> start(motion.size()), end(motion.size());
   std::vector<detail::SegmentRow> rows;
+  std::vector<double> jumps(1, 0.0);
   double peak = 0, duration = 0;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const Segment& s = motion[i];
@@ -245,19 +274,23 @@ ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vect
         detail::refuse(piece() + " must be finite and at most 1e100 m/s^2 in magnitude", n, "m/s^2");
     start[i] = s.start;
     end[i] = s.end;
+    jumps.back() += jump_before[i];
     if (!(s.duration > 0)) continue;
     duration += s.duration;
     peak = std::max({peak, std::abs(s.start), std::abs(s.end)});
-    const bool same = i > 0 && !rows.empty() && rows.back().duration == s.duration &&
+    const bool same = i > 0 && jumps.back() == 0 && !rows.empty() && rows.back().duration == s.duration &&
                       rows.back().start + rows.back().count == &start[i];
     if (same)
       ++rows.back().count;
-    else
+    else {
       rows.push_back({s.duration, &start[i], &end[i], 1});
+      jumps.push_back(0);
+    }
   }
+  jumps.back() += jump_before.back();
   detail::require(duration > 0 && std::isfinite(duration),
                   "response_spectrum: the durations of motion must have a positive, finite sum", duration, "s");
-  return spectrum_of(rows, peak, std::move(periods), std::move(damping), kind);
+  return spectrum_of(rows, peak, std::move(periods), std::move(damping), kind, jumps);
 }
 
 }  // namespace stickslip

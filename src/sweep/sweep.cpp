@@ -17,18 +17,18 @@ namespace {
 struct Stopped {};
 
 /// A block in a lane: the index of its slider and its polarity. A block with equal levels in both directions on level
-/// ground is integrated once for both polarities: the flipped motion only mirrors its response.
+/// ground is integrated once for both polarities: the reversed motion only mirrors its response.
 struct Lane {
   std::size_t slider;
   LevelBlock block;
-  bool flipped, both;
+  bool reversed, both;
 
   bool has_static() const {
     const auto& law = block.law;
     return law.static_forward() != law.sliding().forward() || law.static_backward() != law.sliding().backward();
   }
   /// The properties that all lanes of a group share.
-  auto kind() const { return std::tuple(block.slope_degrees, has_static(), flipped); }
+  auto kind() const { return std::tuple(block.slope_degrees, has_static(), reversed); }
 };
 
 class Sweep {
@@ -43,6 +43,8 @@ class Sweep {
     for (auto* values : {&table_.peak, &table_.residual, &table_.sliding_distance})
       values->assign(size, std::numeric_limits<double>::quiet_NaN());
     table_.events.assign(size, 0);
+    table_.airborne.assign(size, 0);
+    if (std::ranges::any_of(sliders, &SweepSlider::has_stops)) table_.impacts.assign(size, {});
 
     for (std::size_t s = 0; s < sliders.size(); ++s)
       if (const auto& block = sliders[s].block; block && has_level_lanes(block->law))
@@ -68,9 +70,9 @@ class Sweep {
         if (part == singles_.size())
           run_lanes(record);
         else
-          for (const bool flipped : {false, true})
-            if (options_.polarity != (flipped ? Polarity::as_recorded : Polarity::flipped))
-              run_single(singles_[part], record, flipped, storage);
+          for (const bool reversed : {false, true})
+            if (options_.polarity != (reversed ? Polarity::recorded : Polarity::reversed))
+              run_single(singles_[part], record, reversed, storage);
       }
     };
     run_on_threads(options_.threads, tasks, stopped_, work, [this] {
@@ -87,26 +89,26 @@ class Sweep {
     const bool alike = block.slope_degrees == 0 && law.static_forward() == law.static_backward() &&
                        law.sliding().forward() == law.sliding().backward();
     const bool both = options_.polarity == Polarity::both;
-    if (options_.polarity != Polarity::flipped) lanes_.push_back({slider, block, false, both && alike});
-    if (options_.polarity == Polarity::flipped || (both && !alike)) lanes_.push_back({slider, block, true, false});
+    if (options_.polarity != Polarity::reversed) lanes_.push_back({slider, block, false, both && alike});
+    if (options_.polarity == Polarity::reversed || (both && !alike)) lanes_.push_back({slider, block, true, false});
   }
 
-  std::size_t place(std::size_t slider, std::size_t record, bool flipped) const {
-    return table_.at(slider, record, flipped && table_.polarities == 2 ? 1 : 0);
+  std::size_t place(std::size_t slider, std::size_t record, bool reversed) const {
+    return table_.at(slider, record, reversed && table_.polarities == 2 ? 1 : 0);
   }
 
-  void write(std::size_t slider, std::size_t record, bool flipped, double peak, double residual,
+  void write(std::size_t slider, std::size_t record, bool reversed, double peak, double residual,
              double sliding_distance, std::size_t events) {
-    const std::size_t i = place(slider, record, flipped);
+    const std::size_t i = place(slider, record, reversed);
     table_.peak[i] = peak;
     table_.residual[i] = residual + 0.0;  // minus zero is zero
     table_.sliding_distance[i] = sliding_distance;
     table_.events[i] = events;
   }
 
-  void fail(std::size_t slider, std::size_t record, bool flipped, const std::string& message) {
+  void fail(std::size_t slider, std::size_t record, bool reversed, const std::string& message) {
     const std::scoped_lock lock(mutex_);
-    table_.failures.push_back({slider, record, flipped ? Polarity::flipped : Polarity::as_recorded, message});
+    table_.failures.push_back({slider, record, reversed ? Polarity::reversed : Polarity::recorded, message});
   }
 
   void run_lanes(std::size_t record) {
@@ -123,24 +125,24 @@ class Sweep {
     const Lane& one = these[0];
     const bool weighed = one.block.slope_degrees > 0 || one.has_static() || motion.has_vertical();
     const LevelGround ground =
-        weighed ? LevelGround(motion, one.block.slope_degrees, one.flipped) : LevelGround(motion);
+        weighed ? LevelGround(motion, one.block.slope_degrees, one.reversed) : LevelGround(motion);
     if (!ground.usable()) {
       Response storage;
       for (const Lane& lane : these) {
-        run_single(lane.slider, record, lane.flipped, storage);
+        run_single(lane.slider, record, lane.reversed, storage);
         if (lane.both) run_single(lane.slider, record, true, storage);
       }
       return;
     }
     std::vector<LevelLane> lanes;
-    for (const Lane& lane : these) lanes.push_back({lane.block.law, lane.flipped && !weighed});
+    for (const Lane& lane : these) lanes.push_back({lane.block.law, lane.reversed && !weighed});
     slide_levels(ground, lanes, options_.settle);
     for (std::size_t k = 0; k < lanes.size(); ++k) {
-      const auto& [slider, block, flipped, both] = these[k];
+      const auto& [slider, block, reversed, both] = these[k];
       const LevelLane& lane = lanes[k];
       for (const bool other : {false, true}) {
         if (other && !both) continue;
-        const bool turned = flipped || other;
+        const bool turned = reversed || other;
         if (lane.failure.empty())
           write(slider, record, turned, lane.peak, other ? -lane.state.displacement : lane.state.displacement,
                 lane.sliding_distance, lane.events);
@@ -151,23 +153,27 @@ class Sweep {
     }
   }
 
-  void run_single(std::size_t slider, std::size_t record, bool flipped, Response& storage) {
+  void run_single(std::size_t slider, std::size_t record, bool reversed, Response& storage) {
     const auto check_stopped = [this] {
       if (stopped_) throw Stopped{};
     };
-    const IntegrateOptions how{0, 0, options_.settle, options_.contact, check_stopped};
+    const IntegrateOptions how{
+        .settle = options_.settle, .contact = options_.contact, .progress = check_stopped, .may_end_in_flight = true};
     try {
       const GroundMotion& motion = *motions_[record];
       storage =
-          sliders_[slider].integrate(flipped ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
-      write(slider, record, flipped, storage.peak, storage.residual, storage.sliding_distance,
+          sliders_[slider].integrate(reversed ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
+      write(slider, record, reversed, storage.peak, storage.residual, storage.sliding_distance,
             storage.events.size() - 1);
+      const std::size_t i = place(slider, record, reversed);
+      table_.airborne[i] = storage.state.in_flight ? 1 : 0;
+      if (!table_.impacts.empty()) table_.impacts[i] = impacts(storage.events);
     } catch (const ConvergenceError& error) {
-      fail(slider, record, flipped, error.what());
+      fail(slider, record, reversed, error.what());
     } catch (const std::overflow_error& error) {
-      fail(slider, record, flipped, error.what());
-    } catch (const std::invalid_argument& error) {  // a vertical motion under which it never lands
-      fail(slider, record, flipped, error.what());
+      fail(slider, record, reversed, error.what());
+    } catch (const std::invalid_argument& error) {
+      fail(slider, record, reversed, error.what());
     }
     ++done_;
   }

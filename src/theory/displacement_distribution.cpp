@@ -132,7 +132,8 @@ void lay(const detail::SlipPiece& piece, double step, double* grid) {
 
 }  // namespace
 
-DisplacementDistribution::DisplacementDistribution(const detail::Slips& slips) : count_(slips.count) {
+DisplacementDistribution::DisplacementDistribution(const detail::Slips& slips, std::string remark)
+    : remark_(std::move(remark)), count_(slips.count) {
   std::copy_n(slips.moments, 4, cumulants_);
   if (!(slips.count > 0 && slips.greatest > slips.least)) return;
   atom_ = std::exp(-slips.count);

@@ -1,5 +1,6 @@
 #include "stickslip/theory/equivalent_linearization.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -9,10 +10,12 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "stickslip/error.hpp"
 #include "theory/covariance.hpp"
 #include "theory/linear_friction.hpp"
+#include "theory/ranges.hpp"
 #include "theory/shaped_covariance.hpp"
 #include "theory/theory_moments.hpp"
 
@@ -36,8 +39,10 @@ std::optional<double> two_states(const detail::LinearizedLaw& law, double dampin
 }
 
 /// The growth rate of the displacement variance: 0 where friction and spring bound it. The work of friction, -2 a22
-/// q22, grows with the displacement up to 2 a reach wn; the noise supplies 2 pi S0.
-double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, double s0, const Options& options) {
+/// q22, grows with the displacement up to 2 a reach wn; the noise supplies 2 pi S0. Of any law that is constant far
+/// away, such as a caster with rolling resistance, it is that of Coulomb friction with this level.
+double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, double s0, double last,
+                   const Options& options) {
   if (const auto* const coulomb = std::get_if<Coulomb>(&law); coulomb != nullptr && coulomb->forward() > 0) {
     if (natural_frequency > 0) return 0;
     const double velocity = s0 / coulomb->forward();
@@ -47,33 +52,67 @@ double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, d
     return factor * velocity * velocity * (velocity / coulomb->forward());
   }
   if (const auto* const wheel = std::get_if<Caster>(&law); wheel != nullptr && wheel->slip_level() > 0) {
-    if (std::isinf(wheel->reach())) return growth_rate(Coulomb(wheel->slip_level()), natural_frequency, s0, options);
+    if (std::isinf(wheel->reach()))
+      return growth_rate(Coulomb(wheel->slip_level()), natural_frequency, s0, last, options);
     if (wheel->slip_level() * wheel->reach() * natural_frequency > pi * s0) return 0;
+  }
+  if (const auto* const any = std::get_if<std::function<double(double, Direction)>>(&law); any != nullptr && last > 0) {
+    const double far = last * std::sqrt(s0 * last), level = (*any)(10 * far, Direction::forward);
+    if (level > 0 && std::abs((*any)(5 * far, Direction::forward) - level) <= 1e-12 * level)
+      return growth_rate(Coulomb(level), natural_frequency, s0, last, options);
   }
   return nowhere;
 }
 
-std::string remark(const detail::LinearizedLaw& law, const Options& options, double natural_frequency, double s0) {
+/// To three digits.
+std::string rounded(double value) {
+  const double scale = std::pow(10, 2 - std::floor(std::log10(value)));
+  return shortest(std::round(scale * value) / scale);
+}
+
+/// While a caster breaks loose at any of the times, its error and z of thesis (3.30).
+std::string caster_remark(const detail::LinearizedLaw& law, const Options& options, double natural_frequency, double s0,
+                          const Moments& moments) {
+  const auto* const wheel = std::get_if<Caster>(&law);
+  if (wheel == nullptr || !(wheel->slip_level() > 0) || std::isinf(wheel->reach()) ||
+      options.force != EquivalentLinearization::Force::gaussian)
+    return {};
+  const double a = wheel->slip_level(), gamma = s0 / a * (s0 / a) / (wheel->reach() * a);
+  if (natural_frequency == 0 && gamma > detail::caster_gamma) return {};
+  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  for (std::size_t i = 0; i < moments.time.size(); ++i) {
+    const double q11 = moments.displacement_variance.value[i], q12 = moments.covariance.value[i],
+                 q22 = moments.velocity_variance.value[i];
+    if (!(q22 > 0)) continue;
+    const double z = wheel->reach() / std::sqrt(2 * (q11 - q12 * (q12 / q22)));
+    if (!(z >= detail::caster_loose_z && z <= detail::caster_held_z)) continue;
+    least = std::min(least, z);
+    largest = std::max(largest, z);
+  }
+  if (!(largest > 0)) return {};
+  return detail::caster_range + std::string("; here z is ") +
+         (least < largest ? "from " + rounded(largest) + " to " : "") + rounded(least) +
+         (natural_frequency > 0 ? ", on a spring"
+                                : ", gamma = S(0)^2 / (reach a^3) = " + (gamma > 0 ? rounded(gamma) : "0"));
+}
+
+std::string remark(const detail::LinearizedLaw& law, const Options& options, double natural_frequency, double s0,
+                   const Moments& moments) {
   const auto* const wheel = std::get_if<Caster>(&law);
   const auto* const coulomb = std::get_if<Coulomb>(&law);
   if ((coulomb != nullptr && coulomb->forward() == 0) || (wheel != nullptr && wheel->slip_level() == 0))
     return {};  // exact
   if (options.start == EquivalentLinearization::Start::thesis)
     return "starts from (3.38) to (3.40), whose q11(0) outweighs the displacement up to t = 0.2 S0 / a^2";
+  if (std::string loose = caster_remark(law, options, natural_frequency, s0, moments); !loose.empty()) return loose;
   if (natural_frequency > 0) return {};
   if (options.force == EquivalentLinearization::Force::laplace)
-    return "the stationary velocity variance is exact, the growth of the displacement variance 20 % low: WhiteNoise "
-           "has "
-           "the exact figures";
+    return detail::laplace_white_range + std::string(": WhiteNoise has the exact figures");
   if (coulomb != nullptr || (wheel != nullptr && std::isinf(wheel->reach())))
     return "the stationary velocity variance is 21 % low and the growth of the displacement variance 51 %: WhiteNoise "
            "has the exact figures";
   if (options.force != EquivalentLinearization::Force::gaussian)
     return "a21, which the thesis drops, is left out: the displacement variance is low by a third and more once a "
-           "caster breaks loose";
-  if (wheel != nullptr &&
-      s0 / wheel->slip_level() * (s0 / wheel->slip_level()) < 0.05 * wheel->reach() * wheel->slip_level())
-    return "gamma = S0^2 / (reach a^3) is small: the displacement variance is low by up to a factor of three while the "
            "caster breaks loose";
   return {};
 }
@@ -92,18 +131,34 @@ Moments moments_of(std::span<const double> times, std::span<const detail::Shaped
 
 std::string percent(double fraction) { return shortest(std::round(1000 * fraction) / 10) + " %"; }
 
-std::string shaped_remark(const detail::ShapedProblem& problem) {
+/// @param ratio  the least of the rms ground accelerations, over that below which no motion is predicted
+/// @param held   at how many of the times friction holds the slider
+std::string shaped_remark(const detail::ShapedProblem& problem, double ratio, std::size_t held = 0,
+                          std::size_t times = 0) {
   std::string all;
   const auto add = [&](const std::string& remark) { all += (all.empty() ? "" : "; ") + remark; };
   if (problem.filter.misfit() > 0)
-    add("a filter of order " + std::to_string(problem.filter.order()) + " stands for the spectrum and misplaces " +
-        percent(problem.filter.misfit()) + " of its variance");
-  const double ratio = detail::motion_ratio(problem);
+    add("the spectrum is approximated by a filter of order " + std::to_string(problem.filter.order()) + " (misfit " +
+        percent(problem.filter.misfit()) + " of its variance)");
   if (ratio < 1.5)
-    add("the rms acceleration of the ground is " + shortest(std::round(1000 * ratio) / 1000) +
+    add("the rms acceleration of the ground is" + std::string(times > 1 ? " as low as " : " ") +
+        shortest(std::round(1000 * ratio) / 1000) +
         " times that below which no motion is predicted, thesis (4.22): displacements may be far too small");
+  if (held > 0)
+    add("at " + std::to_string(held) + " of " + std::to_string(times) +
+        " times friction is predicted to hold the slider: its velocity variance there is given as 0");
   if (problem.natural_frequency == 0 && problem.filter(0) == 0 && std::isfinite(ratio))
     add("no acceleration at zero frequency: under friction the displacement drifts all the same");
+  if (const auto* const coulomb = std::get_if<Coulomb>(&problem.law);
+      coulomb != nullptr && problem.options.force == EquivalentLinearization::Force::laplace &&
+      problem.natural_frequency == 0) {
+    const double low = std::min(coulomb->forward(), coulomb->backward()),
+                 high = std::max(coulomb->forward(), coulomb->backward());
+    if (problem.noise.white() && problem.damping == 0)
+      add(detail::laplace_white_range + std::string(": WhiteNoise has the exact figures"));
+    else if (high > detail::laplace_unequal * low)
+      add(detail::laplace_unequal_range);
+  }
   if (problem.noise.returns())
     add("the excitation has no line at zero frequency, so that ground velocities return to where they began; the "
         "spectrum is taken without that gap");
@@ -154,20 +209,29 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
       moments.covariance.value[i] = q12;
       moments.velocity_variance.value[i] = q22;
     }
-    moments.growth_rate.value = growth_rate(law, natural_frequency, *s0, options_);
-    moments.remark = remark(law, options_, natural_frequency, *s0);
+    moments.growth_rate.value = growth_rate(law, natural_frequency, *s0, times.empty() ? 0 : times.back(), options_);
+    moments.remark = remark(law, options_, natural_frequency, *s0, moments);
     return moments;
   }
   check(law, damping, noise);
   detail::check_times(noun, times);
   const ShapingFilter filter = noise.filter(options_.filter);
   const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
-  Moments moments = moments_of(times, detail::solve_shaped(problem, times, progress).state);
+  const std::vector<detail::ShapedState> states = detail::solve_shaped(problem, times, progress).state;
+  Moments moments = moments_of(times, states);
   try {
     if (!noise.envelope()) moments.growth_rate.value = detail::solve_stationary(problem).growth_rate;
   } catch (const std::invalid_argument&) {  // there is no stationary solution
   }
-  moments.remark = shaped_remark(problem);
+  double ratio = std::numeric_limits<double>::infinity();
+  std::size_t held = 0;
+  for (const detail::ShapedState& state : states) {
+    ratio = std::min(ratio, state.motion_ratio);
+    if (state.motion_ratio < 1 && state.q22 == 0) ++held;
+  }
+  moments.remark = shaped_remark(problem, ratio, held, times.size());
+  if (const std::string loose = caster_remark(law, options_, natural_frequency, filter(0), moments); !loose.empty())
+    moments.remark += (moments.remark.empty() ? "" : "; ") + loose;
   return moments;
 }
 
@@ -179,7 +243,7 @@ Moments EquivalentLinearization::stationary(const detail::LinearizedLaw& law, do
   const double never = std::numeric_limits<double>::infinity();
   Moments moments = moments_of(std::span(&never, 1), std::span(&found.state, 1));
   moments.growth_rate.value = found.growth_rate;
-  moments.remark = shaped_remark(problem);
+  moments.remark = shaped_remark(problem, detail::motion_ratio(problem));
   if (!std::isfinite(found.state.q11))
     moments.remark += std::string(moments.remark.empty() ? "" : "; ") +
                       "without a spring the displacement has no stationary variance";

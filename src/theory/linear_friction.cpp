@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
 #include "stickslip/series/series.hpp"
 
 namespace stickslip::detail {
@@ -228,6 +229,14 @@ AverageFriction::AverageFriction(const LinearizedLaw& law, Force force, double f
   const auto* const wheel = std::get_if<Caster>(&law);
   forward_ = backward_ = wheel != nullptr ? wheel->slip_level() : std::get<AnyLaw>(law)(0, Direction::forward);
   none_ = wheel != nullptr && forward_ == 0;
+}
+
+double AverageFriction::threshold(bool spring) const {
+  if (spring || !drifts()) return strength() * level();
+  if (laplace_) return forward_ * (backward_ / std::hypot(forward_, backward_));
+  const auto mean = [&](double z) { return gaussian_average(forward_, backward_, z, 1).mean; };
+  const double z = numerics::root(mean, -40, mean(-40), 40, mean(40));
+  return -gaussian_average(forward_, backward_, z, 1).a22;
 }
 
 MeanFriction AverageFriction::operator()(double velocity, double q11, double q12, double q22) const {

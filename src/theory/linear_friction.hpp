@@ -48,6 +48,10 @@ class AverageFriction {
   /// The maximum of friction times the rms velocity, -a22 sqrt(q22), for equal levels at x = 0, relative to the level.
   double strength() const noexcept { return laplace_ ? std::numbers::sqrt2 / 2 : std::sqrt(2 / std::numbers::pi); }
 
+  /// The rms of the other forces below which linearized friction holds the slider at x = 0 [m/s^2]. Without a spring a
+  /// slider of unequal levels moves with the mean velocity at which the mean friction vanishes.
+  double threshold(bool spring) const;
+
   /// @param velocity  mean of x' [m/s]; the mean of x does not matter, because only constant levels may differ
   /// @param q22       positive; q11 >= 0
   MeanFriction operator()(double velocity, double q11, double q12, double q22) const;

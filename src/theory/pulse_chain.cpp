@@ -15,6 +15,7 @@
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/theory/pulse_response.hpp"
+#include "theory/slip_excursion.hpp"
 #include "theory/slip_walk.hpp"
 
 namespace stickslip::theory {
@@ -177,7 +178,7 @@ constexpr std::size_t orders = 4;
 using Moment = std::array<double, orders + 2>;
 constexpr std::size_t squared_velocity = orders, slipped = orders + 1;
 
-/// The effect of two pulses: the square of the final displacement and of the largest one on the way.
+/// The effect of two pulses: the final displacement and the largest one on the way, without its sign.
 struct Farthest {
   double last = 0, largest = 0;
 };
@@ -239,7 +240,7 @@ void pair(const Slider<Coulomb>& block, const Steps& steps, double b1, double b2
     hold(n + b2 * value(i - shift), 0.5 - change);
     moment = moment_of();
   }
-  if (farthest) *farthest = {ride.state.displacement * ride.state.displacement, largest * largest};
+  if (farthest) *farthest = {ride.state.displacement, largest};
 }
 
 /// The effect of single pulses and of pairs, for each quantity.
@@ -279,24 +280,24 @@ class Pairs {
     return tables;
   }
 
-  /// The excess of the mean square displacement on the way over that at the end, for one pulse alone and for two that
-  /// overlap.
-  double overshoot(double rate) {
-    Farthest sum;
-    const auto add = [&](int i, int j, double offset, double weight) {
-      Farthest found;
-      pair(block_, steps_, i * coarse_.spacing, j * coarse_.spacing, offset, both_, &found);
-      sum.last += weight * found.last;
-      sum.largest += weight * found.largest;
+  /// What one pulse alone does, and two that overlap.
+  /// @param alone  amplitudes of one pulse, on a lattice of their own
+  std::vector<detail::SlipExcursion::Example> examples(double rate, const Weights& alone) {
+    std::vector<detail::SlipExcursion::Example> found;
+    const auto add = [&](double b1, double b2, double offset, double weight) {
+      Farthest farthest;
+      pair(block_, steps_, b1, b2, offset, both_, &farthest);
+      if (farthest.largest > 0 && weight > 0) found.push_back({farthest.last, farthest.largest, weight});
     };
+    for (int i = -alone.reach; i <= alone.reach; ++i) add(i * alone.spacing, 0, 0, alone[i]);
     const int reach = coarse_.reach, length = static_cast<int>(steps_.values.size());
-    for (int i = -reach; i <= reach; ++i) add(i, 0, 0, coarse_[i]);
     for (int s = 0; s < length; ++s)
       numerics::gauss_points<points>(s, s + 1.0, [&](double offset, double weight) {
         for (int i = -reach; i <= reach; ++i)
-          for (int j = -reach; j <= reach; ++j) add(i, j, offset, rate * weight * coarse_[i] * coarse_[j]);
+          for (int j = -reach; j <= reach; ++j)
+            add(i * coarse_.spacing, j * coarse_.spacing, offset, rate * weight * coarse_[i] * coarse_[j]);
       });
-    return sum.last > 0 ? std::sqrt(sum.largest / sum.last) : 1;
+    return found;
   }
 
  private:
@@ -449,6 +450,14 @@ class Chain {
     const double spacing = batch_.spacing;
     const int reach = static_cast<int>(std::ceil(std::max(6 * arrivals_.sigma, 0.5 + 4 * arrivals_.sigma) / spacing));
     return {block_, steps_, mirrored_, arrivals_.single(spacing, reach), arrivals_.single(spacing / 2, 2 * reach)};
+  }
+
+  /// Slips of one pulse, which are finely resolved, and of two that overlap.
+  std::vector<detail::SlipExcursion::Example> excursions() const {
+    constexpr int finer = 8;
+    const double spacing = batch_.spacing / finer;
+    const int reach = static_cast<int>(std::ceil(6 * arrivals_.sigma / spacing));
+    return pairs().examples(arrivals_.rate, arrivals_.single(spacing, reach));
   }
 
  private:
@@ -1143,8 +1152,33 @@ Growth growth_of(const Problem& problem, bool refined, const std::function<void(
   return growth;
 }
 
-void remark(Moments& moments, const std::string& sentence) {
-  moments.remark += (moments.remark.empty() ? "" : " ") + sentence;
+void append(std::string& text, const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; }
+
+void remark(Moments& moments, const std::string& sentence) { append(moments.remark, sentence); }
+
+std::string strength_text(double sigma) { return "sigma / slip level = " + shortest(std::round(sigma * 1e4) / 1e4); }
+
+/// Whether the levels differ by less than a third.
+bool nearly_equal(const Coulomb& law) {
+  const double ratio = std::max(law.forward(), law.backward()) / std::min(law.forward(), law.backward());
+  return ratio > 1 && ratio < 4.0 / 3;
+}
+
+/// Parameters for which no error was measured.
+std::string range_remark(const Problem& problem, const PoissonOptions& options) {
+  const auto& [step, push, sigma, block, arrivals, chance, shape] = problem;
+  std::string text;
+  if (!(arrivals.mirrored && block.law().forward() == block.law().backward()) && (arrivals.rate > 2 || sigma < 1.0 / 3))
+    append(
+        text,
+        "Slip levels or amplitudes that differ both ways were tried for sigma / slip level from 1/3 on and up to two "
+        "pulses to a step only.");
+  if (arrivals.rate > 4)
+    append(text, shortest(arrivals.rate) + " pulses to a step of the pulse: nothing was tried above 4.");
+  if (sigma < 0.125) append(text, strength_text(sigma) + ": nothing was tried below 0.125.");
+  if (options.shape.values().size() != 2 || options.quantile)
+    append(text, "Errors were measured for the symmetric rectangular pulse and Gaussian amplitudes only.");
+  return text;
 }
 
 }  // namespace
@@ -1179,24 +1213,45 @@ detail::Slips slips_of(const Problem& problem, double time, bool refined, const 
 
 }  // namespace
 
-double PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
-                        const std::function<void()>& progress) const {
+Interval PulseChain::peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
+                          const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   require(probability > 0 && probability < 1, "PulseChain: probability must lie in (0, 1)", probability);
   const detail::Slips slips = slips_of(problem, pulses.duration(), refined_, progress);
-  if (slips.count == 0) return 0;
+  if (slips.count == 0) return {};
   const Steps steps = steps_of(problem.shape, 1);
   const Chain chain(problem.block, steps, problem.arrivals, 1, problem.drifting());
-  const double overshoot = chain.pairs().overshoot(problem.arrivals.rate);
-  return detail::slip_walk_peak(
-      slips, [&](double slip) { return overshoot * slip; }, probability);
+  const detail::SlipExcursion excursion(chain.excursions());
+  const double unit = problem.acceleration() * problem.step * problem.step;
+  const double peak = detail::slip_walk_peak(
+      slips,
+      [&](double slip) {
+        detail::SlipExcursion::Parts farthest = excursion(slip / unit);
+        for (double& distance : farthest) distance *= unit;
+        return farthest;
+      },
+      probability);
+  const bool known = problem.sigma > 0.333 && problem.sigma <= 20 && range_remark(problem, pulses.options()).empty() &&
+                     problem.arrivals.rate <= 2 && probability >= 0.5 && probability <= 0.99 &&
+                     pulses.duration() >= 10 * problem.step;
+  const detail::RatioRange ratio =
+      !known ? detail::RatioRange{0, std::numeric_limits<double>::infinity()} : detail::peak_ratio(slips.count);
+  return {peak, peak / ratio.largest,
+          ratio.smallest > 0 ? peak / ratio.smallest : std::numeric_limits<double>::infinity()};
 }
 
 DisplacementDistribution PulseChain::distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses,
                                                   double time, const std::function<void()>& progress) const {
   const Problem problem(slider, pulses);
   require(std::isfinite(time) && time >= 0, "PulseChain: time must be finite and at least 0", time, "s");
-  return DisplacementDistribution(slips_of(problem, time, refined_, progress));
+  std::string text = range_remark(problem, pulses.options());
+  if (problem.sigma >= weakest && time > 0) {
+    const bool two = two_slots(problem.sigma, refined_);
+    if (problem.sigma < (two ? 0.2 : 1.0 / 3) - 1e-9)
+      append(text, strength_text(problem.sigma) + ". " + detail::pulse_accuracy().weakest);
+    if (two && nearly_equal(problem.block.law())) append(text, detail::pulse_accuracy().near_levels);
+  }
+  return DisplacementDistribution(slips_of(problem, time, refined_, progress), text);
 }
 
 Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& pulses, std::span<const double> times,
@@ -1233,22 +1288,13 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
   }
   moments.growth_rate = {x_unit * v_unit * growth.rate(1, std::numeric_limits<double>::infinity()), 0};
 
-  const std::string ratio = "sigma / slip level = " + shortest(std::round(sigma * 1e4) / 1e4);
-  const bool two = two_slots(sigma, refined_),
-             alike = arrivals.mirrored && block.law().forward() == block.law().backward();
+  moments.remark = range_remark(problem, options);
+  const bool two = two_slots(sigma, refined_);
   if (!two && sigma < 0.3)
-    remark(moments, ratio +
-                        " is below 0.3, where more than two pulses at once matter: the growth rate is up to 19 % too "
-                        "high at 1/4 and 41 % at 1/5; refined, from 0.12 on, within 10 %.");
+    remark(moments, strength_text(sigma) + " is below 0.3. " + detail::pulse_accuracy().weak);
   else if (!two && sigma < 0.5 && arrivals.rate > 2)
-    remark(moments, ratio + " is below 0.5, with more than two pulses to a step: refined is needed.");
-  if (!alike && (arrivals.rate > 2 || sigma < 1.0 / 3))
-    remark(
-        moments,
-        "Slip levels or amplitudes that differ both ways were tried for sigma / slip level from 1/3 on and up to two "
-        "pulses to a step only.");
-  if (arrivals.rate > 4)
-    remark(moments, shortest(arrivals.rate) + " pulses to a step of the pulse: nothing was tried above 4.");
+    remark(moments, strength_text(sigma) + " is below 0.5, with more than two pulses to a step: refined is needed.");
+  if (two && nearly_equal(block.law())) remark(moments, detail::pulse_accuracy().near_levels);
   const double length = options.shape.length() * pulses.half_width();
   if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < length; });
       n > 0 && (sigma < 0.5 || arrivals.rate > 2))
@@ -1258,8 +1304,6 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
                "simulations differ there by up to a factor of 2.4.");
   if (options.stationary_start)
     remark(moments, "From rest as if no pulse had arrived before time zero: a stationary start is not followed.");
-  if (options.shape.values().size() != 2 || options.quantile)
-    remark(moments, "Errors were measured for the symmetric rectangular pulse and Gaussian amplitudes only.");
   return moments;
 }
 

@@ -672,6 +672,23 @@ double chernoff(const std::vector<std::pair<double, double>>& slips, double spre
   }
 }
 
+/// What overlaps change, of which the superposition knows nothing.
+/// @throws std::invalid_argument where they change the standard deviation by more than a factor of 2
+std::string distribution_remark(const Overlaps& overlaps, const PoissonPulses& pulses, double time) {
+  if (!overlaps.reason.empty()) {
+    const double met = pulses.rate() * time * pulses.rate() * pulses.options().shape.length() * pulses.half_width();
+    return met <= 0.1 ? "" : rounded(met) + " pulses overlap, with unknown effect: " + overlaps.reason + ".";
+  }
+  const double ratio = 1 / overlaps.factor;
+  require(ratio >= 0.5 && ratio <= 2,
+          "PulseSuperposition: for a distribution the standard deviation must be within a factor of 2 of that by "
+          "PulseChain, which includes overlaps and has a distribution, too",
+          ratio);
+  if (std::abs(ratio - 1) <= 0.05) return "";
+  return "Pulses overlap: the standard deviation is " + rounded(ratio) + " times that by PulseChain. " +
+         detail::pulse_accuracy().rare;
+}
+
 }  // namespace
 
 DisplacementDistribution PulseSuperposition::distribution(const detail::PulseSystem& system,
@@ -688,6 +705,7 @@ DisplacementDistribution PulseSuperposition::distribution(const detail::PulseSys
     throw std::invalid_argument("PulseSuperposition: a distribution under an envelope is not covered");
 
   const std::function<void()> no_progress;
+  const std::string remark = distribution_remark(overlaps_of(*this, system, pulses, no_progress), pulses, time);
   const Pulses pulse(system, pulses, overlap_, no_progress);
   const Pulses::Law law = pulse.law(0, pulses.sigma());
   const double expected = law.rate * time;
@@ -717,7 +735,7 @@ DisplacementDistribution PulseSuperposition::distribution(const detail::PulseSys
     slips.least = -chernoff(left, spread);
     slips.greatest = chernoff(right, spread);
   }
-  return DisplacementDistribution(slips);
+  return DisplacementDistribution(slips, remark);
 }
 
 double peak_from_growth(double growth_rate, double duration, double probability) {

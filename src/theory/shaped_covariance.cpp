@@ -134,8 +134,7 @@ class Equations {
 
   void operator()(double t, std::span<const double> y, std::span<double> slope) {
     unpack(y.data(), columns_, q_);
-    double out = 1, in = 1;  // factors of the filter's output and input
-    if (noise_.envelope()) (noise_.envelope_at_source() ? in : out) = (*noise_.envelope())(t);
+    const auto [out, in] = factors(t);
     product_.setZero();
     for (const Entry& entry : entries_)
       add(entry.row, entry.column, entry.row == v && entry.column >= f ? out * entry.value : entry.value);
@@ -154,7 +153,7 @@ class Equations {
       add(v, x, average.a21);
       add(v, v, average.a22);
     }
-    const auto enters = [&](Eigen::Index i) { return (i == v ? out : 1) * in * system_.b(i); };
+    const auto enters = [&, out = out, in = in](Eigen::Index i) { return (i == v ? out : 1) * in * system_.b(i); };
     double* to = slope.data();
     for (Eigen::Index j = 0; j < columns_; ++j) {
       const double source = system_.intensity * enters(j);
@@ -163,11 +162,40 @@ class Equations {
     }
   }
 
+  /// Rms values in the state y at time t [m/s^2], infinite under white noise.
+  struct Drive {
+    double ground;  ///< of the ground acceleration
+    double force;   ///< of it and the spring together
+    double held;    ///< of that below which linearized friction holds the slider
+  };
+  Drive drive(double t, std::span<const double> y) {
+    unpack(y.data(), columns_, q_);
+    const bool spring = system_.a(v, x) != 0;
+    const double held = friction_.drifts() ? friction_.threshold(spring)
+                                           : -friction_(0, std::max(q_(x, x), 0.0), 0, floor_ * floor_).a22 * floor_;
+    if (system_.b(v) != 0) return {infinity, infinity, held};
+    Vector row = factors(t).out * system_.a.row(v).transpose();
+    row(x) = row(v) = 0;
+    const double ground = row.dot(q_ * row);
+    row(x) = system_.a(v, x);
+    return {std::sqrt(std::max(ground, 0.0)), std::sqrt(std::max(row.dot(q_ * row), 0.0)), held};
+  }
+
  private:
   struct Entry {
     Eigen::Index row, column;
     double value;
   };
+
+  /// By which the envelope multiplies the filter's output and input.
+  struct Factors {
+    double out, in;
+  };
+  Factors factors(double t) const {
+    if (!noise_.envelope()) return {1, 1};
+    const double factor = (*noise_.envelope())(t);
+    return noise_.envelope_at_source() ? Factors{1, factor} : Factors{factor, 1};
+  }
 
   /// One entry of A times its row of Q, as far as it is asked for: all of the first rows, whose columns change, and the
   /// first columns of the others. Column i of the product's matrix is row i of A Q.
@@ -205,7 +233,8 @@ double motion_ratio(const ShapedProblem& problem) {
   const System system(problem);
   const AverageFriction friction(problem.law, problem.options.force, 1);
   if (friction.none()) return infinity;
-  return course(problem.noise.envelope()).largest * system.acceleration_std / (friction.strength() * friction.level());
+  return course(problem.noise.envelope()).largest * system.acceleration_std /
+         friction.threshold(problem.natural_frequency > 0);
 }
 
 ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double> times,
@@ -243,8 +272,10 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
   const double tolerance = problem.options.tolerance / 10;
   // Motion that never comes to rest needs no implicit steps, unless it lasts a thousand times the shortest time scale.
+  // Where one level is far higher than the other, the mean velocity adjusts at its rate.
   const double rate = std::max({1 / system.time_scale, problem.damping, problem.natural_frequency,
-                                white ? squared(friction.level()) / system.intensity : 0});
+                                white ? squared(friction.level()) / system.intensity : 0,
+                                friction.drifts() ? friction.level() / velocity : 0});
   const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
   const bool stiff = !friction.none() && !(moves && last * rate < 1000);
   // Slopes are cheap: explicit steps of fifth order are the fastest unless the tolerance is so tight that Adams' orders
@@ -252,14 +283,16 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   const OdeMethod method = stiff                               ? OdeMethod::bdf
                            : problem.options.tolerance >= 1e-9 ? OdeMethod::runge_kutta
                                                                : OdeMethod::adams;
+  // Below this velocity the solution is that of the regularization, which therefore must not grow with the tolerance.
   // With implicit steps its square must be above the absolute tolerance.
-  const double floor = (stiff ? std::sqrt(tolerance / 10) : 1e-7) * velocity;
+  const double absolute = std::min(tolerance, 1e-11);
+  const double floor = (stiff ? std::sqrt(absolute / 10) : 1e-7) * velocity;
   OdeOptions ode{.relative_tolerance = tolerance,
                  .absolute_tolerance = std::vector<double>(static_cast<std::size_t>(packed)),
                  .method = method,
                  .max_steps = 300'000,
                  .progress = progress};
-  pack(tolerance * scale * scale.transpose(), columns, ode.absolute_tolerance.data());
+  pack((stiff ? absolute : tolerance) * scale * scale.transpose(), columns, ode.absolute_tolerance.data());
 
   Matrix start = Matrix::Zero(n, n);
   if (problem.noise.stationary_start())
@@ -281,6 +314,14 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
     if (friction.drifts()) {
       kept.displacement_mean = y[static_cast<std::size_t>(packed)];
       kept.velocity_mean = y[static_cast<std::size_t>(packed) + 1];
+    }
+    const Equations::Drive drive = equations.drive(times[i], y.first(static_cast<std::size_t>(packed)));
+    kept.motion_ratio = drive.held > 0 ? drive.ground / drive.held : infinity;
+    // Where friction holds, what is left is the creep of the regularization, floor r / sqrt(1 - r^2).
+    const double r = drive.force / drive.held, creep = floor * std::max(10.0, 2 / std::sqrt((1 - r) * (1 + r)));
+    if (r < 1 && kept.q22 <= squared(creep)) {
+      kept.q22 = kept.q12 = kept.velocity_mean = 0;
+      if (kept.q11 <= squared(creep * times[i])) kept.q11 = 0;
     }
     check_range(noun, times[i], kept.q11 + kept.q22);
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace stickslip::detail {
 /// Moments of x and x'.
 struct ShapedState {
   double displacement_mean = 0, velocity_mean = 0, q11 = 0, q12 = 0, q22 = 0;
+  /// Rms acceleration of the ground over that below which linearized friction holds the slider; infinite at rest at
+  /// time 0, under white noise and without friction.
+  double motion_ratio = std::numeric_limits<double>::infinity();
 };
 
 struct ShapedSolution {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <ranges>
 #include <vector>
 
 #include "stickslip/numerics/root.hpp"
@@ -13,10 +14,12 @@ namespace {
 constexpr int half = 150;           ///< nodes of the grid either side of 0
 constexpr double max_steps = 1000;  ///< of the walk; with more slips, several are combined in a step
 
+using Farthest = std::function<SlipExcursion::Parts(double)>;
+
 /// The walk between -L and L.
 class Walk {
  public:
-  Walk(const Slips& slips, const std::function<double(double)>& farthest, double together, double bound)
+  Walk(const Slips& slips, const Farthest& farthest, double together, double bound)
       : step_(bound / (half + 0.5)), rate_(slips.count / together) {
     const auto lay = [&](double length,
                          double count) {  // on three nodes, so that its mean and its square are preserved
@@ -35,7 +38,10 @@ class Walk {
           both[static_cast<std::size_t>(i + j + reach)] += at(i) * at(j);
       law_ = both;
     }
-    for (int i = -reach; i <= reach; ++i) out_.push_back(together > 1 ? i * step_ : farthest(i * step_));
+    for (int i = -reach; i <= reach; ++i) {
+      out_.push_back(farthest(i * step_));
+      if (together > 1) out_.back().fill(std::abs(i * step_));
+    }
   }
 
   /// The probability of having stayed within the bound.
@@ -51,15 +57,22 @@ class Walk {
       log_chance += std::log(rate_ / (n + 1));
       std::ranges::fill(next, 0);
       for (int m = -2 * half; m <= 2 * half; ++m) {
-        const double chance = at(m), out = out_[static_cast<std::size_t>(m + reach)];
-        if (chance == 0) continue;
-        // From x to x + m, by way of x + out.
-        const double room = (bound - std::abs(out)) / step_;
-        if (room < -half) continue;
-        const int last = std::min(half, static_cast<int>(std::floor(room)));
-        const int low = m >= 0 ? -half : std::max(-half - m, -last), high = m >= 0 ? std::min(half - m, last) : half;
-        for (int x = low; x <= high; ++x)
-          next[static_cast<std::size_t>(x + m + half)] += chance * here[static_cast<std::size_t>(x + half)];
+        if (at(m) == 0) continue;
+        // From x to x + m, by way of x + out for each part of the probability: where x leaves room for it.
+        double chance = at(m);
+        int from = -half;  // counted in the direction of the slip
+        for (const double out : out_[static_cast<std::size_t>(m + reach)] | std::views::reverse) {
+          const double room = (bound - out) / step_;
+          const int last = room < -half ? -half - 1 : std::min(half - std::abs(m), static_cast<int>(std::floor(room)));
+          if (m >= 0)
+            for (int x = from; x <= last; ++x)
+              next[static_cast<std::size_t>(x + m + half)] += chance * here[static_cast<std::size_t>(x + half)];
+          else
+            for (int x = -last; x <= -from; ++x)
+              next[static_cast<std::size_t>(x + m + half)] += chance * here[static_cast<std::size_t>(x + half)];
+          chance -= at(m) / static_cast<double>(SlipExcursion::parts);
+          from = std::max(from, last + 1);
+        }
       }
       here.swap(next);
     }
@@ -73,12 +86,12 @@ class Walk {
 
   double step_, rate_;
   std::vector<double> law_ = std::vector<double>(2 * reach + 1);  ///< of a slip
-  std::vector<double> out_{};                                     ///< the farthest point of the slip on the way
+  std::vector<SlipExcursion::Parts> out_{};                       ///< distances on the way of a slip
 };
 
 }  // namespace
 
-double slip_walk_peak(const Slips& slips, const std::function<double(double)>& farthest, double probability) {
+double slip_walk_peak(const Slips& slips, const Farthest& farthest, double probability) {
   if (!(slips.count > 0 && slips.moments[1] > 0) || std::exp(-slips.count) >= probability) return 0;
   double together = 1;
   while (slips.count / together > max_steps) together *= 2;

@@ -14,6 +14,7 @@
 
 #include "numerics/quadrature.hpp"
 #include "stickslip/error.hpp"
+#include "theory/ranges.hpp"
 
 namespace stickslip::theory {
 namespace {
@@ -160,13 +161,26 @@ constexpr double critical = 0.79788456080286536;  // sqrt(2/pi), thesis (4.22)
 /// sigma_n / a, in readable form.
 std::string shown(double ratio) { return "sigma_n / a = " + detail::shortest(std::round(1e4 * ratio) / 1e4); }
 
-std::string remark_of(double ratio, double wn, double low_power) {
+/// The fraction of the variance of a ground acceleration below a frequency.
+double variance_below(const Spectrum& spectrum, double frequency) {
+  const double high = std::min(frequency, spectrum.high());
+  if (!(high > spectrum.low()) || !std::isfinite(spectrum.variance())) return 0;
+  std::vector<double> cuts = spectrum.breakpoints();
+  std::erase_if(cuts, [&](double cut) { return !(cut > spectrum.low() && cut < high); });
+  return 2 * detail::integral([&](double omega) { return spectrum(omega); }, spectrum.low(), high, cuts) /
+         spectrum.variance();
+}
+
+std::string remark_of(double ratio, const Spectrum& spectrum, double wn, double low_power) {
   std::string remark;
-  if (ratio < 1.5 * critical)
-    remark = shown(ratio) + " is near sqrt(2/pi), thesis (4.22): velocities may be far too low";
+  const auto add = [&](const std::string& more) { remark += (remark.empty() ? "" : "; ") + more; };
+  if (ratio < 1.5 * critical) add(shown(ratio) + " is near sqrt(2/pi), thesis (4.22): velocities may be far too low");
+  if (const double below = wn > 0 && std::isfinite(ratio) ? variance_below(spectrum, wn) : 0;
+      below > detail::quasi_static_fraction)
+    add("the natural frequency of the spring exceeds those of " + detail::shortest(std::round(100 * below)) +
+        " % of the variance of the ground acceleration: " + detail::stationary_range);
   if (wn == 0 && low_power > 0 && std::isfinite(ratio))
-    remark += std::string(remark.empty() ? "" : "; ") +
-              "no acceleration at zero frequency: under friction the displacement drifts all the same";
+    add("no acceleration at zero frequency: under friction the displacement drifts all the same");
   return remark;
 }
 
@@ -252,7 +266,7 @@ StationaryPrediction StationaryLinearization::predict(const Slider<Coulomb>& sli
     p.displacement_std = std::sqrt(integral_over(spectrum, wn, zeta, [=](double w, double r) {
       return 1 / (squared(w) * (r * r + zeta * zeta));
     }));  // thesis (4.12)
-  p.remark = remark_of(ratio, wn, begin.power);
+  p.remark = remark_of(ratio, spectrum, wn, begin.power);
   return p;
 }
 

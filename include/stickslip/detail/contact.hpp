@@ -48,8 +48,8 @@ struct AtPlace {
   double displacement;
 
   template <class X, class Speed>
-  auto resist(const X&, Direction direction, const Speed& speed) const {
-    return stickslip::resist(*law, displacement, direction, speed);
+  auto resist(const X&, const Speed& speed, Direction direction) const {
+    return stickslip::resist(*law, displacement, speed, direction);
   }
 };
 

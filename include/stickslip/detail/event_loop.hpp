@@ -20,22 +20,33 @@
 
 namespace stickslip::detail {
 
-/// Counts steps too short to change the time left in a segment, and stops an event loop that makes too many of them.
+/// Stops an event loop that takes too many steps, or meets numbers that overflow, within a hundredth of its segment.
+/// @tparam max_steps  in a hundredth of the segment
+template <int max_steps>
 class Standstill {
  public:
-  void count(double taken, double left, double duration) {
-    if (!(left - taken < left) && ++steps_ > max_steps) refuse(duration);
+  explicit Standstill(double duration) : mark_(duration) {}
+
+  /// @param left  time to the end of the segment [s]
+  void count(double left, double duration, const State& state) {
+    if (++steps_ < max_steps) [[likely]]
+      return;
+    if (!(mark_ - left >= duration / 100)) refuse(duration, left, state);
+    steps_ = 0;
+    mark_ = left;
   }
 
  private:
-  static constexpr int max_steps = 1'000'000;
-
-  [[noreturn, gnu::noinline]] static void refuse(double duration) {
-    throw ConvergenceError("advance: in a segment of " + shortest(duration) +
-                           " s the motion changes faster than its time can be resolved: the spring is too stiff, or "
-                           "the acceleration too large, for a segment this long");
+  [[noreturn, gnu::noinline]] static void refuse(double duration, double left, State state) {
+    throw ConvergenceError(
+        "advance: in a segment of " + shortest(duration) +
+        " s the motion changes faster than its time can be resolved, at x = " + shortest(state.displacement) +
+        " m, x' = " + shortest(state.velocity) + " m/s, " + shortest(left) +
+        " s before its end: the spring or damper is too stiff, or the acceleration or the slip "
+        "level too large, for a segment this long");
   }
 
+  double mark_;  // time left at the last check [s]
   int steps_ = 0;
 };
 
@@ -152,7 +163,8 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   constexpr bool loaded = LoadedPiece<Piece>, bounded = !std::same_as<Within, Unbounded>;
   if (!(segment.duration > 0)) return;
   double left = segment.duration;
-  Standstill standstill;
+  constexpr bool in_closed_form = requires { typename Flows::Basis; };
+  Standstill<in_closed_form ? 1'000'000 : 3'000'000> standstill(segment.duration);
   // The factor on friction at time `until_end` before the end of the segment, and the pull of the spring.
   const auto weigh = [&](double until_end, double level) {
     if constexpr (loaded) return Piece::weigh(segment.weight(until_end), level);
@@ -164,8 +176,8 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
     return flows.pull(state.displacement);
   };
   const auto pull = [&] { return pull_at(left); };
-  const auto count_step = [&](double taken) {
-    if constexpr (bounded || !requires { Flows::stops_twice_at_most; }) standstill.count(taken, left, segment.duration);
+  const auto count_step = [&] {
+    if constexpr (bounded || !requires { Flows::stops_twice_at_most; }) standstill.count(left, segment.duration, state);
   };
   double load = segment.first_load() - pull();  // all forces but friction
   Mode stopped = Mode::stuck;                   // the mode of a slip that has just stopped,
@@ -190,7 +202,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
   // zero if the slider was held until the load reached the level.
   const auto acceleration = [&](Direction direction) {
     const double speed = std::abs(state.velocity);
-    return sign(direction) * load - weigh(left, resist(law_now(), state.displacement, direction, speed)) -
+    return sign(direction) * load - weigh(left, resist(law_now(), state.displacement, speed, direction)) -
            flows.drag(speed);
   };
 
@@ -261,7 +273,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       const double speed = std::abs(state.velocity);
       if constexpr (loaded)
         return segment.slip(s, speed, acceleration(direction), ground_load, left,
-                            resist(law_now(), state.displacement, direction, speed));
+                            resist(law_now(), state.displacement, speed, direction));
       else
         return segment.slip(s, speed, acceleration(direction), ground_load, left);
     }();
@@ -302,7 +314,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
         end.distance = room;
         end.speed = std::max(end.speed, 0.0);
         show(taken, end, start.gain_within(taken, left));
-        count_step(taken);
+        count_step();
         left -= taken;
         state.velocity = s * end.speed;
         const auto load_now = [&] { return ground_load + s * start.gain_within(flow_left - left, flow_left) - pull(); };
@@ -322,15 +334,17 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
           observer.event(EventKind::impact, segment.duration - left, state);
           load = load_now();
           const Direction back = opposite(direction);
-          double speed = within.bound(back, state.displacement, 0) < never ? within.stops.restitution() * end.speed : 0;
+          double speed = within.stops.restitution() * end.speed;
+          if (!(within.bound(back, state.displacement, resist(law_now(), state.displacement, speed, back)) < never))
+            speed = 0;
           // Skip infinitely many bounces if their total distance is below round-off and the load is practically
           // constant meanwhile.
-          const double q = s * load, a = weigh(left, resist(law_now(), state.displacement, direction, speed));
+          const double q = s * load, a = weigh(left, resist(law_now(), state.displacement, speed, direction));
           if (speed > 0 && q > a && left > 0) {
             const Bounces bounces(speed, q, a, within.stops.restitution());
-            const double changes = std::abs(start.gain_within(flow_left, flow_left)) / flow_left;
+            const double changes = std::abs(start.gain_within(flow_left, flow_left));
             if (bounces.distance <= 0x1p-52 * std::abs(state.displacement) &&
-                changes * bounces.time <= (q - a) / 1024) {
+                changes * (bounces.time / flow_left) <= (q - a) / 1024) {
               left -= std::min(bounces.time, left);
               load = load_now();
               speed = 0;
@@ -358,7 +372,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       slid(end.distance);
       state.velocity = s * std::max(end.speed, 0.0);
       if (whole) return;
-      count_step(taken);
+      count_step();
       left -= taken;
       load = ground_load + s * gain - pull();
       // If the loads balance to the last digit, a slip too slow to change x would never end.
@@ -376,7 +390,7 @@ template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer, cl
       state.velocity = 0;
       stopped = std::exchange(state.mode, Mode::stuck);
       instant = !(left - stop < left);
-      count_step(stop);
+      count_step();
       left -= stop;
       load = ground_load + s * gain - pull();
     }

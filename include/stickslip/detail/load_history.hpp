@@ -27,8 +27,8 @@ class GroundLoad {
   GroundLoad(const GroundMotion& motion, double slope) noexcept
       : pieces_(motion, slope), segments_(motion.segments()), still_(load_segment(Segment{1, 0, 0}, slope)) {}
 
-  /// Call `node(load)` at the times between which both are monotonic: just after `from`, at both ends of each segment
-  /// and just before `to`, until it returns false.
+  /// Call `node(load)` at the times between which both are monotonic, and N has one sign: just after `from`, at both
+  /// ends of each segment, where N crosses zero, and just before `to`, until it returns false.
   /// @param from  [s], not before the motion
   /// @param to    [s], after `from`; may be infinite
   template <class Node>
@@ -38,12 +38,14 @@ class GroundLoad {
       const double begin = pieces_.time(i), end = pieces_.time(i + 1);
       if (!(time < end)) continue;
       const LoadSegment s = pieces_.segment(i);
-      if (!node(Load{s.load(time - begin), s.normal(time - begin)})) return;
-      if (to < end) {
-        node(Load{s.load(to - begin), s.normal(to - begin)});
-        return;
+      const Load first{s.load(time - begin), s.normal(time - begin)};
+      const Load last = to < end ? Load{s.load(to - begin), s.normal(to - begin)} : Load{s.load_end, s.normal_end};
+      if (!node(first)) return;
+      if (first.normal * last.normal < 0) {
+        const double part = first.normal / (first.normal - last.normal);
+        if (!node(Load{first.load + part * (last.load - first.load), 0})) return;
       }
-      if (!node(Load{s.load_end, s.normal_end})) return;
+      if (!node(last) || to < end) return;
       if (!(end < to)) return;
       time = end;
     }

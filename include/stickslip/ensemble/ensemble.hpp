@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "stickslip/ensemble/configuration.hpp"
+#include "stickslip/ensemble/smallest_gaps.hpp"
 #include "stickslip/ensemble/stationary.hpp"
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/ensemble/velocity_spectrum.hpp"
+#include "stickslip/sliding/impacts.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/statistics/tally.hpp"
 
@@ -46,7 +48,14 @@ class Ensemble {
   /// Results of each member of a block.
   struct Kept {
     std::vector<double> peak, residual;  ///< [m]
+    std::vector<Impacts> impacts{};      ///< empty if no slider of the block has stops
     friend bool operator==(const Kept&, const Kept&) = default;
+  };
+
+  /// Numbers of members that hit a stop.
+  struct Hits {
+    std::uint64_t either = 0, forward = 0, backward = 0;
+    friend bool operator==(const Hits&, const Hits&) = default;
   };
 
   /// The complete content of an ensemble, for storage in a file.
@@ -58,8 +67,12 @@ class Ensemble {
     detail::TallyTree tallies;
     std::map<std::uint64_t, std::size_t> cut;  ///< incomplete blocks and their numbers of members
     std::map<std::uint64_t, Kept>
-        kept;              ///< by the number of the block; empty if there are more than `max_kept` members
-    detail::Sketch peaks;  ///< counts the peaks in that case
+        kept;                 ///< by the number of the block; empty if there are more than `max_kept` members
+    detail::Sketch peaks;     ///< counts the peaks in that case,
+    Hits hits{};              ///< and these the impacts
+    SmallestGaps gaps{};      ///< of the sliders of all members
+    bool has_impacts = true;  ///< false if sliders with stops come from a file written before impacts were kept
+    std::uint64_t airborne = 0;
     friend bool operator==(const Parts&, const Parts&) = default;
   };
 
@@ -116,15 +129,30 @@ class Ensemble {
   /// Last x of each member [m].
   std::vector<double> residual() const;
 
+  /// The impacts of each member on its stops, in the order of the members.
+  /// @throws std::domain_error if no member has stops; for more than `max_kept` members; if members come from a file
+  ///         written before impacts were kept
+  std::vector<Impacts> impacts() const;
+  /// The fraction of members that hit a stop, on either side or on one; bounds of Clopper and Pearson (1934).
+  /// @throws std::domain_error with fewer than two members; if no member has a stop, or none on that side; as `impacts`
+  Interval impact_probability(double confidence = 0.95) const;
+  Interval impact_probability(Direction side, double confidence = 0.95) const;
+
+  /// Number of members that end in flight, without having landed; their residual is x at the end of the motion.
+  std::uint64_t airborne() const noexcept { return parts_.airborne; }
+
   /// Quantile of the peaks [m]. The bounds are order statistics (binomial distribution), 0 and infinity if there are
   /// too few members.
   /// @param probability  fraction of members that do not exceed it, in (0, 1)
   /// @param confidence   of the bounds, in (0, 1)
   /// @throws std::domain_error with fewer than two members
   Interval quantile(double probability, double confidence = 0.95) const;
-  /// The fraction of members whose peak exceeds a level; bounds of Clopper and Pearson (1934).
-  /// @throws std::domain_error with fewer than two members
-  /// @param level  [m], at least 0
+  /// The fraction of members whose peak exceeds a level; bounds of Clopper and Pearson (1934). At the smallest gap of a
+  /// stop, which |x| can reach but not exceed there, the fraction of members that exceed the level or hit a stop.
+  /// @param level  [m], at least 0 and at most the smallest gap of a stop of any member
+  /// @throws std::domain_error with fewer than two members; a level at a stop for more than `max_kept` members; sliders
+  ///         with stops from a file written before impacts were kept
+  /// @throws std::invalid_argument  a level out of range: at or beyond a stop the peaks say nothing
   Interval exceedance(double level, double confidence = 0.95) const;
 
   /// Add the members of another part of the same ensemble.
@@ -136,10 +164,12 @@ class Ensemble {
  private:
   friend Ensemble detail::run_ensemble(Configuration, const EnsembleTimes&, const EnsembleOptions&, const Ensemble*,
                                        const detail::MakeSimulator&);
-  void insert(std::uint64_t block, detail::Tally tally, Kept kept);
+  void insert(std::uint64_t block, detail::Tally tally, Kept kept, const SmallestGaps& gaps, std::size_t airborne);
   void bound_memory();
   void need_times() const;
   void need_ground_acceleration() const;
+  void need_impacts(double gap, const char* side) const;
+  Interval fraction(std::uint64_t count, double confidence) const;
 
   Parts parts_;
 };

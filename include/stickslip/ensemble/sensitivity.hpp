@@ -104,10 +104,10 @@ auto with_slider(const std::variant<Sliders...>& slider, Work&& work) {
 /// leaves the jumps out; such sliders are rejected. Take differences of two ensembles with the same seed then: the
 /// members are the same, and most of the scatter cancels.
 ///
-/// @param source     of members with Coulomb friction, any mounting but stops and a pendulum; see MemberSource
+/// @param source     of members with Coulomb friction, any mounting but stops; see MemberSource
 /// @param parameter  the parameter; `kinetic` and `static_level` belong to other laws
 /// @return the same bits for any number of threads
-/// @throws std::invalid_argument  fewer than two members; another law; stops; a pendulum; a parameter that the slider
+/// @throws std::invalid_argument  fewer than two members; another law; stops; a parameter that the slider
 ///                                does not have; a member that leaves the ground (use `Contact::clipped`) or whose
 ///                                response is not differentiable (names it)
 /// @throws ConvergenceError       a member does not settle; names it

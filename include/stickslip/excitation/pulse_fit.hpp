@@ -34,9 +34,13 @@ Spectrum estimate_spectrum(const GroundMotion& motion, double bandwidth);
 ///     S(omega) = 8 lambda sigma^2 sin^4(omega Dt / 2) / (pi omega^2)
 ///
 /// to that of the strong motion of a record, thesis 5.6, by least squares over all frequencies, for Dt and lambda
-/// sigma^2. The fit uses the periodogram without smoothing. The misfit and the standard error, which is also valid for
-/// records that do not consist of pulses, use its average over a third of f_c. For a record that consists of pulses,
-/// the scatter of this average alone causes a misfit of about 1.4 / sqrt(f_c x duration).
+/// sigma^2. The fit uses the periodogram without smoothing, with values 1 / (2 duration) apart. The misfit and the
+/// standard error, which is also valid for records that do not consist of pulses, use its average over a third of f_c.
+/// For a record that consists of pulses, the scatter of this average alone causes a misfit of about
+/// 1.4 / sqrt(f_c x duration).
+///
+/// The standard error is that of a long stationary process, Gaussian or of pulses. Where few pulses make up the strong
+/// part, its ends cut some of them, and the estimates scatter more: docs/earthquakes.md has the ratio by lambda Dt.
 ///
 /// Such a fit depends mainly on frequencies with a high density. Low frequencies, which move a slider most, have no
 /// additional weight; `strong_motion` uses the ground velocity instead. If the two frequencies differ much, the
@@ -44,8 +48,9 @@ Spectrum estimate_spectrum(const GroundMotion& motion, double bandwidth);
 /// @param motion  a record, lines or steps
 /// @throws std::invalid_argument  if there is no fit: the best pulses are longer than an eighth of the strong part, or
 ///                                shorter than eight of its time steps, or the misfit is 1 or more, the value without
-///                                pulses; a motion without acceleration
-/// Cost: one FFT and about 150 sums over it, 5 to 50 ms.
+///                                pulses, as may happen if the strong part has few pulses; a motion without
+///                                acceleration
+/// Cost: one FFT and about 150 sums over it, 10 to 100 ms.
 PulseFit fit_pulses(const GroundMotion& motion);
 
 /// The same fit to a known spectrum.

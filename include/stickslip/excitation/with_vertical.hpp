@@ -20,9 +20,10 @@ namespace detail {
 /// one excitation and are independent.
 std::uint64_t vertical_seed(std::uint64_t seed);
 
-/// The horizontal motion with `ratio` times the vertical one as its vertical component. If the times differ, the result
-/// has those of both, and each component is as before between them.
-/// @throws std::invalid_argument  different interpolations or durations; a motion of several components
+/// The horizontal motion, which may have a transverse component, with `ratio` times the vertical one as its vertical
+/// component. If the times differ, the result has those of both, and each component is as before between them.
+/// @throws std::invalid_argument  different interpolations or durations; a horizontal motion that has a vertical
+///                                component, or a vertical motion of several
 GroundMotion with_vertical(GroundMotion horizontal, const GroundMotion& vertical, double ratio);
 
 }  // namespace detail

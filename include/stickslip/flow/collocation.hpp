@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <optional>
 
 #include "stickslip/detail/equal.hpp"
@@ -59,7 +60,8 @@ class Cooling {
 /// with the terms of TaylorFlow. It is found by iteration. The step (the horizon) is shortened until the last
 /// coefficients of the acceleration contribute at most 1e-11 of the speed (1e-8 with temperature), and until the step
 /// ends shortly after a stop. After the stop the speed is negative; there the resistance is continued to be odd about
-/// its value at zero speed.
+/// its value at zero speed. A step that leaves the range of speeds possible in it, or in which the law has no level, is
+/// shortened too.
 ///
 /// Frictional heat generated within the step affects the step itself: its half-integral is a matrix times the heat at
 /// the nodes.
@@ -68,7 +70,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   using Base = PowerSeriesFlow<SlipStart>;
   using Base::at_part, Base::end_series, Base::find_first_stop, Base::integral, Base::stiffness, Base::weight;
   using Base::loaded, Base::mounting_, Base::direction_, Base::displacement_, Base::start_, Base::gain_, Base::horizon_,
-      Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_;
+      Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_, Base::weight_rate_;
   using Nodes = detail::Nodes;
   using Values = Nodes::Values;
   static constexpr bool heated = HeatedLaw<Law>;
@@ -86,14 +88,21 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
       return;
     }
     if constexpr (heated) heating_ = law_.heating(state, direction);
+    if constexpr (loaded)
+      level_here_ = start.weight * start.level;
+    else
+      level_here_ = resist(law_at(law_, state), state.displacement, start.speed, direction);
+    horizon_ = std::min(horizon_, longest_trial());
     for (;;) {
       if constexpr (heated) before_ = cooling.half_integrals(state.heat, horizon_);
       const bool found = solve();
       const double shorter = found ? horizon_to_stop() : horizon_ / 2;
       if (found && !(shorter < horizon_)) return;
       if (!(shorter > 0x1p-200 * duration && shorter < horizon_)) break;
+      if (no_level_ && stays()) break;
       horizon_ = shorter;
     }
+    if (no_level_) std::rethrow_exception(no_level_);
     throw ConvergenceError("friction changes too fast to be followed at x = " + detail::shortest(state.displacement) +
                            " m and a speed of " + detail::shortest(start.speed) +
                            " m/s: it must be a continuous function of both");
@@ -128,13 +137,44 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
       if constexpr (heated)
         return law_.level(v, weight(Nodes::get().nodes[i]), half_integral);
       else
-        return resist(law_, x, direction_, v);
+        return resist(law_, x, v, direction_);
     };
     return speed >= 0 ? at(speed) : 2 * at(0) - at(-speed);
   }
 
+  // A step beyond which the first trial would be far from the motion: one over which a spring or a damper changes the
+  // speed by more than itself.
+  double longest_trial() const noexcept {
+    double longest = never;
+    if (mounting_.natural_frequency > 0) longest = 2 / mounting_.natural_frequency;
+    if (mounting_.damping > 0) longest = std::min(longest, 2 / mounting_.damping);
+    return longest;
+  }
+
+  // Bound on the change of the speed within the horizon by all forces that can accelerate the slider [m/s].
+  double gain_of_speed() const noexcept {
+    double force = std::abs(start_.acceleration) + level_here_ + gain_.largest(horizon_, 1);
+    force += mounting_.damping * start_.speed;
+    if (mounting_.pendulum) force += std::abs(weight_rate_) * horizon_ * stiffness() * std::abs(displacement_);
+    return horizon_ * force;
+  }
+  // Whether the motion within the horizon is too small to matter.
+  bool stays() const noexcept {
+    const double gain = gain_of_speed(), way = horizon_ * (start_.speed + gain);
+    return gain <= 0x1p-40 * start_.speed && way <= 0x1p-40 * std::abs(displacement_);
+  }
+
   // Compute the motion over the horizon. Returns false if the horizon must be shortened.
   bool solve() {
+    no_level_ = nullptr;
+    try {
+      return iterate();
+    } catch (const NoLevel&) {
+      no_level_ = std::current_exception();
+      return false;
+    }
+  }
+  bool iterate() {
     const Nodes& nodes = Nodes::get();
     const double h = horizon_, s = sign(direction_), damping = mounting_.damping, root_h = std::sqrt(h);
     constexpr std::size_t n = Nodes::points;
@@ -149,6 +189,8 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         }
       return stiffness() * way;
     };
+    // No force of this step makes the slider faster; a spring, up to four times as fast over `longest_trial`.
+    const double speed_limit = 4 * (start_.speed + gain_of_speed());
     double fastest = 0, change = 0;
     for (int sweep = 0;; ++sweep) {
       const double previous = change;
@@ -164,6 +206,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         v[i] = start_.speed + h * gained;
         d[i] = h * (nodes.nodes[i] * start_.speed + h * way);
         fastest = std::max(fastest, std::abs(v[i]));
+        if (!(fastest <= speed_limit)) return false;
         if constexpr (heated) {
           for (std::size_t k = 0; k < n; ++k) half += nodes.half_integral[i][k] * q[k];
           half = std::max(before_[i] + root_h * half, 0.0);
@@ -174,7 +217,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         terms = std::max(terms, std::abs(start_.acceleration) + std::abs(back) + std::abs(drag) + std::abs(force[i]));
         if (i == 0) continue;
         const double net = start_.acceleration + gain_.at(h, nodes.nodes[i]) - back - drag - (force[i] - force[0]);
-        if (!std::isfinite(net)) return false;
+        if (!std::isfinite(net) || (sweep == 0 && h * std::abs(net - a[i]) > speed_limit)) return false;
         change = std::max(change, std::abs(net - a[i]));
         a[i] = net;
       }
@@ -184,13 +227,13 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
       if (sweep > 3 && change > previous / 2) return false;
       if (sweep == 60) return false;
     }
-    const Values c = nodes.chebyshev(a);
-    if (h * (std::abs(c[n - 1]) + std::abs(c[n - 2])) > tolerance * fastest) return false;
     const auto noise = [](const Values& values) {
       double largest = 0;
       for (const double value : values) largest = std::max(largest, std::abs(value));
       return round_off * largest;
     };
+    const Values c = nodes.chebyshev(a);
+    if (h * (std::abs(c[n - 1]) + std::abs(c[n - 2])) > tolerance * fastest) return false;
     Values coefficients;
     const int degree = Nodes::powers(c, noise(a), coefficients);
     coefficients[0] = start_.acceleration;
@@ -229,6 +272,8 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   detail::Cooling& cooling_;
   Values before_{}, friction_{}, heat_{};
   double heating_ = 0, stop_ = never;
+  double level_here_ = 0;        // at the start, under the weight there [m/s^2]
+  std::exception_ptr no_level_;  // of the last trial
 };
 
 /// Makes the flows of a slider by collocation.

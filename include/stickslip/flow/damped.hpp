@@ -24,6 +24,11 @@ inline double stiffness_of(double natural_frequency) noexcept {
   return natural_frequency * std::abs(natural_frequency);
 }
 
+/// How often 1 must be doubled to reach a size.
+inline int doublings_to(double size) noexcept {
+  return size > 1 ? static_cast<int>(std::ceil(std::log2(std::min(size, std::numeric_limits<double>::max())))) : 0;
+}
+
 /// (c/2)^2 - wn^2 [1/s^2].
 inline double excess_damping(double half, double natural_frequency) noexcept {
   if (natural_frequency < 0) return half * half + natural_frequency * natural_frequency;
@@ -55,7 +60,7 @@ struct DampedBasis {
       return;
     }
     const double size = (damping + std::abs(wn)) * time;
-    const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
+    const int doublings = detail::doublings_to(size);
     duration = std::ldexp(time, -doublings);
     from_series(damping, stiffness);
     for (int i = 0; i < doublings; ++i) double_time(stiffness);
@@ -122,7 +127,7 @@ struct DampedBasis {
       decay += k * (k - 1) * (k - 2) * (k - 3) * term;
       const double next = -(y * term + q * before / k) / (k + 1);
       before = std::exchange(term, next);
-      if (k * k * k * k * (std::abs(term) + std::abs(before * q)) < 1e-18) break;
+      if (!(k * k * k * k * (std::abs(term) + std::abs(before * q)) >= 1e-18)) break;
     }
     impulse *= u;
     step *= u * u;
@@ -140,7 +145,7 @@ class DampedSquare {
     if (detail::equal(duration, 0)) return;
     const double stiffness = detail::stiffness_of(natural_frequency);
     const double size = (damping + std::abs(natural_frequency)) * duration;
-    const int doublings = size > 1 ? static_cast<int>(std::ceil(std::log2(size))) : 0;
+    const int doublings = detail::doublings_to(size);
     const double part = std::ldexp(duration, -doublings);
     numerics::gauss_points<8>(0, part, [&](double time, double weight) {
       const DampedBasis at(damping, natural_frequency, time);

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -27,7 +29,8 @@ namespace stickslip {
 /// the spring of a pendulum.
 ///
 /// Orders are added until they are below round-off at the end of the step, where the equation of motion is then checked
-/// against the law itself. If `highest_order` is not enough, the step (the horizon) is shortened.
+/// against the law itself, as is the level alone under a variable weight. If `highest_order` is not enough, the step
+/// (the horizon) is shortened.
 template <FrictionLaw Law, class SlipStart = Start>
 class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   using Base = PowerSeriesFlow<SlipStart>;
@@ -42,12 +45,15 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
                                const SlipStart& start, double duration, double longest = never)
       : Base(slider.mounting(), direction, displacement, start, duration, longest),
         slider_(slider),
-        level_here_(resist(slider.law(), displacement, direction, start.speed)) {
+        level_here_(resist(slider.law(), displacement, start.speed, direction)) {
     // If the level has nearly underflowed, its series does not show how the level rises toward the center: cover at
     // most half of that distance.
     if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
-        resist(slider.law(), 0.0, direction, start.speed) > vanishing)
+        resist(slider.law(), 0.0, start.speed, direction) > vanishing)
       horizon_ = std::min(horizon_, time_to_half_way());
+    // Under a constant level, the speed then has at most one minimum, which is checked.
+    if constexpr (SpeedLaw<Law>)
+      if (slider.stiffness() > 0) horizon_ = std::min(horizon_, std::numbers::pi / slider.natural_frequency());
 
     for (;;) {
       double within_reach = expand();
@@ -105,7 +111,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   double friction_work(double t) const {
     return integral(t, [&](const Progress& at, double part) {
       return weight(part) * at.speed *
-             resist(slider_.law(), displacement_ + sign(direction_) * at.distance, direction_, at.speed);
+             resist(slider_.law(), displacement_ + sign(direction_) * at.distance, at.speed, direction_);
     });
   }
 
@@ -129,7 +135,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     const double s = sign(direction_), h = horizon_, stiffness = slider_.stiffness(), damping = slider_.damping();
     series::Coefficients x;
     series::Coefficients v;  // of the speed, if the law depends on it
-    auto level = as_series(resist(slider_.law(), series::Variable{&x}, direction_, series::Variable{&v}));
+    auto level = as_series(resist(slider_.law(), series::Variable{&x}, series::Variable{&v}, direction_));
     x[0] = displacement_;
     speed_[0] = start_.speed;
     if constexpr (SpeedLaw<Law>) v[0] = start_.speed;
@@ -140,6 +146,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     const double largest_level = std::max(std::abs(level[0]), vanishing);
     fastest_ = speed_[0];
     double term = speed_[0];
+    keep_level(0, level);
     auto gain = gain_.coefficients(h);
     // The weight, a series of two terms, for products with it.
     const double weight_now = weight(0), weight_gains = weight_rate_ * h;
@@ -148,6 +155,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
       double net = start_.acceleration;
       if (k > 0) {
         level.update(k);
+        keep_level(k, level);
         if constexpr (loaded) {
           double pull = distance_[k - 1];
           if (pendulum) pull = weight_now * pull + weight_gains * (k == 1 ? s * displacement_ : distance_[k - 2]);
@@ -185,7 +193,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   bool balanced(double part) {
     end_ = at_part(part);
     const double level_there =
-        resist(slider_.law(), displacement_ + sign(direction_) * end_.distance, direction_, end_.speed);
+        resist(slider_.law(), displacement_ + sign(direction_) * end_.distance, end_.speed, direction_);
     const double gain = gain_.at(horizon_, part), drag = slider_.damping() * (end_.speed - start_.speed);
     const double now = weight(0), then = weight(part);
     double pull = slider_.stiffness() * end_.distance;
@@ -196,7 +204,23 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     const double terms = std::abs(start_.acceleration) + gain_.largest(horizon_, part) + std::abs(pull) +
                          slider_.damping() * fastest_ + now * std::abs(level_here_) + then * std::abs(level_there) +
                          slider_.stiffness() * std::abs(displacement_) + fastest_ / horizon_;
-    return std::abs(net - end_.acceleration) <= 32 * round_off * terms + 1e-300;
+    const double tolerance = 32 * round_off * terms + 1e-300;
+    if (!(std::abs(net - end_.acceleration) <= tolerance)) return false;
+    if constexpr (loaded) {
+      // Where the weight vanishes, the equation of motion does not show the level.
+      if (!detail::equal(weight_rate_, 0)) {
+        double level = 0;
+        for (int k = last_level_; k >= 0; --k) level = level * part + level_[static_cast<std::size_t>(k)];
+        if (!(std::max(now, then) * std::abs(level - level_there) <= tolerance)) return false;
+      }
+    }
+    return true;
+  }
+
+  // Keep a coefficient of the level, for time in units of the horizon [m/s^2].
+  template <class Series>
+  void keep_level(int k, const Series& level) noexcept {
+    if constexpr (loaded) level_[static_cast<std::size_t>(last_level_ = k)] = level[k];
   }
 
   // The distance is bounded by d <= u t + (|a| + |j| t) t^2: each of the three terms may use a third of it (of half of
@@ -220,6 +244,8 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   double level_here_;    // at the start [m/s^2]
   double fastest_ = 0;   // the largest term of the speed [m/s]
   double stop_ = never;  // kept where the law depends on the speed [s]
+  int last_level_ = 0;
+  std::array<double, loaded ? series::highest_order + 1 : 0> level_;  // of the series of the level
 };
 
 /// Makes the Taylor flows of one slider.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <stdexcept>
 
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
@@ -11,7 +12,7 @@ namespace stickslip {
 
 /// A friction law defines one or two functions. Each returns a non-negative friction force per unit mass [m/s^2]:
 ///
-///     resist(x, direction) or resist(x, direction, speed)    // resistance to sliding at x [m] and speed |x'| [m/s]
+///     resist(x, direction) or resist(x, speed, direction)    // resistance to sliding at x [m] and speed |x'| [m/s]
 ///     hold(x, direction)                                     // largest friction at rest against that direction
 ///
 /// Without `hold`, friction at rest is limited by the resistance at zero speed. `resist` is a template over its
@@ -36,11 +37,22 @@ concept PositionLaw = std::copy_constructible<Law> && requires(const Law& law, d
 /// A law whose resistance also depends on the speed.
 template <class Law>
 concept SpeedLaw = std::copy_constructible<Law> && requires(const Law& law, double x, Direction direction) {
-  { law.resist(x, direction, x) } -> std::convertible_to<double>;
+  { law.resist(x, x, direction) } -> std::convertible_to<double>;
 };
 
 template <class Law>
 concept MemorylessLaw = PositionLaw<Law> || SpeedLaw<Law>;
+
+/// Marks the exceptions of a law that is defined by numbers only where it has no level. Trial steps go beyond the
+/// motion: one that meets this exception, or a level that is not finite, is shortened. The exception is passed on only
+/// if the motion itself goes there. All other exceptions are passed on at once.
+struct NoLevel {};
+
+/// A level that is negative or not finite.
+class InvalidLevel : public std::invalid_argument, public NoLevel {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
 
 /// A law that is defined by numbers only, such as a table or a function in another language. It declares `static
 /// constexpr bool numeric = true;`, and its `resist` need not be a template. It must be continuous in x and speed. The
@@ -89,6 +101,16 @@ concept HeatedLaw = MemoryLaw<Law> && requires(const Law& law, const State& stat
 template <class Law>
 concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
 
+namespace detail {
+
+/// A class with the arguments of `resist` in the wrong order, for the error message.
+template <class Law>
+concept LawWithDirectionBeforeSpeed = !FrictionLaw<Law> && requires(const Law& law, double x, Direction direction) {
+  law.resist(x, direction, x);
+};
+
+}  // namespace detail
+
 /// The law that applies from a state on, under a normal force of `weight` times g: `law.at(...)` for a law with memory,
 /// otherwise the law itself.
 template <FrictionLaw Law>
@@ -115,9 +137,9 @@ concept LawWithHold = FrictionLaw<Law> && requires(const Law& law, double x, Dir
 
 /// Resistance to sliding of any law without memory, for numbers or power series [m/s^2].
 template <MemorylessLaw Law, class X, class Speed>
-auto resist(const Law& law, const X& x, Direction direction, const Speed& speed) {
+auto resist(const Law& law, const X& x, const Speed& speed, Direction direction) {
   if constexpr (SpeedLaw<Law>)
-    return law.resist(x, direction, speed);
+    return law.resist(x, speed, direction);
   else
     return law.resist(x, direction);
 }
@@ -126,7 +148,7 @@ auto resist(const Law& law, const X& x, Direction direction, const Speed& speed)
 /// slip could begin under a load too small to sustain it, and would end where it began.
 template <MemorylessLaw Law>
 double hold(const Law& law, double x, Direction direction) {
-  const double resists = resist(law, x, direction, 0.0);
+  const double resists = resist(law, x, 0.0, direction);
   if constexpr (LawWithHold<Law>)
     return std::max<double>(law.hold(x, direction), resists);
   else

@@ -58,8 +58,8 @@ class StaticKinetic {
     return sliding_.resist(x, direction);
   }
   template <class X, class Speed>
-  auto resist(const X& x, Direction direction, const Speed& speed) const requires SpeedLaw<Law> {
-    return sliding_.resist(x, direction, speed);
+  auto resist(const X& x, const Speed& speed, Direction direction) const requires SpeedLaw<Law> {
+    return sliding_.resist(x, speed, direction);
   }
   double hold(double, Direction direction) const noexcept { return static_level_of(direction); }
 

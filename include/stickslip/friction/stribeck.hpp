@@ -44,7 +44,7 @@ class Stribeck {
   int exponent() const noexcept { return exponent_; }
 
   template <class X, class Speed>
-  auto resist(const X&, Direction, const Speed& speed) const {
+  auto resist(const X&, const Speed& speed, Direction) const {
     using std::exp;
     using std::pow;
     return kinetic_ + (static_ - kinetic_) * exp(-pow(speed / velocity_, exponent_));

@@ -38,9 +38,8 @@ class VelocityDependent {
   double rate() const noexcept { return rate_; }
 
   template <class X, class Speed>
-  auto resist(const X&, Direction, const Speed& speed) const {
-    using std::exp;
-    return fast_ + (slow_ - fast_) * exp(-rate_ * speed);
+  auto resist(const X&, const Speed& speed, Direction) const {
+    return decaying(-rate_ * speed, slow_, fast_);
   }
 
  private:

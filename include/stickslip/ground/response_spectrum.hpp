@@ -52,14 +52,26 @@ ResponseSpectrum response_spectrum(const GroundMotion& motion, std::vector<doubl
                                    std::vector<double> damping = {0.05},
                                    SpectrumKind kind = SpectrumKind::pseudo_acceleration);
 
+/// A jump of the velocity of the ground, or of a floor, between two segments of its acceleration.
+struct Impulse {
+  std::size_t before;  ///< index of the segment that follows
+  double velocity;     ///< after minus before the jump [m/s]
+
+  friend bool operator==(const Impulse&, const Impulse&) = default;
+};
+
 /// The same under straight segments with jumps between them, such as the absolute acceleration of a sliding mass
-/// (sliding/floor_motion.hpp): a floor spectrum.
+/// (sliding/floor_motion.hpp): a floor spectrum. An impulse changes the velocity x' of each oscillator by the opposite
+/// jump, and adds nothing else; a rigid oscillator has no finite acceleration then.
 ///
-/// @param motion  consecutive segments [s], [m/s^2]: durations at least 0 and finite, accelerations finite and at
-///                most 1e100; the sum of the durations positive
-/// @throws std::invalid_argument  also for an invalid segment; names its index
+/// @param motion    consecutive segments [s], [m/s^2]: durations at least 0 and finite, accelerations finite and at
+///                  most 1e100; the sum of the durations positive
+/// @param impulses  in order; `before` at most the number of segments, velocities finite
+/// @throws std::invalid_argument  also for an invalid segment or impulse, named by its index; for the acceleration of a
+///                                rigid oscillator (period 0) under impulses
 ResponseSpectrum response_spectrum(const std::vector<Segment>& motion, std::vector<double> periods,
                                    std::vector<double> damping = {0.05},
-                                   SpectrumKind kind = SpectrumKind::pseudo_acceleration);
+                                   SpectrumKind kind = SpectrumKind::pseudo_acceleration,
+                                   const std::vector<Impulse>& impulses = {});
 
 }  // namespace stickslip

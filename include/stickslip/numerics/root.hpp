@@ -44,7 +44,7 @@ double root(F&& f, double a, double fa, double b, double fb, double tolerance = 
     fa = fx;
     const double best = std::abs(fa) < std::abs(fb) ? a : b;
     const double least = (2 * round_off * std::abs(best) + tolerance) / std::abs(b - a);
-    if (least > 0.5 || detail::equal(fa, 0)) return best;
+    if (!(least <= 0.5) || detail::equal(fa, 0)) return best;  // also if f overflows
     const double xi = (a - b) / (c - b), phi = (fa - fb) / (fc - fb);
     part = 0.5;
     if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)

@@ -41,6 +41,7 @@ template <class V, class D, class W, class E> auto operator-(Dual<V, D> a, Dual<
 template <class V, class D, class W, class E> auto operator*(Dual<V, D> a, Dual<W, E> b) { return dual(a.value * b.value, a.slope * b.value + a.value * b.slope); }
 template <class V, class D, class W, class E> auto operator/(Dual<V, D> a, Dual<W, E> b) { return dual(a.value / b.value, (a.slope - a.value / b.value * b.slope) / b.value); }
 template <class V, class D> auto exp(Dual<V, D> a)  { return dual(exp(a.value), exp(a.value) * a.slope); }
+template <class V, class D> auto decaying(Dual<V, D> a, double first, double last) { return dual(decaying(a.value, first, last), (first - last) * exp(a.value) * a.slope); }
 template <class V, class D> auto log(Dual<V, D> a)  { return dual(log(a.value), a.slope / a.value); }
 template <class V, class D> auto pow(Dual<V, D> a, double exponent) { return dual(pow(a.value, exponent), exponent * pow(a.value, exponent - 1) * a.slope); }
 template <class V, class D> auto sqrt(Dual<V, D> a) { return pow(a, 0.5); }

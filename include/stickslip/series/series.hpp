@@ -10,7 +10,7 @@
 // lanes.
 //
 // Available: + - * / with series and numbers, exp, log, sqrt, pow (constant exponent; with an integer exponent also at
-// 0), sin, cos, sinh, cosh, tanh, sech.
+// 0), sin, cos, sinh, cosh, tanh, sech, decaying.
 #pragma once
 
 #include <array>
@@ -27,6 +27,12 @@ namespace stickslip {
 inline double sech(double x) noexcept {
   const double e = std::exp(-std::abs(x));
   return 2 * e / (1 + e * e);
+}
+
+/// last + (first - last) exp(x), x <= 0: `first` at 0 and `last` at minus infinity. Both levels are at least 0; there
+/// is no cancellation where either vanishes.
+inline double decaying(double x, double first, double last) noexcept {
+  return first <= last ? first - (last - first) * std::expm1(x) : last + (first - last) * std::exp(x);
 }
 
 namespace detail {
@@ -131,6 +137,7 @@ using std::log;
 using std::pow;
 using std::sin;
 using std::sinh;
+using stickslip::decaying;
 
 /// The return value of a law as a series: the series itself, or a constant if the law returned a number.
 template <class Scalar, Series S>
@@ -212,6 +219,20 @@ struct Exp {
     e[k] = k == 0 ? exp(a[0]) : convolve(e, Derivative<A>{a}, 0, k - 1) * reciprocal[k];
   }
   Scalar operator[](int k) const noexcept { return e[k]; }
+};
+
+/// last + (first - last) exp(a).
+template <Series A>
+struct Decaying {
+  using Scalar = typename A::Scalar;
+  Exp<A> e;
+  double first, last;
+  Scalar at_start{};
+  void update(int k) noexcept {
+    e.update(k);
+    if (k == 0) at_start = decaying(e.a[0], first, last);
+  }
+  Scalar operator[](int k) const noexcept { return k == 0 ? at_start : (first - last) * e[k]; }
 };
 
 /// log: a l' = a'.
@@ -357,6 +378,7 @@ template <Series A, Series B> Sum<A, B>      operator-(A a, B b) { return {a, b,
 template <Series A, Series B> Product<A, B>  operator*(A a, B b) { return {a, b}; }
 template <Series A, Series B> Quotient<A, B> operator/(A a, B b) { return {a, b}; }
 template <Series A> Exp<A>        exp(A a)  { return {a}; }
+template <Series A> Decaying<A>   decaying(A a, double first, double last) { return {{a}, first, last}; }
 template <Series A> Log<A>        log(A a)  { return {a}; }
 template <Series A> Power<A>      pow(A a, double exponent) { return {a, exponent}; }
 template <Series A> WholePower<A> pow(A a, int exponent) { return {a, exponent}; }

@@ -11,6 +11,7 @@
 #include "stickslip/detail/contact.hpp"
 #include "stickslip/detail/equal.hpp"
 #include "stickslip/detail/event_loop.hpp"
+#include "stickslip/detail/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/oscillator.hpp"
@@ -106,8 +107,13 @@ template <class Piece>
   throw std::invalid_argument("advance: segment and state must be finite, got " + description(segment) + ", " +
                               description(state));
 }
-[[noreturn, gnu::noinline]] inline void refuse_overflow(State state) {
-  throw std::overflow_error("advance: the motion leaves the range of doubles, at " + description(state));
+/// @param state  at the start
+template <FrictionLaw Law>
+[[noreturn, gnu::noinline]] void refuse_overflow(const Law& law, State state) {
+  if (state.mode != Mode::stuck && !std::isfinite(resist(law_at(law, state), state.displacement,
+                                                         std::abs(state.velocity), direction_of(state.mode))))
+    refuse("advance: velocity must not point where the slip level is infinite", state.velocity, "m/s");
+  throw std::overflow_error("advance: the motion leaves the range of doubles, from " + description(state));
 }
 
 /// The state after a segment for a slider that is not plain, or under a variable normal force. Out of line, as above.
@@ -138,7 +144,7 @@ void advance_plain(const Slider<Law>& slider, const Segment& segment, State& sta
     return advanced(slider.law(), flows, segment, state, observer);
   });
   if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
-    refuse_overflow(moved);
+    refuse_overflow(slider.law(), state);
   state = moved;
 }
 
@@ -162,7 +168,8 @@ void check_start(const Slider<Law>& slider, const State& state, const char* func
 /// with all events, including impacts on stops and loss of contact.
 ///
 /// @param slider    any; its slope is already contained in the load and the normal force
-/// @param segment   finite; the state is unchanged if its duration is not positive
+/// @param segment   finite, with forces of at most 1e100 m/s^2 in magnitude, as in a GroundMotion; the state is
+///                  unchanged if its duration is not positive
 /// @param state     as below; it also holds the gap while the slider is in flight
 /// @param observer  receives slips and events; optional
 /// @param contact   what happens where N < 0
@@ -173,12 +180,16 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
              Contact contact = Contact::flight) {
   if (!detail::finite(segment, state)) [[unlikely]]
     detail::refuse(segment, state);
+  const double largest = std::max(std::max(std::abs(segment.load_start), std::abs(segment.load_end)),
+                                  std::max(std::abs(segment.normal_start), std::abs(segment.normal_end)));
+  detail::require(largest <= 1e100, "advance: load and normal force must be at most 1e100 m/s^2 in magnitude", largest,
+                  "m/s^2");
   detail::check_start(slider, state, "advance");
   detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
   const State moved = detail::advanced(slider, segment, contact, unusual, state, observer);
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
-    detail::refuse_overflow(moved);
+    detail::refuse_overflow(slider.law(), state);
   state = moved;
 }
 
@@ -192,10 +203,13 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
 /// @param segment   finite; the state is unchanged if its duration is not positive
 /// @param state     state at the start, finite; replaced by the state at the end. `State::at(x, v)` makes one
 /// @param observer  receives slips and events; optional
-/// @throws std::invalid_argument a number of the segment or the state is not finite; the message lists all of them
+/// @throws std::invalid_argument a number of the segment or the state is not finite; the message lists all of them. A
+///         velocity that points where the slip level is infinite
 /// @throws std::overflow_error   the motion leaves the range of doubles
-/// @throws ConvergenceError      events follow each other faster than the time within the segment can be resolved (a
-///         spring with far more than 1e15 cycles per segment); a law has no finite power series where one is needed
+/// @throws ConvergenceError      more than a million steps in closed form, or three million of a series, within a
+/// hundredth
+///         of the segment: events follow each other faster than the time can be resolved, or the spring, the damper or
+///         the slip level is too large for a segment this long; a law has no finite power series where one is needed
 ///         (for Caster only under extreme accelerations or stiffness)
 /// On any error `state` is unchanged. Constant friction is exact to round-off (with a damper, or linear in the distance
 /// slid, to 1e-12 of the scale), other laws to near round-off. Cost: 12 to 30 ns without spring and damper, about
@@ -221,7 +235,7 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
     return detail::advanced(slider.law(), flows, segment, state, observer);
   });
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
-    detail::refuse_overflow(moved);
+    detail::refuse_overflow(slider.law(), state);
   state = moved;
 }
 

@@ -2,29 +2,35 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
-#include <functional>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "stickslip/detail/equal.hpp"
+#include "stickslip/detail/load_history.hpp"
 #include "stickslip/detail/min_max.hpp"
 #include "stickslip/detail/recorder.hpp"
+#include "stickslip/detail/run.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
+#include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/forces.hpp"
+#include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
 
 namespace stickslip {
 
 /// The hysteresis loop with the largest displacement, per unit mass.
 struct Loop {
-  double displacement;  ///< D, the peak |x| [m]
-  double force;         ///< F, of spring and friction on arrival there [m/s^2]
+  double displacement;  ///< D, the largest distance from the position where the spring balances the weight [m]
+  double force;         ///< F, of spring and friction on arrival there, from that position on [m/s^2]
   double area;          ///< E_d, energy that a cycle of amplitude D dissipates [m^2/s^2]
 
   /// k_eff = F / D, of the secant [1/s^2].
@@ -41,25 +47,24 @@ namespace detail {
 
 /// Moves a slider from one time to a later one.
 template <FrictionLaw Law, class Observer>
-void advance_between(const Slider<Law>& slider, const GroundMotion& motion, double from, double to, State& state,
-                     Observer& observer) {
-  const bool linear = motion.interpolation() == Interpolation::linear;
+void advance_between(const Slider<Law>& slider, const GroundMotion& motion, Contact contact, double from, double to,
+                     State& state, Observer& observer) {
+  const LoadPieces pieces(motion, slider.slope());
   for (std::size_t i = 0; i < motion.segments() && motion.time(i) < to; ++i) {
-    const double begin = std::max(motion.time(i), from), end = std::min(motion.time(i + 1), to);
+    const double first = motion.time(i), begin = std::max(first, from), end = std::min(motion.time(i + 1), to);
     if (!(begin < end)) continue;
-    const Segment whole = motion.segment(i);
-    const auto n = [&](double time) {
-      return linear ? std::lerp(whole.start, whole.end, (time - motion.time(i)) / whole.duration) : whole.start;
-    };
-    advance(slider, Segment{end - begin, n(begin), n(end)}, state, observer);
+    const LoadSegment whole = pieces.segment(i);
+    const LoadSegment part{end - begin, whole.load(begin - first), whole.load(end - first), whole.normal(begin - first),
+                           whole.normal(end - first)};
+    advance(slider, part, state, observer, contact);
   }
   const double begin = std::max(motion.time(motion.segments()), from);
-  advance(slider, Segment{to - begin, 0, 0}, state, observer);
+  if (begin < to) advance(slider, load_segment(Segment{to - begin, 0, 0}, slider.slope()), state, observer, contact);
 }
 
 template <FrictionLaw Law, class Observer>
-void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, double from, double to, State& state,
-                     Observer& observer) {
+void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, Contact, double from, double to,
+                     State& state, Observer& observer) {
   const double end = std::min(motion.time(motion.segments()), to);
   for (double begin = from; begin < end;) {
     const double next = std::min(begin + motion.period(), end);
@@ -70,6 +75,25 @@ void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, do
   advance(slider, Segment{to - std::max(end, from), 0, 0}, state, observer);
 }
 
+/// Sums the distance slid, and the work on friction and damper, of a motion from a time on.
+template <FrictionLaw Law, bool loaded>
+struct SwingWork {
+  const Law& law;
+  double distance = 0, work = 0;
+
+  template <class Flow>
+  void follow(const Flow& flow, double taken) {
+    if constexpr (FlowWithDamper<Flow>) work += flow.damped_work(taken);
+    if constexpr (!PositionLaw<Law> && !loaded) work += flow.friction_work(taken);
+  }
+  void dissipate(double done) requires loaded { work += done; }
+  void slide(const Slip& slip) {
+    distance += slip.distance;
+    if constexpr (PositionLaw<Law> && !loaded) work += friction_work(law, slip.from, slip.distance, slip.direction);
+  }
+  void event(EventKind, double, const State&) const noexcept {}
+};
+
 }  // namespace detail
 
 /// The hysteresis loop with the largest displacement, as used in the design of sliding isolators.
@@ -79,62 +103,70 @@ void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, do
 /// per meter that friction and damper dissipated in the half cycle up to the peak. In a steady cycle about x = 0 this
 /// is the area of the loop. With Coulomb friction of level a, and wn^2 of a spring,
 ///     k_eff = wn^2 + a / D,    E_d = 4 a D,    E_d / (2 pi k_eff D^2) = (2 / pi) a / (a + wn^2 D).
+/// Under vertical motion F has the normal force at that instant, and the energy that of the half cycle. On a slope x
+/// counts from the position where the spring balances the weight. Stops do not count: where |x| is largest at one, F is
+/// the force of spring and friction on arrival, and the energy that the stop takes is not in the area.
 ///
 /// @param slider    the slider, on a spring
 /// @param motion    its ground motion
 /// @param response  the result of `integrate` for them
 /// @throws std::invalid_argument  no spring; it never slips; |x| is largest at the start, or at the end of the motion
-///                                during a slip
-/// Accuracy: that of `integrate`. Cost: one pass over the events, and the integration of that half cycle.
+///                                during a slip, or in flight without a force
+/// Accuracy: that of `integrate`; for a law that depends on the temperature, with a surface that is heated as by the
+/// response alone. Cost: one pass over the events, and the integration up to the peak.
 template <FrictionLaw Law, Motion M>
 Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& response) {
-  detail::require_plain_mounting(slider, "largest_loop");
-  if constexpr (std::same_as<M, GroundMotion>)
-    if (motion.has_vertical())
-      throw std::invalid_argument("largest_loop: covers horizontal motion alone: under vertical motion no loop closes");
   if (!(slider.stiffness() > 0))
     throw std::invalid_argument(
-        "largest_loop: needs a slider on a spring (natural_frequency or period): without one no force draws the mass "
-        "back, and it has no effective period");
-  if (!(response.peak > 0)) throw std::invalid_argument("largest_loop: the slider never slips");
-  if constexpr (HeatedLaw<Law>)
-    throw std::invalid_argument(
-        "largest_loop: does not cover friction that depends on the temperature, which differs "
-        "from one loop to the next");
+        "effective period and damping: needs a slider on a spring (natural_frequency, period or radius): without one "
+        "no "
+        "force draws the mass back");
+  if (!(response.time_sliding > 0)) throw std::invalid_argument("effective period and damping: the slider never slips");
+  const bool pendulum = slider.mounting().pendulum;
+  const double downhill = slider.slope() > 0 ? standard_gravity * std::sin(slider.slope()) : 0;
+  const double center = downhill / (slider.stiffness() * (pendulum ? std::cos(slider.slope()) : 1));
   const std::vector<Event>& events = response.events;
+  const auto x_of = [&](const Event& e) { return e.displacement - center; };
+  double largest = std::abs(response.displacement.front() - center);
+  for (const Event& e : events) largest = std::max(largest, std::abs(x_of(e)));
   std::size_t peak = 1;
-  while (peak < events.size() &&
-         !((events[peak].kind == EventKind::reversal || events[peak].kind == EventKind::arrest) &&
-           detail::equal(std::abs(events[peak].displacement), response.peak)))
+  const auto turns = [](EventKind kind) {
+    return kind == EventKind::reversal || kind == EventKind::arrest || kind == EventKind::impact;
+  };
+  while (peak < events.size() && !(turns(events[peak].kind) && detail::equal(std::abs(x_of(events[peak])), largest)))
     ++peak;
   if (peak >= events.size())
-    throw std::invalid_argument("largest_loop: |x| is largest, " + detail::shortest(response.peak) +
+    throw std::invalid_argument("effective period and damping: |x| is largest, " + detail::shortest(largest) +
                                 " m, where no slip ends: at the start, or at the end of a motion that is not over "
                                 "(settle continues it)");
 
   // Back to the last reversal from the other direction, or to the start.
-  const double s = events[peak].displacement < 0 ? -1 : 1;
+  const double s = x_of(events[peak]) < 0 ? -1 : 1;
   const auto way = [&](std::size_t k) { return s * (events[k].displacement - events[k - 1].displacement); };
   std::size_t turn = peak;
   while (turn > 0 && way(turn) >= 0) --turn;
-  const Event& from = events[turn];
-  const Direction direction = s < 0 ? Direction::backward : Direction::forward;
-  State state{from.displacement, from.velocity, from.kind == EventKind::arrest ? Mode::stuck : mode_of(direction)};
-  state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
-  for (std::size_t k = 1; k <= turn; ++k) state.sliding_distance += std::abs(way(k));
-  const double end = events[peak].time;
-  const std::function<void()> none;
-  detail::Recorder<Law, true> recorder(slider.law(), from.displacement, events.size() + detail::max_events(0), none,
-                                       {});
-  recorder.begin_segment(from.time, end);
-  detail::advance_between(slider, motion, from.time, end, state, recorder);
-  Response swing;
-  recorder.finish(end, state, swing);
 
-  const double x = events[peak].displacement;
-  const double work = (swing.energy.dissipated + swing.energy.damped) / swing.sliding_distance;
-  return {response.peak, slider.stiffness() * response.peak + resist(law_at(slider.law(), state), x, direction, 0.0),
-          4 * response.peak * work};
+  State state = State::at(response.displacement.front(), response.velocity.front());
+  state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  const double begin = motion.time(0), from = events[turn].time, end = events[peak].time;
+  state.heat = detail::heat_at(slider.law(), motion, response, begin);
+  NoObserver none;
+  detail::advance_between(slider, motion, response.contact, begin, from, state, none);
+  detail::SwingWork<Law, std::same_as<M, GroundMotion>> swing{slider.law()};
+  detail::advance_between(slider, motion, response.contact, from, end, state, swing);
+
+  const Event& e = events[peak];
+  const double normal = std::max(detail::load_history(motion, slider.slope()).after(end).normal, 0.0);
+  const double weight = state.in_flight ? 0 : normal / standard_gravity;
+  const double pull = slider.stiffness() * (pendulum ? weight : 1) * e.displacement;
+  const double friction = detail::WeighedSegment::weigh(
+      weight, resist(law_at(slider.law(), state, weight), e.displacement, std::abs(e.velocity),
+                     s < 0 ? Direction::backward : Direction::forward));
+  const double force = s * (pull - downhill) + friction;
+  if (!(force > 0))
+    throw std::invalid_argument(
+        "effective period and damping: no force draws the slider back where |x| is largest; it is off the ground");
+  return {largest, force, 4 * largest * swing.work / swing.distance};
 }
 
 }  // namespace stickslip

@@ -168,7 +168,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
       const Direction direction = way < 0 ? Direction::backward : Direction::forward;
       State there = slid.to(x);
       there.heat = detail::heat_at(slider.law(), motion, response, time);
-      const double level = resist(law_at(slider.law(), there, weight), x, direction, std::abs(v));
+      const double level = resist(law_at(slider.law(), there, weight), x, std::abs(v), direction);
       result.friction[i] = sign(direction) * detail::WeighedSegment::weigh(weight, level) + 0.0;  // no minus zero
     }
   }

@@ -24,16 +24,18 @@ struct IntegrateOptions {
   bool settle = false;      ///< continue under zero ground acceleration after the last sample until the slider rests
   Contact contact = Contact::flight;  ///< what the slider does while the ground falls away from under it
   std::function<void()> progress{};   ///< called about once per second or more often; may throw to stop the work
-  double sliding_distance = 0;  ///< sliding distance before the start [m], finite and at least 0; used by laws that
-                                ///< depend on it
-  SurfaceHeat heat{};           ///< of the sliding surface at the start; used by laws that depend on its temperature
+  double sliding_distance = 0;     ///< sliding distance before the start [m], finite and at least 0; used by laws that
+                                   ///< depend on it
+  SurfaceHeat heat{};              ///< of the sliding surface at the start; used by laws that depend on its temperature
+  bool may_end_in_flight = false;  ///< whether a response without `settle` may end before the slider has landed
 };
 
 namespace detail {
 
 /// Continue without ground acceleration until the slider comes to rest; `go(duration)` integrates its motion. Where
-/// friction grows with the speed, a slider on a spring may creep: its speed decays exponentially and never reaches
-/// zero. It is at rest when x no longer changes, but by round-off.
+/// friction grows with the speed, a slider may creep: its speed decays exponentially and never reaches zero, on a
+/// spring or where friction vanishes at rest. It is at rest when x no longer changes, but by round-off, and its speed
+/// is negligible beside the spring or, without one, has at least halved meanwhile.
 /// @return whether it crept to rest, without an event
 template <FrictionLaw Law, class Go>
 bool settle(const Slider<Law>& slider, State& state, Go&& go) {
@@ -42,14 +44,17 @@ bool settle(const Slider<Law>& slider, State& state, Go&& go) {
     const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };
     if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
   }
+  const double wn = slider.natural_frequency();
+  double scale = wn > 0 ? std::abs(state.velocity) / wn : 0;  // of the displacement [m]
   for (double duration = 1; duration <= longest; duration *= 2) {
-    const double before = state.displacement;
+    const double from = state.displacement, speed = std::abs(state.velocity);
     go(duration);
+    if (state.in_flight) continue;
     if (state.mode == Mode::stuck) return false;
     if constexpr (!PositionLaw<Law>) {
-      const double x = std::abs(state.displacement);
-      if (std::abs(state.displacement - before) <= 0x1p-50 * x &&
-          std::abs(state.velocity) <= 0x1p-40 * slider.natural_frequency() * x) {
+      scale = std::max(scale, std::max(std::abs(from), std::abs(state.displacement)));
+      const bool rests = std::abs(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
+      if (rests && std::abs(state.displacement - from) <= 0x1p-50 * scale) {
         state.velocity = 0;
         state.mode = Mode::stuck;
         return true;
@@ -60,7 +65,7 @@ bool settle(const Slider<Law>& slider, State& state, Go&& go) {
       "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
       " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
       shortest(
-          resist(law_at(slider.law(), state), state.displacement, direction_of(state.mode), std::abs(state.velocity))) +
+          resist(law_at(slider.law(), state), state.displacement, std::abs(state.velocity), direction_of(state.mode))) +
       " m/s^2 there; use settle = false");
 }
 
@@ -103,8 +108,8 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   state.sliding_distance = options.sliding_distance;
   state.heat = options.heat;
   if (state.mode != Mode::stuck)
-    require(std::isfinite(resist(law_at(slider.law(), state), state.displacement, direction_of(state.mode),
-                                 std::abs(state.velocity))),
+    require(std::isfinite(resist(law_at(slider.law(), state), state.displacement, std::abs(state.velocity),
+                                 direction_of(state.mode))),
             "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
 
   Response response = std::move(storage);
@@ -177,7 +182,8 @@ template <FrictionLaw Law>
 Response integrate_loaded(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options,
                           Response storage) {
   check_start(slider, State::at(options.displacement, options.velocity), "integrate");
-  check_landing(motion, slider.slope());
+  if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
+    check_landing(motion, slider.slope());
   storage.gap.assign(may_fly(motion, slider.slope()) && options.contact == Contact::flight ? motion.samples() : 0, 0);
   const auto run = [&](State& state, auto& recorder, const HistorySpans& histories) {
     with_flows(slider, motion, [&](const auto& flows) {
@@ -227,8 +233,9 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 ///         the first at or after the final rest (see Response::displacement), and the last event (`end`) and the
 ///         residual are those of the final rest
 /// @throws std::invalid_argument  a start that is not finite, that is beyond a stop, or whose velocity points against
-///                                an infinite slip level or backward on a one-way slider; a vertical motion under which
-///                                the slider never lands; under a HarmonicMotion a slope, stops or a pendulum
+///                                an infinite slip level or backward on a one-way slider; a vertical motion that ends
+///                                in free fall, so that the slider need not land (without `settle`, unless
+///                                `may_end_in_flight`); under a HarmonicMotion a slope, stops or a pendulum
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
 /// @throws ConvergenceError       with `settle`, the slider does not come to rest (no friction; a caster that has
 ///                                escaped); more events than 1,000,000 plus eight per segment, or per period of a

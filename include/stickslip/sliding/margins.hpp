@@ -127,7 +127,7 @@ class MarginFinder {
       count(held(direction, e.displacement, now));
     if (forced || equal(e.displacement, x)) return;
     const Direction direction = e.displacement > x ? Direction::forward : Direction::backward;
-    count(left_of(resist(law_at(slider_.law(), at_, now.weight), e.displacement, direction, 0.0), direction, now));
+    count(left_of(resist(law_at(slider_.law(), at_, now.weight), e.displacement, 0.0, direction), direction, now));
     count_impact(bounds_.room(direction, e.displacement), direction);
   }
 
@@ -156,7 +156,10 @@ class MarginFinder {
     if (since < e.time) rested(since, e.time, x, mode_of(direction));
     double least = infinite;  // unused part of the level
     history_.nodes(e.time, infinite, [&](const Load& load) {
-      const double left = held(direction, x, net(load, x));
+      const Net then = net(load, x);
+      // Where the normal force vanishes, the load exceeds the level by infinitely many times the level.
+      const bool light = !(then.weight > 0) && sign(direction) * then.load > 0;
+      const double left = light ? -infinite : held(direction, x, then);
       if (!(left <= least)) return false;
       least = left;
       return true;
@@ -171,7 +174,7 @@ class MarginFinder {
                                                       : Direction::backward;
     const Net now = net(history_.after(e.time), e.displacement);
     const double speed = std::abs(e.velocity);
-    const double slows = resist(law_at(slider_.law(), at_, now.weight), e.displacement, direction, speed) * now.weight -
+    const double slows = resist(law_at(slider_.law(), at_, now.weight), e.displacement, speed, direction) * now.weight -
                          sign(direction) * now.load;
     if (slows > 0) count_impact(speed * speed / (2 * slows), direction);
   }

@@ -17,12 +17,13 @@
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/impacts.hpp"
 #include "stickslip/sliding/integrate.hpp"
 
 namespace stickslip {
 
 /// The sign of the ground motion: n(t), -n(t), or both.
-enum class Polarity { as_recorded, flipped, both };
+enum class Polarity { recorded, reversed, both };
 
 struct SweepProgress {
   std::size_t done, combinations;  ///< of slider, record and polarity
@@ -39,7 +40,7 @@ struct SweepOptions {
 /// A combination that failed, and the reason.
 struct SweepFailure {
   std::size_t slider, record;  ///< their positions in the lists
-  Polarity polarity;           ///< as_recorded or flipped
+  Polarity polarity;           ///< recorded or reversed
   std::string message;
 };
 
@@ -52,10 +53,12 @@ struct SweepTable {
   std::vector<double> residual;          ///< x at the end [m]; final if the slider rests
   std::vector<double> sliding_distance;  ///< path length in both directions [m]
   std::vector<std::uint64_t> events;     ///< breakaways, reversals and arrests; 0 for a failure
+  std::vector<Impacts> impacts;          ///< on stops; empty if no slider has any
+  std::vector<std::uint8_t> airborne;    ///< whether the slider is in flight at the end
   std::vector<SweepFailure> failures;    ///< in order of slider, record and polarity
 
   /// The position of a combination in the arrays.
-  /// @param p  0 or, with both polarities, 1 for the flipped one
+  /// @param p  0 or, with both polarities, 1 for the reversed one
   std::size_t at(std::size_t slider, std::size_t record, std::size_t p = 0) const noexcept {
     return (slider * records + record) * polarities + p;
   }
@@ -88,12 +91,13 @@ inline std::optional<LevelBlock> level_block(const Slider<Coulomb>& slider) {
 /// One slider of a sweep, with the method that suits its law.
 struct SweepSlider {
   std::optional<LevelBlock> block;  ///< for the vector lanes
+  bool has_stops;
   std::function<Response(const GroundMotion&, const IntegrateOptions&, Response)> integrate;
 };
 
 template <FrictionLaw Law>
 SweepSlider sweep_slider(const Slider<Law>& slider) {
-  return {level_block(slider),
+  return {level_block(slider), static_cast<bool>(slider.mounting().stops),
           [&slider](const GroundMotion& motion, const IntegrateOptions& options, Response storage) {
             return stickslip::integrate(slider, motion, options, std::move(storage));
           }};
@@ -115,7 +119,8 @@ SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMot
 /// @param sliders  Sliders of one law, or std::variants of several
 /// @param motions  records, of any lengths and steps
 /// @param options  polarity, whether to continue until the sliders rest, threads
-/// @return peak, residual, sliding distance and number of events of each. A combination that fails (a slider that does
+/// @return peak, residual, sliding distance, number of events and impacts on stops of each. A slider that is in flight
+///         at the end of the motion counts with its state there. A combination that fails (a slider that does
 ///         not come to rest, a motion beyond the range of doubles) is NaN, and `failures` has the reason; the sweep
 ///         continues
 ///

@@ -5,6 +5,8 @@
 #include <complex>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "stickslip/detail/requirements.hpp"
@@ -62,7 +64,11 @@ class DisplacementDistribution {
   /// `quantile` rejects probabilities closer to 0 or 1: the FFT leaves an error of 1e-13.
   static constexpr double min_probability = 1e-9;
 
-  explicit DisplacementDistribution(const detail::Slips& slips);
+  /// @param remark  the remark of the theory
+  explicit DisplacementDistribution(const detail::Slips& slips, std::string remark = {});
+
+  /// What the theory says of parameters outside its range of validity; empty within it.
+  const std::string& remark() const noexcept { return remark_; }
 
   /// The probability that nothing slips, exp(-`slips()`): the probability of exactly x = 0.
   double atom() const noexcept { return atom_; }
@@ -99,6 +105,7 @@ class DisplacementDistribution {
  private:
   double smooth_cdf(double x) const;
 
+  std::string remark_;
   double atom_ = 1, count_ = 0;
   double cumulants_[4] = {};
   double step_ = 0;

@@ -7,10 +7,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "stickslip/detail/pulse_accuracy.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
+#include "stickslip/statistics/tally.hpp"
 #include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/theory.hpp"
 
@@ -28,18 +30,17 @@ namespace stickslip::theory {
 ///
 /// Against simulation, for the symmetric rectangular pulse and Gaussian amplitudes, lambda dt from 0.05 to 2 (4):
 /// growth rate and velocity variance are within 4 % (9 %) for sigma / a from 1 to 20, within 9 % (13 %) from 1/3 on.
-/// Below 1/3 they are too high: the growth rate by 19 % at 1/4 and 41 % at 1/5, the final rms of the thesis's events
-/// (lambda dt = 1/2) by 9 % at 1/4, 16 % at 1/5, 27 % at 1/6 and 37(3) % at 0.15. With `refined` they are within 5 %
-/// from 1/3 on, and the final rms within 5 % down to 0.13; above sigma / a = 1 `refined` has no effect. During the
-/// first pulse length after a start from rest, E[x^2] and E[v^2] are within 10 % (lambda dt up to 1) and 17 % (up to 2)
-/// for sigma / a from 1/2 on, at any time down to dt / 20; for other parameters `remark` states an error of up to a
-/// factor of 2.4. Later they are within 12 %.
+/// Below 1/3 they are too high: `remark` states by how much, in the words of `detail::pulse_accuracy`. With `refined`
+/// they are within 5 % from 1/3 on, and the final rms of the thesis's events within 5 % down to 0.13; above
+/// sigma / a = 1 `refined` has no effect. During the first pulse length after a start from rest, E[x^2] and E[v^2] are
+/// within 10 % (lambda dt up to 1) and 17 % (up to 2) for sigma / a from 1/2 on, at any time down to dt / 20; for other
+/// parameters `remark` states an error of up to a factor of 2.4. Later they are within 12 %.
 ///
 /// If the two slip levels differ (also for one-way sliding), or the amplitudes have a mean, the displacement drifts:
-/// the mean velocity is within 8 % for levels that differ by a third or more (12 % for 1.1 times), the growth rate
-/// within 12 % (18 % for one-way sliding at lambda dt = 2) and the velocity variance within 8 % (13 %), for sigma over
-/// the smaller level from 1/3 to 20 and lambda dt up to 2. If sigma exceeds 3 times the smaller level, the other level
-/// may be at most 4 times as large.
+/// the mean velocity is within 8 % for levels that differ by a third or more (12 % for 1.1 times; 26 % if refined,
+/// which `remark` states), the growth rate within 12 % (18 % for one-way sliding at lambda dt = 2) and the velocity
+/// variance within 8 % (13 %), for sigma over the smaller level from 1/3 to 20 and lambda dt up to 2. If sigma exceeds
+/// 3 times the smaller level, the other level may be at most 4 times as large.
 ///
 /// Covers Coulomb friction without a spring; pulses of two to four equal steps (two if refined) whose values are
 /// multiples of a common unit and which leave no net velocity; any distribution of amplitudes, but only symmetric ones
@@ -81,9 +82,7 @@ class PulseChain {
   /// gamma-distributed lengths that has the first four cumulants of the chain, and its probability of no slip,
   ///     nu(d) ~ |d|^(k-1) exp(-|d| / theta)    one k for both directions, two theta; docs/pulse_chain.md, section 6
   ///
-  /// Compared with 100,000 blocks with equal levels, lambda dt from 0.05 to 2, at 10, 40 and 160 dt, the error of a
-  /// probability is below 0.03 for sigma / a from 1/2 to 20 (refined: from 1/3 on), and below 0.07 at 1/4 and 1/5 if
-  /// refined.
+  /// `detail::pulse_accuracy().distribution` states the errors; outside of its range so does `remark` of the result.
   /// @param slider  as for `predict`
   /// @param pulses  as for `predict`
   /// @param time    [s], finite, 0 or at least the length of a pulse; sigma / a must be at least 0.12 (or below 0.05,
@@ -96,23 +95,24 @@ class PulseChain {
   DisplacementDistribution distribution(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double time,
                                         const std::function<void()>& progress = {}) const;
 
-  /// An estimate of the quantile of the peak, the largest |x| up to the end of the motion [m]. It is that of a random
-  /// walk whose steps are the slips of `distribution`, in a Poisson-distributed number, solved on a grid of 301 points
-  /// with absorbing walls at the peak. The overshoot within a slip is a constant factor, the mean-square value for one
-  /// pulse and for two that overlap. docs/pulse_chain.md, section 7.
+  /// An estimate of the quantile of the peak, the largest |x| up to the end of the motion [m], between bounds. It is
+  /// that of a random walk whose steps are the slips of `distribution`, in a Poisson-distributed number, solved on a
+  /// grid of 301 points with absorbing walls at the peak. How far the block goes during a slip, beyond the point where
+  /// the slip ends, follows from its length, by the responses to one pulse and to two that overlap.
+  /// docs/pulse_chain.md, section 7.
   ///
-  /// In the thesis's four events, for mu from 0.05 to 0.7 with sigma / a from 0.2 to 5 (refined below 0.3), the ratio
-  /// to the peaks of 40,000 blocks is 0.99 to 1.10 for the 95 % quantile, 0.99 to 1.11 for the 99 % quantile, and 0.97
-  /// to 1.04 for the median unless fewer than two slips are expected. Measured for equal levels.
+  /// The bounds are the estimate divided by the largest and by the smallest ratio of an estimate to a simulation found
+  /// in the range that `detail::pulse_accuracy().peak` states; outside that range they are 0 and infinity. They are not
+  /// confidence bounds.
   /// @param slider  as for `predict`
   /// @param pulses  as for `predict`; over `pulses.duration()`
   /// @param probability  that the peak is not exceeded, in (0, 1)
   /// @param progress  called regularly; may throw to stop the work; optional
   /// @return 0 if that fraction does not slip at all
   /// @throws as `distribution`, and std::invalid_argument for the probability
-  /// Takes 60 to 350 ms, refined up to 10 s.
-  double peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
-              const std::function<void()>& progress = {}) const;
+  /// Takes 0.1 to 1 s, refined up to 10 s.
+  Interval peak(const Slider<Coulomb>& slider, const PoissonPulses& pulses, double probability,
+                const std::function<void()>& progress = {}) const;
 
   /// (E[x^2(t_d)])^(1/2) at the end of the motion, t_d = pulses.duration() [m]: thesis figure 5.7.
   double final_rms(const Slider<Coulomb>& slider, const PoissonPulses& pulses,

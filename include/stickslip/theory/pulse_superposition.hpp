@@ -61,8 +61,8 @@ enum class Overlap {
 ///
 /// Asymptotic in time: (5.38), (5.39) require t >> 4 dt; `from_rest` uses (5.25), (5.28) at any time. Accurate if
 /// pulses are rare, lambda dt << 1, and exact for a frictionless slider with `none` and `renewal`. Otherwise the growth
-/// rate is wrong by a factor: down to 1/4000 (`none`) and 1/14 (the others) at sigma / a = 1/3, up to 3.7 (`thesis`)
-/// at 5. `PulseChain` is better for Coulomb friction.
+/// rate is wrong by a factor: for lambda dt from 0.05 to 2 it is 1e-4 to 0.24 times the simulated one at sigma / a =
+/// 1/3, and 1.02 to 7.5 times at 5. `PulseChain` is better for Coulomb friction.
 ///
 /// Covers any friction law without a spring, unequal slip levels, any pulse shape after which the slider stops,
 /// and with `none` any distribution of amplitudes, with any mean. With an envelope, the growth rate is integrated over
@@ -141,12 +141,16 @@ class PulseSuperposition {
   ///     E[exp(iux)] = exp(lambda t E[exp(iu dx) - 1])
   /// With overlaps the sum is over composites, which arrive at the rate lambda / (1 + lambda dt) (`renewal`).
   ///
-  /// Exact for lambda dt -> 0 and t >> 4 dt; docs/pulse_superposition.md has the errors measured up to lambda dt = 0.1.
+  /// Exact for lambda dt -> 0 and t >> 4 dt. `detail::pulse_accuracy().rare` states the errors due to overlaps; where
+  /// they change the standard deviation by more than 5 %, `remark` of the result gives the factor, found with
+  /// `PulseChain`.
   /// @param slider  with constant slip levels, which may differ, without a spring
   /// @param pulses  without an envelope, lambda dt at most 0.1
   /// @param time    [s], finite and at least 0
-  /// @throws std::invalid_argument naming what is not covered or the rejected value
-  /// Takes 10 to 25 ms.
+  /// @throws std::invalid_argument naming what is not covered or the rejected value; also if overlaps change the
+  /// standard
+  ///         deviation by more than a factor of 2
+  /// Takes some 30 ms.
   template <PositionLaw Law>
   DisplacementDistribution distribution(const Slider<Law>& slider, const PoissonPulses& pulses, double time) const {
     check(slider, pulses);

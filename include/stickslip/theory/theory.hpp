@@ -73,8 +73,8 @@ template <FrictionLaw Law>
                               (MemoryLaw<Law> ? "distance slid" : "speed") + " is not covered");
 }
 
-/// Rejects what no theory covers: slopes, stops and pendulums, a resistance that depends on the speed or the distance
-/// slid, and static friction that differs from kinetic.
+/// Rejects what no theory covers: slopes, stops and one-way sliding, a resistance that depends on the speed or the
+/// distance slid, and static friction that differs from kinetic.
 template <FrictionLaw Law>
 void require_one_level(const Slider<Law>& slider, const std::string& theory) {
   require_plain_mounting(slider, theory);

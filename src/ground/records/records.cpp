@@ -152,10 +152,21 @@ Unit unit_named(std::string_view name) {
   throw std::invalid_argument("unknown unit of acceleration " + quote(name) + "; known are " + known);
 }
 
+/// Rejects a component whose units or time step are neither stated nor given, in one message.
+void require_stated(const Channel& channel, const RecordOptions& options) {
+  const bool units = !channel.units.empty() || !options.units.empty();
+  const bool step = channel.dt || !channel.times.empty() || options.dt;
+  if (units && step) return;
+  const std::string missing = units  ? "no time step"
+                              : step ? "no units of acceleration"
+                                     : "no units of acceleration and no time step";
+  std::string remedy = units ? "" : "pass units, such as \"g\" or \"m/s^2\"";
+  if (!step) remedy += std::string(units ? "" : ", and ") + "pass dt, the seconds between samples";
+  throw std::invalid_argument("the file states " + missing + ": " + remedy);
+}
+
 /// m/s^2 per unit of the file.
 double scale(const std::string& stated, const std::string& given) {
-  if (stated.empty() && given.empty())
-    throw std::invalid_argument("the file states no units of acceleration: pass units, such as \"g\" or \"m/s^2\"");
   const double factor = acceleration_unit(stated.empty() ? given : stated);
   if (!given.empty() && acceleration_unit(given) != factor)
     throw std::invalid_argument("the file states " + quote(stated) + ", units given are " + quote(given));
@@ -164,8 +175,6 @@ double scale(const std::string& stated, const std::string& given) {
 
 /// The time step of the file [s].
 double step(std::optional<double> stated, std::optional<double> given) {
-  if (!stated && !given)
-    throw std::invalid_argument("the file states no time step: pass dt, the seconds between samples");
   if (stated && given && *stated != *given)
     detail::refuse("the file states a time step of " + detail::shortest(*stated) + " s, dt given is", *given, "s");
   return stated ? *stated : *given;
@@ -190,6 +199,7 @@ void refuse_gaps(const GroundMotion& motion) {
 }
 
 RecordComponent component_of(Channel channel, const std::string& name, const RecordOptions& options) {
+  require_stated(channel, options);
   const double factor = scale(channel.units, options.units);
   for (double& n : channel.acceleration) n *= factor;
   std::string title = channel.title.empty() ? name : std::move(channel.title);

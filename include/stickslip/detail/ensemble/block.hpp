@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "stickslip/ensemble/smallest_gaps.hpp"
 #include "stickslip/ensemble/times.hpp"
+#include "stickslip/sliding/impacts.hpp"
 #include "stickslip/statistics/tally.hpp"
 
 namespace stickslip::detail {
@@ -35,6 +37,16 @@ class Block {
   std::span<double> peak() noexcept { return {peak_.data(), width_}; }
   std::span<double> residual() noexcept { return {residual_.data(), width_}; }
 
+  /// Enter the impacts of a member whose slider has stops.
+  void impacts(std::size_t member, const Stops& stops, const Impacts& impacts);
+  /// Count a member that ends in flight.
+  void ends_airborne() noexcept { ++airborne_; }
+
+  /// Impacts per member; empty if no slider of the block has stops.
+  std::span<const Impacts> impacts() const noexcept { return impacts_; }
+  const SmallestGaps& gaps() const noexcept { return gaps_; }
+  std::size_t airborne() const noexcept { return airborne_; }
+
   /// Throw `Stopped` if the run has been stopped; call it about every millisecond.
   void check_stopped() const {
     if (stopped_.load(std::memory_order_relaxed)) throw Stopped{};
@@ -53,6 +65,9 @@ class Block {
   std::size_t width_;
   const std::atomic<bool>& stopped_;
   std::vector<double> peak_, residual_;
+  std::vector<Impacts> impacts_;
+  SmallestGaps gaps_;
+  std::size_t airborne_ = 0;
   std::vector<double> central_, first_half_, marks_, velocities_;
   std::unique_ptr<Spectrum> spectrum_;
   Tally tally_;

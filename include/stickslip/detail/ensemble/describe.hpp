@@ -41,9 +41,9 @@ std::string parameters(const Law& law) {
     using Now = std::remove_cvref_t<decltype(now)>;
     for (const Direction direction : {Direction::forward, Direction::backward})
       for (const double x : {-0.2, -0.1, 0.0, 0.1, 0.2}) {
-        levels.push_back(resist(now, x, direction, 0.0));
+        levels.push_back(resist(now, x, 0.0, direction));
         if constexpr (SpeedLaw<Now>)
-          for (double speed = 1e-6; speed < 20; speed *= 10) levels.push_back(resist(now, x, direction, speed));
+          for (double speed = 1e-6; speed < 20; speed *= 10) levels.push_back(resist(now, x, speed, direction));
         if constexpr (LawWithHold<Now>) levels.push_back(hold(now, x, direction));
       }
   };

@@ -23,6 +23,7 @@
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/impacts.hpp"
 #include "stickslip/sliding/integrate.hpp"
 
 namespace stickslip::detail {
@@ -125,19 +126,21 @@ inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times
   walk(motion, motion.segments(), read_off, [] {});
 }
 
-/// Computes the largest |x| of a member, and checks regularly whether the run was stopped.
+/// Computes the largest |x| and the impacts of a member, and checks regularly whether the run was stopped.
 template <FrictionLaw Law>
 class PeakObserver {
  public:
   PeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
 
   double peak() const noexcept { return peak_; }
+  const Impacts& impacts() const noexcept { return impacts_; }
 
   void slide(const Slip& slip) {
     if constexpr (!ConstantLevelLaw<Law>) count_work();
     peak_ = std::max(peak_, std::abs(slip.to()));
   }
-  void event(EventKind, double, const State&) {
+  void event(EventKind kind, double, const State& state) {
+    if (kind == EventKind::impact) impacts_.add(state.displacement, state.velocity);
     count_work();
     if (++events_ > event_limit_) refuse_more_events(event_limit_);
   }
@@ -150,6 +153,7 @@ class PeakObserver {
   std::size_t event_limit_, events_ = 0;
   std::uint32_t work_ = 0;
   double peak_ = 0;
+  Impacts impacts_;
 };
 
 // Out of line: inlined at each call it would take minutes to compile.
@@ -177,14 +181,13 @@ template <FrictionLaw Law, class Flows>
   advance(slider.law(), flows, segment, bounds, contact, state, observer);
 }
 
-/// Simulate one member from rest at x = 0, by the event loop of `advance`.
-/// @param settle  whether to continue without ground acceleration until it rests
+/// Simulate one member from rest at x = 0, by the event loop of `advance`. A member may end in flight.
+/// @param settle  whether to continue without ground acceleration until it comes to rest
 template <FrictionLaw Law>
 void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {
   Block& block = place.block;
   const bool under_load = loaded(slider, motion);
-  if (under_load) check_landing(motion, slider.slope());
   with_flows(slider, motion.dt(), [&](const auto& flows) {
     State state;
     PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
@@ -206,6 +209,8 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
     else if (settle)
       settle_member(slider, flows, state, observer, block);
     place.end(observer.peak(), state.displacement);
+    if (const Stops& stops = slider.mounting().stops) block.impacts(place.index, stops, observer.impacts());
+    if (state.in_flight) block.ends_airborne();
   });
 }
 

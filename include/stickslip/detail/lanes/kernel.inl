@@ -1,18 +1,18 @@
-// What the kernels of lanes share: the rule of stick and slip, the way through events, the zero of a polynomial.
+// Shared by the kernels of vector lanes: the rule of stick and slip, the loop over events, the zero of a polynomial.
 //
 // Included by each kernel, in its namespace, where code is compiled for its instruction set. STICKSLIP_LANES_INLINE is
-// what makes a function part of its caller there.
+// the attribute that inlines a function there.
 
-/// Sliders at rest: which of them slip, when and which way. The rule of `advance` (sliding/advance.hpp); a reversal is
-/// a rest of no length, so this is both.
+/// Sliders at rest: which of them slip, when and in which direction. The rule of `advance` (sliding/advance.hpp). A
+/// reversal is a stick of zero duration, so the rule covers reversals too.
 template <class Vector>
 struct DepartureOfLanes {
-  typename Vector::Mask at_once, later;  ///< where neither, it rests to the end
-  typename Vector::Mask forward;         ///< which way, where it slips
-  Vector level;                          ///< of the load that it slips under, with the sign of the way
+  typename Vector::Mask at_once, later;  ///< neither: at rest until the end
+  typename Vector::Mask forward;         ///< direction of the slip
+  Vector level;                          ///< of the load at which it slips, with the sign of the direction
 
-  /// @param net, last          what pulls, but friction, now and at the end; straight in between
-  /// @param holds_forward, holds_backward  what holds against either way
+  /// @param net, last          load without friction, now and at the end of the segment; linear in time
+  /// @param holds_forward, holds_backward  friction that holds against each direction
   STICKSLIP_LANES_INLINE DepartureOfLanes(const Vector& net, const Vector& last, const Vector& holds_forward,
                                           const Vector& holds_backward) {
     const auto above = net > holds_forward, below = net < -holds_backward;
@@ -23,14 +23,13 @@ struct DepartureOfLanes {
   }
 };
 
-/// Takes some members of a row through the events of their segments, packed so that vectors are full.
-/// @param members  a bit for each, at least one
-/// @param start  ground acceleration of each of the row at the beginning of its segment, and
-/// @param end    at its end
-/// @param move   done = move(queue, place, x, v, peak): moves those that stand from `place` in the queue, and says
-/// which
-///               came to the end; the others it leaves where they were
-/// @param alone  alone(queue, place) moves one of those by the event loop
+/// Advances some members of a row through the events of their segments, packed so that vectors are full.
+/// @param members  one bit per member, at least one set
+/// @param start    ground acceleration of each member of the row at the start of its segment
+/// @param end      the same at its end
+/// @param move     done = move(queue, place, x, v, peak): advances the members from `place` in the queue and returns
+///                 which of them reached the end; the others stay where they were
+/// @param alone    alone(queue, place) advances one of those others by the event loop
 template <class Vector, class Move, class Alone>
 STICKSLIP_LANES_INLINE void go_through_events(std::uint64_t members, const double* start, const double* end,
                                               const LaneStates& states, const Move& move, const Alone& alone) {
@@ -50,9 +49,9 @@ STICKSLIP_LANES_INLINE void go_through_events(std::uint64_t members, const doubl
 }
 
 /// The only zero in (0, 1) of polynomials that are positive before it: Newton's method, kept within its bracket.
-/// @param coefficients  degree + 1 of them, the constant first
-/// @param t             where to start, in (0, 1)
-/// @param wanted        the others may get any number
+/// @param coefficients  degree + 1 coefficients, the constant first
+/// @param t             initial guess, in (0, 1)
+/// @param wanted        lanes to solve; the result of the others is arbitrary
 template <class Vector>
 STICKSLIP_LANES_INLINE Vector zero_of_polynomials(const Vector* coefficients, int degree, Vector t,
                                                   const typename Vector::Mask& wanted) {

@@ -25,7 +25,7 @@ namespace stickslip::detail {
 /// A law that can be evaluated as a power series in lanes.
 template <class Law>
 concept LawWithLanes = FrictionLaw<Law> && requires(const Law& law, const series::VariableOf<BaselineVector>& x) {
-  series::series_of<BaselineVector>(resist(law, x, Direction::forward, x));
+  series::series_of<BaselineVector>(resist(law, x, x, Direction::forward));
 };
 
 /// A slide of several sliders, each in its own direction, over a step of its own:
@@ -61,7 +61,6 @@ class SlideOfLanes {
   /// @param wanted        lanes that are needed; the others may have any result
   void expand(const Mask& back, const Vector& acceleration, const Vector& gain, const Vector& step,
               const Mask& wanted) {
-    constexpr double left_out = ConstantLevelLaw<Law> ? 0x1p-54 : 1e-14;  // relative to the largest term
     const double stiffness = slider_.stiffness(), damping = slider_.damping();
     const Vector s = select(back, -1.0, 1.0), to_x = s * step;
     const Vector here = resists(back);
@@ -94,25 +93,21 @@ class SlideOfLanes {
     // Whether the equation of motion holds at the end of the step, and within it for sliders that may have returned to
     // their initial position.
     const Mask recent = max(abs(change[0]), max(abs(change[1]), abs(change[2]))) <= max(abs(here), Vector(1e-290));
-    const auto balanced = [&](const Vector& part) {
-      Vector x = x_[orders_ + 1], u = 0.0, a = 0.0;  // a: by the unit of time
-      for (int k = orders_; k >= 0; --k) {
-        a = multiply_add(a, part, u);
-        u = multiply_add(u, part, u_[k]);
-        x = multiply_add(x, part, x_[k]);
-      }
-      const Vector there = resists_now(x, u, back), pull = stiffness * (s * (x - x_[0])), drag = damping * (u - u_[0]);
-      const Vector off = acceleration + gain * part - pull - drag - (there - here);
-      const Vector terms = abs(acceleration) + abs(gain) + abs(pull) + damping * fastest + abs(here) + abs(there) +
-                           stiffness * abs(x_[0]);
-      return abs(off * step - a) <= 20 * left_out * (terms * step + fastest);
-    };
     // If the level has almost underflowed, its series does not represent the level closer to the center.
     const Mask blind = (here <= 1e-290) & (s * x_[0] < 0.0);
     if (any(blind)) converges_ = converges_ & ~(blind & (resists_now(0.0, u_[0], back) > 1e-290));
+    start_ = {back, acceleration, gain, step, fastest};
     converges_ = converges_ & recent & balanced(1.0);
     const Mask slow = converges_ & wanted & (u_[0] * 16.0 <= fastest);
     if (any(slow)) converges_ = converges_ & (~slow | balanced(0.6));
+    if constexpr (SpeedLaw<Law>) {
+      // A level that changes only at low speeds is seen at the minimum of the speed, or nowhere.
+      Vector last_change = 0.0;
+      for (int k = orders_; k > 0; --k) last_change += static_cast<double>(k) * u_[k];
+      const Mask dips = converges_ & wanted & (acceleration < 0.0) & (last_change > 0.0);
+      const Vector first_change = acceleration * step;
+      if (any(dips)) converges_ = converges_ & (~dips | balanced(first_change / (first_change - last_change)));
+    }
   }
 
   const Mask& converges() const { return converges_; }
@@ -139,7 +134,7 @@ class SlideOfLanes {
     Mask none, one;  ///< lanes in which the number is certain
     Vector part;     ///< time of the zero, as a fraction of the step
   };
-  Stops stops(const Mask& from_rest, const Mask& wanted) const {
+  Stops stops(const Mask& from_rest, const Mask& wanted) {
     Vector c[max_orders + 1], b[max_orders + 1];
     double binomial = 1;
     for (int k = 0; k <= orders_; ++k) {
@@ -159,17 +154,38 @@ class SlideOfLanes {
     }
     Stops result{~changed, changed & ~twice, 1.0};
     const Mask searched = result.one & wanted;
-    if (any(searched)) result.part = zero_of_polynomials(c, orders_, Vector(0.5), searched);
+    if (any(searched)) {
+      result.part = zero_of_polynomials(c, orders_, Vector(0.5), searched);
+      if constexpr (SpeedLaw<Law>) converges_ = converges_ & (~searched | balanced(result.part));
+    }
     return result;
   }
 
  private:
   using Series = decltype(series::series_of<Vector>(resist(std::declval<const Law&>(), series::VariableOf<Vector>{},
-                                                           Direction::forward, series::VariableOf<Vector>{})));
+                                                           series::VariableOf<Vector>{}, Direction::forward)));
+
+  /// Whether the equation of motion holds at a fraction of the step.
+  Mask balanced(const Vector& part) const {
+    const auto& [back, acceleration, gain, step, fastest] = start_;
+    const double stiffness = slider_.stiffness(), damping = slider_.damping();
+    const Vector s = select(back, -1.0, 1.0), here = resists(back);
+    Vector x = x_[orders_ + 1], u = 0.0, a = 0.0;  // a: by the unit of time
+    for (int k = orders_; k >= 0; --k) {
+      a = multiply_add(a, part, u);
+      u = multiply_add(u, part, u_[k]);
+      x = multiply_add(x, part, x_[k]);
+    }
+    const Vector there = resists_now(x, u, back), pull = stiffness * (s * (x - x_[0])), drag = damping * (u - u_[0]);
+    const Vector off = acceleration + gain * part - pull - drag - (there - here);
+    const Vector terms =
+        abs(acceleration) + abs(gain) + abs(pull) + damping * fastest + abs(here) + abs(there) + stiffness * abs(x_[0]);
+    return abs(off * step - a) <= 20 * left_out * (terms * step + fastest);
+  }
 
   Series level(Direction direction) const {
     return series::series_of<Vector>(
-        resist(slider_.law(), series::VariableOf<Vector>{&x_}, direction, series::VariableOf<Vector>{&u_}));
+        resist(slider_.law(), series::VariableOf<Vector>{&x_}, series::VariableOf<Vector>{&u_}, direction));
   }
   Vector resists_at(int k, Direction direction) const {
     return both_ways && direction == Direction::backward ? backward_[k] : forward_[k];
@@ -181,9 +197,9 @@ class SlideOfLanes {
       return forward_[k];
   }
   Vector resists_now(const Vector& x, const Vector& u, const Mask& back) const {
-    const Vector forward = resist(slider_.law(), x, Direction::forward, u);
+    const Vector forward = resist(slider_.law(), x, u, Direction::forward);
     if constexpr (both_ways)
-      return select(back, resist(slider_.law(), x, Direction::backward, u), forward);
+      return select(back, resist(slider_.law(), x, u, Direction::backward), forward);
     else
       return forward;
   }
@@ -199,7 +215,16 @@ class SlideOfLanes {
     return (even + odd) + c[0];
   }
 
+  static constexpr double left_out = ConstantLevelLaw<Law> ? 0x1p-54 : 1e-14;  // relative to the largest term
+
+  /// The arguments of `expand`, and the largest term of the speed.
+  struct Beginning {
+    Mask back;
+    Vector acceleration, gain, step, fastest;
+  };
+
   const Slider<Law>& slider_;
+  Beginning start_;
   series::CoefficientsOf<Vector> x_, u_;  // displacement [m], and speed in its direction [m/s]
   Series forward_, backward_;             // resistance [m/s^2]
   int orders_ = 0;                        // of the speed

@@ -1,20 +1,20 @@
-// Included once for each instruction set, by vector.hpp, which says what is meant by
+// Included once for each instruction set, by vector.hpp, which defines
 //   STICKSLIP_VECTOR       the name
-//   STICKSLIP_VECTOR_SIZE  how many doubles the processor takes at once
+//   STICKSLIP_VECTOR_SIZE  number of doubles per instruction
 //   STICKSLIP_VECTOR_TARGET  the attribute of its functions
-//   STICKSLIP_VECTOR_FMA     a b + c, with one rounding where the processor can
-//   STICKSLIP_VECTOR_BITS  of a vector of integers, all bits or none set in each: one bit each
-// Nothing but what is written here is compiled for that set.
+//   STICKSLIP_VECTOR_FMA     a b + c, with one rounding if the processor supports it
+//   STICKSLIP_VECTOR_BITS  one bit per lane of a vector of integers in which all bits or none are set
+// Only the code in this file is compiled for that set.
 
-/// Two vectors of the processor's, as one step often waits for another. They are copied by functions of their own and
-/// so passed in memory, in the same way by all instruction sets.
+/// Two vectors of the processor, because one instruction often waits for another. User-defined copy functions make the
+/// compiler pass them in memory, in the same way for all instruction sets.
 struct STICKSLIP_VECTOR {
   static constexpr std::size_t part_size = STICKSLIP_VECTOR_SIZE, size = 2 * part_size;
   typedef double Doubles __attribute__((vector_size(sizeof(double) * part_size)));
   typedef long long Integers __attribute__((vector_size(sizeof(double) * part_size)));
 
   struct Mask {
-    Integers low, high;  // of each lane all bits or none
+    Integers low, high;  // all bits or none, per lane
 
     STICKSLIP_VECTOR_TARGET Mask() noexcept : low{}, high{} {}
     STICKSLIP_VECTOR_TARGET Mask(const Integers& first, const Integers& second) noexcept : low(first), high(second) {}
@@ -34,7 +34,7 @@ struct STICKSLIP_VECTOR {
       return {a.low ^ b.low, a.high ^ b.high};
     }
     STICKSLIP_VECTOR_TARGET friend Mask operator~(const Mask& a) noexcept { return {~a.low, ~a.high}; }
-    /// One bit each.
+    /// One bit per lane.
     STICKSLIP_VECTOR_TARGET friend std::uint64_t bits(const Mask& a) noexcept {
       return static_cast<std::uint64_t>(STICKSLIP_VECTOR_BITS(a.low)) |
              static_cast<std::uint64_t>(STICKSLIP_VECTOR_BITS(a.high)) << part_size;
@@ -117,7 +117,7 @@ struct STICKSLIP_VECTOR {
     return {Doubles(Integers(a.low) & INT64_MAX), Doubles(Integers(a.high) & INT64_MAX)};
   }
 
-  /// A function of doubles, lane by lane.
+  /// Applies a function of doubles to each lane.
   template <class Function>
   STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR each_lane(const STICKSLIP_VECTOR& a, Function function) {
     STICKSLIP_VECTOR result;
@@ -142,6 +142,10 @@ struct STICKSLIP_VECTOR {
 #undef STICKSLIP_FUNCTION
   STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR pow(const STICKSLIP_VECTOR& a, double exponent) noexcept {
     return each_lane(a, [exponent](double x) noexcept { return std::pow(x, exponent); });
+  }
+  STICKSLIP_VECTOR_TARGET friend STICKSLIP_VECTOR decaying(const STICKSLIP_VECTOR& a, double first,
+                                                           double last) noexcept {
+    return each_lane(a, [first, last](double x) noexcept { return stickslip::decaying(x, first, last); });
   }
   STICKSLIP_VECTOR_TARGET friend SechTanh<STICKSLIP_VECTOR> sech_tanh(const STICKSLIP_VECTOR& a) noexcept {
     const STICKSLIP_VECTOR e = exp(-abs(a)), share = 1.0 / (e * e + 1.0), tanh = (1.0 - e * e) * share;
