@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "friction/callable_law.hpp"
+#include "friction/plausibility.hpp"
 #include "stickslip/stickslip.hpp"
 
 namespace py = pybind11;
@@ -321,6 +322,7 @@ inline double slip_level_of(std::optional<double> mu, std::optional<double> slip
                                     : "neither"));
   if (!mu) return *slip_level;
   detail::require(std::isfinite(*mu) && *mu >= 0, law + ": " + mu_name + " must be finite and at least 0", *mu);
+  check_coefficient(law, mu_name, *mu);
   return *mu * standard_gravity;
 }
 

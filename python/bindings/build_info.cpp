@@ -12,8 +12,10 @@ void bind_build_info(py::module_& m) {
         result["version"] = info.version;
         result["commit"] = info.commit;
         result["compiler"] = info.compiler;
+        result["eigen"] = info.eigen;
         result["fftw"] = info.fftw;
         result["gsl"] = info.gsl;
+        result["highway"] = info.highway;
         result["sundials"] = info.sundials;
         return result;
       },

@@ -174,9 +174,10 @@ inline constexpr auto parts<ThesisPanel> = std::tuple(&ThesisPanel::title, &Thes
                                                       &ThesisPanel::x_limits, &ThesisPanel::y_limits);
 template <>
 inline constexpr auto parts<ThesisStatement> = std::tuple(&ThesisStatement::where, &ThesisStatement::claim,
-                                                          &ThesisStatement::said, &ThesisStatement::found,
-                                                          &ThesisStatement::error, &ThesisStatement::agrees,
-                                                          &ThesisStatement::why, &ThesisStatement::members);
+                                                          &ThesisStatement::bound, &ThesisStatement::said,
+                                                          &ThesisStatement::within, &ThesisStatement::found,
+                                                          &ThesisStatement::error, &ThesisStatement::why,
+                                                          &ThesisStatement::members);
 template <>
 inline constexpr auto parts<ThesisCheck> = std::tuple(&ThesisCheck::what, &ThesisCheck::found, &ThesisCheck::expected,
                                                       &ThesisCheck::allowed, &ThesisCheck::holds, &ThesisCheck::loose);

@@ -211,10 +211,26 @@ void make_function_plain(py::handle object, const std::string& owner) {
 
 }  // namespace
 
+namespace {
+
+/// Names the type of the objects to which functions belong, which `help` shows, and which is that of this module alone.
+void name_owner(const py::handle& function) {
+  PyTypeObject* const type = Py_TYPE(PyCFunction_GET_SELF(function.ptr()));
+  if (PyType_HasFeature(type, Py_TPFLAGS_HEAPTYPE) == 0) return;
+  const py::handle owner(reinterpret_cast<PyObject*>(type));
+  if (!py::str(owner.attr("__name__")).cast<std::string>().starts_with("pybind11_detail_function_record")) return;
+  owner.attr("__name__") = "function";
+  owner.attr("__qualname__") = "function";
+  owner.attr("__module__") = "stickslip";
+}
+
+}  // namespace
+
 void make_plain(py::module_& m) {
   for (const auto& [key, thing] : m.attr("__dict__").cast<py::dict>()) {
     if (!py::isinstance<py::type>(thing)) {
       make_function_plain(thing, "");
+      if (PyCFunction_Check(thing.ptr()) != 0) name_owner(thing);
       continue;
     }
     const auto name = py::str(key).cast<std::string>();

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -93,6 +95,33 @@ std::string described(const Mounting& mounting) {
          (mounting.pendulum ? ", pendulum=True" : "");
 }
 
+// The radius [m] with the fewest digits that gives wn to the last bit.
+double radius_of(double natural_frequency) {
+  const double radius = standard_gravity / (natural_frequency * natural_frequency);
+  for (int digits = 1; digits <= 17; ++digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, radius);
+    const double shorter = std::strtod(text, nullptr);
+    if (std::sqrt(standard_gravity / shorter) == natural_frequency) return shorter;
+  }
+  return radius;
+}
+
+// "radius=2.2" or "period=3" for a pendulum that `FrictionPendulum` gives back to the last bit from at most six digits;
+// else empty.
+std::string dish_of(const Mounting& mounting) {
+  const double wn = mounting.natural_frequency;
+  if (!mounting.pendulum || mounting.slope_degrees != 0 || mounting.one_way) return "";
+  const std::string radius = detail::shortest(radius_of(wn));
+  if (radius.size() <= 7) return "radius=" + radius;
+  for (int digits = 1; digits <= 6; ++digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, 2 * std::numbers::pi / wn);
+    if (2 * std::numbers::pi / std::strtod(text, nullptr) == wn) return std::string("period=") + text;
+  }
+  return std::sqrt(standard_gravity / std::strtod(radius.c_str(), nullptr)) == wn ? "radius=" + radius : "";
+}
+
 py::object law_of(const AnySlider& slider) {
   return std::visit([](const auto& s) { return law_object(s.law()); }, slider);
 }
@@ -148,6 +177,11 @@ ValueError
     A value out of range; natural_frequency and period, or damping and damping_ratio, both given; a damping_ratio or
     a pendulum without a spring; a slope on which the mass slides under its own weight without a spring or a stop.
 
+Warns
+-----
+PlausibilityWarning
+    A slope of less than one degree, which may be in radians.
+
 Notes
 -----
 Functions that take a slider also take a law: a slider on level ground without spring and damper.)");
@@ -159,6 +193,7 @@ Functions that take a slider also take a law: a slider on level ground without s
                const double degrees = PyFloat_CheckExact(slope.ptr())
                                           ? PyFloat_AsDouble(slope.ptr())
                                           : to_number(slope, "Slider: slope_degrees", "degree");
+               if (PyNumber_Check(slope.ptr()) != 0 && !py::hasattr(slope, "to")) check_slope(degrees);  // no quantity
                return mounted(law, {wn, damping_from(damping, damping_ratio, wn), degrees, one_way,
                                     stops ? *stops : Stops(), pendulum});
              }),
@@ -226,6 +261,13 @@ Holds to first order in x / (cup_radius - wheel_radius); the next term is of thi
           "pendulum", [](const AnySlider& self) { return mounting_of(self).pendulum; },
           "Whether the spring is that of a friction pendulum.")
       .def_property_readonly(
+          "radius",
+          [](const AnySlider& self) -> std::optional<double> {
+            if (!mounting_of(self).pendulum) return std::nullopt;
+            return radius_of(natural_frequency_of(self));
+          },
+          "Effective radius of the dish of a friction pendulum, g / wn^2 [m]; None for other sliders.")
+      .def_property_readonly(
           "period", [](const AnySlider& self) { return 2 * std::numbers::pi / natural_frequency_of(self); },
           "2 pi / wn [s]; inf without a spring.")
       .def_property_readonly(
@@ -268,7 +310,7 @@ float
             const State state = slid_to(self, displacement, sliding_distance, temperature);
             return std::visit(
                 [&](const auto& s) -> double {
-                  return resist(law_at(s.law(), state), displacement, direction_of(backward), speed);
+                  return resist(law_at(s.law(), state), displacement, speed, direction_of(backward));
                 },
                 self);
           },
@@ -295,7 +337,17 @@ float
     Friction force per unit mass [m/s^2].)")
       .def("__repr__",
            [](const AnySlider& self) {
-             return "Slider(" + py::repr(law_of(self)).cast<std::string>() + described(mounting_of(self)) + ")";
+             const Mounting& on = mounting_of(self);
+             const auto law = py::repr(law_of(self)).cast<std::string>();
+             if (const std::string dish = dish_of(on); !dish.empty()) {
+               const bool plain = law.starts_with("Coulomb(mu=") && law.find(',') == std::string::npos;
+               Mounting rest = on;
+               rest.natural_frequency = 0;
+               rest.pendulum = false;
+               return "FrictionPendulum(" + dish + ", " + (plain ? law.substr(8, law.size() - 9) : "law=" + law) +
+                      described(rest) + ")";
+             }
+             return "Slider(" + law + described(on) + ")";
            })
       .def(
           "__eq__",
@@ -321,8 +373,18 @@ float
           }));
   m.def(
       "FrictionPendulum",
-      [](double radius, std::optional<double> mu, std::optional<double> mu_slow, std::optional<double> mu_fast,
-         std::optional<double> rate, const py::object& law, const Stops* stops, double damping) {
+      [](std::optional<double> radius, std::optional<double> period, std::optional<double> mu,
+         std::optional<double> mu_slow, std::optional<double> mu_fast, std::optional<double> rate,
+         const py::object& law, const Stops* stops, double damping) {
+        if (radius.has_value() == period.has_value())
+          throw std::invalid_argument("FrictionPendulum: give radius or period, got " +
+                                      (radius
+                                           ? "both (" + given("radius", radius, " m, ") + given("period", period, " s)")
+                                           : std::string("neither")));
+        if (period)
+          detail::require(std::isfinite(*period) && *period > 0, "FrictionPendulum: period must be positive and finite",
+                          *period, "s");
+        if (rate) check_rate("FrictionPendulum", *rate);
         const bool varies = mu_slow || mu_fast || rate;
         if (static_cast<int>(mu.has_value()) + varies + !law.is_none() != 1 ||
             (varies && !(mu_slow && mu_fast && rate)))
@@ -337,13 +399,16 @@ float
         if (stops) mounting.stops = *stops;
         return std::visit(
             [&]<class Law>(const Slider<Law>& one) -> AnySlider {
-              return Slider<Law>::friction_pendulum(one.law(), radius, mounting);
+              if (radius) return Slider<Law>::friction_pendulum(one.law(), *radius, mounting);
+              mounting.natural_frequency = 2 * std::numbers::pi / *period;
+              mounting.pendulum = true;
+              return Slider<Law>(one.law(), mounting);
             },
             friction);
       },
-      py::kw_only(), py::arg("radius"), py::arg("mu") = py::none(), py::arg("mu_slow") = py::none(),
-      py::arg("mu_fast") = py::none(), py::arg("rate") = py::none(), py::arg("law") = py::none(),
-      py::arg("stops") = py::none(), py::arg("damping") = 0.0,
+      py::kw_only(), py::arg("radius") = py::none(), py::arg("period") = py::none(), py::arg("mu") = py::none(),
+      py::arg("mu_slow") = py::none(), py::arg("mu_fast") = py::none(), py::arg("rate") = py::none(),
+      py::arg("law") = py::none(), py::arg("stops") = py::none(), py::arg("damping") = 0.0,
       R"(A slider on a spherical dish: a friction pendulum bearing.
 
 The restoring force is N+ x / radius, where N is the normal force per unit mass: a spring of natural frequency
@@ -352,8 +417,10 @@ sqrt(g / radius) whose force follows the vertical motion. Linear in x, for |x| u
 
 Parameters
 ----------
-radius : float
-    Effective radius of curvature of the dish [m], positive and finite.
+radius : float, optional
+    Effective radius of curvature of the dish [m], positive and finite. Give radius or period.
+period : float, optional
+    2 pi sqrt(radius / g) [s], positive and finite: radius = g (period / (2 pi))^2.
 mu : float, optional
     Coefficient of friction, equal at all speeds.
 mu_slow, mu_fast, rate : float, optional
@@ -372,7 +439,12 @@ Slider
 Raises
 ------
 ValueError
-    A value out of range; not exactly one of mu, (mu_slow, mu_fast, rate) and law.
+    A value out of range; not exactly one of radius and period; not exactly one of mu, (mu_slow, mu_fast, rate) and law.
+
+Warns
+-----
+PlausibilityWarning
+    A coefficient from 3 to 100, which may be in percent; a rate below 2 s/m, which may be in s/cm.
 
 Notes
 -----

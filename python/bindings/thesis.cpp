@@ -67,11 +67,14 @@ void bind_figure(py::module_& m) {
       .def_readonly("where", &ThesisStatement::where,
                     "Section or equation of the thesis; '' for a claim of this library.")
       .def_readonly("claim", &ThesisStatement::claim, "The claim, in the sense of its source, with the unit.")
-      .def_readonly("said", &ThesisStatement::said, "The claimed value.")
+      .def_property_readonly(
+          "bound", [](const ThesisStatement& s) { return name_of(s.bound); },
+          "Whether `said` is a value or a bound, str: 'about', 'at most' or 'at least'.")
+      .def_readonly("said", &ThesisStatement::said, "The claimed value or bound.")
       .def_readonly("found", &ThesisStatement::found, "Our result.")
       .def_readonly("error", &ThesisStatement::error, "Standard error of `found`; 0 if it is not an estimate.")
-      .def_readonly("agrees", &ThesisStatement::agrees,
-                    "Whether `found` agrees to the digits or bound of the claim, plus 3 standard errors.")
+      .def_property_readonly("agrees", &ThesisStatement::agrees,
+                             "Whether `found` agrees to the digits or bound of the claim, plus 3 standard errors.")
       .def_readonly("why", &ThesisStatement::why, "The difference, or how the result was computed.")
       .def_readonly("members", &ThesisStatement::members,
                     "Number of members of the ensembles behind `found`, int; 0 if it is not an estimate.")
@@ -80,15 +83,16 @@ void bind_figure(py::module_& m) {
                detail::shortest(s.found) + ">";
       });
 
-  value_class<ThesisCheck>(m, "ThesisCheck", "A number of a figure next to its expected value.")
+  value_class<ThesisCheck>(m, "ThesisCheck", "A number or a text of a figure next to what is expected.")
       .def_readonly("what", &ThesisCheck::what,
-                    "Figure, and panel / curve / point or statement; notes a missing number.")
-      .def_readonly("found", &ThesisCheck::found, "The number; NaN if the figure lacks it.")
-      .def_readonly("expected", &ThesisCheck::expected, "The stored expected value; NaN if there is none.")
+                    "Figure, and panel / curve / point or statement; notes a missing number; contains the texts.")
+      .def_readonly("found", &ThesisCheck::found, "The number; NaN if the figure lacks it, and for texts.")
+      .def_readonly("expected", &ThesisCheck::expected, "The stored value; NaN if there is none, and for texts.")
       .def_readonly("allowed", &ThesisCheck::allowed, "Tolerance.")
-      .def_readonly("holds", &ThesisCheck::holds, "Whether the number is within the tolerance.")
+      .def_readonly("holds", &ThesisCheck::holds,
+                    "Whether the number is within the tolerance, or the text is the expected one.")
       .def_readonly("loose", &ThesisCheck::loose,
-                    "Whether `allowed` is more than half of `expected`, because there are few members.")
+                    "Whether half of a nonzero expected value would hold too, because there are few members.")
       .def("__repr__", [](const ThesisCheck& c) {
         return "<ThesisCheck " + c.what + ": found " + detail::shortest(c.found) + ", expected " +
                detail::shortest(c.expected) + " +- " + detail::shortest(c.allowed) + ">";
@@ -108,13 +112,17 @@ void bind_figure(py::module_& m) {
       .def("check", &thesis_check,
            R"(Compare every number of the figure with its expected value.
 
-Numbers are all simulated points, all statements and up to nine points of each other curve. A number that is missing, or
-for which there is no expected value, does not hold. The expected values are from 100,000 members and seed 1, so that
-another seed is an independent trial. The tolerance of a simulated number is 5 standard errors of the difference, where
-the error of the number is that of the expected value times the root of the ratio of their members: one false alarm in 2
-million for each number, if it is Gaussian. Numbers that depend on one member in a hundred are not: with 2000 members,
-16 seeds of 8000 numbers had three alarms, all at such points. The tolerance of other numbers is 1e-6 of the largest
-expected value of the curve.
+Numbers are all simulated points, up to nine points of each other curve, and of each statement the number found, the
+number claimed and the deviation that the claim allows. A number that is missing, or for which there is no expected
+value, does not hold. The expected values are from 100,000 members and seed 1, so that another seed is an independent
+trial. The tolerance of a number is 1e-6 of its expected value and, for round-off, 1e-12 of the largest expected value
+of the curve. For a simulated number, 5 standard errors of the difference are added, where the error of the number is
+that of the expected value times the root of the ratio of their members: one false alarm in 2 million for each number,
+if it is Gaussian. Numbers that depend on one member in a hundred are not: with 2000 members, 16 seeds of 8000 numbers
+had three alarms, all at such points.
+
+Texts must be equal: titles and axes of panels, labels and kinds of curves, and of each statement the claim and whether
+the expected number agrees with it.
 
 Returns
 -------

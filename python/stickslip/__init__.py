@@ -77,7 +77,9 @@ TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as a
 if TYPE_CHECKING:
     from ._interfaces import interfaces
     from .comparison import Comparison, compare
+    from .directions import RotD, rotd
     from .ensemble import EnsembleError, Random, ensemble_sensitivity, run_ensemble
+    from .intensity import IntensityMeasures, SuiteSpectra
     from .records import read_record, read_station, record_formats
     from .samples import sample_record, sample_records
     from .suite import Suite
@@ -102,6 +104,7 @@ __all__ = [
     "Grid",
     "GroundMotion",
     "HarmonicMotion",
+    "IntensityMeasures",
     "Interval",
     "KumarFriction",
     "Law",
@@ -114,6 +117,7 @@ __all__ = [
     "Random",
     "Response",
     "ResponseSpectrum",
+    "RotD",
     "Sensitivity",
     "Slider",
     "Spectrum",
@@ -124,6 +128,7 @@ __all__ = [
     "Stribeck",
     "StrongMotion",
     "Suite",
+    "SuiteSpectra",
     "SurfaceHeat",
     "SweepError",
     "SweepTable",
@@ -148,6 +153,7 @@ __all__ = [
     "read_station",
     "record_formats",
     "response_spectrum",
+    "rotd",
     "run_ensemble",
     "sample_record",
     "sample_records",
@@ -173,6 +179,14 @@ if not TYPE_CHECKING:
             from . import comparison
 
             return globals().setdefault(name, getattr(comparison, name))
+        if name in ("RotD", "rotd"):
+            from . import directions
+
+            return globals().setdefault(name, getattr(directions, name))
+        if name in ("IntensityMeasures", "SuiteSpectra"):
+            from . import intensity
+
+            return globals().setdefault(name, getattr(intensity, name))
         if name in ("read_record", "read_station", "record_formats"):
             from . import records
 

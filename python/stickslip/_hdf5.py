@@ -1,10 +1,17 @@
-"""HDF5 files that are written whole or not at all, and columns of numbers or texts in them."""
+"""HDF5 files that are written whole or not at all, with checksums of everything in them.
+
+Each array has the attribute `crc32`, of its type, shape and content, because HDF5 itself protects
+neither texts nor the addresses of numbers. Numbers also have HDF5's own checksum `fletcher32`,
+which every reader of HDF5 verifies. The file format has checksums for attributes and for types and
+shapes of arrays.
+"""
 
 from __future__ import annotations
 
 import io
 import math
 import os
+import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,7 +23,18 @@ from numpy.typing import NDArray
 from ._files import check_regular, replacing
 from ._optional import optional
 
-__all__ = ["as_column", "creating", "opening", "read_columns", "read_texts", "write_columns"]
+__all__ = [
+    "as_column",
+    "creating",
+    "opening",
+    "read",
+    "read_columns",
+    "read_texts",
+    "write",
+    "write_columns",
+]
+
+_CHUNK = 2**20  # bytes; arrays up to this size are one chunk
 
 
 def as_column(values: Any) -> NDArray[Any]:
@@ -44,7 +62,8 @@ def creating(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]
     """
     h5py = optional("h5py", "suites", who)
     content = io.BytesIO()
-    with h5py.File(content, "w") as h5:
+    # From this version of the format on, the descriptions of arrays have checksums.
+    with h5py.File(content, "w", libver=("v108", "v110"), track_order=True) as h5:
         h5.attrs["format"] = form
         yield h5
     with replacing(file) as stream:
@@ -52,8 +71,8 @@ def creating(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]
 
 
 @contextmanager
-def opening(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]:
-    """A file that `creating` made.
+def opening(file: str | os.PathLike[str], forms: tuple[str, ...], who: str) -> Iterator[Any]:
+    """A file that `creating` made, of one of several formats; the first is the present one.
 
     Raises
     ------
@@ -72,37 +91,89 @@ def opening(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]:
         h5 = h5py.File(path, "r")
     except OSError as error:
         raise ValueError(f"{who}: '{path}' is not an HDF5 file, or is damaged") from error
+    damage = (KeyError, IndexError, OSError, RuntimeError, TypeError, ValueError)
     with h5:
-        found = h5.attrs.get("format")
-        if found != form:
-            raise ValueError(f"{who}: '{path}' must be of format '{form}', got '{found}'")
+        try:
+            found = h5.attrs.get("format")
+        except damage as error:
+            raise ValueError(f"{who}: '{path}' is damaged: {error}") from error
+        if found not in forms:
+            raise ValueError(f"{who}: '{path}' must be of format '{forms[0]}', got '{found}'")
         try:
             yield h5
-        except (KeyError, IndexError, OSError, TypeError, ValueError) as error:
+        except damage as error:
             raise ValueError(f"{who}: '{path}' is damaged: {error}") from error
+
+
+def write(h5: Any, name: str, values: Any) -> Any:
+    """Write an array of numbers, or a row of texts, with its checksum; return the dataset."""
+    array = np.ascontiguousarray(values)
+    how: dict[str, Any] = {}
+    if array.dtype.kind not in "biuf":
+        array = np.array([str(one) for one in array.tolist()], object)
+        how = {"dtype": optional("h5py", "suites", "write").string_dtype()}
+    elif array.size:  # an empty array has no chunks, which fletcher32 needs
+        how = {"chunks": True if array.nbytes > _CHUNK else array.shape, "fletcher32": True}
+    data = h5.create_dataset(name, data=array, **how)
+    data.attrs["crc32"] = _checksum(array)
+    return data
+
+
+def read(h5: Any, name: str, shape: tuple[int, ...] | None = None) -> NDArray[Any]:
+    """Read an array of numbers or texts that `write` wrote.
+
+    Files from before there were checksums are read as they are.
+
+    Parameters
+    ----------
+    shape : tuple of int, optional
+        The shape that it must have.
+
+    Raises
+    ------
+    KeyError, OSError, ValueError
+        It is missing, has another shape, is a link or an array outside of the file, or its checksum
+        differs. `opening` makes one ValueError of all of these.
+    """
+    link = h5.get(name, getlink=True)
+    if link is not None and type(link).__name__ != "HardLink":
+        raise ValueError(f"'{name}' is a link")
+    data = h5[name]
+    if not hasattr(data, "dtype") or data.external or data.is_virtual:
+        raise ValueError(f"'{name}' is not an array of this file")
+    if shape is not None and data.shape != shape:
+        raise ValueError(f"'{name}' must have shape {shape}, has {data.shape}")
+    values: NDArray[Any] = data[...] if data.dtype.kind in "biuf" else read_texts(data)
+    if "crc32" in data.attrs and data.attrs["crc32"] != _checksum(values):
+        raise ValueError(f"the checksum of '{name}' differs")
+    return values
 
 
 def write_columns(h5: Any, name: str, columns: Mapping[str, Any]) -> None:
     """Write columns of numbers or texts as a group, in their order."""
     group = h5.create_group(name, track_order=True)
     for key, values in columns.items():
-        column = as_column(values)
-        # A slash would create a group.
-        group[key.replace("/", "\\")] = column if column.dtype.kind in "biuf" else column.tolist()
+        write(group, key.replace("/", "\\"), as_column(values))  # a slash would create a group
 
 
-def read_columns(h5: Any, name: str) -> dict[str, NDArray[Any]]:
-    """Read the columns that `write_columns` wrote."""
-    return {
-        key.replace("\\", "/"): data[:] if data.dtype.kind in "biuf" else read_texts(data)
-        for key, data in h5[name].items()
-    }
+def read_columns(h5: Any, name: str, length: int | None = None) -> dict[str, NDArray[Any]]:
+    """Read the columns that `write_columns` wrote; each must have the length, if it is given."""
+    shape = None if length is None else (length,)
+    return {key.replace("\\", "/"): read(h5[name], key, shape) for key in h5[name]}
 
 
 def read_texts(data: Any) -> NDArray[Any]:
     """Read a dataset of texts."""
     texts: NDArray[Any] = data.asstr()[:]
     return texts
+
+
+def _checksum(array: NDArray[Any]) -> np.uint32:
+    if array.dtype.kind == "O":
+        kind, content = "texts", "".join(f"{text}\0" for text in array.tolist()).encode()
+    else:
+        kind, content = array.dtype.str, array.tobytes()
+    return np.uint32(zlib.crc32(content, zlib.crc32(f"{kind} {array.shape}".encode())))
 
 
 def _is_nothing(value: Any) -> bool:

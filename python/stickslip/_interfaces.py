@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from ._rows import Rows
 
 __all__ = ["interfaces"]
 
 _KASIMZADE = "quoted by Kasimzade et al., EJERS 4 (2), 2019"
 
-# Interface, lowest and highest coefficient, what to know of them, source.
+# Interface, lowest and highest coefficient, note, source.
 _TABLE = (
     (
         "steel on mortar",
@@ -49,19 +49,19 @@ _TABLE = (
 )
 
 
-def interfaces() -> list[dict[str, Any]]:
+def interfaces() -> Rows:
     """Coefficients of friction of real interfaces, as published.
 
-    They are values of single test series, to begin with: surfaces, wear, pressure and speed change
-    them by tens of percent, so measure yours, or slide a range. Values for which no published
-    source was seen are left out.
+    Each value comes from one series of tests: surfaces, wear, pressure and speed change it by tens
+    of percent, so measure yours, or run a range. The table omits interfaces for which we have not
+    seen a published source.
 
     Returns
     -------
     list of dict
-        Of each interface its name, ``interface``; the lowest and highest coefficient, ``mu_low``
-        and ``mu_high`` [-], equal where the source gives one; a ``note`` on them; the ``source``.
-        `pandas.DataFrame(interfaces())` is the table.
+        For each interface, its name, ``interface``; the lowest and highest coefficient, ``mu_low``
+        and ``mu_high`` [-], equal where the source gives one; a ``note``; the ``source``. It
+        prints as a table; `pandas.DataFrame(interfaces())` is the same as a DataFrame.
     """
     names = ("interface", "mu_low", "mu_high", "note", "source")
-    return [dict(zip(names, row)) for row in _TABLE]
+    return Rows(dict(zip(names, row)) for row in _TABLE)

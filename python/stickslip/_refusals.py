@@ -37,6 +37,7 @@ _WORDS = {
     "Axes": "a matplotlib Axes",
     "FigureBase": "a matplotlib Figure",
     "_Trace": "an ObsPy Trace",
+    "_Stream": "an ObsPy Stream",
 }
 
 

@@ -1,4 +1,12 @@
-"""Tables of responses and ensembles: pandas, xarray, CSV files, notebooks."""
+"""Tables for pandas, xarray, CSV files and notebooks; those of responses and ensembles.
+
+Names of columns follow one rule everywhere. A column is a plain identifier without a unit, such as
+`peak` or `ground_acceleration`, in a DataFrame, a Dataset and JSON alike, so that `frame.peak` and
+`frame.query("peak > 0.1")` work. Units are in `frame.attrs["units"]`, a dict by name; in the
+attribute `units` of each variable of a Dataset; and in `units` of a JSON object. A CSV file has no
+other place for them than its head: there a name is followed by its unit, `peak [m]`. Quantities
+without a dimension have no entry and no brackets.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +14,9 @@ import html
 import json
 import math
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -21,18 +29,125 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
+    "Repeated",
     "ensemble_html",
+    "frame_of",
+    "heading",
     "html_table",
+    "impact_probabilities",
+    "json_text",
     "response_html",
     "to_csv",
     "to_dataframe",
     "to_json",
     "to_xarray",
+    "write_csv",
 ]
+
+
+class Repeated(NamedTuple):
+    """A column in which many rows repeat few values; of texts, a `category` in pandas."""
+
+    values: NDArray[Any]
+    places: NDArray[np.intp]  # of the value of each row
+
+
+Columns = Mapping[str, "NDArray[Any] | Repeated"]
+
+
+def heading(name: str, unit: str = "") -> str:
+    """The head of a column of a CSV file: the name and, in brackets, the unit."""
+    return f"{name} [{unit}]" if unit else name
+
+
+def frame_of(columns: Columns, units: Mapping[str, str], who: str, index: str | None = None) -> Any:
+    """A pandas DataFrame of columns, with the units in `attrs`.
+
+    Parameters
+    ----------
+    columns : mapping of str to ndarray or Repeated
+        By name: a plain identifier without a unit.
+    units : mapping of str to str
+        By name; names that are not among the columns, and empty units, are left out.
+    who : str
+        The function that needs pandas, for the message if it is missing.
+    index : str, optional
+        The column that is the index; default: the rows are counted.
+    """
+    pandas = optional("pandas", "tables", who)
+
+    def column(given: NDArray[Any] | Repeated) -> Any:
+        if not isinstance(given, Repeated):
+            return given
+        if given.values.dtype.kind != "U":
+            return given.values[given.places]
+        texts, inverse = np.unique(given.values, return_inverse=True)
+        return pandas.Categorical.from_codes(inverse[given.places], texts.astype(object))
+
+    frame = pandas.DataFrame({name: column(given) for name, given in columns.items()})
+    frame.attrs["units"] = {name: units[name] for name in columns if units.get(name)}
+    return frame if index is None else frame.set_index(index)
+
+
+def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLike[str]) -> Path:
+    """Write columns to a CSV file, which replaces another one whole or not at all.
+
+    Numbers read back to the same double; truth values are 1 and 0.
+
+    Parameters
+    ----------
+    columns, units
+        As for `frame_of`.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written.
+    """
+    with replacing(file) as stream:
+        heads = [_cell(heading(name, units.get(name, ""))) for name in columns]
+        stream.write((",".join(heads) + "\n").encode())
+        texts = [
+            [_cell(one) for one in column.values.tolist()] if isinstance(column, Repeated) else None
+            for column in columns.values()
+        ]
+        length = max(map(_length, columns.values()), default=0)
+        for begin in range(0, length, 4096):
+            cells: list[Iterable[str]] = []
+            for column, known in zip(columns.values(), texts):
+                if isinstance(column, Repeated):
+                    assert known is not None
+                    cells.append(
+                        map(known.__getitem__, column.places[begin : begin + 4096].tolist())
+                    )
+                    continue
+                part = column[begin : begin + 4096]
+                plain = part.dtype.kind in "iuf"  # no cell that would need quotation marks
+                cells.append(map(repr if plain else _cell, part.tolist()))
+            rows = map(",".join, zip(*cells))
+            stream.write(("\n".join(rows) + "\n").encode())
+    return Path(file)
+
+
+def _length(column: NDArray[Any] | Repeated) -> int:
+    return len(column.places if isinstance(column, Repeated) else column)
+
+
+def _cell(value: Any) -> str:
+    """A value as a cell of a CSV file."""
+    if isinstance(value, bool):
+        return str(int(value))
+    if not isinstance(value, str):
+        return repr(value)
+    if not any(mark in value for mark in ',"\r\n'):
+        return value
+    doubled = value.replace('"', '""')
+    return f'"{doubled}"'
+
 
 # Name, unit, description.
 _HISTORIES = (
-    ("ground acceleration", "m/s^2", "ground acceleration"),
+    ("ground_acceleration", "m/s^2", "ground acceleration"),
     ("displacement", "m", "displacement relative to the ground"),
     ("velocity", "m/s", "velocity relative to the ground"),
     ("acceleration", "m/s^2", "absolute acceleration of the mass"),
@@ -45,9 +160,9 @@ _HISTORIES = (
 # Histories beside these where the normal force is not the weight: under vertical motion, the last
 # also on a slope.
 _LIFTING = (
-    ("vertical ground acceleration", "m/s^2", "vertical ground acceleration, positive upward"),
+    ("vertical_ground_acceleration", "m/s^2", "vertical ground acceleration, positive upward"),
     ("gap", "m", "gap between slider and ground"),
-    ("normal force", "m/s^2", "normal force per unit mass"),
+    ("normal_force", "m/s^2", "normal force per unit mass"),
 )
 # Beside these where friction depends on it.
 _HEATED = (("temperature", "degC", "temperature of the sliding surface"),)
@@ -61,21 +176,23 @@ def _histories(response: Response) -> tuple[tuple[str, str, str], ...]:
     return (*_HISTORIES[:-1], *_LIFTING[first:], *heated, _HISTORIES[-1])
 
 
+def _columns(response: Response) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
+    """The time and the histories of a response, and their units."""
+    histories = _histories(response)
+    columns = {name: _history(response, name) for name, _, _ in histories}
+    return {"time": response.time, **columns}, {"time": "s"} | {n: u for n, u, _ in histories}
+
+
 def to_dataframe(response: Response) -> Any:
     """The histories of a response as a pandas DataFrame; see `Response.to_dataframe`."""
-    pandas = optional("pandas", "tables", "Response.to_dataframe")
-    index = pandas.Index(response.time, name="time [s]")
-    return pandas.DataFrame(
-        {_heading(name, unit): _history(response, name) for name, unit, _ in _histories(response)},
-        index,
-    )
+    return frame_of(*_columns(response), "Response.to_dataframe", index="time")
 
 
 def to_xarray(response: Response) -> Any:
     """The histories of a response as an xarray Dataset; see `Response.to_xarray`."""
     xarray = optional("xarray", "tables", "Response.to_xarray")
     variables = {
-        _key(name): (
+        name: (
             "time",
             _history(response, name),
             {"long_name": what} | ({"units": unit} if unit else {}),
@@ -98,15 +215,7 @@ def to_xarray(response: Response) -> Any:
 
 def to_csv(response: Response, path: str | os.PathLike[str]) -> Path:
     """Write the histories of a response to a file; see `Response.to_csv`."""
-    histories = _histories(response)
-    names = ["time [s]", *(_heading(name, unit) for name, unit, _ in histories)]
-    columns = [response.time, *(_history(response, name) for name, _, _ in histories)]
-    columns[-1] = columns[-1].astype(int)
-    with replacing(path) as stream:
-        stream.write((",".join(names) + "\n").encode())
-        for rows in _rows(columns):
-            stream.write("".join(",".join(map(repr, row)) + "\n" for row in rows).encode())
-    return Path(path)
+    return write_csv(*_columns(response), path)
 
 
 def to_json(response: Response) -> str:
@@ -122,9 +231,9 @@ def to_json(response: Response) -> str:
         "residual": response.residual,
         "sliding_distance": response.sliding_distance,
         "at_rest": response.at_rest,
-        "units": {"time": "s"} | {_key(name): unit for name, unit, _ in histories if unit},
+        "units": {"time": "s"} | {name: unit for name, unit, _ in histories if unit},
         "time": response.time,
-        **{_key(name): _history(response, name) for name, _, _ in histories},
+        **{name: _history(response, name) for name, _, _ in histories},
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
     }
     return json_text(document)
@@ -163,6 +272,9 @@ def response_html(response: Response) -> str:
         ("time sliding", f"{response.time_sliding:.4g} s"),
         ("dissipated by friction", f"{energy.dissipated:.4g} m²/s²"),
     ]
+    radius = response.slider.radius
+    if radius is not None:
+        rows.insert(1, ("radius, period", f"{radius:.4g} m, {response.slider.period:.4g} s"))
     if response.slider.damping > 0:
         rows.append(("dissipated by the damper", f"{energy.damped:.4g} m²/s²"))
     if response.slider.stops is not None:
@@ -176,7 +288,20 @@ def response_html(response: Response) -> str:
         rows.append(("effective damping", f"{100 * response.effective_damping:.3g} %"))
     except ValueError:
         pass  # no loop
+    if response.remark:
+        rows.append(("remark", response.remark))
     return html_table("Response", [], rows)
+
+
+def impact_probabilities(ensemble: Ensemble) -> dict[str, Interval]:
+    """The probabilities of impact that exist, by name of their attribute."""
+    found = {}
+    for name in ("impact_probability", "impact_probability_forward", "impact_probability_backward"):
+        try:
+            found[name] = getattr(ensemble, name)
+        except ValueError:  # no stop there
+            continue
+    return found
 
 
 def ensemble_html(ensemble: Ensemble) -> str:
@@ -186,6 +311,11 @@ def ensemble_html(ensemble: Ensemble) -> str:
     if members > 1:
         for p, name in ((0.5, "median"), (0.84, "84 %"), (0.95, "95 %")):
             rows.append((f"peak displacement, {name}", _of_interval(ensemble.quantile(p))))
+        for attribute, interval in impact_probabilities(ensemble).items():
+            side = attribute.removeprefix("impact_probability").replace("_", " ")
+            rows.append((f"probability of an impact{side}", _of_interval(interval, "")))
+        if ensemble.airborne:
+            rows.append(("members in flight at the end", f"{ensemble.airborne:,}"))
         if ensemble.time.size:
             s = ensemble.stationary
             rows.append(("variance of x'", _of_estimate(s.velocity_variance, "m²/s²")))
@@ -211,34 +341,20 @@ def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]
     return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
 
 
-def _key(name: str) -> str:
-    return name.replace(" ", "_")
-
-
-def _heading(name: str, unit: str) -> str:
-    return f"{name} [{unit}]" if unit else name
-
-
 def _history(response: Response, name: str) -> NDArray[Any]:
     """A writable copy of a history."""
-    if name.endswith("ground acceleration"):
+    if name.endswith("ground_acceleration"):
         n = np.zeros(response.time.size)
         vertical = name.startswith("vertical")
         motion = response.motion
         n[: len(motion)] = motion.vertical if vertical else motion.acceleration
         return n
-    return np.array(getattr(response, _key(name)))
+    return np.array(getattr(response, name))
 
 
-def _rows(columns: Sequence[NDArray[Any]]) -> Iterable[Iterable[tuple[float, ...]]]:
-    """Rows of Python numbers, in chunks of a few thousand."""
-    for begin in range(0, len(columns[0]), 4096):
-        yield zip(*(column[begin : begin + 4096].tolist() for column in columns))
-
-
-def _of_interval(interval: Interval) -> str:
+def _of_interval(interval: Interval, unit: str = " m") -> str:
     high = f"{interval.high:.3g}" if np.isfinite(interval.high) else "∞"
-    return f"{interval.value:.4g} m (95 % confidence: {interval.low:.3g} to {high})"
+    return f"{interval.value:.4g}{unit} (95 % confidence: {interval.low:.3g} to {high})"
 
 
 def _of_estimate(estimate: Estimate, unit: str) -> str:

@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Protocol
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses
-from ._tables import html_table
+from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses, build_info
+from ._tables import Repeated, frame_of, html_table, json_text, write_csv
 from .ensemble import run_ensemble
 from .theory import THEORIES, Coverage
 
 if TYPE_CHECKING:
-    from matplotlib.figure import FigureBase
+    from matplotlib.figure import Figure, FigureBase
+
+_Place = TypeVar("_Place", bound="FigureBase")
 
 __all__ = ["Comparison", "compare"]
 
 _STATISTICS = ("displacement_variance", "velocity_variance", "covariance")
+_UNITS = {"time": "s", "growth_rate": "m^2/s"} | {
+    name + part: unit
+    for name, unit in zip(_STATISTICS, ("m^2", "m^2/s^2", "m^2/s"))
+    for part in ("", "_error")
+}
+_COLUMNS = 6  # maximum number of times in a printed table
 _FINEST = 512  # minimum number of times of the statistics, for the stationary averages
 
 
@@ -118,19 +128,121 @@ class Comparison:
             ratio = np.where(value != 0, getattr(self.theories[name], statistic) / value, np.nan)
             return ratio, np.abs(ratio * error / value)
 
+    def __repr__(self) -> str:
+        names = ", ".join(self.theories) or "no theory"
+        refused = f"; {len(self.refused)} do not apply" if self.refused else ""
+        return (
+            f"<Comparison: {self.ensemble.members:,} members, {len(self.time)} times to"
+            f" {self.time[-1]:.4g} s, {names}{refused}>"
+        )
+
+    def _shown(self) -> NDArray[np.int64]:
+        """The times of the printed tables, at most six, the last one among them."""
+        step = math.ceil(len(self.time) / _COLUMNS)
+        return np.arange(len(self.time) - 1, -1, -step)[::-1]
+
+    def _columns(self) -> dict[str, NDArray[Any] | Repeated]:
+        names = np.array(["simulation", *self.theories])
+        count = len(self.time)
+        columns: dict[str, NDArray[Any] | Repeated] = {
+            "source": Repeated(names, np.repeat(np.arange(len(names)), count)),
+            "time": np.tile(self.time, len(names)),
+        }
+        for statistic in _STATISTICS:
+            value, error = self.simulated(statistic)
+            predicted = [getattr(moments, statistic) for moments in self.theories.values()]
+            columns[statistic] = np.concatenate([value, *predicted])
+            columns[f"{statistic}_error"] = np.concatenate(
+                [error, np.full(count * len(self.theories), np.nan)]
+            )
+        return columns
+
+    def to_dataframe(self) -> Any:
+        """A pandas DataFrame with a row for each time of the simulation and of each theory.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns `source` ('simulation' or the name of a theory; a category), `time`,
+            `displacement_variance`, `velocity_variance` and `covariance`, each followed by its
+            standard error, as `displacement_variance_error` (NaN for theories).
+            ``frame.attrs["units"]`` has the units by name.
+
+        Raises
+        ------
+        ImportError
+            pandas is missing.
+        """
+        return frame_of(self._columns(), _UNITS, "Comparison.to_dataframe")
+
+    def to_csv(self, path: str | os.PathLike[str]) -> Path:
+        """Write the rows of `to_dataframe` to a CSV file.
+
+        Parameters
+        ----------
+        path : path-like
+            Replaced whole or not at all.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
+        return write_csv(self._columns(), _UNITS, path)
+
+    def to_json(self) -> str:
+        """The comparison as one JSON document.
+
+        Returns
+        -------
+        str
+            An object: `stickslip`, `configuration`, `members`, `units`; `time`; `simulation`, the
+            statistics by name with their errors; `theories`, by name of the theory its statistics,
+            its growth rate and its remark; `refused`, by name the reason. Numbers read back to the
+            same double; NaN is null.
+        """
+        growth = self.ensemble.stationary.growth_rate
+        simulation: dict[str, Any] = dict(zip(("growth_rate", "growth_rate_error"), growth))
+        for statistic in _STATISTICS:
+            simulation[statistic], simulation[f"{statistic}_error"] = self.simulated(statistic)
+        return json_text(
+            {
+                "stickslip": build_info()["version"],
+                "configuration": self.ensemble.configuration,
+                "members": self.ensemble.members,
+                "units": _UNITS,
+                "time": self.time,
+                "simulation": simulation,
+                "theories": {
+                    name: {
+                        **{statistic: getattr(moments, statistic) for statistic in _STATISTICS},
+                        "growth_rate": moments.growth_rate.value,
+                        "remark": moments.remark,
+                    }
+                    for name, moments in self.theories.items()
+                },
+                "refused": self.refused,
+            }
+        )
+
     def __str__(self) -> str:
         """A table: the simulation with its standard errors, and each theory over it."""
+        shown = self._shown()
         lines = [f"{self.ensemble.members:,} members; theory / simulation"]
         for statistic, unit in zip(_STATISTICS[:2], ("m^2", "(m/s)^2")):
             value, error = self.simulated(statistic)
             heading = f"{statistic.replace('_', ' ')} [{unit}]"
-            lines += ["", _row(heading, (f"t = {t:.4g} s" for t in self.time))]
-            lines.append(_row("simulation", map("{:.4g}".format, value)))
-            lines.append(_row("standard error", map("{:.1g}".format, error)))
+            lines += ["", _row(heading, (f"t = {t:.4g} s" for t in self.time[shown]))]
+            lines.append(_row("simulation", map("{:.4g}".format, value[shown])))
+            lines.append(_row("standard error", map("{:.1g}".format, error[shown])))
             for name, moments in self.theories.items():
                 if not np.isnan(getattr(moments, statistic)).all():  # else it is not predicted
                     ratio, _ = self.ratio(name, statistic)
-                    lines.append(_row("  " + name, map("{:.3f}".format, ratio)))
+                    lines.append(_row("  " + name, map("{:.3f}".format, ratio[shown])))
         growth = self.ensemble.stationary.growth_rate
         lines += [
             "",
@@ -148,19 +260,25 @@ class Comparison:
     def _repr_html_(self) -> str:
         """The same table for a notebook."""
         tables = []
-        times = [f"{t:.4g} s" for t in self.time]
+        shown = self._shown()
+        times = [f"{t:.4g} s" for t in self.time[shown]]
         for statistic, unit in zip(_STATISTICS[:2], ("m²", "m²/s²")):
             value, error = self.simulated(statistic)
-            rows = [(f"simulation [{unit}]", *(f"{v:.4g} ± {e:.1g}" for v, e in zip(value, error)))]
+            pairs = zip(value[shown], error[shown])
+            rows = [(f"simulation [{unit}]", *(f"{v:.4g} ± {e:.1g}" for v, e in pairs))]
             for name, moments in self.theories.items():
                 if not np.isnan(getattr(moments, statistic)).all():
                     ratio, _ = self.ratio(name, statistic)
-                    rows.append((f"{name} / simulation", *(f"{r:.3f}" for r in ratio)))
+                    rows.append((f"{name} / simulation", *(f"{r:.3f}" for r in ratio[shown])))
             tables.append(html_table(statistic.replace("_", " "), ["time", *times], rows))
         if self.refused:
             tables.append(html_table("theories that do not apply", [], self.refused.items()))
         return "".join(tables)
 
+    @overload
+    def plot(self, figure: None = None, title: str | None = None) -> Figure: ...
+    @overload
+    def plot(self, figure: _Place, title: str | None = None) -> _Place: ...
     def plot(self, figure: FigureBase | None = None, title: str | None = None) -> FigureBase:
         """Plot the variances over time: the ensemble with its errors, and each theory as a line.
 
@@ -215,7 +333,8 @@ def compare(
         Or your own excitation, if one of your own theories covers it.
     times : array_like, shape (T,), optional
         Times of the comparison [s], increasing, above 0, at most the excitation's duration;
-        multiples of its dt, or, under pulses, of a common step. Default: six evenly spaced times.
+        multiples of its dt, or, under pulses, of a common step. Default: twelve evenly spaced
+        times, of which printed tables show six.
     members, seed, threads, progress
         As for `run_ensemble`.
     theories : sequence, optional
@@ -317,8 +436,8 @@ def _times(times: Any, excitation: Any) -> tuple[NDArray[np.float64], float]:
     """The times [s], and a step of the statistics that divides all of them."""
     end, own = excitation.duration, getattr(excitation, "dt", None)
     if times is None:
-        time = np.linspace(end / 6, end, 6)
-        time = time if own is None else np.maximum(np.rint(time / own), 1) * own
+        time = np.linspace(end / 12, end, 12)
+        time = time if own is None else np.unique(np.maximum(np.rint(time / own), 1)) * own
     else:
         time = _core.to_vector(times, "compare: times")
     if len(time) == 0 or not np.isfinite(time).all():

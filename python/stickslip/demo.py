@@ -113,8 +113,8 @@ def draw(motions: Sequence[GroundMotion], folder: Path) -> list[Path]:
     history = plotting.plot_response(
         integrate(Coulomb(mu=0.1), kobe, settle=True),
         title=f"A cabinet on a smooth floor in {kobe.name}",
+        time=(0, 25),  # [s]; the cabinet is at rest after 20 s
     )
-    history.axes[-1].set_xlim(0, 25)  # [s]; the cabinet is at rest after 20 s
 
     mu = np.geomspace(0.02, 1, 200)
     peaks = [[integrate(Coulomb(mu=m), motion, settle=True).peak for m in mu] for motion in motions]

@@ -1,8 +1,11 @@
 """Pictures in a common style; needs matplotlib (``pip install stickslip[plot]``).
 
-Every function returns a matplotlib Figure: a notebook shows it, `save` writes it. If pyplot was
-imported and has windows, plt.show() shows it too; otherwise pyplot is not touched. The colors are
-those of Okabe and Ito, which color-blind readers can distinguish, also in grayscale print.
+Pictures of one panel are drawn into ``ax=``, pictures of several into ``figure=``, a Figure or
+SubFigure, and return what they were given: so they fit into a figure that `plt.subplots` made.
+Without either they make a new matplotlib Figure and return it: a notebook shows it, `save` or its
+own `savefig` writes it. If pyplot was imported and has windows, plt.show() shows it too; otherwise
+pyplot is not touched. The colors are those of Okabe and Ito, which color-blind readers can
+distinguish, also in grayscale print.
 """
 
 from __future__ import annotations
@@ -10,11 +13,12 @@ from __future__ import annotations
 import io
 import json
 import os
+import re
 import sys
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol, overload
+from typing import Any, Protocol, TypeVar, overload
 
 import numpy as np
 
@@ -23,6 +27,8 @@ try:
     from matplotlib.axes import Axes
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure, FigureBase
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import text_to_path
 except ImportError as error:
     raise ImportError(
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
@@ -41,6 +47,7 @@ from ._core import (
 )
 from ._files import replacing
 from ._text import printable
+from .ensemble.tables import impact_probabilities
 
 __all__ = [
     "plot_comparison",
@@ -58,10 +65,13 @@ __all__ = [
     "without_contact",
 ]
 
+_Place = TypeVar("_Place", bound=FigureBase)
+
 INK, GRAY, PALE = "#222222", "#8a8a8a", "#e6e6e6"
 BLUE, VERMILION, GREEN = "#0072b2", "#d55e00", "#009e73"
 COLORS = (BLUE, VERMILION, GREEN, "#cc79a7", "#e69f00", "#56b4e9")
 SUFFIXES = (".png", ".pdf", ".svg")
+_LIFTED = 1e-4  # [m]; smaller gaps have no panel
 
 
 def style() -> Any:
@@ -197,8 +207,28 @@ def without_contact(response: Response) -> np.ndarray:
     return crossings.reshape(-1, 2)
 
 
+@overload
 def plot_response(
-    response: Response, figure: FigureBase | None = None, title: str | None = None
+    response: Response,
+    figure: None = None,
+    title: str | None = None,
+    *,
+    time: tuple[float, float] | None = None,
+) -> Figure: ...
+@overload
+def plot_response(
+    response: Response,
+    figure: _Place,
+    title: str | None = None,
+    *,
+    time: tuple[float, float] | None = None,
+) -> _Place: ...
+def plot_response(
+    response: Response,
+    figure: FigureBase | None = None,
+    title: str | None = None,
+    *,
+    time: tuple[float, float] | None = None,
 ) -> FigureBase:
     """Plot ground acceleration, velocity and displacement of a response, one above the other.
 
@@ -208,7 +238,7 @@ def plot_response(
     sticks; the third marks peak and residual, and draws stops near the displacement as lines. If
     the slider settled after the last sample, the picture shows that tail too. Under vertical
     motion a fourth panel shows the normal force, and a fifth the gap between slider and ground if
-    the slider ever left it; both shade the times without contact.
+    it exceeds 0.1 mm at a sample; both shade the times without contact.
 
     Parameters
     ----------
@@ -218,26 +248,36 @@ def plot_response(
         Where to draw; default: a new figure 7 inches wide, and 6 inches high with three panels.
     title : str, optional
         Default: the name of the ground motion.
+    time : tuple of float, optional
+        Begin and end of the part to draw [s], such as (0, 25); default: all of the response. The
+        peak is marked if it lies in this part.
 
     Returns
     -------
     matplotlib Figure or SubFigure
         With these axes: ground acceleration [g], relative velocity, relative displacement; then
         normal force over the weight [g] and gap, if drawn.
+
+    Raises
+    ------
+    ValueError
+        A time that does not begin before it ends, or lies outside the response.
     """
-    lifted = response.contact == "flight" and "liftoff" in response.events["kind"]
+    begin, end = _window("plot_response", response, time)
+    lifted = response.contact == "flight" and response.gap.max() > _LIFTED
     more = 0 if "vertical" not in response.components else 2 if lifted else 1
     with style():
         figure = figure or new_figure(7, 6 + 1.4 * more)
         ground, speed, way, *below = figure.subplots(
             3 + more, sharex=True, height_ratios=(1, 1, 1.25, 0.8, 0.8)[: 3 + more]
         )
-        t, x, v = _path(response)
-        length, unit = _unit(response.peak)
+        path = _path(response)
+        t, x, v = (history[_within(path[0], begin, end)] for history in path)
+        length, unit = _unit(np.abs(x).max())
         fast, fast_unit = _unit(np.abs(v).max())
 
         _title(ground, response.motion, title, _describe(response.slider))
-        _draw_ground(ground, response)
+        _draw_ground(ground, response, begin, end)
         lower, upper = _held(response, t, x)
         if "liftoff" in response.events["kind"]:  # nothing holds a slider in flight
             flies = _normal(response, t) == 0
@@ -269,30 +309,48 @@ def plot_response(
         way.plot(t, x * length, color=BLUE, linewidth=1.4)
         way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
-        way.set_xlim(t[0], t[-1])
-        _mark_peak(way, t, x * length, unit)
-        _mark_residual(way, response, length, unit)
-        _draw_stops(way, response, length)
+        way.set_xlim(begin, end)
+        _mark_peak(way, t, x * length, unit, np.abs(path[1]).max() * length)
+        _mark_end(way, response, t, x, length, unit, end)
+        _draw_stops(way, response, length, np.abs(x).max())
         if below:
-            _draw_normal_force(below[0], response)
+            _draw_normal_force(below[0], response, begin, end)
         if lifted:
-            _draw_gap(below[1], response)
+            _draw_gap(below[1], response, begin, end)
         figure.axes[-1].set_xlabel("time [s]")
         figure.align_ylabels()
     return figure
 
 
-def _draw_stops(axes: Axes, response: Response, length: float) -> None:
+def _draw_stops(axes: Axes, response: Response, length: float, largest: float) -> None:
     stops = response.slider.stops
     if stops is None:
         return
-    for place in (stops.gap, -stops.backward):
-        if abs(place) <= 1.25 * response.peak:  # else the motion would be drawn small
-            axes.axhline(place * length, color=INK, linewidth=1.2, label="stop", zorder=1)
+    near = [
+        place * length
+        for place in (stops.gap, -stops.backward)
+        if abs(place) <= 1.25 * largest  # else the motion would be drawn small
+    ]
+    low, high = axes.get_ylim()
+    room = 0.14 * (high - low)
+    axes.set_ylim(min([low, *(y - room for y in near)]), max([high, *(y + room for y in near)]))
+    for y in near:
+        axes.axhline(y, color=INK, linewidth=1.2, label="stop", zorder=1)
+        axes.annotate(
+            f"stop {_digits(y)} {_unit_of(length)}",
+            (1, y),
+            xycoords=("axes fraction", "data"),
+            xytext=(-3, -2 if y < 0 else 2),  # beyond the stop, where nothing moves
+            textcoords="offset points",
+            ha="right",
+            va="top" if y < 0 else "bottom",
+            fontsize=8,
+        )
 
 
-def _shade_without_contact(axes: Axes, response: Response) -> None:
-    spans = without_contact(response)
+def _shade_without_contact(axes: Axes, response: Response, begin: float, end: float) -> None:
+    spans = np.clip(without_contact(response), begin, end)
+    spans = spans[spans[:, 1] > spans[:, 0]]
     if len(spans):
         axes.broken_barh(
             np.column_stack([spans[:, 0], np.diff(spans)[:, 0]]),
@@ -304,15 +362,26 @@ def _shade_without_contact(axes: Axes, response: Response) -> None:
             zorder=0,
             label="without contact",
         )
+    if len(spans) and np.diff(spans).max() > 0.001 * (end - begin):  # else too narrow to be seen
         axes.annotate(
             "shaded:\nwithout\ncontact", (1, 0.5), **_AT_RIGHT, va="center", color=VERMILION
         )
+    elif len(spans):
+        count = f"{len(spans):,} {'time' if len(spans) == 1 else 'times'}"
+        axes.annotate(
+            f"no contact\n{count}, for\n{_digits(1e3 * np.diff(spans).max())} ms\nat most",
+            (1, 0.5),
+            **_AT_RIGHT,
+            va="center",
+            color=VERMILION,
+        )
 
 
-def _draw_normal_force(axes: Axes, response: Response) -> None:
+def _draw_normal_force(axes: Axes, response: Response, begin: float, end: float) -> None:
     edges = without_contact(response).ravel()
     t = np.concatenate([response.time, edges, np.nextafter(edges, -np.inf)])  # a landing is a jump
     t = np.sort(t[t >= response.time[0]])
+    t = t[_within(t, begin, end)]
     held = response.motion.interpolation == "constant"
     axes.plot(
         t,
@@ -321,20 +390,29 @@ def _draw_normal_force(axes: Axes, response: Response) -> None:
         linewidth=0.6,
         drawstyle="steps-post" if held else "default",
     )
-    _shade_without_contact(axes, response)
+    _shade_without_contact(axes, response, begin, end)
     axes.set_ylim(bottom=0)
     axes.set_ylabel("normal force\n[g]")
 
 
-def _draw_gap(axes: Axes, response: Response) -> None:
-    gap = response.gap
+def _draw_gap(axes: Axes, response: Response, begin: float, end: float) -> None:
+    inside = _within(response.time, begin, end)
+    t, gap = response.time[inside], response.gap[inside]
     length, unit = _unit(gap.max())
-    axes.plot(response.time, gap * length, color=INK, linewidth=0.9)
-    _shade_without_contact(axes, response)
+    axes.plot(t, gap * length, color=INK, linewidth=0.9)
+    _shade_without_contact(axes, response, begin, end)
     axes.set_ylim(bottom=0)
     axes.set_ylabel(f"gap to the ground\n[{unit}]")
 
 
+@overload
+def plot_responses(
+    responses: Sequence[Response], labels: Sequence[str] | None = None, figure: None = None
+) -> Figure: ...
+@overload
+def plot_responses(
+    responses: Sequence[Response], labels: Sequence[str] | None = None, *, figure: _Place
+) -> _Place: ...
 def plot_responses(
     responses: Sequence[Response],
     labels: Sequence[str] | None = None,
@@ -381,7 +459,8 @@ def plot_responses(
         ground, way = figure.subplots(2, sharex=True, height_ratios=(1, 1.7))
         length, unit = _unit(max(r.peak for r in responses))
         _title(ground, responses[0].motion)
-        _draw_ground(ground, responses[0])
+        end = max(r.events["time"][-1] for r in responses)
+        _draw_ground(ground, responses[0], responses[0].time[0], end)
         for i, (response, label) in enumerate(zip(responses, labels)):
             color = COLORS[i % len(COLORS)]
             dashes = ("-", "--", ":")[i // len(COLORS) % 3]
@@ -394,23 +473,33 @@ def plot_responses(
                 x * length,
                 color=color,
                 linestyle=dashes,
-                label=f"{label}: peak {_digits(response.peak * length)} {unit}, "
-                f"{'residual' if response.at_rest else 'still sliding at'} "
-                f"{_digits(response.residual * length)} {unit}",
+                label=_wrap(
+                    f"{label}: peak {_digits(response.peak * length)} {unit}, "
+                    f"{'residual' if response.at_rest else 'still sliding at'} "
+                    f"{_places(response.residual, response.peak, length)} {unit}",
+                    0.9 * _room(way),
+                    9,
+                ),
             )
             _dot_at_right(way, response.residual * length, color)
         way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
         way.set_xlabel("time [s]")
-        way.set_xlim(responses[0].time[0], max(r.events["time"][-1] for r in responses))
+        way.set_xlim(responses[0].time[0], end)
         way.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), alignment="left")
         figure.align_ylabels()
     return figure
 
 
+@overload
+def plot_ground_motion(
+    motion: GroundMotion, ax: None = None, title: str | None = None
+) -> Figure: ...
+@overload
+def plot_ground_motion(motion: GroundMotion, ax: Axes, title: str | None = None) -> Axes: ...
 def plot_ground_motion(
     motion: GroundMotion, ax: Axes | None = None, title: str | None = None
-) -> FigureBase:
+) -> FigureBase | Axes:
     """Plot the ground acceleration over time, and mark its peak.
 
     Parameters
@@ -423,27 +512,28 @@ def plot_ground_motion(
 
     Returns
     -------
-    matplotlib Figure or SubFigure
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
     """
     with style():
-        ax = ax or new_figure(7, 2.5).subplots()
+        figure, axes = _one_panel("plot_ground_motion", None, ax, 7, 2.5)
         t, n = motion.time, motion.acceleration / STANDARD_GRAVITY
         held = motion.interpolation == "constant"
-        ax.plot(t, n, color=INK, linewidth=0.6, drawstyle="steps-post" if held else "default")
+        axes.plot(t, n, color=INK, linewidth=0.6, drawstyle="steps-post" if held else "default")
         acting = n[:-1] if held else n
         peak = int(np.abs(acting).argmax())
-        ax.plot(t[peak], n[peak], "o", color=VERMILION, markersize=4)
-        ax.annotate(
-            f"PGA {abs(n[peak]):.3g} g",
+        axes.plot(t[peak], n[peak], "o", color=VERMILION, markersize=4)
+        axes.annotate(
+            f"PGA {_digits(abs(n[peak]))} g",
             (t[peak], n[peak]),
             xytext=(5, 0),
             textcoords="offset points",
             va="center",
             fontsize=8,
         )
-        ax.set(xlabel="time [s]", ylabel="ground acceleration [g]", xlim=(t[0], t[-1]))
-        _title(ax, motion, title)
-    return ax.figure
+        axes.set(xlabel="time [s]", ylabel="ground acceleration [g]", xlim=(t[0], t[-1]))
+        _title(axes, motion, title)
+    return figure if ax is None else ax
 
 
 _SPECTRUM_LABELS = {
@@ -455,12 +545,21 @@ _SPECTRUM_LABELS = {
 }
 
 
+@overload
+def plot_response_spectrum(
+    spectrum: ResponseSpectrum, ax: None = None, title: str | None = None
+) -> Figure: ...
+@overload
+def plot_response_spectrum(
+    spectrum: ResponseSpectrum, ax: Axes, title: str | None = None
+) -> Axes: ...
 def plot_response_spectrum(
     spectrum: ResponseSpectrum, ax: Axes | None = None, title: str | None = None
-) -> FigureBase:
+) -> FigureBase | Axes:
     """Plot a response spectrum over the period, with a line for each damping ratio.
 
-    Accelerations are drawn in g. Periods are drawn in increasing order.
+    Accelerations are drawn in g. Periods are drawn in increasing order, on a log axis if they are
+    spaced geometrically, as by `np.geomspace`.
 
     Parameters
     ----------
@@ -468,46 +567,80 @@ def plot_response_spectrum(
     ax : matplotlib Axes, optional
         Where to draw; default: a new figure of 6 x 4 inches.
     title : str, optional
-        Default: no title.
+        Default: 'Elastic response spectrum'.
 
     Returns
     -------
-    matplotlib Figure or SubFigure
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
     """
     with style():
-        ax = ax or new_figure(6, 4).subplots()
+        figure, axes = _one_panel("plot_response_spectrum", None, ax, 6, 4)
         order = np.argsort(spectrum.periods, kind="stable")
         factor = 1 / STANDARD_GRAVITY if spectrum.kind.endswith("acceleration") else 1.0
         for zeta, values in zip(spectrum.damping, np.atleast_2d(spectrum.values)):
-            ax.plot(
+            axes.plot(
                 spectrum.periods[order],
                 factor * values[order],
                 marker="o" if len(order) == 1 else None,
                 label=f"{100 * zeta:g} % damping",
             )
-        ax.set(xlabel="period [s]", ylabel=_SPECTRUM_LABELS[spectrum.kind])
-        ax.set_ylim(bottom=0)
+        axes.set(xlabel="period [s]", ylabel=_SPECTRUM_LABELS[spectrum.kind])
+        axes.set_ylim(bottom=0)
         if len(order) > 1:
-            ax.set_xlim(spectrum.periods.min(), spectrum.periods.max())
-        ax.grid(color=PALE, linewidth=0.6)
-        ax.set_axisbelow(True)
-        if title:
-            ax.set_title(title)
-        ax.legend(fontsize=8)
-    return ax.figure
+            axes.set_xlim(spectrum.periods.min(), spectrum.periods.max())
+        if _is_geometric(spectrum.periods[order]):
+            axes.set_xscale("log")
+            _plain_ticks(axes, spectrum.periods)
+        axes.grid(color=PALE, linewidth=0.6)
+        axes.set_axisbelow(True)
+        axes.set_title(_wrapped(axes, title or "Elastic response spectrum"))
+        axes.legend(fontsize=8)
+    return figure if ax is None else ax
+
+
+def _is_geometric(x: np.ndarray) -> bool:
+    """Whether increasing values are spaced geometrically, over more than a factor of two."""
+    if len(x) < 3 or x[0] <= 0 or x[-1] <= 2 * x[0]:
+        return False
+    steps = np.diff(np.log(x))
+    return bool(np.ptp(steps) < 0.01 * steps.mean())
+
+
+def _plain_ticks(axes: Axes, x: np.ndarray) -> None:
+    """Label a log axis with 1, 2 and 5 times the powers of ten within the range of x."""
+    steps = [m * 10.0**e for e in range(-6, 7) for m in (1, 2, 5)]
+    ticks = [m for m in steps if x.min() * (1 - 1e-9) <= m <= x.max() * (1 + 1e-9)]
+    axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
+    axes.minorticks_off()
 
 
 @overload
 def plot_hysteresis(
     response: Response,
-    figure: FigureBase | None = None,
+    figure: None = None,
     title: str | None = None,
     *,
     ax: None = None,
-) -> FigureBase: ...
+    time: tuple[float, float] | None = None,
+) -> Figure: ...
 @overload
 def plot_hysteresis(
-    response: Response, figure: None = None, title: str | None = None, *, ax: Axes
+    response: Response,
+    figure: _Place,
+    title: str | None = None,
+    *,
+    ax: None = None,
+    time: tuple[float, float] | None = None,
+) -> _Place: ...
+@overload
+def plot_hysteresis(
+    response: Response,
+    figure: None = None,
+    title: str | None = None,
+    *,
+    ax: Axes,
+    time: tuple[float, float] | None = None,
 ) -> Axes: ...
 def plot_hysteresis(
     response: Response,
@@ -515,6 +648,7 @@ def plot_hysteresis(
     title: str | None = None,
     *,
     ax: Axes | None = None,
+    time: tuple[float, float] | None = None,
 ) -> FigureBase | Axes:
     """Plot the force between the mass and the ground over the displacement.
 
@@ -532,6 +666,9 @@ def plot_hysteresis(
         Default: the name of the ground motion.
     ax : matplotlib Axes, optional
         Where to draw, instead of `figure`.
+    time : tuple of float, optional
+        Begin and end of the part to draw [s], such as (0, 25); default: all of the response. The
+        secant is that of the whole response.
 
     Returns
     -------
@@ -541,11 +678,14 @@ def plot_hysteresis(
     Raises
     ------
     ValueError
-        Both figure and ax.
+        Both figure and ax; a time that does not begin before it ends, or lies outside the response.
     """
+    begin, end = _window("plot_hysteresis", response, time)
     with style():
         figure, axes = _one_panel("plot_hysteresis", figure, ax, 6, 4.5)
-        x, force = _force_path(response)
+        times, x, force = _force_path(response)
+        inside = (times >= begin) & (times <= end)
+        x, force = x[inside], force[inside]
         length, unit = _unit(response.peak)
         axes.plot(x * length, force / STANDARD_GRAVITY, color=BLUE, linewidth=0.9)
         axes.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
@@ -568,6 +708,24 @@ def plot_hysteresis(
     return figure if ax is None else ax
 
 
+@overload
+def plot_sweep(
+    table: Any,
+    quantity: str = "peak",
+    *,
+    against: str | None = None,
+    ax: None = None,
+    title: str | None = None,
+) -> Figure: ...
+@overload
+def plot_sweep(
+    table: Any,
+    quantity: str = "peak",
+    *,
+    against: str | None = None,
+    ax: Axes,
+    title: str | None = None,
+) -> Axes: ...
 def plot_sweep(
     table: Any,
     quantity: str = "peak",
@@ -575,7 +733,7 @@ def plot_sweep(
     against: str | None = None,
     ax: Axes | None = None,
     title: str | None = None,
-) -> FigureBase:
+) -> FigureBase | Axes:
     """Plot the table of a sweep, as `SweepTable.plot` does.
 
     Parameters
@@ -586,14 +744,15 @@ def plot_sweep(
 
     Returns
     -------
-    matplotlib Figure
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
 
     Raises
     ------
     ValueError
         As `SweepTable.plot` does.
     """
-    curves = list(table.curves(against))
+    name, curves = _curves(table, against)
     if len(curves) > len(COLORS):
         raise ValueError(
             f"plot_sweep: draws at most {len(COLORS)} combinations of the other parameters, got"
@@ -601,55 +760,125 @@ def plot_sweep(
         )
     heading = quantity.replace("_", " ")
     samples = len(table.records) * len(table.polarity)
-    quantiles = 100 * table.quantile([0.16, 0.5, 0.84], quantity)
+    quantiles = 100 * table.quantile([0.05, 0.16, 0.5, 0.84, 0.95], quantity)
     values = 100 * np.abs(getattr(table, quantity))
     axis = {"mu": "coefficient of friction [\N{MINUS SIGN}]", "period": "period [s]"}
+    alone = len(curves) == 1
     with style():
         figure, axes = _one_panel("plot_sweep", None, ax, 7, 4.5)
-        for (name, label, places), color in zip(curves, COLORS):
-            x = table.parameters[name][places]
-            if len(table.records) == 1:  # both polarities of one record, without statistics
-                for p, polarity in enumerate(table.polarity):
-                    shown = ", ".join(part for part in (label, polarity) if part)
-                    style_of = {"linestyle": "--" if p else "-", "linewidth": 1.5}
-                    axes.plot(x, values[places, 0, p], color=color, label=shown, **style_of)
+        for (label, x, places), color in zip(curves, COLORS):
+            marker = "o" if len(places) == 1 or not name else None
+            if len(table.records) == 1:  # the polarities of one record, without statistics
+                _draw_polarities(axes, table, x, values[places, 0], color, label, marker)
                 continue
-            if len(curves) == 1:
+            lowest, low, middle, high, highest = quantiles[:, places]
+            if not name:  # sliders in no order, which lines would suggest
+                if samples <= _THIN_LINES:
+                    thin = values[places].reshape(len(places), -1)
+                    axes.plot(x, thin, ".", color="#c4c4c4", markersize=3)
+                axes.errorbar(
+                    *(x, middle, (middle - low, high - middle)),
+                    fmt="o",
+                    color=color,
+                    capsize=5,
+                    linewidth=1.5,
+                    label=f"median, 16 and 84 % of {samples:,} histories",
+                )
+                continue
+            if alone and samples <= _THIN_LINES:
                 thin = values[places].reshape(len(places), -1)
                 axes.plot(x, thin, color="#c4c4c4", linewidth=0.5, alpha=min(1, 40 / samples + 0.2))
-            low, middle, high = quantiles[:, places]
-            axes.fill_between(x, low, high, color=color, alpha=0.25, linewidth=0)
-            shown = f"median, 16 and 84 % of {samples} histories"
-            axes.plot(x, middle, color=color, linewidth=2, label=label or shown)
-        name = curves[0][0]
+            elif alone:  # this many lines would hide the band and each other
+                outer = {"color": color, "alpha": 0.12, "linewidth": 0}
+                axes.fill_between(x, lowest, highest, label="5 to 95 %", **outer)
+            axes.fill_between(
+                x,
+                low,
+                high,
+                color=color,
+                alpha=0.25,
+                linewidth=0,
+                label="16 to 84 %" if alone else None,
+            )
+            shown = f"median of {samples:,} histories"
+            axes.plot(x, middle, color=color, linewidth=2, label=label or shown, marker=marker)
         axes.set_xlabel(axis.get(name, name))
         axes.set_ylabel(
             f"{heading}{' displacement' if quantity != 'sliding_distance' else ''} [cm]"
         )
         axes.grid(color=PALE, linewidth=0.6)
         axes.set_axisbelow(True)
-        x = table.parameters[name]
-        if (x > 0).all() and x.max() > 5 * x.min():
+        x = np.concatenate([x for _, x, _ in curves])
+        if name and x.min() > 0 and x.max() > 5 * x.min():
             axes.set_xscale("log")
-            steps = [m * 10.0**e for e in range(-4, 4) for m in (1, 2, 5)]
-            ticks = [m for m in steps if x.min() * (1 - 1e-9) <= m <= x.max() * (1 + 1e-9)]
-            axes.set_xticks(ticks, [f"{m:g}" for m in ticks])
-            axes.minorticks_off()
-        shown_values = quantiles[np.isfinite(quantiles) & (quantiles > 0.01)]
+            _plain_ticks(axes, x)
+        shown_values = quantiles[1:4][np.isfinite(quantiles[1:4]) & (quantiles[1:4] > 0.01)]
         if shown_values.size and shown_values.max() > 10 * shown_values.min():
             axes.set_yscale("log")  # down to 0.1 mm, which is no displacement
-            top = np.nanmax(values) if len(table.records) == 1 or len(curves) == 1 else None
+            top = np.nanmax(values) if len(table.records) == 1 or alone else None
             axes.set_ylim(shown_values.min() / 2, 2 * (top or shown_values.max()))
             axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
         else:
             axes.set_ylim(bottom=0)
-        axes.margins(x=0)
-        records = f"{len(table.records)} records" if len(table.records) > 1 else table.records[0]
-        axes.set_title(printable(title if title is not None else f"Sliding in {records}"))
+        if name:
+            axes.margins(x=0)
+        else:
+            _name_sliders(axes, table.sliders)
+        records = f"{len(table.records):,} records" if len(table.records) > 1 else table.records[0]
+        heading = printable(title if title is not None else f"Sliding in {records}")
+        axes.set_title(_wrapped(axes, heading))
         for text in axes.legend(fontsize=8).get_texts():
             text.set_parse_math(False)
         axes.title.set_parse_math(False)
-    return figure
+    return figure if ax is None else ax
+
+
+_THIN_LINES = 200  # number of histories up to which each is a line
+
+
+def _curves(table: Any, against: str | None) -> tuple[str, list[tuple[str, Any, Any]]]:
+    """The parameter on the horizontal axis, and label, x and sliders of each curve.
+
+    A list without a parameter that has numbers is one curve over the numbers of the sliders.
+    """
+    numeric = any(column.dtype.kind in "biuf" for column in table.parameters.values())
+    if against is None and not numeric:
+        places = np.arange(len(table.sliders))
+        return "", [("", places + 1, places)]
+    curves = list(table.curves(against))
+    column = table.parameters[curves[0][0]]
+    return curves[0][0], [(label, column[places], places) for _, label, places in curves]
+
+
+def _draw_polarities(
+    axes: Axes, table: Any, x: Any, values: np.ndarray, color: str, label: str, marker: str | None
+) -> None:
+    """The polarities of one record: the second is dashed, or without a line if it is the same."""
+    same = values.shape[1] == 2 and np.allclose(
+        values[:, 0], values[:, 1], rtol=1e-6, equal_nan=True
+    )
+    for p, polarity in enumerate(table.polarity[:1] if same else table.polarity):
+        words = "recorded and reversed" if same else polarity
+        shown = ", ".join(part for part in (label, words) if part)
+        line = "" if marker else "--" if p else "-"
+        axes.plot(x, values[:, p], line, color=color, label=shown, linewidth=1.5, marker=marker)
+
+
+def _name_sliders(axes: Axes, sliders: Sequence[str]) -> None:
+    """Write the sliders below the axis if there is room, otherwise their numbers."""
+    if len(sliders) > 12:
+        axes.set_xlabel("slider, by its place in the list")
+        return
+    short = [
+        re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", printable(slider))
+        for slider in sliders
+    ]
+    names = [textwrap.fill(slider, 24, break_long_words=False) for slider in short]
+    slanted = {"rotation": 30, "ha": "right"} if len(sliders) > 3 else {}
+    ticks = axes.set_xticks(range(1, len(sliders) + 1), names, fontsize=7, **slanted)
+    for tick in ticks:
+        tick.label1.set_parse_math(False)
+    axes.set_xlim(0.5, len(sliders) + 0.5)
 
 
 @overload
@@ -658,10 +887,20 @@ def plot_friction_sweep(
     displacement: Sequence[Sequence[float]],
     names: Sequence[str],
     highlight: Sequence[str] = (),
-    figure: FigureBase | None = None,
+    figure: None = None,
     *,
     ax: None = None,
-) -> FigureBase: ...
+) -> Figure: ...
+@overload
+def plot_friction_sweep(
+    mu: Sequence[float],
+    displacement: Sequence[Sequence[float]],
+    names: Sequence[str],
+    highlight: Sequence[str] = (),
+    *,
+    figure: _Place,
+    ax: None = None,
+) -> _Place: ...
 @overload
 def plot_friction_sweep(
     mu: Sequence[float],
@@ -751,6 +990,32 @@ class _Comparison(Protocol):
     theories: Mapping[str, Moments]
 
 
+def _theory_style(place: int) -> dict[str, Any]:
+    """Color, dashes and marker of a theory in a plot: ten colors, and no two theories are alike.
+
+    Parameters
+    ----------
+    place : int
+        Place among the theories of the plot, from 0; styles repeat after 210.
+    """
+    colors = (*COLORS, "#882255", "#999933", "#332288", "#661100")  # four of Tol's muted ones
+    return {
+        "color": colors[place % len(colors)],
+        "linestyle": ("--", "-.", ":")[place % 3],
+        "marker": "osD^vPX"[place % 7],
+        "markersize": 3.5,
+        "markevery": (place % 4, 4),
+    }
+
+
+@overload
+def plot_comparison(
+    comparison: _Comparison, figure: None = None, title: str | None = None
+) -> Figure: ...
+@overload
+def plot_comparison(
+    comparison: _Comparison, figure: _Place, title: str | None = None
+) -> _Place: ...
 def plot_comparison(
     comparison: _Comparison, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
@@ -775,9 +1040,7 @@ def plot_comparison(
     e = comparison.ensemble
     with style():
         figure = figure or new_figure(9, 4.4)
-        figure.suptitle(
-            title or _describe_ensemble(e), x=0.01, ha="left", fontsize=10, fontweight="bold"
-        )
+        _entitle(figure, title or _describe_ensemble(e))
         for axes, name, part in zip(
             figure.subplots(1, 2),
             ("displacement_variance", "velocity_variance"),
@@ -791,10 +1054,8 @@ def plot_comparison(
                 axes.plot(
                     moments.time,
                     getattr(moments, name) * factor**2,
-                    color=COLORS[i % len(COLORS)],
-                    linestyle=("--", "-.", ":")[i % 3],
-                    marker=".",
                     label=theory,
+                    **_theory_style(i),
                 )
             unit = unit if part == "displacement" else f"({unit}/s)"
             axes.set_ylabel(f"variance of {part} [{unit}\N{SUPERSCRIPT TWO}]")
@@ -807,6 +1068,10 @@ def plot_comparison(
     return figure
 
 
+@overload
+def plot_ensemble(ensemble: Ensemble, figure: None = None, title: str | None = None) -> Figure: ...
+@overload
+def plot_ensemble(ensemble: Ensemble, figure: _Place, title: str | None = None) -> _Place: ...
 def plot_ensemble(
     ensemble: Ensemble, figure: FigureBase | None = None, title: str | None = None
 ) -> FigureBase:
@@ -839,7 +1104,7 @@ def plot_ensemble(
     if t.size == 0:
         with style():
             figure = figure or new_figure(6, 4)
-            _entitle_ensemble(figure, e, title)
+            _entitle(figure, title or _describe_ensemble(e))
             _draw_peaks(figure.subplots(), e)
         return figure
     s = e.stationary
@@ -849,7 +1114,7 @@ def plot_ensemble(
         layout = [["way", "peaks"], ["speed", "spectrum" if has_spectrum else "peaks"]]
         axes = figure.subplot_mosaic(layout)
         way, speed, peaks = axes["way"], axes["speed"], axes["peaks"]
-        _entitle_ensemble(figure, e, title)
+        _entitle(figure, title or _describe_ensemble(e))
 
         variance, error = e.displacement_variance, e.displacement_variance_error
         length, unit = _unit(np.sqrt(variance.max()))
@@ -959,8 +1224,8 @@ def _path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return tuple(np.insert(a, where, b) for a, b in zip((t, x, v), dense))
 
 
-def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
-    """Displacements [m] and forces [m/s^2] to draw: at samples, and on both sides of events."""
+def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times [s], displacements [m], forces [m/s^2]: at samples, and on both sides of events."""
     slider, events = response.slider, response.events
     t, x, v = (events[name] for name in ("time", "displacement", "velocity"))
     ways = np.sign(np.diff(x))  # of slips between events; 0 for sticks
@@ -993,7 +1258,7 @@ def _force_path(response: Response) -> tuple[np.ndarray, np.ndarray]:
         ]
     )
     order = np.argsort(times, kind="stable")
-    return places[order], forces[order]
+    return times[order], places[order], forces[order]
 
 
 def _at(response: Response, t: np.ndarray, component: str) -> np.ndarray:
@@ -1077,13 +1342,42 @@ def _held(response: Response, t: np.ndarray, x: np.ndarray) -> tuple[np.ndarray,
     return lower / STANDARD_GRAVITY, upper / STANDARD_GRAVITY
 
 
-def _draw_ground(axes: Axes, response: Response) -> None:
-    motion, end = response.motion, response.events["time"][-1]
+def _window(who: str, response: Response, time: tuple[float, float] | None) -> tuple[float, float]:
+    """The begin and end of the part of a response to draw [s]."""
+    first, last = (
+        float(response.time[0]),
+        float(max(response.time[-1], response.events["time"][-1])),
+    )
+    if time is None:
+        return first, last
+    try:
+        begin, end = map(float, time)
+    except (TypeError, ValueError):
+        raise TypeError(
+            f"{who}: time must be a begin and an end [s], such as (0, 25), got {time!r}"
+        ) from None
+    if not first <= begin < end or not begin < last:
+        raise ValueError(
+            f"{who}: time must be a begin and a later end within {first:g} to {last:g} s, got"
+            f" {begin:g}, {end:g}"
+        )
+    return begin, min(end, last)
+
+
+def _within(t: np.ndarray, begin: float, end: float) -> slice:
+    """The part of sorted times from `begin` to `end`, and one more on either side."""
+    first = int(np.searchsorted(t, begin, "right")) - 1
+    return slice(max(first, 0), int(np.searchsorted(t, end)) + 1)
+
+
+def _draw_ground(axes: Axes, response: Response, begin: float, end: float) -> None:
+    motion = response.motion
     t = np.append(motion.time, [motion.time[-1], max(end, motion.time[-1])])
     n = np.append(motion.acceleration, [0, 0]) / STANDARD_GRAVITY
+    inside = _within(t, begin, end)
     axes.plot(
-        t,
-        n,
+        t[inside],
+        n[inside],
         color=INK,
         linewidth=0.6,
         drawstyle="default" if motion.interpolation == "linear" else "steps-post",
@@ -1122,7 +1416,8 @@ def _note_levels(axes: Axes, response: Response) -> None:
         )
 
 
-def _mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str) -> None:
+def _mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str, peak: float) -> None:
+    """Fit the vertical axis to the displacements, and mark the peak if it is among them."""
     at = np.argmax(np.abs(x))
     up = x[at] >= 0
     low, high = x.min(), x.max()
@@ -1130,9 +1425,13 @@ def _mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str) -> None:
     axes.set_ylim(low - height * (0.07 if up else 0.18), high + height * (0.18 if up else 0.07))
     if x[at] == 0:
         axes.set_ylim(-1, 1)
-        axes.annotate("never slips", (0.5, 0.6), xycoords="axes fraction", ha="center", color=GRAY)
+        text = "does not move here" if peak else "never slips"
+        axes.annotate(text, (0.5, 0.6), xycoords="axes fraction", ha="center", color=GRAY)
         return
-    place = (t[at] - t[0]) / (t[-1] - t[0])
+    begin, end = axes.get_xlim()
+    if abs(x[at]) < peak or not begin <= t[at] <= end:
+        return
+    place = (t[at] - begin) / (end - begin)
     axes.plot(t[at], x[at], "o", color=VERMILION, markersize=5, zorder=4)
     axes.annotate(
         f"peak {_digits(abs(x[at]))} {unit} at {_digits(t[at])} s",
@@ -1146,13 +1445,26 @@ def _mark_peak(axes: Axes, t: np.ndarray, x: np.ndarray, unit: str) -> None:
     )
 
 
-def _mark_residual(axes: Axes, response: Response, length: float, unit: str) -> None:
-    x = response.residual * length
-    _dot_at_right(axes, x, BLUE)
+def _mark_end(
+    axes: Axes,
+    response: Response,
+    t: np.ndarray,
+    x: np.ndarray,
+    length: float,
+    unit: str,
+    end: float,
+) -> None:
+    """Mark the residual at the right edge; where the slider moves later, the displacement there."""
+    events = response.events
+    later = (events["kind"] == "breakaway") & (events["time"] >= end)
+    if later.any() or np.interp(end, t, x) != response.residual:
+        value, name = float(np.interp(end, t, x)), "here at"
+    else:
+        value, name = response.residual, "residual" if response.at_rest else "still sliding, at"
+    _dot_at_right(axes, value * length, BLUE)
     axes.annotate(
-        f"{'residual' if response.at_rest else 'still sliding,'}\n"
-        f"{'' if response.at_rest else 'at '}{_digits(x)} {unit}",
-        (1, x),
+        f"{name}\n{_places(value, response.peak, length)} {unit}",
+        (1, value * length),
         **{**_AT_RIGHT, "xycoords": ("axes fraction", "data")},
         va="center",
         color=BLUE,
@@ -1168,9 +1480,10 @@ def _dot_at_right(axes: Axes, x: float, color: str) -> None:
 def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: str = "") -> None:
     name = title or printable(motion.name) or "ground motion"
     # A caller's title may contain math; a dollar sign in a file name is literal.
-    below = textwrap.fill(below, 85)
+    below = _wrap(below, _room(axes), 8)
     pad = 6 + 12 * len(below.splitlines()) if below else None
-    axes.set_title(textwrap.fill(name, 75), pad=pad, parse_math=bool(title))
+    name = name if title and "$" in title else _wrapped(axes, name)
+    axes.set_title(name, pad=pad, parse_math=bool(title))
     axes.annotate(
         below,
         (0, 1),
@@ -1179,6 +1492,41 @@ def _title(axes: Axes, motion: GroundMotion, title: str | None = None, below: st
         textcoords="offset points",
         fontsize=8,
     )
+
+
+def _room(axes: Axes) -> float:
+    """The width of a panel [points], before a layout engine has widened it."""
+    return float(72 * axes.bbox.width / axes.figure.dpi)
+
+
+def _wrapped(axes: Axes, title: str) -> str:
+    """A title in lines that fit over a panel."""
+    return _wrap(title, _room(axes), matplotlib.rcParams["axes.titlesize"], "bold")
+
+
+def _wrap(text: str, room: float, size: float, weight: str = "normal") -> str:
+    """Text in lines of at most `room` points; words that are longer are divided."""
+    font = FontProperties(family=matplotlib.rcParams["font.family"], size=size, weight=weight)
+
+    def width(line: str) -> float:
+        return float(text_to_path.get_text_width_height_descent(line, font, False)[0])
+
+    if "\n" in text:
+        return "\n".join(_wrap(line, room, size, weight) for line in text.splitlines())
+    lines, line = [], ""
+    for word in text.split():
+        joined = f"{line} {word}" if line else word
+        if line and width(joined) > room:
+            lines.append(line)
+            joined = word
+        while len(joined) > 1 and width(joined) > room:  # a word that is too long
+            fits = next(
+                n for n in range(len(joined) - 1, 0, -1) if n == 1 or width(joined[:n]) <= room
+            )
+            lines.append(joined[:fits])
+            joined = joined[fits:]
+        line = joined
+    return "\n".join([*lines, line])
 
 
 def _has_friction(slider: Any) -> bool:
@@ -1280,14 +1628,20 @@ def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
         axes.annotate("none slips", (0.5, 0.5), xycoords="axes fraction", ha="center", color=GRAY)
         return
     levels = np.linspace(0, highest, 121)[:-1]
-    shares = [e.exceedance(level) for level in levels]
+    shares = []
+    for level in levels:
+        try:
+            shares.append(e.exceedance(level))
+        except ValueError:  # beyond the smallest gap of a stop
+            break
+    levels = levels[: len(shares)]
     low, value, high = np.array([(s.low, s.value, s.high) for s in shares]).T
     x = levels * length
     axes.fill_between(x, np.maximum(low, 1e-12), high, color=BLUE, alpha=0.25, linewidth=0)
     axes.plot(x, value, color=BLUE)
     axes.set_xlim(0, highest * length)
     for p, q in zip(marks, quantiles):
-        if q.value == 0:
+        if q.value == 0 or (len(levels) < 120 and q.value > levels[-1]):
             continue
         axes.plot(q.value * length, 1 - p, "o", color=VERMILION, markersize=5, zorder=4)
         name, at_left = "median" if p == 0.5 else f"{100 * p:g} %", q.value > 0.7 * highest
@@ -1300,7 +1654,9 @@ def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
             color=VERMILION,
             fontsize=8,
         )
-    _note(axes, "", "band: 95 % confidence")
+    hits = impact_probabilities(e).get("impact_probability")
+    hit = f"{100 * hits.value:.3g} % hit a stop" if hits else ""
+    _note(axes, hit, "band: 95 % confidence")
     axes.grid(color=PALE, linewidth=0.6)
     axes.set_axisbelow(True)
 
@@ -1330,8 +1686,8 @@ def _with_error(estimate: Estimate, factor: float) -> str:
     return text.replace("-", "\N{MINUS SIGN}")
 
 
-def _entitle_ensemble(figure: FigureBase, ensemble: Ensemble, title: str | None) -> None:
-    title = textwrap.fill(title or _describe_ensemble(ensemble), 95)
+def _entitle(figure: FigureBase, title: str) -> None:
+    title = _wrap(title, 0.97 * 72 * figure.bbox.width / figure.dpi, 10, "bold")
     figure.suptitle(title, x=0.01, ha="left", fontsize=10, fontweight="bold")
 
 
@@ -1356,6 +1712,22 @@ def _describe_ensemble(ensemble: Ensemble) -> str:
 def _unit(largest: float) -> tuple[float, str]:
     """The number of units in a meter, and the unit, for lengths up to `largest` [m]."""
     return (1e3, "mm") if 0 < largest < 0.01 else (1e2, "cm") if largest < 10 else (1, "m")
+
+
+def _unit_of(length: float) -> str:
+    """The unit of which `length` are a meter."""
+    return {1e3: "mm", 1e2: "cm", 1: "m"}[length]
+
+
+def _places(value: float, peak: float, length: float) -> str:
+    """A displacement [m] in units, to three digits, but at most to 1/10,000 of the peak."""
+    digits = _digits(value * length)
+    if not peak > 0:
+        return digits
+    places = max(0, 3 - int(np.floor(np.log10(peak * length))))
+    if len(digits.partition(".")[2]) <= places and "e" not in digits:
+        return digits
+    return f"{round(value * length, places) + 0.0:.{places}f}".replace("-", "\N{MINUS SIGN}")
 
 
 def _digits(value: float) -> str:

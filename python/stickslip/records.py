@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
 import stat
 import sys
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from operator import index
-from typing import Any, Literal, NamedTuple, SupportsFloat, SupportsIndex, TypeAlias, overload
+from typing import (
+    Any,
+    Literal,
+    NamedTuple,
+    NoReturn,
+    SupportsFloat,
+    SupportsIndex,
+    TypeAlias,
+    overload,
+)
 
 from . import _core
 from ._core import GroundMotion
+from ._rows import Rows
 
 _File: TypeAlias = "str | bytes | os.PathLike[str] | os.PathLike[bytes]"
+_Stream: TypeAlias = Any  # of ObsPy
 
 __all__ = ["read_record", "read_station", "record_formats"]
 
@@ -26,6 +38,26 @@ class Component(NamedTuple):
     name: str  # in the file; empty where it has none
     start: str  # when it begins, in the words of the file; empty where it does not say
     units: str  # of the acceleration in the file; empty where it states none
+
+    @property
+    def is_vertical(self) -> bool:
+        """Whether it is known to point up or down."""
+        return _core._upward(self.motion.orientation) != 0
+
+
+class Reading(NamedTuple):
+    """What the reader of a file is given, beside the file.
+
+    The file's own statement takes precedence; a row of the metadata must agree with it.
+    """
+
+    units: str | None = None
+    dt: float | None = None
+    orientation: str | None = None  # for a file with one component
+    gaps: bool = False
+    row_units: str | None = None
+    row_dt: float | None = None
+    row_orientation: str | None = None
 
 
 @overload
@@ -103,16 +135,25 @@ def read_record(
     PlausibilityWarning
         The maximum or mean acceleration is implausible for a record in these units.
     """
-    wanted = None if component is None or component == "all" else component
-    found = read_components(file, units, wanted, dt, gaps, only_one=component != "all")
+    every = component == "all"
+    whole = file_at(file)
+    found = _parsed(
+        whole.content(),
+        whole.shown,
+        component=None if every else component,
+        only_one=not every,
+        units=units,
+        dt=dt,
+        gaps=gaps,
+    )
     motions = [one.motion for one in found]
     for motion in motions:
         _core._warn_if_implausible(motion, "read_record", 2)
-    return motions if component == "all" else motions[0]
+    return motions if every else motions[0]
 
 
 def read_station(
-    files: _File | Iterable[_File],
+    files: _File | Iterable[_File] | _Stream,
     *,
     along: str | SupportsFloat | None = None,
     component: str | SupportsIndex | None = None,
@@ -134,10 +175,12 @@ def read_station(
 
     Parameters
     ----------
-    files : path-like or sequence of path-like
+    files : path-like, sequence of path-like or obspy.Stream
         One file with all components, or several files, each as for `read_record`. An archive of
         several files represents all of them. Together they hold one or two horizontal components
-        and at most one vertical component.
+        and at most one vertical component. The traces of a stream are components of acceleration
+        without gaps, in `units` (default: m/s^2); the last letter of each channel, N, E or Z, is
+        its orientation.
     along : str or float, optional
         Direction of the axis: the name or orientation of a horizontal component, or any azimuth
         [degrees clockwise from north]. Default: the first horizontal component.
@@ -171,13 +214,16 @@ def read_station(
     PlausibilityWarning
         As for `read_record`, about the component along the axis.
     """
-    paths = [files] if isinstance(files, str | bytes | os.PathLike) else list(files)
-    components = [
-        part
-        for path in paths
-        for file in files_in(path, units=units, dt=dt, gaps=gaps)
-        for part in file.read()
-    ]
+    if hasattr(files, "traces"):
+        components = _of_traces(files, units or "m/s^2")
+    else:
+        paths = [files] if isinstance(files, str | bytes | os.PathLike) else list(files)
+        components = [
+            part
+            for path in paths
+            for file in files_in(path)
+            for part in _parsed(file.content(), file.shown, units=units, dt=dt, gaps=gaps)
+        ]
     given = [None] * len(components) if orientations is None else list(orientations)
     if len(given) != len(components):
         raise ValueError(
@@ -195,16 +241,17 @@ def read_station(
     return motion
 
 
-def record_formats() -> list[dict[str, str]]:
+def record_formats() -> Rows:
     """The formats that `read_record` knows, in the order in which it tries them.
 
     Returns
     -------
     list of dict
         For each format, its ``name``, the sources of its ``units`` and ``time_step``, a
-        ``reference``, and the usual file ``extension``, which does not matter for reading.
+        ``reference``, and the usual file ``extension``, which does not matter for reading. It
+        prints as a table.
     """
-    return _core._record_formats()
+    return Rows(_core._record_formats())
 
 
 def _axis_of(
@@ -252,32 +299,36 @@ def direction(value: str | SupportsFloat, name: str, who: str = "read_station") 
     return f"{number:.12g}"
 
 
-def read_components(
-    file: _File,
-    units: str | None,
-    component: str | SupportsIndex | None,
-    dt: SupportsFloat | None,
-    gaps: bool,
-    only_one: bool = False,
-) -> list[Component]:
-    """The components of a file that are meant; see `read_record`."""
-    wanted = None if component is None else _text(component)
-    shown = _shown(file)
-    return _parsed(_unpacked(*_stored(shown), shown), shown, units, wanted, dt, gaps, only_one)
-
-
 def _parsed(
     content: bytes,
     shown: str,
-    units: str | None,
-    wanted: str | None,
-    dt: SupportsFloat | None,
-    gaps: bool,
-    only_one: bool,
+    *,
+    component: str | SupportsIndex | None = None,
+    only_one: bool = False,
+    units: str | None = None,
+    dt: SupportsFloat | None = None,
+    gaps: bool = False,
+    default_units: str | None = None,
+    default_dt: float | None = None,
 ) -> list[Component]:
-    options = (units or "", wanted or "", None if dt is None else float(dt), gaps, only_one)
+    """The components in the content of a file; a default applies if the file states nothing."""
+    wanted = None if component is None else _text(component)
+
+    def parse() -> list[Any]:
+        return _core._parse_components(
+            content,
+            os.fsencode(shown),
+            units or "",
+            wanted or "",
+            None if dt is None else float(dt),
+            gaps,
+            only_one,
+            default_units or "",
+            default_dt,
+        )
+
     try:
-        parts = _core._parse_components(content, os.fsencode(shown), *options)
+        parts = parse() if len(content) < _LONG else _interruptible(parse)
         return [Component(*part) for part in parts]
     except ValueError:
         # Formats of columns have no reference: they accept any file with numbers.
@@ -285,55 +336,132 @@ def _parsed(
         stream = None if known and known["reference"] else _by_obspy(content)
         if stream is None:
             raise
-    return _of_stream(stream, shown, units, wanted, only_one)
+    return _of_stream(stream, shown, units or default_units, wanted, only_one)
+
+
+_LONG = 8 << 20  # bytes that take about a second
+
+
+def _interruptible(work: Callable[[], Any]) -> Any:
+    """The result of work without the GIL, in a thread: Ctrl-C ends the wait for it."""
+    answers: list[Any] = []
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            answers.append(work())
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    while thread.is_alive():
+        thread.join(0.1)
+    if errors:
+        raise errors[0]
+    return answers[0]
+
+
+def _agreeing(component: Component, reading: Reading, alone: bool) -> Component:
+    """The component with its orientation, checked against the row of the metadata."""
+
+    def refuse(what: str, stated: str, row: str) -> NoReturn:
+        raise ValueError(f"the file states {what} {stated}, its row of the metadata {row}")
+
+    units, dt, orientation = reading.row_units, reading.row_dt, reading.row_orientation
+    motion = component.motion
+    if units and component.units:
+        stated, row = map(_core.acceleration_unit, (component.units, units))
+        if stated != row:
+            refuse("the unit", component.units, units)
+    if dt and motion.dt and not math.isclose(motion.dt, dt, rel_tol=1e-6):
+        refuse("a time step of", f"{motion.dt:.9g} s", f"{dt:.9g} s")
+    given = orientation or reading.orientation
+    if not given:
+        return component
+    if not motion.orientation:
+        if not alone:
+            raise ValueError(
+                "an orientation can be given for a file with one component, this file has several"
+            )
+        return component._replace(motion=_core._with_orientation(motion, given))
+    if orientation and not same_direction(orientation, motion.orientation):
+        refuse("the orientation", motion.orientation, orientation)
+    return component
+
+
+def same_direction(a: str, b: str) -> bool:
+    """Whether two orientations point the same way."""
+    azimuths = _core._azimuth_of(a), _core._azimuth_of(b)
+    if None in azimuths:
+        return azimuths == (None, None) and _core._upward(a) == _core._upward(b)
+    return abs((azimuths[0] - azimuths[1] + 180) % 360 - 180) < 1
 
 
 # ---- containers
 
 
 class File(NamedTuple):
-    """A file, or one in an archive, which `read` reads."""
+    """A file, or one in an archive."""
 
     shown: str  # its name, as `read_record` takes it
-    read: Callable[[], list[Component]]
+    content: Callable[[], bytes]
+
+    def components(
+        self,
+        reading: Reading,
+        component: str | SupportsIndex | None = None,
+        only_one: bool = False,
+    ) -> list[Component]:
+        """The components that are meant, all of them by default; see `read_record`."""
+        found = _parsed(
+            self.content(),
+            self.shown,
+            component=component,
+            only_one=only_one,
+            gaps=reading.gaps,
+            default_units=reading.row_units or reading.units,
+            default_dt=reading.row_dt or reading.dt,
+        )
+        try:
+            return [_agreeing(one, reading, len(found) == 1) for one in found]
+        except ValueError as error:
+            raise ValueError(f"read_record: {self.shown}: {error}") from None
 
 
-def files_in(
+def file_at(file: _File) -> File:
+    """A file that stands for itself: an archive must hold one file."""
+    shown = _shown(file)
+    return File(shown, lambda: _unpacked(*_stored(shown), shown))
+
+
+def read_components(
     file: _File,
-    *,
-    units: str | None,
-    dt: SupportsFloat | None,
-    gaps: bool,
+    reading: Reading,
     component: str | SupportsIndex | None = None,
     only_one: bool = False,
-) -> list[File]:
+) -> list[Component]:
+    """The components of a file that are meant; see `read_record`."""
+    return file_at(file).components(reading, component, only_one)
+
+
+def files_in(file: _File) -> list[File]:
     """The files that one stands for: itself, or all in an archive of several.
 
     The archive is opened once; each file in it is unpacked where it is read.
     """
     shown = _shown(file)
-    content, members = _stored(shown)
-    content = _gunzipped(content, shown)
-    wanted = None if component is None else _text(component)
-
-    def whole() -> list[Component]:
-        unpacked = _unpacked(content, members, shown)
-        return _parsed(unpacked, shown, units, wanted, dt, gaps, only_one)
-
+    stored, members = _stored(shown)
+    content = _gunzipped(stored, shown)
     archive = None if members else _archive(content, shown)
     if archive is None or len(archive.names) <= 1:
-        return [File(shown, whole)]
+        return [File(shown, lambda: _unpacked(content, members, shown))]
 
-    def reader(name: str) -> Callable[[], list[Component]]:
-        inside = f"{shown}::{name}"
+    def inside(name: str) -> File:
+        path = f"{shown}::{name}"
+        return File(path, lambda: _unpacked(archive.read(name), [], path))
 
-        def read() -> list[Component]:
-            unpacked = _unpacked(archive.read(name), [], inside)
-            return _parsed(unpacked, inside, units, wanted, dt, gaps, only_one)
-
-        return read
-
-    return [File(f"{shown}::{name}", reader(name)) for name in archive.names]
+    return [inside(name) for name in archive.names]
 
 
 def _text(component: str | SupportsIndex) -> str:
@@ -364,6 +492,8 @@ def _stored(shown: str) -> tuple[bytes, list[str]]:
 
 
 _DEEPEST = 4  # archives within archives, of which nobody has made more
+_LARGEST = 64 << 20  # bytes of a record in an archive: 500,000 samples of three components take 20
+_LARGEST_TAR = 1 << 30  # bytes of a tar archive in a gzip file
 
 
 def _unpacked(content: bytes, members: Sequence[str], shown: str) -> bytes:
@@ -412,13 +542,17 @@ def _archive(content: bytes, shown: str) -> _Archive | None:
         try:
             return work()
         except damaged as error:
-            raise ValueError(f"read_record: {shown}: {error}") from None
+            reason = str(error).removeprefix(f"read_record: {shown}: ")
+            raise ValueError(f"read_record: {shown}: {reason}") from None
 
     stream = io.BytesIO(content)
     if is_zip:
         archive = guarded(lambda: zipfile.ZipFile(stream))
         names = [one.filename for one in archive.infolist() if not one.is_dir()]
-        read = archive.read
+
+        def read(name: str) -> bytes:
+            with archive.open(name) as file:
+                return _limited(file, _LARGEST, shown)
     else:
         # Members are read and never unpacked into the file system: their names need no filter.
         tar = guarded(lambda: tarfile.TarFile(fileobj=stream))
@@ -427,10 +561,28 @@ def _archive(content: bytes, shown: str) -> _Archive | None:
         def read(name: str) -> bytes:
             file = tar.extractfile(name)
             assert file is not None  # it is a file
-            return bytes(file.read())
+            return _limited(file, _LARGEST, shown)
 
     macs = [n for n in names if n.startswith("__MACOSX/") or n.rpartition("/")[2].startswith("._")]
     return _Archive([n for n in names if n not in macs], lambda name: guarded(lambda: read(name)))
+
+
+def _limited(stream: Any, limit: int, shown: str) -> bytes:
+    """The rest of a stream, in chunks, so that Ctrl-C ends it and no archive fills the memory."""
+    chunks: list[bytes] = []
+    size = 0
+    while chunk := stream.read(1 << 20):
+        size += len(chunk)
+        if size > limit:
+            raise _too_large(shown, limit)
+        chunks.append(chunk)
+    return b"".join(chunks)
+
+
+def _too_large(shown: str, limit: int) -> ValueError:
+    return ValueError(
+        f"read_record: {shown}: unpacks to more than {limit >> 20} MiB; unpack it to read it"
+    )
 
 
 def _gunzipped(content: bytes, shown: str) -> bytes:
@@ -438,12 +590,17 @@ def _gunzipped(content: bytes, shown: str) -> bytes:
     if not content.startswith(b"\x1f\x8b"):
         return content
     import gzip
+    import io
     import zlib
 
     try:
         for _ in range(2):  # no more layers: there are files that unpack to themselves
             if content.startswith(b"\x1f\x8b"):
-                content = gzip.decompress(content)
+                stream = gzip.GzipFile(fileobj=io.BytesIO(content))
+                begin = stream.read(512)
+                packed = begin[257:262] == b"ustar" or begin.startswith(b"\x1f\x8b")
+                limit = _LARGEST_TAR if packed else _LARGEST
+                content = begin + _limited(stream, limit, shown)
         return content
     except (OSError, EOFError, zlib.error) as error:
         raise ValueError(f"read_record: {shown}: damaged gzip file: {error}") from None
@@ -494,6 +651,33 @@ def _of_stream(
         return [_of_trace(stream[i], units) for i in places]
     except ValueError as error:
         raise ValueError(f"{who}: {error}") from None
+
+
+def _of_traces(stream: Any, units: str) -> list[Component]:
+    """The components of an ObsPy stream."""
+    return [_of_trace(trace, units) for trace in stream.traces]
+
+
+def _station_of_stream(stream: Any, units: str, name: str | None) -> GroundMotion:
+    """The ground motion of a stream; see `GroundMotion.from_obspy`."""
+    if len(stream.traces) == 1:
+        return GroundMotion.from_obspy(stream.traces[0], units=units, name=name)
+    try:
+        parts = _of_traces(stream, units)
+        motion = _core._station_motion(parts, [None] * len(parts), "", False)
+    except ValueError as error:
+        reason = str(error).removeprefix("read_station: ")
+        raise ValueError(f"GroundMotion.from_obspy: {reason}") from None
+    return motion if name is None else changed(motion, name=name)
+
+
+def changed(motion: GroundMotion, **about: Any) -> GroundMotion:
+    """A motion with another `name` or `orientation`."""
+    times: dict[str, Any] = {"times": motion.time} if motion.dt is None else {"dt": motion.dt}
+    kept = ("interpolation", "name", "transverse", "vertical", "orientation")
+    return _core._ground_motion(
+        motion.acceleration, **times, **({name: getattr(motion, name) for name in kept} | about)
+    )
 
 
 def _of_trace(trace: Any, units: str) -> Component:

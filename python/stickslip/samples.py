@@ -70,7 +70,7 @@ def sample_records() -> Suite:
 
 
 def sample_record(name: str) -> GroundMotion:
-    """One of the sample records.
+    """Read one of the sample records.
 
     Parameters
     ----------

@@ -9,16 +9,19 @@ from typing import NamedTuple, SupportsFloat
 
 from . import _core
 from ._core import GroundMotion
-from .records import Component, direction
+from .records import Component, changed, direction
 
 __all__ = ["Part", "Station", "stations_of"]
 
 # What a file name may end in: an azimuth, or letters after a mark; KOBE_NIS000, NIS-UP, CPM_090.
 _ENDING = re.compile(
     r"(.*?)(?:(?<=[A-Za-z])|[-_. ])([0-3]\d\d)"
-    r"|(.+?)[-_. ](N|E|S|W|NS|EW|UD|UP|DN|DWN|V|VER|VERT|Z)",
+    r"|(.+?)[-_. ](N|E|S|W|NS|EW|UD|UP|DN|DWN|V|VER|VERT|Z|H1|H2)",
     re.IGNORECASE,
 )
+_LONELY = "no other component of its station"
+# Two perpendicular horizontal components without an azimuth, and the angles that combine them.
+_UNNAMED = {"H1": "0", "H2": "90"}
 
 
 class Part(NamedTuple):
@@ -33,63 +36,89 @@ class Station(NamedTuple):
     """The ground motion of a station, or a component that fits none."""
 
     motion: GroundMotion
-    files: list[str]
-    components: int
+    parts: list[Part]
+    reason: str = ""  # why a component fits none
+
+    @property
+    def files(self) -> list[str]:
+        return list(dict.fromkeys(part.file for part in self.parts))
+
+    @property
+    def is_lonely(self) -> bool:
+        """Whether this component would fit others, but there are none."""
+        return self.reason == _LONELY
+
+    @property
+    def is_vertical(self) -> bool:
+        """Whether this is a vertical component alone."""
+        return len(self.parts) == 1 and self.parts[0].component.is_vertical
 
 
 def stations_of(
-    parts: Sequence[Part], along: str | SupportsFloat | None, common_length: bool
-) -> tuple[list[Station], list[tuple[str, str]]]:
-    """The stations, in order of their first components, and what stays alone: file and reason."""
-    axis = "" if along is None else direction(along, "along", "Suite.read")
+    parts: Sequence[Part],
+    along: str | SupportsFloat | None = None,
+    common_length: bool = False,
+    who: str = "Suite.read",
+    together: bool = False,
+) -> list[Station]:
+    """The stations, and the components that fit none, in order of their first components.
+
+    With `together`, all components belong to one station.
+    """
+    axis = "" if along is None else direction(along, "along", who)
     groups: dict[tuple[object, ...], list[Part]] = {}
     for i, part in enumerate(map(_pointed, parts)):
-        known = part.component.motion.orientation
-        groups.setdefault(_station_of(part) if known else (i,), []).append(part)
+        known = part.component.motion.orientation or _unnamed(part)
+        key = () if together else _station_of(part) if known else (i,)
+        groups.setdefault(key, []).append(part)
 
     found: list[Station] = []
-    alone: list[tuple[str, str]] = []
     for group in groups.values():
         answer = _station(group, axis, common_length)
         if isinstance(answer, Station):
             found.append(answer)
-            continue
-        for part in group:
-            found.append(Station(part.component.motion, [part.file], 1))
-            alone.append((part.file, answer))
-    return found, alone
+        else:
+            found += [Station(part.component.motion, [part], answer) for part in group]
+    return found
 
 
 def _station(group: Sequence[Part], axis: str, common_length: bool) -> Station | str:
     """One motion of all components of a group, or why there is none."""
-    if not group[0].component.motion.orientation:
-        return "neither the file nor its name says where it points"
     if len(group) == 1:
-        return "no other component of its station"
+        if not group[0].component.motion.orientation:
+            return "neither the file nor its name says where it points"
+        return _LONELY
+    unnamed = [_unnamed(part) for part in group]
+    if any(unnamed) and _core._azimuth_of(axis) is not None:
+        return f"along {axis} needs azimuths, but H1 and H2 state none"
     try:
         motion = _core._station_motion(
-            [part.component for part in group], [None] * len(group), axis, common_length
-        )
+            [part.component for part in group], [_UNNAMED.get(h) for h in unnamed], axis,
+            common_length,
+        )  # fmt: skip
     except ValueError as error:
         return str(error).removeprefix("read_station: ")
-    return Station(motion, list(dict.fromkeys(part.file for part in group)), len(group))
+    if any(unnamed):
+        motion = _core._with_orientation(motion, "H1" if motion.orientation == "0" else "H2")
+    return Station(motion, list(group))
+
+
+def _unnamed(part: Part) -> str:
+    """H1 or H2 for a horizontal component without an azimuth, otherwise nothing."""
+    name = part.component.name.upper()
+    return name if name in _UNNAMED and not part.component.motion.orientation else ""
 
 
 def _pointed(part: Part) -> Part:
     """The component with the orientation in the name of its file, where the file states none."""
-    motion = part.component.motion
+    motion, name = part.component.motion, part.component.name
     ending = _ENDING.fullmatch(os.path.splitext(_place(part.file)[2])[0])
-    if motion.orientation or ending is None:
+    if name or ending is None:  # the file names the component, or nothing does
         return part
-    station, orientation = ending[1] or ending[3], ending[2] or ending[4]
-    pointed = _core._ground_motion(
-        motion.acceleration,
-        **({"times": motion.time} if motion.dt is None else {"dt": motion.dt}),
-        interpolation=motion.interpolation,
-        name=f"{station}, {orientation}",
-        orientation=orientation,
-    )
-    return part._replace(component=part.component._replace(motion=pointed, name=orientation))
+    station, said = ending[1] or ending[3], ending[2] or ending[4]
+    orientation = motion.orientation or ("" if said.upper() in _UNNAMED else said)
+    pointed = changed(motion, name=f"{station}, {said}", orientation=orientation)
+    return part._replace(component=part.component._replace(motion=pointed, name=said))
 
 
 def _station_of(part: Part) -> tuple[object, ...]:

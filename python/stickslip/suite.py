@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import glob
 import hashlib
 import math
 import operator
 import os
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, overload
@@ -25,18 +23,23 @@ from ._core import (
     ResponseSpectrum,
     response_spectrum,
 )
-from ._hdf5 import as_column, creating, opening, read_columns, read_texts, write_columns
-from ._optional import optional
+from ._failures import grouped as grouped_reasons
+from ._hdf5 import as_column, creating, opening, read, read_columns, write, write_columns
+from ._paths import expanded, is_same_file
+from ._tabular import Tabular
 from ._text import printable
-from .records import Component, File, files_in
+from .ensemble.progress import Progress, shown
+from .intensity import IntensityMeasures, beside
+from .metadata import Metadata, readings
+from .records import Component, File, Reading, files_in
 from .stations import Part, stations_of
 
 __all__ = ["LeftOut", "Suite"]
 
 _FORMAT = "stickslip suite 1"
-_KEYS = ("file", "record", "name")  # columns of metadata that identify the record of a row
+_QUANTITIES = ("pga_g", "duration")  # that a suite computes
 _OTHERS = ("transverse", "vertical")  # components other than that along the axis
-_SHOWN = 10  # maximum number of files named in one message
+_SHOWN = 10  # maximum number of reasons or records in one message
 
 
 class LeftOut(NamedTuple):
@@ -46,7 +49,7 @@ class LeftOut(NamedTuple):
     reason: str
 
 
-class Suite(Sequence[GroundMotion]):
+class Suite(Tabular, Sequence[GroundMotion]):
     """Ground motions with their metadata.
 
     A sequence: ``suite[0]`` is a GroundMotion; ``suite[2:5]``, ``suite[suite.magnitude > 6]`` and
@@ -63,7 +66,7 @@ class Suite(Sequence[GroundMotion]):
     Attributes
     ----------
     left_out : tuple of LeftOut
-        The files that `read` left out under ``on_error="skip"``.
+        The files that `read` left out under ``on_error="skip"``, and vertical components.
     alone : tuple of LeftOut
         The components that fitted no station under ``stations=True``, with the reasons; these
         motions are in the suite, with one component.
@@ -102,19 +105,23 @@ class Suite(Sequence[GroundMotion]):
                     f"Suite: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
                 )
         self._metadata: dict[str, NDArray[Any]] = {}
-        for name, values in dict({} if metadata is None else metadata).items():
+        named = {str(n): v for n, v in dict({} if metadata is None else metadata).items()}
+        columns, renamed = _free_names(type(self), named)
+        if renamed:
+            warnings.warn(f"Suite: {renamed}", RuntimeWarning, stacklevel=2)
+        for name, values in columns.items():
             column = as_column(values)
             if column.shape != (len(self),):
                 raise ValueError(
                     f"Suite: metadata '{name}' must have one value for each of the {len(self)}"
                     f" motions, got {column.size}"
                 )
-            if not str(name) or hasattr(type(self), str(name)):
+            if not name or hasattr(type(self), name):
                 raise ValueError(
                     f"Suite: metadata must not be named '{name}', which a suite has already"
                 )
             column.setflags(write=False)
-            self._metadata[str(name)] = column
+            self._metadata[name] = column
         self.left_out: tuple[LeftOut, ...] = ()
         self.alone: tuple[LeftOut, ...] = ()
 
@@ -263,21 +270,25 @@ class Suite(Sequence[GroundMotion]):
         """
         return Suite(self._motions, {**self._metadata, **dict(metadata)})
 
-    def to_dataframe(self) -> Any:
-        """A pandas DataFrame with a row for each motion: name, PGA [g], duration [s], metadata.
+    def intensity_measures(self) -> IntensityMeasures:
+        """Compute the intensity measures of each record, as `strong_motion` does.
 
         Returns
         -------
-        pandas.DataFrame
+        IntensityMeasures
+            PGA, PGV, PGD, Arias intensity, CAV, D5-75, D5-95, T_m and others as arrays, with
+            `to_dataframe`, `to_csv` and `to_json`.
 
-        Raises
-        ------
-        ImportError
-            pandas is missing.
+        Warns
+        -----
+        RuntimeWarning
+            Records for which `strong_motion` fails, as of zeros; their values are NaN.
         """
-        pandas = optional("pandas", "tables", "Suite.to_dataframe")
-        own = {"record": self.names, "PGA [g]": self.pga_g, "duration [s]": self.duration}
-        return pandas.DataFrame({**own, **self._metadata})
+        return IntensityMeasures(self)
+
+    def _table(self) -> tuple[Mapping[str, NDArray[Any]], Mapping[str, str]]:
+        own = {"record": np.array(self.names), "pga_g": self.pga_g, "duration": self.duration}
+        return beside(own, self._metadata), {"pga_g": "g", "duration": "s"}
 
     # ---- scaling
 
@@ -363,8 +374,11 @@ class Suite(Sequence[GroundMotion]):
         if arias is not None:
             return Suite((m.scaled_to(arias=arias) for m in self._motions), self._metadata)
         if sa_g is not None:
-            periods, target = np.array([period], float), np.array([sa_g * STANDARD_GRAVITY])
-        elif isinstance(spectrum, ResponseSpectrum):
+            assert period is not None
+            self._require_motion()
+            target_of = {"sa_g": sa_g, "period": period, "damping": damping}
+            return Suite((m.scaled_to(**target_of) for m in self._motions), self._metadata)
+        if isinstance(spectrum, ResponseSpectrum):
             if spectrum.kind != "pseudo_acceleration" or len(spectrum.damping) != 1:
                 raise ValueError(
                     "Suite.scaled_to: spectrum must be of pseudo-acceleration at one damping, got"
@@ -384,13 +398,17 @@ class Suite(Sequence[GroundMotion]):
             raise ValueError(
                 f"Suite.scaled_to: targets must be positive and finite, got {target.min()} m/s^2"
             )
+        self._require_motion()
         factors = []
         for motion in self._motions:
-            if not motion.peak_acceleration > 0:
-                raise ValueError(f"Suite.scaled_to: '{motion.name}' is zero throughout")
             own = np.asarray(response_spectrum(motion, periods, damping).values).reshape(-1)
             factors.append(math.exp(np.mean(np.log(target / own))))
         return self.scaled(factors)
+
+    def _require_motion(self) -> None:
+        for motion in self._motions:
+            if not motion.peak_acceleration > 0:
+                raise ValueError(f"Suite.scaled_to: '{motion.name}' is zero throughout")
 
     # ---- files
 
@@ -401,7 +419,8 @@ class Suite(Sequence[GroundMotion]):
         *,
         units: str | None = None,
         component: str | int | None = None,
-        dt: float | None = None,
+        dt: float | str | None = None,
+        orientation: float | str | None = None,
         gaps: bool = False,
         stations: bool = False,
         along: str | float | None = None,
@@ -409,6 +428,7 @@ class Suite(Sequence[GroundMotion]):
         on_error: Literal["raise", "skip"] = "raise",
         metadata: str | os.PathLike[str] | Mapping[str, ArrayLike] | Any | None = None,
         threads: int | None = None,
+        progress: bool | Progress = False,
     ) -> Suite:
         """Read records from files, as `read_record` does, on several threads.
 
@@ -418,9 +438,21 @@ class Suite(Sequence[GroundMotion]):
             A folder, including subfolders but not hidden files; a pattern, such as
             ``"records/**/*.AT2"``, where ``**`` matches any folders; a file; or a list of these. A
             zip or tar archive of several files represents all of them.
-        units, component, dt, gaps : optional
-            As for `read_record`; they apply to all files. ``component="all"`` makes each component
-            a motion of the suite.
+        units : str, optional
+            Unit of acceleration of the files that state none, as for `read_record`; or the name of
+            a column of `metadata` with a unit for each record.
+        dt : float or str, optional
+            Time step [s] of the files that state none; or the name of a column of `metadata`.
+        orientation : float or str, optional
+            Direction of the component in files that do not state it: an azimuth [degrees], a text
+            such as 'N28W' or 'up', or the name of a column of `metadata`.
+        component : str or int, optional
+            Name or number of the component in files with several, as for `read_record`. ``"all"``
+            makes each horizontal component a motion of the suite, ``"vertical"`` each vertical one.
+            A component that is known to point up or down is otherwise left out, and listed in
+            `left_out`, unless its name or number is given: sliders move horizontally.
+        gaps : bool, optional
+            As for `read_record`; it applies to all files.
         stations : bool, optional
             Group the components of each station into one GroundMotion with `transverse` and
             `vertical`, as `read_station` does. Components belong together if they are in the same
@@ -441,9 +473,16 @@ class Suite(Sequence[GroundMotion]):
         metadata : path-like, mapping of columns or pandas DataFrame, optional
             A table with rows in any order, for instance a CSV file with a line of column names. Its
             column 'file', 'record' or 'name' identifies the record of a row by the path, name or
-            stem of the file. A record without a row gets NaN or an empty text.
+            stem of the file. A record without a row gets NaN or an empty text. Columns named
+            'units', 'dt' (or 'dt_s') and 'orientation' apply to their records, even if `units`,
+            `dt` and `orientation` do not name them. What a file states takes precedence over its
+            row, which must agree with it, and the row over a value for all files. A column with a
+            name that a suite has already, such as 'pga_g', is renamed, to 'pga_g_given'.
         threads : int, optional
             Maximum number of threads, at least 1; default: all cores.
+        progress : bool or callable, optional
+            True shows the number of files read on stderr, as for `run_ensemble`; a callable is
+            called with the number of files read and the total.
 
         Returns
         -------
@@ -456,17 +495,19 @@ class Suite(Sequence[GroundMotion]):
         Raises
         ------
         ValueError
-            No files; files that cannot be read (named, those without units first; with 'skip', only
-            if no file can be read); metadata without a column that identifies the records, or that
-            identifies none of them; `along` or `common_length` without `stations`; `component` with
-            `stations`.
+            No files; files that cannot be read (grouped by reason; with 'skip', only if no file can
+            be read), among them one whose row of the metadata contradicts it; only vertical
+            components; metadata without a column that identifies the records, or that identifies
+            none of them; `units`, `dt` or `orientation` that is neither a value nor a column;
+            `along` or `common_length` without `stations`; `component` with `stations`.
         OSError
             The folder or the metadata cannot be read.
 
         Warns
         -----
         RuntimeWarning
-            Files were left out; components fitted no station.
+            Files or vertical components were left out; components fitted no station; a column was
+            renamed.
         PlausibilityWarning
             Equal records, and the warnings of `read_record`.
 
@@ -483,24 +524,33 @@ class Suite(Sequence[GroundMotion]):
         if not stations and (along is not None or common_length):
             given = "along" if along is not None else "common_length"
             raise ValueError(f"Suite.read: {given} needs stations=True")
-        table = Path(os.fspath(metadata)) if isinstance(metadata, (str, os.PathLike)) else None
-        paths = [p for p in _files(files) if table is None or not _same_file(p, table)]
+        table = None if metadata is None else Metadata(metadata)
+        reading = readings(
+            "Suite.read: {}", table, units=units, dt=dt, orientation=orientation, gaps=gaps
+        )
+        named = table.path if table else None
+        paths = [p for p in _files(files) if named is None or not is_same_file(p, named)]
         if not paths:
             raise ValueError(f"Suite.read: no files in {_shown_source(files)}")
 
-        every = stations or component == "all"
+        every = stations or component in ("all", "vertical")
         one = None if every else component
 
-        def read(path: Path) -> list[tuple[str, list[Component] | Exception]]:
-            options: dict[str, Any] = {"units": units, "dt": dt, "gaps": gaps}
+        def read_file(path: Path) -> list[tuple[str, list[Component] | Exception]]:
             try:
-                inside = files_in(path, component=one, only_one=not every, **options)
+                return [(file.shown, _tried(file, reading, one, every)) for file in files_in(path)]
             except (OSError, ValueError) as error:
                 return [(str(path), error)]
-            return [(file.shown, _tried(file)) for file in inside]
 
-        with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-            found = [each for several in pool.map(read, paths, chunksize=16) for each in several]
+        found: list[tuple[str, list[Component] | Exception]] = []
+        pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
+        try:
+            with shown(progress, "Suite.read", "files") as report:
+                for done, several in enumerate(pool.map(read_file, paths, chunksize=16), 1):
+                    found += several
+                    report(done, len(paths))
+        finally:
+            pool.shutdown(cancel_futures=True)
         left = [
             LeftOut(file, _reason(answer, file))
             for file, answer in found
@@ -514,20 +564,35 @@ class Suite(Sequence[GroundMotion]):
         ]
         if left and (on_error == "raise" or not parts):
             raise ValueError(
-                f"Suite.read: {_failures(left, len(found))}"
-                + ('; on_error="skip" leaves them out' if on_error == "raise" and parts else "")
+                _failures("Suite.read: ", left, len(found))
+                + ('\non_error="skip" leaves them out' if on_error == "raise" and parts else "")
             )
+        if table:
+            table.require_rows([part.file for part in parts])
+        vertical: list[LeftOut] = []
+        if not stations and component in (None, "all", "vertical"):
+            wanted = component == "vertical"
+            others = [part for part in parts if part.component.is_vertical != wanted]
+            parts = [part for part in parts if part.component.is_vertical == wanted]
+            if not wanted:
+                vertical = [_vertical(part) for part in others]
         alone: list[LeftOut] = []
         columns: dict[str, Any]
         if stations:
-            grouped, lonely = stations_of(parts, along, common_length)
-            alone = [LeftOut(*one) for one in lonely]
+            every_station = stations_of(parts, along, common_length)
+            vertical = [
+                _vertical(one.parts[0], f": {one.reason}")
+                for one in every_station
+                if one.is_vertical
+            ]
+            grouped = [station for station in every_station if not station.is_vertical]
+            alone = [LeftOut(one.files[0], one.reason) for one in grouped if one.reason]
             motions = [station.motion for station in grouped]
             names = [station.files[0] for station in grouped]
             columns = {
                 "file": names,
                 "files": ["; ".join(station.files) for station in grouped],
-                "components": [station.components for station in grouped],
+                "components": [len(station.parts) for station in grouped],
             }
         else:
             motions = [part.component.motion for part in parts]
@@ -535,28 +600,35 @@ class Suite(Sequence[GroundMotion]):
             columns = {"file": names}
             if component == "all":
                 columns["component"] = [p.component.name or str(p.number) for p in parts]
+        if not motions:
+            which = "vertical" if component == "vertical" else "horizontal"
+            other = "" if which == "vertical" else '; component="vertical" reads vertical ones'
+            raise ValueError(f"Suite.read: no {which} component in {_shown_source(files)}{other}")
         for motion in motions:
             _core._warn_if_implausible(motion, "read_record", 2)
-        if metadata is not None:
-            columns |= _joined(names, _read_table(table) if table else dict(metadata))
+        if table:
+            joined, renamed = _free_names(cls, table.joined(names), every=True)
+            columns |= joined
+        else:
+            renamed = ""
         suite = cls(motions, columns)
-        suite.left_out, suite.alone = tuple(left), tuple(alone)
+        suite.left_out, suite.alone = (*left, *vertical), tuple(alone)
+
+        def say(message: str) -> None:
+            warnings.warn(message, RuntimeWarning, stacklevel=3)
+
+        if renamed:
+            say(f"Suite.read: {renamed}")
         if left:
-            warnings.warn(
-                f"Suite.read: {_failures(left, len(found))}; they are left out",
-                RuntimeWarning,
-                stacklevel=2,
-            )
+            say(_failures("Suite.read: ", left, len(found), "; they are left out"))
+        if vertical:
+            lines = grouped_reasons((one.file, one.reason) for one in vertical)
+            say(f"Suite.read: left out, because sliders move horizontally:{_listed(lines)}")
         if alone:
-            shown = [f"{one.file}: {one.reason}" for one in alone[:_SHOWN]]
-            shown += [f"and {len(alone) - _SHOWN} more"] if len(alone) > _SHOWN else []
-            warnings.warn(
-                printable(
-                    f"Suite.read: {len(alone)} of {len(parts)} components fit no station and stay"
-                    f" alone: {'; '.join(shown)}"
-                ),
-                RuntimeWarning,
-                stacklevel=2,
+            lines = grouped_reasons((one.file, one.reason) for one in alone)
+            say(
+                f"Suite.read: {len(alone)} of {len(parts)} components fit no station and stay"
+                f" alone:{_listed(lines)}"
             )
         if equal := suite.duplicates:
             sets = "; ".join(
@@ -599,17 +671,18 @@ class Suite(Sequence[GroundMotion]):
         """
         with creating(file, _FORMAT, "Suite.save") as h5:
             sizes = [len(m) for m in self._motions]
-            h5["first"] = np.concatenate([[0], np.cumsum(sizes)])
-            h5["acceleration"] = np.concatenate([m.acceleration for m in self._motions])
-            h5["dt"] = [math.nan if m.dt is None else m.dt for m in self._motions]
-            h5["time"] = np.concatenate([[], *(m.time for m in self._motions if m.dt is None)])
-            h5["held"] = [m.interpolation == "constant" for m in self._motions]
-            h5["name"] = list(self.names)
-            h5["orientation"] = [m.orientation for m in self]
+            write(h5, "first", np.concatenate([[0], np.cumsum(sizes)]))
+            write(h5, "acceleration", np.concatenate([m.acceleration for m in self._motions]))
+            write(h5, "dt", [math.nan if m.dt is None else m.dt for m in self._motions])
+            uneven = [m.time for m in self._motions if m.dt is None]
+            write(h5, "time", np.concatenate([[], *uneven]))
+            write(h5, "held", [m.interpolation == "constant" for m in self._motions])
+            write(h5, "name", np.array(self.names, object))
+            write(h5, "orientation", np.array([m.orientation for m in self], object))
             for which in _OTHERS:
                 others = [getattr(m, which) for m in self]
-                h5[f"has_{which}"] = [one is not None for one in others]
-                h5[which] = np.concatenate([[], *(one for one in others if one is not None)])
+                write(h5, f"has_{which}", [one is not None for one in others])
+                write(h5, which, np.concatenate([[], *(one for one in others if one is not None)]))
             write_columns(h5, "metadata", self._metadata)
         return Path(file)
 
@@ -624,7 +697,8 @@ class Suite(Sequence[GroundMotion]):
         Returns
         -------
         Suite
-            Equal to the one that was saved, to the last bit.
+            Equal to the one that was saved, to the last bit. Older files, without checksums, are
+            read, too.
 
         Raises
         ------
@@ -633,16 +707,22 @@ class Suite(Sequence[GroundMotion]):
         OSError
             The file is missing or cannot be read.
         ValueError
-            The file is not a suite, or is damaged.
+            The file is not a suite, or is damaged: a checksum differs, arrays have different
+            lengths, or one is a link.
         """
-        with opening(file, _FORMAT, "Suite.open") as h5:
-            first, dt, held = h5["first"][:], h5["dt"][:], h5["held"][:]
-            acceleration, times = h5["acceleration"][:], _Taken(h5["time"][:])
-            orientations = read_texts(h5["orientation"])
-            others = {which: _Taken(h5[which][:]) for which in _OTHERS}
-            has = {which: h5[f"has_{which}"][:] for which in _OTHERS}
+        with opening(file, (_FORMAT,), "Suite.open") as h5:
+            names = read(h5, "name").tolist()
+            count = (len(names),)
+            first, acceleration = read(h5, "first", (len(names) + 1,)), read(h5, "acceleration")
+            if first[0] != 0 or first[-1] != acceleration.size or (np.diff(first) < 0).any():
+                raise ValueError("'first' must rise from 0 to the number of samples")
+            dt, held = read(h5, "dt", count), read(h5, "held", count)
+            orientations = read(h5, "orientation", count)
+            others = {which: _Taken(which, read(h5, which)) for which in _OTHERS}
+            has = {which: read(h5, f"has_{which}", count) for which in _OTHERS}
+            times = _Taken("time", read(h5, "time"))
             motions = []
-            for i, name in enumerate(read_texts(h5["name"])):
+            for i, name in enumerate(names):
                 n = acceleration[first[i] : first[i + 1]]
                 about: dict[str, Any] = {
                     "interpolation": "constant" if held[i] else "linear",
@@ -652,23 +732,31 @@ class Suite(Sequence[GroundMotion]):
                 about |= {w: others[w].take(n.size) for w in _OTHERS if has[w][i]}
                 about |= {"times": times.take(n.size)} if math.isnan(dt[i]) else {"dt": dt[i]}
                 motions.append(_core._ground_motion(n, **about))
-            return cls(motions, read_columns(h5, "metadata"))
+            for part in (times, *others.values()):
+                part.require_used()
+            return cls(motions, read_columns(h5, "metadata", len(names)))
 
 
 class _Taken:
     """An array from which consecutive parts are taken."""
 
-    def __init__(self, values: NDArray[np.float64]) -> None:
-        self.values, self.used = values, 0
+    def __init__(self, name: str, values: NDArray[np.float64]) -> None:
+        self.name, self.values, self.used = name, values, 0
 
     def take(self, count: int) -> NDArray[np.float64]:
         self.used += count
         return self.values[self.used - count : self.used]
 
+    def require_used(self) -> None:
+        if self.used != self.values.size:
+            raise ValueError(f"'{self.name}' must have {self.used} samples, has {self.values.size}")
 
-def _tried(file: File) -> list[Component] | Exception:
+
+def _tried(
+    file: File, reading: Callable[[str], Reading], component: str | int | None, every: bool
+) -> list[Component] | Exception:
     try:
-        return file.read()
+        return file.components(reading(file.shown), component, only_one=not every)
     except (OSError, ValueError) as error:
         return error
 
@@ -677,20 +765,10 @@ def _files(source: Any) -> list[Path]:
     """The files of a source, each once, sorted by name."""
     if not isinstance(source, (str, os.PathLike)):
         return list(dict.fromkeys(path for one in source for path in _files(one)))
-    path = Path(os.fspath(source))
-    if path.is_dir():
-        found: Iterable[Path] = path.rglob("*")
-    elif glob.has_magic(os.fspath(source)) and not path.exists():
-        found = map(Path, glob.glob(os.fspath(source), recursive=True))
-    else:
-        return [path]  # if it is missing, read_record says so
-    return sorted(
-        p for p in found if not any(part.startswith(".") for part in p.parts[1:]) and p.is_file()
-    )
-
-
-def _same_file(a: Path, b: Path) -> bool:
-    return a.name == b.name and a.exists() and b.exists() and a.samefile(b)
+    files = expanded(source)
+    return (
+        [Path(os.fspath(source))] if files is None else files
+    )  # read_record says if it is missing
 
 
 def _shown_source(source: Any) -> str:
@@ -704,72 +782,39 @@ def _reason(error: Exception, path: str) -> str:
     return str(error).removeprefix(f"read_record: {path}: ")
 
 
-def _failures(left: Sequence[LeftOut], total: int) -> str:
-    """A message about all files that could not be read, those without units first."""
-    unitless = [one for one in left if "units" in one.reason]
-    others = [one for one in left if one not in unitless]
-    parts = []
-    if unitless:
-        names = ", ".join(one.file for one in unitless[:_SHOWN])
-        more = f" and {len(unitless) - _SHOWN} more" if len(unitless) > _SHOWN else ""
-        parts.append(f"no usable units in {names}{more} (give units=, such as 'g')")
-    parts += [f"{one.file}: {one.reason}" for one in others[:_SHOWN]]
-    if len(others) > _SHOWN:
-        parts.append(f"and {len(others) - _SHOWN} more")
-    return printable(f"cannot read {len(left)} of {total} files: {'; '.join(parts)}")
+def _failures(who: str, left: Sequence[LeftOut], total: int, end: str = "") -> str:
+    """A message about all files that could not be read, with a line for each reason."""
+    head = f"{who}cannot read {len(left)} of {total} files{end}:"
+    return head + _listed(grouped_reasons((one.file, one.reason) for one in left))
 
 
-def _read_table(file: Path) -> dict[str, list[Any]]:
-    """The columns of a CSV file, as numbers if all cells are numbers or empty."""
-    with file.open(newline="", encoding="utf-8-sig") as stream:
-        rows = list(csv.reader(stream))
-    rows = [row for row in rows if any(cell.strip() for cell in row)]
-    if len(rows) < 2:
-        raise ValueError(f"Suite.read: metadata '{file}' must have names and at least one row")
-    names = [cell.strip() for cell in rows[0]]
-    for number, row in enumerate(rows[1:], 2):
-        if len(row) != len(names):
-            raise ValueError(
-                f"Suite.read: metadata '{file}': row {number} must have {len(names)} cells, got"
-                f" {len(row)}"
-            )
-    return {name: _typed([row[i].strip() for row in rows[1:]]) for i, name in enumerate(names)}
+def _listed(lines: Sequence[str]) -> str:
+    """One line, or several lines that follow a colon."""
+    if len(lines) == 1:
+        return f" {lines[0]}"
+    more = [f"and {len(lines) - _SHOWN} more reasons"] if len(lines) > _SHOWN else []
+    return "".join(f"\n  {line}" for line in [*lines[:_SHOWN], *more])
 
 
-def _typed(cells: list[str]) -> list[Any]:
-    try:
-        return [float(cell) if cell else math.nan for cell in cells]
-    except ValueError:
-        return list(cells)
+def _vertical(part: Part, why: str = '; component="vertical" reads it') -> LeftOut:
+    return LeftOut(part.file, f"a vertical component ({part.component.motion.orientation}){why}")
 
 
-def _joined(files: Sequence[str], table: Mapping[str, Any]) -> dict[str, list[Any]]:
-    """The columns of a table, in the order of the files."""
-    columns = {str(name): list(values) for name, values in table.items()}
-    key = next((name for k in _KEYS for name in columns if name.lower() == k), None)
-    if key is None:
-        raise ValueError(
-            "Suite.read: metadata needs a column 'file', 'record' or 'name' that identifies the"
-            f" record of a row, got {', '.join(columns)}"
-        )
-    rows: dict[str, int] = {}
-    for i, value in enumerate(map(str, columns[key])):
-        if value in rows:
-            raise ValueError(f"Suite.read: metadata has two rows for '{value}'")
-        rows[value] = i
-    found = [
-        next((rows[n] for n in (f, Path(f).name, Path(f).stem) if n in rows), None) for f in files
-    ]
-    if all(place is None for place in found):
-        raise ValueError(
-            f"Suite.read: metadata has a row for none of the {len(files)} records; its '{key}' has"
-            f" '{columns[key][0]}', the first file is '{Path(files[0]).name}'"
-        )
-    joined = {}
+def _free_names(
+    suite: type, columns: Mapping[str, Any], every: bool = False
+) -> tuple[dict[str, Any], str]:
+    """Columns without the names of a suite's own quantities, and a sentence about those renamed.
+
+    With `every`, the names of its methods are replaced, too.
+    """
+    found: dict[str, Any] = {}
+    renamed = []
     for name, values in columns.items():
-        if name == key:
-            continue
-        numeric = as_column(values).dtype.kind in "biuf"
-        missing: Any = math.nan if numeric else ""
-        joined[name] = [missing if place is None else values[place] for place in found]
-    return joined
+        taken = name in _QUANTITIES or (every and hasattr(suite, name))
+        new = f"{name}_given" if taken and f"{name}_given" not in columns else name
+        if new != name:
+            renamed.append(f"'{name}' to '{new}'")
+        found[new] = values
+    if not renamed:
+        return found, ""
+    return found, f"metadata renamed, because a suite has these names: {', '.join(renamed)}"

@@ -68,7 +68,7 @@ def file_stem(number: str) -> str:
     number : str
         One of `Thesis.numbers`.
     """
-    name = number if number.startswith("Table") else f"figure {number}"
+    name = number if " " in number else f"figure {number}"
     return name.lower().replace(" ", "_").replace(".", "_")
 
 
@@ -105,7 +105,7 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
             if said:
                 lines += [f"| | {column} | found | |", "|---|---|---|---|"]
                 lines += [
-                    f"| {_claim(s)} | {s.said:.4g} | {_found(s)} "
+                    f"| {_claim(s)} | {_said(s)} | {_found(s)} "
                     f"| {'agrees' if s.agrees else '**differs**'} |"
                     for s in said
                 ]
@@ -114,13 +114,18 @@ def page(figures: Sequence[ThesisFigure], suffix: str) -> str:
 
 
 def _name(figure: ThesisFigure) -> str:
-    return figure.number if figure.number.startswith("Table") else f"Figure {figure.number}"
+    return figure.number if " " in figure.number else f"Figure {figure.number}"
 
 
 def _claim(statement: ThesisStatement) -> str:
     where = f"{statement.where}: " if statement.where else ""
     text = where + statement.claim + (f". *{statement.why}*" if statement.why else "")
     return text.replace("|", r"\|")  # a bar would end the cell
+
+
+def _said(statement: ThesisStatement) -> str:
+    bound = "" if statement.bound == "about" else f"{statement.bound} "
+    return f"{bound}{statement.said:.4g}"
 
 
 def _found(statement: ThesisStatement) -> str:
@@ -201,10 +206,15 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
     axes.set(title=panel.title, xlabel=panel.x, ylabel=panel.y)
     axes.grid(color=plotting.PALE, lw=0.6)
     axes.set_axisbelow(True)
+    # Reference lines and regions come last, in whatever order they were drawn.
+    reference = {curve.label for curve in panel.curves if curve.kind in ("limit", "region")}
+    entries = sorted(
+        zip(*axes.get_legend_handles_labels()), key=lambda entry: entry[1] in reference
+    )
     if len(named) > _MOST_LABELS:
-        axes.legend(fontsize=6.5, loc="center left", bbox_to_anchor=(1, 0.5))
-    else:
-        axes.legend(fontsize=7.5, handlelength=2.6)
+        axes.legend(*zip(*entries), fontsize=6.5, loc="center left", bbox_to_anchor=(1, 0.5))
+    elif entries:
+        axes.legend(*zip(*entries), fontsize=7.5, handlelength=2.6)
 
 
 def _colors(panel: ThesisPanel) -> dict[str, object]:

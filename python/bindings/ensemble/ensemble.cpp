@@ -17,6 +17,15 @@ py::array_t<double> statistic_by_time(const Ensemble& ensemble) {
   return array_of(std::move((ensemble.*figure)().*part));
 }
 
+template <SideImpacts Impacts::*side, auto value>
+py::object impacts_of(const Ensemble& ensemble) {
+  const std::vector<Impacts> impacts = ensemble.impacts();
+  std::vector<std::remove_cvref_t<decltype((impacts[0].*side).*value)>> values;
+  values.reserve(impacts.size());
+  for (const Impacts& one : impacts) values.push_back((one.*side).*value);
+  return array_of(std::move(values));
+}
+
 /// Each entry is JSON, except the text of a user-defined source, which may be anything.
 py::dict configuration_of(const Ensemble& ensemble) {
   const py::module_ json = py::module_::import("json");
@@ -182,10 +191,14 @@ ValueError
       .def("exceedance", &Ensemble::exceedance, py::arg("level"), py::arg("confidence") = 0.95,
            R"(Fraction of members whose peak exceeds a level.
 
+A slider with stops reaches a stop but never exceeds it. At the smallest gap of a stop, the result is therefore the
+fraction of members that hit a stop or exceed the level: with stops on both sides `impact_probability`, with one stop
+also the members that move that far away from it. Larger levels are rejected.
+
 Parameters
 ----------
 level : float
-    Displacement [m], finite and at least 0.
+    Displacement [m], finite and at least 0; at most the smallest gap of a stop of any member.
 confidence : float, optional
     Probability that the true value lies between the bounds, in (0, 1).
 
@@ -197,7 +210,37 @@ Interval
 Raises
 ------
 ValueError
-    A level or confidence out of range; fewer than two members.)")
+    A level or confidence out of range, such as a level beyond a stop; fewer than two members; sliders with stops from a
+    file written before impacts were kept.)")
+      .def_property_readonly(
+          "impact_probability", [](const Ensemble& e) { return e.impact_probability(); },
+          R"(Fraction of members that hit a stop, on either side, with 95 % bounds (`Interval`).
+
+The bounds are those of Clopper and Pearson (1934), which hold for any number of members. ValueError if no member has
+stops; with fewer than two members; if members come from a file written before impacts were kept.)")
+      .def_property_readonly(
+          "impact_probability_forward", [](const Ensemble& e) { return e.impact_probability(Direction::forward); },
+          "Fraction of members that hit the stop forward; ValueError also if no member has a stop there.")
+      .def_property_readonly(
+          "impact_probability_backward", [](const Ensemble& e) { return e.impact_probability(Direction::backward); },
+          "Fraction of members that hit the stop backward; ValueError also if no member has a stop there.")
+      .def_property_readonly("impacts_forward", &impacts_of<&Impacts::forward, &SideImpacts::count>,
+                             R"(Number of impacts on the stop forward, bounces included, by member.
+
+ValueError if no member has stops; for more than 16,777,216 members; if members come from a file written before impacts
+were kept.)")
+      .def_property_readonly("impacts_backward", &impacts_of<&Impacts::backward, &SideImpacts::count>,
+                             "Number of impacts on the stop backward by member; ValueError as for `impacts_forward`.")
+      .def_property_readonly("impact_speed_forward", &impacts_of<&Impacts::forward, &SideImpacts::speed>,
+                             "Largest speed just before an impact forward [m/s], by member; 0 without impacts. "
+                             "ValueError as for `impacts_forward`.")
+      .def_property_readonly("impact_speed_backward", &impacts_of<&Impacts::backward, &SideImpacts::speed>,
+                             "Largest speed just before an impact backward [m/s], by member; 0 without impacts. "
+                             "ValueError as for `impacts_forward`.")
+      .def_property_readonly("airborne", &Ensemble::airborne,
+                             R"(Number of members that end in flight, under vertical motion without `settle`.
+
+Their residuals are x at the end of the ground motion.)")
       .def(
           "merge",
           [](Ensemble& self, const Ensemble& other) {
@@ -241,7 +284,7 @@ OSError
 
 Notes
 -----
-Files take some 100 bytes for each time and 16 for each member.)")
+Files take some 100 bytes for each time, 16 for each member and 32 more for a member with stops.)")
       .def_static(
           "load",
           [](const py::object& file) { return py::module_::import("stickslip.ensemble.files").attr("load")(file); },
@@ -268,6 +311,87 @@ OSError
            R"(Plot the variances of displacement and velocity, the distribution of the peaks, and the velocity spectrum.
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+      .def(
+          "to_dataframe",
+          [](const py::object& self, const std::string& by) {
+            return py::module_::import("stickslip.ensemble.tables").attr("to_dataframe")(self, by);
+          },
+          py::arg("by") = "member",
+          R"(Convert the members, or the statistics by time, to a pandas DataFrame.
+
+Parameters
+----------
+by : {'member', 'time'}
+    A row for each member: `peak`, `residual` and, with stops, `impacts_forward`, `impact_speed_forward`,
+    `impacts_backward`, `impact_speed_backward`. Or a row for each time: `displacement_mean`, `displacement_variance`,
+    `covariance`, `velocity_mean`, `velocity_variance`, and if they were requested `ground_acceleration_mean` and
+    `ground_acceleration_variance`, each followed by its standard error, as `displacement_mean_error`.
+
+Returns
+-------
+pandas.DataFrame
+    Indexed by `member` (its number) or `time` [s]. `frame.attrs["units"]` has the units by name.
+
+Raises
+------
+ValueError
+    Another `by`; by time, if ground motions differ in duration or there are fewer than two members; by member, more
+    than 16,777,216 members.
+ImportError
+    pandas is missing.)")
+      .def(
+          "to_xarray",
+          [](const py::object& self) {
+            return py::module_::import("stickslip.ensemble.tables").attr("to_xarray")(self);
+          },
+          R"(Convert the members and the statistics by time to an xarray Dataset.
+
+Returns
+-------
+xarray.Dataset
+    The columns of both forms of `to_dataframe`, over the coordinates `member` and `time`; without `time` where there
+    are no statistics by time. The attribute `configuration` is JSON.
+
+Raises
+------
+ImportError
+    xarray is missing.)")
+      .def(
+          "to_csv",
+          [](const py::object& self, const py::object& path, const std::string& by) {
+            return py::module_::import("stickslip.ensemble.tables").attr("to_csv")(self, path, by);
+          },
+          py::arg("path"), py::arg("by") = "member",
+          R"(Write the rows of `to_dataframe` to a CSV file, whole or not at all.
+
+Parameters
+----------
+path : path-like
+    An existing file is replaced.
+by : {'member', 'time'}
+
+Returns
+-------
+Path
+
+Raises
+------
+ValueError
+    As for `to_dataframe`.
+OSError
+    The file cannot be written.)")
+      .def(
+          "to_json",
+          [](const py::object& self) { return py::module_::import("stickslip.ensemble.tables").attr("to_json")(self); },
+          R"(Convert the ensemble to one JSON document.
+
+Returns
+-------
+str
+    An object: `stickslip`, `configuration`, `members`, `airborne`, `units`; `quantiles` of the peak, each with
+    `probability`, `value`, `low` and `high`; with stops `impact_probability` (`value`, `low`, `high`, also `_forward`
+    and `_backward` where there are stops); `by_member` and `by_time`, the columns of `to_dataframe` as lists. Numbers
+    read back to the same double; NaN and infinity are null.)")
       .def("_repr_html_",
            [](const py::object& self) { return py::module_::import("stickslip._tables").attr("ensemble_html")(self); })
       .def("__repr__", &repr_of_ensemble)

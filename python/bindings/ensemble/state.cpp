@@ -50,12 +50,20 @@ py::dict state_of(const Ensemble& ensemble) {
     cut_block.push_back(block);
     cut_size.push_back(size);
   }
-  std::vector<double> peak, residual;
+  std::vector<double> peak, residual, speed_forward, speed_backward;
+  std::vector<std::uint64_t> impact_block, impacts_forward, impacts_backward;
   for (const auto& [block, kept] : parts.kept) {
     kept_block.push_back(block);
     kept_size.push_back(kept.peak.size());
     peak.insert(peak.end(), kept.peak.begin(), kept.peak.end());
     residual.insert(residual.end(), kept.residual.begin(), kept.residual.end());
+    if (!kept.impacts.empty()) impact_block.push_back(block);
+    for (const Impacts& one : kept.impacts) {
+      impacts_forward.push_back(one.forward.count);
+      impacts_backward.push_back(one.backward.count);
+      speed_forward.push_back(one.forward.speed);
+      speed_backward.push_back(one.backward.speed);
+    }
   }
   std::vector<std::int32_t> bin;
   for (const auto& [b, n] : parts.peaks.bins()) {
@@ -80,6 +88,15 @@ py::dict state_of(const Ensemble& ensemble) {
   state["residual"] = array_of(std::move(residual));
   state["bin"] = array_of(std::move(bin));
   state["bin_count"] = array_of(std::move(bin_count));
+  state["has_impacts"] = parts.has_impacts;
+  state["airborne"] = parts.airborne;
+  state["gaps"] = array_of(std::vector{parts.gaps.forward, parts.gaps.backward});
+  state["hits"] = array_of(std::vector{parts.hits.either, parts.hits.forward, parts.hits.backward});
+  state["impact_block"] = array_of(std::move(impact_block));
+  state["impacts_forward"] = array_of(std::move(impacts_forward));
+  state["impacts_backward"] = array_of(std::move(impacts_backward));
+  state["impact_speed_forward"] = array_of(std::move(speed_forward));
+  state["impact_speed_backward"] = array_of(std::move(speed_backward));
   return state;
 }
 
@@ -132,6 +149,32 @@ Ensemble ensemble_of(const py::dict& state) {
         Ensemble::Kept{{peak.begin() + begin, peak.begin() + end}, {residual.begin() + begin, residual.begin() + end}});
   }
   expect(from == peak.size(), "there are more peaks than members");
+
+  parts.has_impacts = state["has_impacts"].cast<bool>();
+  parts.airborne = state["airborne"].cast<std::uint64_t>();
+  const auto gaps = column<double>(state, "gaps");
+  const auto hits = column<std::uint64_t>(state, "hits");
+  expect(gaps.size() == 2 && hits.size() == 3, "gaps must be two and hits three numbers");
+  parts.gaps = {gaps[0], gaps[1]};
+  parts.hits = {hits[0], hits[1], hits[2]};
+  const auto impact_block = column<std::uint64_t>(state, "impact_block"),
+             impacts_forward = column<std::uint64_t>(state, "impacts_forward"),
+             impacts_backward = column<std::uint64_t>(state, "impacts_backward");
+  const auto speed_forward = column<double>(state, "impact_speed_forward"),
+             speed_backward = column<double>(state, "impact_speed_backward");
+  const std::size_t all = impacts_forward.size();
+  expect(impacts_backward.size() == all && speed_forward.size() == all && speed_backward.size() == all,
+         "counts and speeds of impacts must go together");
+  from = 0;
+  for (const std::uint64_t block : impact_block) {
+    const auto kept = parts.kept.find(block);
+    expect(kept != parts.kept.end() && kept->second.impacts.empty() && kept->second.peak.size() <= all - from,
+           "impacts must be those of the members");
+    for (const std::size_t end = from + kept->second.peak.size(); from < end; ++from)
+      kept->second.impacts.push_back(
+          {{impacts_forward[from], speed_forward[from]}, {impacts_backward[from], speed_backward[from]}});
+  }
+  expect(from == all, "there are more impacts than members");
 
   const auto bin = column<std::int32_t>(state, "bin");
   const auto bin_count = column<std::uint64_t>(state, "bin_count");

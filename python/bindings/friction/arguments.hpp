@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "bindings.hpp"
 
@@ -24,6 +25,22 @@ inline std::string level_argument(double level, const std::string& mu_name = "mu
       return mu_name + "=" + detail::shortest(mu);
   }
   return level_name + "=" + itself;
+}
+
+/// The coefficient of friction of a level [m/s^2]: the one with the fewest digits that gives the level to the last bit.
+inline double mu_of(double level) {
+  for (int digits = 1; digits <= 17; ++digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*g", digits, level / standard_gravity);
+    const double mu = std::strtod(text, nullptr);
+    if (mu * standard_gravity == level) return mu;
+  }
+  return level / standard_gravity;
+}
+inline std::vector<double> mu_of(const std::vector<double>& levels) {
+  std::vector<double> all;
+  for (const double level : levels) all.push_back(mu_of(level));
+  return all;
 }
 
 /// Makes a law's constructor explain its arguments if a call has others, such as a number without a name.

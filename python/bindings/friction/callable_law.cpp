@@ -37,6 +37,12 @@ class ThreadState {
   PyThreadState* saved_ = nullptr;
 };
 
+/// An exception of Python that a function raised. A trial step that meets it is shortened; see NoLevel.
+class RaisedByFunction : public py::error_already_set, public NoLevel {
+ public:
+  explicit RaisedByFunction(const py::error_already_set& error) : py::error_already_set(error) {}
+};
+
 }  // namespace
 
 struct CallableLaw::Function {
@@ -73,7 +79,14 @@ struct CallableLaw::Function {
   double call(Numbers... numbers) const {
     ThreadState::keep();
     const py::gil_scoped_acquire locked;
-    const py::object result = object(numbers...);
+    const py::object result = [&] {
+      try {
+        return object(numbers...);
+      } catch (const py::error_already_set& error) {
+        if (error.matches(PyExc_Exception)) throw RaisedByFunction(error);
+        throw;  // such as KeyboardInterrupt
+      }
+    }();
     const double value = PyFloat_AsDouble(result.ptr());
     if (value == -1 && PyErr_Occurred()) {
       PyErr_Clear();
@@ -85,9 +98,9 @@ struct CallableLaw::Function {
 
   double checked(double level, double x, double speed) const {
     if (level >= 0 && std::isfinite(level)) return level;
-    throw std::invalid_argument(std::string("Law: ") + name + " must be finite and at least 0, got " +
-                                detail::shortest(level) + " m/s^2 at x = " + detail::shortest(x) +
-                                " m and a speed of " + detail::shortest(speed) + " m/s");
+    throw InvalidLevel(std::string("Law: ") + name + " must be finite and at least 0, got " + detail::shortest(level) +
+                       " m/s^2 at x = " + detail::shortest(x) + " m and a speed of " + detail::shortest(speed) +
+                       " m/s");
   }
 };
 struct CallableLaw::Functions {
@@ -103,13 +116,13 @@ CallableLaw::CallableLaw(py::object hold, py::object resist)
 py::object CallableLaw::hold_function() const { return functions_->hold.object; }
 py::object CallableLaw::resist_function() const { return functions_->resist.object; }
 
-double CallableLaw::resist(double x, Direction direction, double speed) const {
+double CallableLaw::resist(double x, double speed, Direction direction) const {
   const Function& f = functions_->resist;
   return f.checked(f.compiled3 ? f.compiled3(x, speed, sign(direction)) : f.call(x, speed, sign(direction)), x, speed);
 }
 double CallableLaw::hold(double x, Direction direction) const {
   const Function& f = functions_->hold;
-  if (f.missing) return resist(x, direction, 0);
+  if (f.missing) return resist(x, 0, direction);
   return f.checked(f.compiled2 ? f.compiled2(x, sign(direction)) : f.call(x, sign(direction)), x, 0);
 }
 
@@ -135,10 +148,12 @@ ValueError
 
 Notes
 -----
-The motion is computed by collocation in time, to 1e-10 of the scale. Each time step takes 30 to 60 calls of `resist`,
-some 10 to 40 us with a Python function, which holds the interpreter lock. A compiled function, such as one from
-`numba.cfunc("float64(float64, float64, float64)")`, takes 2 to 4 us and runs without the lock. An exception that a
-function raises ends the integration and is raised again.
+The motion is computed by collocation in time, to 1e-10 of the scale. Each step of the collocation calls `resist` 30 to
+60 times, and a sample in which slips begin and end takes several steps. A Python function holds the interpreter lock; a
+compiled one, such as one from `numba.cfunc("float64(float64, float64, float64)")`, runs without it and costs about a
+tenth. The section "A law of your own" of the documentation has a table of costs. Trial steps may go beyond the motion:
+one in which a function raises an exception, or returns a level that is not valid, is shortened. If the motion itself
+goes there, the exception ends the integration and is raised again.
 
 Laws compare by their functions. They can be pickled if their functions can: those of modules, not lambdas. Theories and
 sensitivities do not cover them.

@@ -24,7 +24,7 @@ class CallableLaw {
   py::object resist_function() const;
 
   // Out of line: inlined into the event loop, calls of Python would take a compiler many minutes.
-  double resist(double x, Direction direction, double speed) const;
+  double resist(double x, double speed, Direction direction) const;
   double hold(double x, Direction direction) const;
 
  private:

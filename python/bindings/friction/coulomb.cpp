@@ -50,6 +50,12 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
           "Removed: use Slider(Coulomb(mu=...), slope_degrees=...).")
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
       .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
+      .def_property_readonly(
+          "mu", [](const Coulomb& law) { return mu_of(law.forward()); },
+          "Coefficient of friction against forward sliding, slip_level / g.")
+      .def_property_readonly(
+          "mu_backward", [](const Coulomb& law) { return mu_of(law.backward()); },
+          "Coefficient of friction against backward sliding, backward / g.")
       .def("__repr__", [](const Coulomb& law) {
         return "Coulomb(" + level_argument(law.forward()) +
                (law.backward() != law.forward() ? ", " + level_argument(law.backward(), "mu_backward", "backward")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,11 +32,13 @@ std::vector<double> levels_of(const std::vector<Given>& arguments, const std::st
     given = &argument;
   }
   if (given == nullptr) throw std::invalid_argument("Degrading: give one of " + choice + ", got none");
+  const bool of_friction = std::string_view(given->name).starts_with("mu");
   const std::string name = std::string("Degrading: ") + given->name;
   std::vector<double> levels = to_vector(given->values, name, given->unit == 1 ? "m/s^2" : "");
   for (std::size_t i = 0; i < levels.size(); ++i) {
     detail::require(std::isfinite(levels[i]) && levels[i] >= 0,
                     name + "[" + std::to_string(i) + "] must be finite and at least 0", levels[i]);
+    if (of_friction && i == 0) check_coefficient("Degrading", given->name, levels[i]);
     levels[i] *= given->unit;
   }
   return levels;
@@ -121,6 +124,9 @@ Examples
       .def_property_readonly(
           "slip_level", [](const Degrading& law) { return to_array(law.levels()); },
           "Levels there against forward sliding [m/s^2].")
+      .def_property_readonly(
+          "mu", [](const Degrading& law) { return to_array(mu_of(law.levels())); },
+          "Coefficients of friction there against forward sliding, slip_level / g.")
       .def_property_readonly(
           "backward", [](const Degrading& law) { return to_array(law.backward()); },
           "Levels there against backward sliding [m/s^2].")

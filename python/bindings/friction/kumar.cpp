@@ -98,6 +98,12 @@ Raises
 ValueError
     A value out of range.
 
+Warns
+-----
+PlausibilityWarning
+    A pressure below 1e5 Pa, which may be in MPa or kPa; mu_ref from 3 to 100, which may be in percent; a rate below
+    2 s/m, which may be in s/cm.
+
 Notes
 -----
 The motion is computed by collocation in time, to some 1e-7 of the scale, with the heat's history as 42 exponentials
@@ -117,6 +123,10 @@ Examples
 0.0601)");
   type.def(py::init([](double mu_ref, double static_pressure, double reference_pressure, double contact_radius,
                        double temperature, double rate, double diffusivity, double conductivity) {
+             check_coefficient("KumarFriction", "mu_ref", mu_ref);
+             check_pressure("KumarFriction", "static_pressure", static_pressure);
+             check_pressure("KumarFriction", "reference_pressure", reference_pressure);
+             check_rate("KumarFriction", rate);
              return KumarFriction({mu_ref, static_pressure, reference_pressure, contact_radius, temperature, rate,
                                    diffusivity, conductivity});
            }),

@@ -26,6 +26,7 @@ Pair levels_of(const std::optional<Level>& mu, const std::optional<Level>& level
   if (!mu) return pair;
   for (const double value : {pair.first, pair.second})
     detail::require(value >= 0, std::string("StaticKinetic: ") + mu_name + " must be at least 0", value);
+  check_coefficient("StaticKinetic", mu_name, pair.first);
   return {pair.first * standard_gravity, pair.second * standard_gravity};
 }
 
@@ -96,6 +97,9 @@ load almost reaches the static level, an arbitrarily small change decides.)");
            py::arg("kinetic") = py::none())
       .def_property_readonly("sliding", &sliding_of, "The law of sliding.")
       .def_property_readonly("static", &forward_of, "Static level against forward sliding [m/s^2].")
+      .def_property_readonly(
+          "mu_static", [](const AnyStaticKinetic& law) { return mu_of(forward_of(law)); },
+          "Static coefficient of friction against forward sliding, static / g.")
       .def_property_readonly("static_backward", &backward_of, "Static level against backward sliding [m/s^2].")
       .def("__repr__",
            [](const AnyStaticKinetic& law) {

@@ -28,6 +28,11 @@ Raises
 ValueError
     A value out of range; both or neither of a coefficient and its level.
 
+Warns
+-----
+PlausibilityWarning
+    A coefficient from 3 to 100, which may be in percent; a rate below 2 s/m, which may be in s/cm.
+
 Notes
 -----
 The motion is integrated by Taylor series in time, nearly to round-off. With a spring, a sample of the Kobe record
@@ -40,6 +45,7 @@ M. C. Constantinou, A. Mokha, A. Reinhorn, Teflon bearings in base isolation II:
 Engineering 116 (1990), 455-474.)");
   type.def(py::init([](std::optional<double> mu_slow, std::optional<double> mu_fast, std::optional<double> slow,
                        std::optional<double> fast, double rate) {
+             check_rate("VelocityDependent", rate);
              return VelocityDependent(slip_level_of(mu_slow, slow, "VelocityDependent", "mu_slow", "slow"),
                                       slip_level_of(mu_fast, fast, "VelocityDependent", "mu_fast", "fast"), rate);
            }),
@@ -47,6 +53,12 @@ Engineering 116 (1990), 455-474.)");
            py::arg("slow") = py::none(), py::arg("fast") = py::none(), py::arg("rate"))
       .def_property_readonly("slow", &VelocityDependent::slow, "Level at rest [m/s^2].")
       .def_property_readonly("fast", &VelocityDependent::fast, "Level at high speed [m/s^2].")
+      .def_property_readonly(
+          "mu_slow", [](const VelocityDependent& law) { return mu_of(law.slow()); },
+          "Coefficient of friction at rest, slow / g.")
+      .def_property_readonly(
+          "mu_fast", [](const VelocityDependent& law) { return mu_of(law.fast()); },
+          "Coefficient of friction at high speed, fast / g.")
       .def_property_readonly("rate", &VelocityDependent::rate, "Rate at which the level changes with the speed [s/m].")
       .def("__repr__", [](const VelocityDependent& law) {
         return "VelocityDependent(" + level_argument(law.slow(), "mu_slow", "slow") + ", " +

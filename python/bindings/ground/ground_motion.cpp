@@ -1,7 +1,14 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
 #include "ground/plausibility.hpp"
+#include "in_python.hpp"
 #include "parts.hpp"
+#include "statistics/estimate.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -42,13 +49,30 @@ GroundMotion make(const py::object& acceleration, std::optional<double> dt, cons
   return motion.with_components(other(transverse, "transverse"), other(vertical, "vertical"));
 }
 
+// The step of times that begin at 0 and are even to 1e-9 of a step, which is the round-off of sums of many steps.
+std::optional<double> even_step(const py::object& times, std::size_t samples) {
+  const std::vector<double> t = to_vector(times, "GroundMotion: times", "s");
+  if (t.size() != samples || samples < 2 || t[0] != 0 || !(t.back() > 0) || std::isinf(t.back())) return std::nullopt;
+  const auto largest_error = [&t](double dt) {
+    double largest = 0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      largest = std::max(largest, std::abs(t[i] - static_cast<double>(i) * dt));
+    return largest;
+  };
+  const double mean = t.back() / static_cast<double>(t.size() - 1);
+  const double dt = largest_error(t[1]) < largest_error(mean) ? t[1] : mean;  // one of them gave the times
+  return largest_error(dt) <= 1e-9 * dt ? std::optional(dt) : std::nullopt;
+}
+
 // `make`, with a warning about what no record would be.
 GroundMotion made(const py::object& acceleration, std::optional<double> dt, const std::optional<py::object>& times,
                   const std::string& interpolation, std::string name, const std::string& units,
                   const std::optional<py::object>& transverse, const std::optional<py::object>& vertical,
                   std::string orientation) {
-  const GroundMotion motion = make(acceleration, dt, times, interpolation, std::move(name), units, transverse, vertical,
-                                   std::move(orientation));
+  std::optional<double> step = dt;
+  if (times && !dt && py::hasattr(acceleration, "__len__")) step = even_step(*times, py::len(acceleration));
+  const GroundMotion motion = make(acceleration, step, step && !dt ? std::nullopt : times, interpolation,
+                                   std::move(name), units, transverse, vertical, std::move(orientation));
   warn_if_implausible(motion, "GroundMotion", 1, false);
   return motion;
 }
@@ -74,11 +98,16 @@ py::array_t<double> times_of(const GroundMotion& motion) {
 }
 
 GroundMotion from_obspy(const py::object& trace, const std::string& units, const std::optional<std::string>& name) {
-  if (!py::hasattr(trace, "data") || !py::hasattr(trace, "stats")) {
-    const auto type = py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>();
-    throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " + type +
-                         (type == "Stream" ? "; select one of its traces, such as stream[0]" : ""));
+  if (py::hasattr(trace, "traces")) {  // a Stream
+    const GroundMotion motion =
+        py::module_::import("stickslip.records").attr("_station_of_stream")(trace, units, name).cast<GroundMotion>();
+    if (py::len(trace.attr("traces")) > 1) warn_if_implausible(motion, "GroundMotion.from_obspy");
+    return motion;
   }
+  if (!py::hasattr(trace, "data") || !py::hasattr(trace, "stats"))
+    throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " +
+                         py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>() +
+                         "; or a Stream of the traces of one station");
   GroundMotion motion =
       make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt, "linear",
            name ? *name : py::str(trace.attr("id")).cast<std::string>(), units, std::nullopt, std::nullopt, "");
@@ -111,7 +140,8 @@ acceleration : array_like, shape (N,)
 dt : float, optional
     Time between samples [s], positive: the times are 0, dt, 2 dt, ... Give dt or times.
 times : array_like, shape (N,), optional
-    Times of the samples [s], finite and increasing. With 'constant', successive times may be equal.
+    Times of the samples [s], finite and increasing. With 'constant', successive times may be equal. Times that begin
+    at 0 and are even to 1e-9 of a step become `dt`, which is faster.
 interpolation : {'linear', 'constant'}, optional
     A straight line between samples (thesis 4.56), or a constant value until the next time; the last value then marks
     the end and does not act.
@@ -144,7 +174,8 @@ PlausibilityWarning
 Notes
 -----
 `2 * motion`, `motion / 2` and `-motion` return motions `scaled` by the factor. Methods that return a motion treat all
-components alike.)");
+components alike. `np.asarray(motion)` is `motion.acceleration`. A motion has no items: a sample is
+`motion.acceleration[i]`, a part `motion.cut(begin, end)`.)");
   type.attr("__array_ufunc__") = py::none();  // NumPy factors then use the operators of the motion
   const auto with_arguments = [](auto&& define) {
     define(py::arg("acceleration"), py::arg("dt") = py::none(), py::kw_only(), py::arg("times") = py::none(),
@@ -156,17 +187,19 @@ components alike.)");
   with_arguments([&](auto&&... arguments) { type.def(py::init(&made), arguments...); });
   type.def_static("from_obspy", &from_obspy, py::arg("trace"), py::kw_only(), py::arg("units") = "m/s^2",
                   py::arg("name") = py::none(),
-                  R"(Convert an ObsPy trace to a ground motion.
+                  R"(Convert an ObsPy trace, or a stream of the components of one station, to a ground motion.
 
 Parameters
 ----------
-trace : obspy.Trace
+trace : obspy.Trace or obspy.Stream
     One component of acceleration, not in counts: remove the response of the instrument first, as with
-    `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps.
+    `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps. A stream of one trace is that
+    trace. A stream of several holds the components of one station, as for `read_station`: the last letter of each
+    channel, N, E or Z, is its orientation; the axis is the first horizontal component.
 units : str, optional
     Unit of the samples, as for the constructor. ObsPy does not state it; `remove_response` returns m/s^2.
 name : str, optional
-    Default: the id of the trace.
+    Default: the id of the trace; for a station, that of the trace along the axis.
 
 Returns
 -------
@@ -176,9 +209,9 @@ GroundMotion
 Raises
 ------
 TypeError
-    An object that is not a trace.
+    An object that is neither a trace nor a stream.
 ValueError
-    A masked sample (a gap), or one that is not finite.
+    A masked sample (a gap), or one that is not finite; a stream that is not one station, as for `read_station`.
 
 Warns
 -----
@@ -219,26 +252,48 @@ A negative factor reverses the horizontal components but not the vertical one, w
       .def(
           "scaled_to",
           [](const GroundMotion& motion, std::optional<double> pga_g, std::optional<double> arias,
-             std::optional<double> pgv) {
+             std::optional<double> pgv, std::optional<double> sa_g, std::optional<double> period, double damping) {
+            if (sa_g.has_value() != period.has_value())
+              throw std::invalid_argument("GroundMotion: scaled_to needs sa_g and period together, got one of them");
             if (pga_g) *pga_g *= standard_gravity;
-            return scaled_to(motion, {pga_g, arias, pgv});
+            if (!sa_g) return scaled_to(motion, {pga_g, arias, pgv});
+            if (pga_g || arias || pgv)
+              throw std::invalid_argument(
+                  "GroundMotion: scaled_to needs one of pga_g, arias, pgv and sa_g, got several");
+            detail::require(std::isfinite(*sa_g) && *sa_g > 0,
+                            "GroundMotion: scaled_to needs a positive and finite sa_g", *sa_g, "g");
+            if (!(motion.peak_acceleration() > 0))
+              throw std::invalid_argument(
+                  "GroundMotion: scaled_to needs a motion with an acceleration, got zeros only");
+            const double own = response_spectrum(motion, {*period}, {damping}).values[0];
+            return motion.scaled(*sa_g * standard_gravity / own);
           },
           py::kw_only(), py::arg("pga_g") = py::none(), py::arg("arias") = py::none(), py::arg("pgv") = py::none(),
-          R"(Scale the motion by a positive factor, to a given PGA, Arias intensity or PGV along its axis.
+          py::arg("sa_g") = py::none(), py::arg("period") = py::none(), py::arg("damping") = 0.05,
+          R"(Scale the motion by a positive factor, to a given PGA, Arias intensity, PGV or spectral acceleration.
+
+The target is that of the component along the axis; all components are scaled.
 
 Parameters
 ----------
 pga_g : float, optional
-    Peak acceleration [g], positive. Give exactly one of the three.
+    Peak acceleration [g], positive. Give exactly one of `pga_g`, `arias`, `pgv` and `sa_g`.
 arias : float, optional
     Arias intensity [m/s], positive.
 pgv : float, optional
     Peak ground velocity [m/s], positive; from rest at the first sample, without baseline correction.
+sa_g : float, optional
+    Pseudo-acceleration at `period` and `damping` [g], positive.
+period : float, optional
+    Period [s] for `sa_g`, 0 (the PGA) or from 1e-6 to 1e6.
+damping : float, optional
+    Damping ratio for `sa_g`, at least 0 and below 2.
 
 Raises
 ------
 ValueError
-    No or several targets; one that is not positive and finite; a motion of zeros.)")
+    No or several targets; one that is not positive and finite; `sa_g` without `period`, or the reverse; a motion of
+    zeros.)")
       .def("resampled", &resampled, py::arg("dt"),
            R"(Resample the motion at 0, dt, 2 dt, ... after its first sample.
 
@@ -298,7 +353,52 @@ order : int, optional
            R"(Plot the acceleration [g] over time.
 
 Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
-replaces the name. Returns the matplotlib Figure.)")
+replaces the name. Returns the axes that were given, otherwise the new Figure.)")
+      .def("to_dataframe", in_python("stickslip._motion_tables", "motion_to_dataframe"),
+           R"(Convert the histories to a pandas DataFrame over the index `time` [s].
+
+The columns are `acceleration`, `transverse` and `vertical` [m/s^2] if the motion has them, `velocity` [m/s] and
+`displacement` [m] of the ground; `df.attrs["units"]` has the units. ImportError without pandas.)")
+      .def("to_csv", csv_in("stickslip._motion_tables", "motion_to_csv"), py::arg("path"),
+           R"(Write times and accelerations to a CSV file that `read_record` reads, whole or not at all.
+
+Parameters
+----------
+path : path-like
+    An existing file is replaced.
+
+Returns
+-------
+Path
+
+Raises
+------
+OSError
+    The folder is missing or cannot be written; the file is read-only or not a regular file.
+
+Notes
+-----
+A line of names with units, then one line per sample: time [s] and the components [m/s^2] that the motion has.
+`read_record` returns the same samples and the same time step or times, one component per motion. The file does not
+contain the name, the orientation or the interpolation: use `pickle` or a `Suite` to keep all.)")
+      .def("to_json", in_python("stickslip._motion_tables", "motion_to_json"),
+           R"(The motion as one JSON object (str): name, orientation, interpolation, units, times and components.
+
+Every number reads back as the same double.)")
+      .def("_repr_html_", in_python("stickslip._html", "motion_html"))
+      .def(
+          "__array__",
+          [](const py::object& self, const py::object& dtype, const py::object& copy) {
+            // The acceleration is a view of memory that the motion owns: read-only, and of type double.
+            const py::array samples = view(self.cast<const GroundMotion&>().acceleration(), self);
+            if (dtype.is_none() || py::dtype::from_args(dtype).equal(samples.dtype()))
+              return copy.is_none() || !copy.cast<bool>() ? py::object(samples) : py::object(samples.attr("copy")());
+            if (!copy.is_none() && !copy.cast<bool>())
+              throw std::invalid_argument("GroundMotion: samples are float64; another dtype needs a copy");
+            return py::object(samples.attr("astype")(dtype));
+          },
+          py::arg("dtype") = py::none(), py::arg("copy") = py::none(),
+          "The ground acceleration along the axis [m/s^2], as `acceleration`.")
       .def(
           "__mul__", [](const GroundMotion& g, double factor) { return g.scaled(factor); }, py::is_operator())
       .def(
@@ -320,8 +420,8 @@ replaces the name. Returns the matplotlib Figure.)")
                     std::to_string(g.samples()) + " samples" +
                     (dt ? ", dt = " + detail::shortest(*dt) + " s" : ", uneven times") + ", " +
                     detail::shortest(std::round(g.duration() * 1e3) / 1e3) + " s, peak " +
-                    detail::shortest(std::round(g.peak_acceleration() * 1e4) / 1e4) + " m/s^2, " +
-                    name_of(g.interpolation()) + (g.has_transverse() || g.has_vertical() ? ", with " : "") +
+                    digits(g.peak_acceleration()) + " m/s^2 (" + digits(g.peak_acceleration() / standard_gravity) +
+                    " g), " + name_of(g.interpolation()) + (g.has_transverse() || g.has_vertical() ? ", with " : "") +
                     (g.has_transverse() ? "transverse" : "") + (g.has_transverse() && g.has_vertical() ? " and " : "") +
                     (g.has_vertical() ? "vertical" : "") + ">";
            })

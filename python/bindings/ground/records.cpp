@@ -1,5 +1,8 @@
 #include <pybind11/stl.h>
 
+#include <exception>
+#include <utility>
+
 #include "bindings.hpp"
 #include "ground/plausibility.hpp"
 
@@ -13,14 +16,40 @@ RecordComponent component_of(const Part& part) {
   return {motion, name, start, units};
 }
 
+/// The components of a file. Each of several options that it accepts gives the same, because what is given must agree
+/// with what the file states.
+std::vector<RecordComponent> parse_any(std::string_view content, const std::string& file,
+                                       const std::vector<RecordOptions>& several) {
+  std::exception_ptr failure;
+  bool is_about_options = false;
+  for (const RecordOptions& options : several) try {
+      return parse_components(content, file, options);
+    } catch (const std::invalid_argument& error) {
+      const bool about_options = std::string_view(error.what()).find("the file states") != std::string_view::npos;
+      if (!failure || (is_about_options && !about_options)) {
+        failure = std::current_exception();
+        is_about_options = about_options;
+      }
+    }
+  std::rethrow_exception(failure);
+}
+
+/// A default applies where the file states nothing: it is omitted if the file contradicts it.
 std::vector<Part> parse(const py::bytes& content, const std::string& file, const std::string& units,
-                        const std::string& component, std::optional<double> dt, bool gaps, bool only_one) {
-  const RecordOptions options{units, component, dt, gaps};
+                        const std::string& component, std::optional<double> dt, bool gaps, bool only_one,
+                        const std::string& default_units, std::optional<double> default_dt) {
+  std::vector<RecordOptions> several{{units, component, dt, gaps}};
+  if (units.empty() && !default_units.empty()) several.push_back({default_units, component, dt, gaps});
+  for (std::size_t i = several.size(); !dt && default_dt && i-- > 0;)
+    several.push_back({several[i].units, component, default_dt, gaps});
+  std::swap(several.front(), several[several.size() / 2]);  // begin with all that is given
   const std::string_view bytes = content;
   const py::gil_scoped_release released;
-  if (only_one) return {{parse_record(bytes, file, options), "", "", ""}};
+  if (only_one && several.size() == 1) return {{parse_record(bytes, file, several[0]), "", "", ""}};
+  std::vector<RecordComponent> found = parse_any(bytes, file, several);
+  if (only_one && found.size() != 1) (void)parse_record(bytes, file, several[0]);  // says which there are
   std::vector<Part> parts;
-  for (RecordComponent& one : parse_components(bytes, file, options))
+  for (RecordComponent& one : found)
     parts.emplace_back(std::move(one.motion), std::move(one.name), std::move(one.start), std::move(one.units));
   return parts;
 }
@@ -74,8 +103,16 @@ void bind_records(py::module_& m) {
       PyExc_UserWarning, nullptr));
 
   m.def("_parse_components", &parse, py::arg("content"), py::arg("file"), py::arg("units"), py::arg("component"),
-        py::arg("dt"), py::arg("gaps"), py::arg("only_one"));
+        py::arg("dt"), py::arg("gaps"), py::arg("only_one"), py::arg("default_units") = "",
+        py::arg("default_dt") = py::none());
   m.def("_azimuth_of", &azimuth_of, py::arg("orientation"));
+  m.def("_upward", &upward, py::arg("orientation"));
+  m.def(
+      "_with_orientation",
+      [](const GroundMotion& motion, std::string orientation) {
+        return motion.with_orientation(std::move(orientation));
+      },
+      py::arg("motion"), py::arg("orientation"));
   m.def("_record_format", &format_of, py::arg("content"));
   m.def("_record_formats", &formats);
   m.def("_station_motion", &station, py::arg("components"), py::arg("orientations"), py::arg("along"),

@@ -4,8 +4,11 @@
 #include <array>
 #include <string_view>
 
+#include "ground/suite.hpp"
+#include "in_python.hpp"
 #include "parts.hpp"
 #include "sliding/response.hpp"
+#include "statistics/estimate.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -58,38 +61,75 @@ void bind_response_spectrum(py::module_& m) {
            py::arg("title") = py::none(),
            R"(Plot the values over the period, with a line for each damping ratio.
 
-Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure, with an
-optional `title=`. Returns the matplotlib Figure.)")
-      .def("__repr__", [](const ResponseSpectrum& s) {
-        return "<ResponseSpectrum: " + name_of(s.kind) + ", " + std::to_string(s.periods.size()) +
-               (s.periods.size() == 1 ? " period, " : " periods, ") +
-               (s.damping.size() == 1 ? "damping " + detail::shortest(s.damping[0])
-                                      : std::to_string(s.damping.size()) + " damping ratios") +
-               ", largest " + detail::shortest(std::round(*std::ranges::max_element(s.values) * 1e4) / 1e4) + " " +
-               (s.kind == SpectrumKind::displacement                                          ? "m"
-                : s.kind == SpectrumKind::velocity || s.kind == SpectrumKind::pseudo_velocity ? "m/s"
-                                                                                              : "m/s^2") +
-               ">";
-      });
+Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
+replaces the default. Returns the axes that were given, otherwise the new Figure.)")
+      .def("__repr__",
+           [](const ResponseSpectrum& s) {
+             return "<ResponseSpectrum: " + name_of(s.kind) + ", " + std::to_string(s.periods.size()) +
+                    (s.periods.size() == 1 ? " period, " : " periods, ") +
+                    (s.damping.size() == 1 ? "damping " + digits(s.damping[0])
+                                           : std::to_string(s.damping.size()) + " damping ratios") +
+                    ", largest " + digits(*std::ranges::max_element(s.values)) + " " +
+                    (s.kind == SpectrumKind::displacement                                          ? "m"
+                     : s.kind == SpectrumKind::velocity || s.kind == SpectrumKind::pseudo_velocity ? "m/s"
+                                                                                                   : "m/s^2") +
+                    ">";
+           })
+      .def("to_dataframe", in_python("stickslip._motion_tables", "spectrum_to_dataframe"),
+           R"(Convert the spectrum to a pandas DataFrame, a row for each period and damping ratio.
+
+The columns are `period` [s], `damping` and the kind of the values, such as `pseudo_acceleration`; `df.attrs["units"]`
+has their units. ImportError without pandas.)")
+      .def("to_csv", csv_in("stickslip._motion_tables", "spectrum_to_csv"), py::arg("path"),
+           R"(Write the spectrum to a CSV file, whole or not at all, with the rows of `to_dataframe`.
+
+Parameters
+----------
+path : path-like
+    An existing file is replaced.
+
+Returns
+-------
+Path
+
+Raises
+------
+OSError
+    The folder is missing or cannot be written; the file is read-only or not a regular file.
+
+Notes
+-----
+Every number reads back as the same double.)")
+      .def("to_json", in_python("stickslip._motion_tables", "spectrum_to_json"),
+           R"(The spectrum as one JSON object (str): `kind`, `units`, `period`, `damping`, `values`.
+
+The values are nested lists of shape (D, P); every number reads back as the same double.)")
+      .def("_repr_html_", in_python("stickslip._html", "spectrum_html"));
 
   m.def(
       "response_spectrum",
-      [](const py::object& motion, const py::object& periods, const py::object& damping, const std::string& kind) {
+      [](const py::object& motion, const py::object& periods, const py::object& damping,
+         const std::string& kind) -> py::object {
+        if (is_suite(motion))
+          return py::module_::import("stickslip.intensity").attr("spectra")(motion, periods, damping, kind);
         auto all_periods = to_vector_or_number(periods, "response_spectrum: periods", "s");
         auto all_damping = to_vector_or_number(damping, "response_spectrum: damping", "");
         const SpectrumKind which = kind_of(kind);
-        const auto answer = [&](const auto& accelerations) {
-          const py::gil_scoped_release released;
-          return response_spectrum(accelerations, std::move(all_periods), std::move(all_damping), which);
+        const auto answer = [&](const auto& accelerations, const auto&... impulses) {
+          return py::cast([&] {
+            const py::gil_scoped_release released;
+            return response_spectrum(accelerations, std::move(all_periods), std::move(all_damping), which, impulses...);
+          }());
         };
         if (py::isinstance<GroundMotion>(motion)) return answer(motion.cast<const GroundMotion&>());
         if (!py::isinstance<ResponseWithInputs>(motion))
-          throw py::type_error("response_spectrum: motion must be a GroundMotion or a Response, got " +
+          throw py::type_error("response_spectrum: motion must be a GroundMotion, a Response or a Suite, got " +
                                py::repr(motion).cast<std::string>());
         const auto& response = motion.cast<const ResponseWithInputs&>();
-        return answer(with_inputs(response, [&](const auto& slider, const auto& ground) {
+        const FloorMotion floor = with_inputs(response, [&](const auto& slider, const auto& ground) {
           return floor_motion(slider, ground, response.response);
-        }));
+        });
+        return answer(floor.segments, floor.impulses);
       },
       py::arg("motion"), py::arg("periods"), py::arg("damping") = 0.05, py::kw_only(),
       py::arg("kind") = "pseudo_acceleration",
@@ -102,9 +142,11 @@ maximum includes the free vibration that follows.
 
 Parameters
 ----------
-motion : GroundMotion or Response
-    A response excites the oscillators with the absolute acceleration of the sliding mass, including its jumps where a
-    slip begins, reverses or stops. Settle the response, otherwise the floor motion ends with the record.
+motion : GroundMotion, Response or Suite
+    A suite gives the spectra of all its ground motions, as `SuiteSpectra`. A response excites the oscillators with the
+    absolute acceleration of the sliding mass along x, including its jumps where a slip begins, reverses or stops. An
+    impact on a stop, and the friction impulse of a landing, change the velocity of the mass at once: each oscillator
+    gets that jump as an impulse. Settle the response, otherwise the floor motion ends with the record.
 periods : float or array_like, shape (P,)
     Undamped natural periods T [s], in any order: each from 1e-6 to 1e6, or 0, a rigid oscillator, which gives the PGA
     as acceleration and 0 otherwise.
@@ -117,12 +159,13 @@ kind : str, optional
 
 Returns
 -------
-ResponseSpectrum
+ResponseSpectrum, or SuiteSpectra of a suite
 
 Raises
 ------
 ValueError
-    A period, a damping ratio or a kind that is not allowed (names its index); a truncated response.
+    A period, a damping ratio or a kind that is not allowed (names its index); a truncated response; an acceleration at
+    period 0 of a response with impacts, which is infinite.
 
 Notes
 -----
@@ -133,8 +176,10 @@ oscillators of long period continue to the displacement x' / wn: correct the bas
 The same accuracy holds for a response with a constant slip level, without spring and damper. Other responses are
 approximated by straight segments of the acceleration. For a constant level and a sampled ground motion, their error is
 at most 1e-6 of its maximum e, which changes a pseudo-acceleration by at most 1e-6 e coth(pi zeta / (2 sqrt(1 -
-zeta^2))): 13e-6 e at 5 %. For a Caster, VelocityDependent or a HarmonicMotion, the curve between two samples is first
-approximated by a polynomial of the fifth degree, whose error falls with the sixth power of the time step.
+zeta^2))): 13e-6 e at 5 %. For laws whose level changes during a slip, for a pendulum under vertical motion and for a
+HarmonicMotion, the curve between two samples is first approximated by a polynomial of the fifth degree, whose error
+falls with the sixth power of the time step. After an impact, the pseudo-acceleration of a stiff oscillator grows as
+2 pi / T: at periods below the duration of a real contact it depends on that contact, which is not in the model.
 
 100 periods of 10,000 samples take some 2 ms with even times (AVX-512), and up to 15 ms for white noise at critical
 damping. Uneven times take some 0.3 us for each period, damping ratio and change of the time step.

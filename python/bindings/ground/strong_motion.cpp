@@ -1,6 +1,9 @@
 #include "stickslip/ground/strong_motion.hpp"
 
+#include "ground/suite.hpp"
+#include "in_python.hpp"
 #include "parts.hpp"
+#include "statistics/estimate.hpp"
 
 namespace stickslip::python {
 
@@ -31,15 +34,53 @@ void bind_strong_motion(py::module_& m) {
       .def_readonly("rms_velocity", &StrongMotion::rms_velocity,
                     "Rms ground velocity between begin and end, about a straight line [m/s].")
       .def_readonly("center_frequency_hz", &StrongMotion::center_frequency_hz,
-                    "Centre frequency f_c of the pulses with these rms values [Hz].")
-      .def("__repr__", [](const StrongMotion& s) {
-        return "<StrongMotion: from " + detail::shortest(s.begin) + " to " + detail::shortest(s.end) +
-               " s, rms_acceleration " + detail::shortest(s.rms_acceleration) + " m/s^2, center frequency " +
-               detail::shortest(s.center_frequency_hz) + " Hz>";
-      });
+                    "Center frequency f_c of the pulses with these rms values [Hz].")
+      .def("__repr__",
+           [](const StrongMotion& s) {
+             return "<StrongMotion: PGA " + digits(s.peak_acceleration) + " m/s^2 (" +
+                    digits(s.peak_acceleration / standard_gravity) + " g), PGV " + digits(s.peak_velocity) +
+                    " m/s, Arias intensity " + digits(s.arias_intensity) + " m/s, D5-95 " + digits(s.duration) +
+                    " s, center frequency " + digits(s.center_frequency_hz) + " Hz>";
+           })
+      .def("to_dataframe", in_python("stickslip._motion_tables", "strong_motion_to_dataframe"),
+           R"(Convert the measures to a pandas DataFrame of one row.
 
-  m.def("strong_motion", &strong_motion, py::arg("motion"), py::call_guard<py::gil_scoped_release>(),
-        R"(Compute intensity measures of a record, and estimate the parameters of an equivalent pulse process.
+The columns are named after the attributes; `df.attrs["units"]` has their units. ImportError without pandas.)")
+      .def("to_csv", csv_in("stickslip._motion_tables", "strong_motion_to_csv"), py::arg("path"),
+           R"(Write the measures to a CSV file of one row, whole or not at all.
+
+Parameters
+----------
+path : path-like
+    An existing file is replaced.
+
+Returns
+-------
+Path
+
+Raises
+------
+OSError
+    The folder is missing or cannot be written; the file is read-only or not a regular file.)")
+      .def("to_json", in_python("stickslip._motion_tables", "strong_motion_to_json"),
+           R"(The measures and their `units` as one JSON object (str); NaN is null.)")
+      .def("_repr_html_", in_python("stickslip._html", "strong_motion_html"));
+
+  m.def(
+      "strong_motion",
+      [](const py::object& motion) -> py::object {
+        if (is_suite(motion)) return motion.attr("intensity_measures")();
+        if (!py::isinstance<GroundMotion>(motion))
+          throw py::type_error("strong_motion: motion must be a GroundMotion or a Suite, got " +
+                               py::repr(motion).cast<std::string>());
+        const auto& record = motion.cast<const GroundMotion&>();
+        return py::cast([&] {
+          const py::gil_scoped_release released;
+          return strong_motion(record);
+        }());
+      },
+      py::arg("motion"),
+      R"(Compute intensity measures of a record, and estimate the parameters of an equivalent pulse process.
 
 PGA, PGV, PGD, CAV, Arias intensity, significant durations D5-75 and D5-95 and mean period have their usual definitions;
 integrals and maxima are exact for linear and constant interpolation. For spectral accelerations see
@@ -64,12 +105,12 @@ correct this, f_c is divided by sqrt(1 + 3 / (2 f_c T)).
 
 Parameters
 ----------
-motion : GroundMotion
-    A record, with linear or constant interpolation.
+motion : GroundMotion or Suite
+    A record, with linear or constant interpolation; or a suite of them.
 
 Returns
 -------
-StrongMotion
+StrongMotion, or IntensityMeasures of a suite
 
 Raises
 ------

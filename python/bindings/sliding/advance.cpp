@@ -9,6 +9,16 @@
 namespace stickslip::python {
 namespace {
 
+/// Handles Ctrl-C within a long step.
+struct Interruptible {
+  unsigned work = 0;
+
+  void slide(const Slip&) {
+    if (++work % 16384 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  void event(EventKind, double, const State&) noexcept {}
+};
+
 State advanced(const py::object& what, State state, double dt, double start, std::optional<double> end,
                double vertical_start, std::optional<double> vertical_end, const std::string& contact) {
   const auto slider = slider_of(what);
@@ -22,9 +32,9 @@ State advanced(const py::object& what, State state, double dt, double start, std
   std::visit(
       [&](const auto& one) {
         if (vertical_start == 0 && up == 0)
-          advance(one, horizontal, state, NoObserver{}, lost);
+          advance(one, horizontal, state, Interruptible{}, lost);
         else
-          advance(one, detail::load_segment(horizontal, one.slope(), vertical_start, up), state, NoObserver{}, lost);
+          advance(one, detail::load_segment(horizontal, one.slope(), vertical_start, up), state, Interruptible{}, lost);
       },
       *slider);
   return state;
@@ -105,11 +115,12 @@ State
 Raises
 ------
 ValueError
-    A number that is not finite; a state beyond a stop.
+    A number that is not finite; a state beyond a stop; a velocity that points where the slip level is infinite.
 OverflowError
     The motion leaves the range of doubles.
 ConvergenceError
-    Events follow each other faster than time can be resolved.
+    Events follow each other faster than time can be resolved: the spring, damper, acceleration or slip level is too
+    large for a step this long.
 
 Notes
 -----

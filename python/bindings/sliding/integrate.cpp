@@ -1,8 +1,13 @@
+#include <pybind11/stl.h>
+
 #include <concepts>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bindings.hpp"
 #include "sliding/response.hpp"
+#include "sliding/units_remark.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -41,6 +46,17 @@ ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& moti
 }  // namespace
 
 void bind_integrate(py::module_& m) {
+  m.def(
+      "_units_remark",
+      [](const std::vector<AnySlider>& sliders, const std::vector<const GroundMotion*>& motions) {
+        const py::gil_scoped_release released;
+        for (const GroundMotion* const motion : motions)
+          for (const AnySlider& slider : sliders)
+            if (std::string remark = units_remark(slider, *motion); !remark.empty()) return remark;
+        return std::string();
+      },
+      py::arg("sliders"), py::arg("motions"),
+      "The remark on the first of some combinations, none of which slips, that would slip if accelerations were in g.");
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
         py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(),

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "in_python.hpp"
 #include "parts.hpp"
+#include "sliding/units_remark.hpp"
+#include "statistics/estimate.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -127,14 +130,17 @@ py::array impacts_of(const ResponseWithInputs& self) {
 
 std::string remark_of(const ResponseWithInputs& self) {
   constexpr double most = 0.2;
+  const auto& any = self.slider.cast<const AnySlider&>();
+  if (self.response.time_sliding == 0 && py::isinstance<GroundMotion>(self.motion))
+    return units_remark(any, self.motion.cast<const GroundMotion&>(), self.response.displacement.front());
   return std::visit(
       [&](const auto& slider) -> std::string {
         const double radius = standard_gravity / slider.stiffness();
         if (!slider.mounting().pendulum || self.response.peak <= most * radius) return "";
-        return "the displacement reaches " + detail::shortest(self.response.peak) + " m, beyond 0.2 of the radius of " +
-               detail::shortest(radius) + " m up to which a pendulum is linear to 2 %";
+        return "the displacement reaches " + digits(self.response.peak) + " m, beyond 0.2 of the radius of " +
+               digits(radius) + " m up to which a pendulum is linear to 2 %";
       },
-      self.slider.cast<const AnySlider&>());
+      any);
 }
 
 Loop loop_of(const ResponseWithInputs& self) {
@@ -158,11 +164,6 @@ Sensitivity sensitivity_of(const ResponseWithInputs& self, const std::string& na
       return {factor * one.peak, factor * one.residual, factor * one.velocity};
     }
   });
-}
-
-// A Python function that takes the response.
-auto in_python(const char* module, const char* function) {
-  return [=](const py::object& self) { return py::module_::import(module).attr(function)(self); };
 }
 
 template <auto member>
@@ -210,8 +211,8 @@ In meters, or m/s, per unit of the parameter.)")
       .def_readonly("residual", &Sensitivity::residual, "Derivative of the displacement at the end.")
       .def_readonly("velocity", &Sensitivity::velocity, "Derivative of the velocity at the end; 0 if the slider rests.")
       .def("__repr__", [](const Sensitivity& s) {
-        return "Sensitivity(peak=" + detail::shortest(s.peak) + ", residual=" + detail::shortest(s.residual) +
-               ", velocity=" + detail::shortest(s.velocity) + ")";
+        return "<Sensitivity: peak " + digits(s.peak) + ", residual " + digits(s.residual) + ", velocity " +
+               digits(s.velocity) + ">";
       });
 
   value_class<Energy>(m, "Energy", R"(Energy balance of a response, per unit mass [J/kg = m^2/s^2].
@@ -229,12 +230,13 @@ wn^2 (1 - N+/g) x x' dt.)")
       .def_readonly("elastic", &Energy::elastic, "wn^2 x^2 / 2 at the end.")
       .def_readonly("impact", &Energy::impact, "Energy lost on stops, the sum of (1 - restitution^2) x'^2 / 2.")
       .def_property_readonly("imbalance", &Energy::imbalance, "Residual of the energy balance (round-off).")
-      .def("__repr__", [](const Energy& e) {
-        return "Energy(initial=" + detail::shortest(e.initial) + ", input=" + detail::shortest(e.input) +
-               ", dissipated=" + detail::shortest(e.dissipated) + ", damped=" + detail::shortest(e.damped) +
-               ", kinetic=" + detail::shortest(e.kinetic) + ", elastic=" + detail::shortest(e.elastic) +
-               ", impact=" + detail::shortest(e.impact) + ")";
-      });
+      .def("__repr__",
+           [](const Energy& e) {
+             return "<Energy [m^2/s^2]: initial " + digits(e.initial) + ", input " + digits(e.input) + ", dissipated " +
+                    digits(e.dissipated) + ", damped " + digits(e.damped) + ", kinetic " + digits(e.kinetic) +
+                    ", elastic " + digits(e.elastic) + ", impact " + digits(e.impact) + ">";
+           })
+      .def("_repr_html_", in_python("stickslip._html", "energy_html"));
 
   value_class<ResponseWithInputs>(m, "Response",
                                   R"(The response of a slider to a ground motion, as `integrate` returns it.
@@ -302,7 +304,9 @@ motion up to rest.)")
           "contact", [](const ResponseWithInputs& r) { return name_of(r.response.contact); },
           "What happens at a loss of contact, 'flight' or 'clipped'; see `integrate`.")
       .def_property_readonly("remark", &remark_of,
-                             "A sentence about limits of the result; empty if there are none (str).")
+                             R"(A sentence about limits of the result; empty if there are none (str).
+
+A pendulum beyond 0.2 of its radius; a slider that never slips, but would if the ground accelerations were in g.)")
       .def_property_readonly(
           "margin", [](const ResponseWithInputs& r) { return margins_of(r).load; },
           R"(Smallest |load - level| / level at which stick or slip was decided; infinite if there was no decision.
@@ -331,7 +335,7 @@ and slips. After an impact at a speed near zero, the accuracy is only the square
 Solves the variational equation of each slip, with the jumps of its solution at events; not differences. With s the
 direction, f the acceleration, q' the rate of the load, a_s and a_k the levels of rest and sliding:
 
-    slip       d(v') = dp - s d(a_k N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx
+    slip       d(v') = dp - s d(a_k N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx,  a pendulum: wn^2 N+/g for wn^2
     arrest     dv = 0
     reversal   dv is multiplied by f+ / f-
     breakaway  dv = -(a_s - a_k) (d(a_s) + s wn^2 dx) / (q' - s a_s')
@@ -352,9 +356,9 @@ Sensitivity
 Raises
 ------
 ValueError
-    A law whose level changes during a slip (any but `Coulomb` and `StaticKinetic` of it); a pendulum; a
-    `HarmonicMotion`; a slider that leaves the ground; a parameter that the slider does not have; a response that is not
-    differentiable, where a velocity comes to zero without acceleration.
+    A law whose level changes during a slip (any but `Coulomb` and `StaticKinetic` of it); a `HarmonicMotion`; a slider
+    that leaves the ground; a parameter that the slider does not have; a response that is not differentiable, where a
+    velocity comes to zero without acceleration.
 
 Notes
 -----
@@ -396,51 +400,57 @@ an impact is that before it; a rebound from a stop is not a reversal.)")
           R"(2 pi / sqrt(k_eff) of the hysteresis loop with the largest displacement [s].
 
 k_eff = F / D, where D is `peak` and F the force of spring and friction there, just before the slider reverses or stops.
-With Coulomb friction k_eff = wn^2 + slip_level / D. ValueError without a spring, because there is no restoring force;
-if the slider never slips; if |x| is largest at the start, or at the end of an unfinished slip.)")
+With Coulomb friction k_eff = wn^2 + slip_level / D. Under vertical motion F has the normal force at that instant. On a
+slope D and F count from the position where the spring balances the weight. A stop does not count: at one, F is the
+force of spring and friction on arrival. ValueError without a spring, because there is no restoring force; if the slider
+never slips; if |x| is largest at the start, at the end of an unfinished slip, or in flight without a force.)")
       .def_property_readonly(
           "effective_damping", [](const ResponseWithInputs& r) { return loop_of(r).damping(); },
           R"(E_d / (2 pi k_eff D^2) of the same loop, a fraction of critical damping.
 
 The loops of an earthquake response do not close. E_d is therefore defined for a cycle from D to -D and back: 4 D times
 the energy per meter that friction and damper dissipated in the swing up to the peak. In a steady cycle about x = 0 this
-is the area of the loop; with Coulomb friction E_d = 4 slip_level D. ValueError as for `effective_period`.)")
-      .def("plot", plot_in("plot_response", "figure"), py::kw_only(), py::arg("figure") = py::none(),
-           py::arg("title") = py::none(),
-           R"(Plot ground acceleration with the slip level, velocity with shaded sticks, and displacement.
+is the area of the loop; with Coulomb friction E_d = 4 slip_level D. What stops take is not in it. ValueError as for
+`effective_period`.)")
+      .def(
+          "plot",
+          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& time) {
+            return py::module_::import("stickslip.plotting")
+                .attr("plot_response")(self, figure, title, py::arg("time") = time);
+          },
+          py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("time") = py::none(),
+          R"(Plot ground acceleration with the slip level, velocity with shaded sticks, and displacement.
 
-Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
-`title`. Returns the figure, see `stickslip.plotting.plot_response`.)")
+Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, `title`,
+and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns the figure, see
+`stickslip.plotting.plot_response`.)")
       .def(
           "plot_hysteresis",
-          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax) {
+          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,
+             const py::object& time) {
             return py::module_::import("stickslip.plotting")
-                .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax);
+                .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax, py::arg("time") = time);
           },
           py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("ax") = py::none(),
+          py::arg("time") = py::none(),
           R"(Plot force over displacement.
 
-Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, and `title`. Returns the
-axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
+Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, `title`, and `time`, the
+begin and end of the part to draw [s]. Returns the axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
       .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),
            R"(Convert the histories to a pandas DataFrame.
 
-The index is 'time [s]'; the names of the columns include units: ground acceleration, displacement, velocity,
-acceleration, friction, spring, damper and force, and 'stuck' (bool). Under vertical motion also the vertical ground
-acceleration, the gap and the normal force; on a slope also the normal force. The ground acceleration is 0 after the
-ground motion. ImportError without pandas.)")
+The index is `time` [s]; the columns are `ground_acceleration`, `displacement`, `velocity`, `acceleration`, `friction`,
+`spring`, `damper` and `force`, and `stuck` (bool). Under vertical motion also `vertical_ground_acceleration`, `gap` and
+`normal_force`; on a slope also `normal_force`. `frame.attrs["units"]` has the units by name. The ground acceleration is
+0 after the ground motion. ImportError without pandas.)")
       .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
            R"(Convert the histories to an xarray Dataset over the coordinate `time`.
 
 The variables are those of `to_dataframe`, each with the attributes `units` and `long_name`. Attributes of the
 Dataset: slider, motion (its name), peak [m], residual [m]. ImportError without xarray.)")
-      .def(
-          "to_csv",
-          [](const py::object& self, const py::object& path) {
-            return py::module_::import("stickslip._tables").attr("to_csv")(self, path);
-          },
-          py::arg("path"),
-          R"(Write the histories to a CSV file, whole or not at all.
+      .def("to_csv", csv_in("stickslip._tables", "to_csv"), py::arg("path"),
+           R"(Write the histories to a CSV file, whole or not at all.
 
 Parameters
 ----------
@@ -459,10 +469,8 @@ OSError
 Notes
 -----
 A line of names with units, then one line per sample; every number reads back as the same double.)")
-      .def(
-          "to_json",
-          [](const py::object& self) { return py::module_::import("stickslip._tables").attr("to_json")(self); },
-          R"(The results and histories as one JSON document, for instance for a web page.
+      .def("to_json", in_python("stickslip._tables", "to_json"),
+           R"(The results and histories as one JSON document, for instance for a web page.
 
 Returns
 -------
@@ -473,9 +481,10 @@ str
     number reads back as the same double; NaN and infinity, which JSON lacks, are null.)")
       .def("_repr_html_", in_python("stickslip._tables", "response_html"))
       .def("__repr__", [](const ResponseWithInputs& r) {
-        return "<Response: peak " + detail::shortest(r.response.peak) + " m, residual " +
-               detail::shortest(r.response.residual) + " m, " + std::to_string(r.response.events.size()) + " events" +
-               (r.response.truncated ? ", samples end before rest>" : ">");
+        const std::string remark = remark_of(r);
+        return "<Response: peak " + digits(r.response.peak) + " m, residual " + digits(r.response.residual) + " m, " +
+               std::to_string(r.response.events.size()) + " events" +
+               (r.response.truncated ? ", samples end before rest" : "") + (remark.empty() ? "" : "; " + remark) + ">";
       });
 }
 

@@ -9,9 +9,9 @@ namespace {
 
 Polarity polarity_of(const std::string& name) {
   if (name == "both") return Polarity::both;
-  if (name == "as recorded") return Polarity::as_recorded;
-  if (name == "flipped") return Polarity::flipped;
-  throw std::invalid_argument("sweep: polarity must be 'both', 'as recorded' or 'flipped', got '" + name + "'");
+  if (name == "recorded") return Polarity::recorded;
+  if (name == "reversed") return Polarity::reversed;
+  throw std::invalid_argument("sweep: polarity must be 'recorded', 'reversed' or 'both', got '" + name + "'");
 }
 
 template <class T>
@@ -51,12 +51,24 @@ py::dict run(const py::sequence& sliders, const py::sequence& motions, const std
   py::list failures;
   for (const SweepFailure& failure : table.failures)
     failures.append(py::make_tuple(failure.slider, failure.record,
-                                   failure.polarity == Polarity::flipped ? "flipped" : "as recorded", failure.message));
+                                   failure.polarity == Polarity::reversed ? "reversed" : "recorded", failure.message));
   py::dict result;
   result["peak"] = shaped(table, std::move(table.peak));
   result["residual"] = shaped(table, std::move(table.residual));
   result["sliding_distance"] = shaped(table, std::move(table.sliding_distance));
   result["events"] = shaped(table, std::move(table.events));
+  result["airborne"] = shaped(table, std::move(table.airborne)).attr("astype")("bool");
+  for (const auto& [side, name] : {std::pair(&Impacts::forward, "forward"), {&Impacts::backward, "backward"}}) {
+    std::vector<std::uint64_t> counts;
+    std::vector<double> speeds;
+    for (const Impacts& one : table.impacts) {
+      counts.push_back((one.*side).count);
+      speeds.push_back((one.*side).speed);
+    }
+    if (table.impacts.empty()) continue;
+    result[(std::string("impacts_") + name).c_str()] = shaped(table, std::move(counts));
+    result[(std::string("impact_speed_") + name).c_str()] = shaped(table, std::move(speeds));
+  }
   result["failures"] = failures;
   return result;
 }
@@ -69,7 +81,7 @@ void bind_sweep(py::module_& m) {
         R"(Implementation of `stickslip.sweep` (see there).
 
 Calls `progress(done, combinations)` ten times a second with the interpreter lock held. Returns the arrays of the table
-by name, and its failures.)");
+by name, and its failures; impacts only if a slider has stops.)");
 }
 
 }  // namespace stickslip::python

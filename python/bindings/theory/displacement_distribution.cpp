@@ -34,6 +34,8 @@ near x = 0 the density may grow as x^-1/2, and is averaged over a step there.
 References
 ----------
 W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1971), XVII.2.)")
+      .def_property_readonly("remark", &DisplacementDistribution::remark,
+                             "Parameters outside the range of the theory and the errors to expect; empty within it.")
       .def_property_readonly("atom", &DisplacementDistribution::atom,
                              "Probability of no slip, exp(-slips), that is, of exactly x = 0.")
       .def_property_readonly("slips", &DisplacementDistribution::slips, "Expected number of slips.")

@@ -7,6 +7,7 @@
 namespace stickslip::python {
 namespace {
 
+using detail::pulse_accuracy;
 using theory::PulseChain;
 
 Moments chain_moments(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses,
@@ -22,7 +23,7 @@ DisplacementDistribution chain_distribution(const PulseChain& self, const AnySli
   return {self, slider, pulses, time};
 }
 
-double chain_peak(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses, double probability) {
+Interval chain_peak(const PulseChain& self, const AnySlider& slider, const PoissonPulses& pulses, double probability) {
   const py::gil_scoped_release released;
   return self.peak(coulomb_of(slider), pulses, probability, &check_for_interrupt);
 }
@@ -56,16 +57,16 @@ Notes
 -----
 Against simulation, for the symmetric rectangular pulse and Gaussian amplitudes, lambda dt from 0.05 to 2 (4): growth
 rate and velocity variance are within 4 % (9 %) for sigma / a from 1 to 20, within 9 % (13 %) from 1/3. Below that they
-are too high: the growth rate by 19 % at 1/4 and 41 % at 1/5, the final rms of the thesis's events (lambda dt = 1/2) by
-9 % at 1/4, 16 % at 1/5, 27 % at 1/6 and 37(3) % at 0.15. With `refined` they are within 5 % from 1/3, and the final rms
-within 5 % down to 0.13; above sigma / a = 1 `refined` makes no difference. Within the first pulse length after the
-start from rest, E[x^2] and E[v^2] are within 10 % (lambda dt up to 1) and 17 % (up to 2) for sigma / a from 1/2, at any
-time down to dt / 20; otherwise `remark` says that they are off by up to a factor of 2.4. Later they are within 12 %.
+are too high, as `remark` says: the final rms of the thesis's events (lambda dt = 1/2) by 9 % at 1/4, 16 % at 1/5, 27 %
+at 1/6 and 37(3) % at 0.15. With `refined` they are within 5 % from 1/3, and the final rms within 5 % down to 0.13;
+above sigma / a = 1 `refined` makes no difference. Within the first pulse length after the start from rest, E[x^2] and
+E[v^2] are within 10 % (lambda dt up to 1) and 17 % (up to 2) for sigma / a from 1/2, at any time down to dt / 20;
+otherwise `remark` says that they are off by up to a factor of 2.4. Later they are within 12 %.
 
 If the two slip levels differ, including one-way sliding, or amplitudes have a mean, the displacement drifts. The mean
-velocity is within 8 % for levels that differ by a third or more (12 % for 1.1 times), the growth rate within 12 % (18 %
-for one-way sliding at lambda dt = 2) and the velocity variance within 8 % (13 %), for sigma over the smaller level from
-1/3 to 20 and lambda dt up to 2. If sigma exceeds 3 times the smaller level, these errors hold for a larger level of at
+velocity is within 8 % for levels that differ by a third or more (12 % for 1.1 times; 26 % with `refined`, which
+`remark` says), the growth rate within 12 % (18 % for one-way sliding at lambda dt = 2) and the velocity variance within
+8 % (13 %), for sigma over the smaller level from 1/3 to 20 and lambda dt up to 2. If sigma exceeds 3 times the smaller level, these errors hold for a larger level of at
 most 4 times the smaller one.
 
 Covers Coulomb friction without a spring; pulses of two to four equal steps (two with `refined`) whose values are
@@ -100,8 +101,9 @@ ConvergenceError
 Notes
 -----
 Takes 3 to 100 ms, with `refined` 0.1 to 5 s.)")
-          .def("distribution", &chain_distribution, py::arg("slider"), py::arg("pulses"), py::arg("time"),
-               R"(Predict the distribution of the displacement at a time.
+          .def(
+              "distribution", &chain_distribution, py::arg("slider"), py::arg("pulses"), py::arg("time"),
+              (std::string(R"(Predict the distribution of the displacement at a time.
 
 By closure: a compound Poisson law with gamma-distributed slip lengths is fitted to the first four cumulants of the
 chain, and to its probability of no slip. The densities are abs(d)^(k-1) exp(-abs(d) / theta), with one k for both
@@ -119,7 +121,7 @@ time : float
 Returns
 -------
 DisplacementDistribution
-    With the probability of no displacement, density, probabilities and quantiles.
+    With the probability of no displacement, density, probabilities, quantiles and `remark`.
 
 Raises
 ------
@@ -131,15 +133,16 @@ ConvergenceError
 
 Notes
 -----
-Compared with 100,000 blocks with equal levels, lambda dt from 0.05 to 2, at 10, 40 and 160 dt, the error of a
-probability is below 0.03 for sigma / a from 1/2 to 20, with `refined` from 1/3; with `refined` it is below 0.07 at 1/4
-and 1/5. docs/pulse_chain.md has the table. Takes 15 to 250 ms, with `refined` up to some seconds.)")
+)") + pulse_accuracy().distribution +
+               R"( Elsewhere `remark` of the result says what is known. docs/pulse_chain.md has the table. Takes 15 to 250
+ms, with `refined` up to some seconds.)")
+                  .c_str())
           .def("peak", &chain_peak, py::arg("slider"), py::arg("pulses"), py::arg("probability"),
-               R"(Estimate a quantile of the peak abs(x) of a block over the duration of the motion.
+               (std::string(R"(Estimate a quantile of the peak abs(x) of a block over the duration of the motion.
 
 It is the peak of a random walk whose steps are the slips of `distribution`, with a Poisson-distributed number, solved
-on a grid with absorbing walls at the peak. During each slip the block moves farther out by a mean-square factor for one
-pulse and two overlapping pulses.
+on a grid with absorbing walls at the peak. How far the block goes during a slip, beyond the point where the slip ends,
+follows from its length, by the responses to one pulse and to two that overlap.
 
 Parameters
 ----------
@@ -152,8 +155,10 @@ probability : float
 
 Returns
 -------
-float
-    Peak [m]; 0 if that fraction does not slip at all.
+Interval
+    Peak [m], 0 if that fraction does not slip at all; `float(...)` is the estimate. The bounds are the estimate divided
+    by the largest and the smallest ratio to simulations that are found in the range stated below; outside that range
+    they are 0 and infinity. They are not confidence bounds.
 
 Raises
 ------
@@ -164,10 +169,9 @@ ConvergenceError
 
 Notes
 -----
-In the thesis's four events, with mu from 0.05 to 0.7 and sigma / a from 0.2 to 5 (`refined` below 0.3), the ratio to
-the peaks of 40,000 blocks is 0.99 to 1.10 for the 95 % peak, 0.99 to 1.11 for the 99 % peak, and 0.97 to 1.04 for the
-median unless fewer than two slips are expected. These are for equal levels. Takes 60 to 350 ms, with `refined` up to 10
-s.)")
+)") + pulse_accuracy().peak +
+                " Takes 0.1 to 1 s, with `refined` up to 10 s.")
+                   .c_str())
           .def("final_rms", &chain_rms, py::arg("slider"), py::arg("pulses"),
                R"(Predict the rms displacement (E[x^2(t_d)])^(1/2) at t_d = pulses.duration; thesis figure 5.7.
 

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import glob
 import math
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .. import GroundMotion, PlausibilityWarning, read_record, read_station, sample_record
+from .. import GroundMotion, PlausibilityWarning
 from .._core import _ground_motion as ground_motion
 from .._core import _warn_if_implausible as warn_if_implausible
-from .._core import acceleration_unit
-from ..records import read_components
+from .._failures import grouped, with_options
+from .._paths import expanded, is_same_file
+from ..metadata import Metadata, orientation_text, readings
+from ..records import Component, Reading, files_in, read_components
+from ..samples import sample_files, sample_record
+from ..stations import Part, stations_of
 from .output import FAILURES, check_outputs, complain, reason_of
 from .parser import text_argument
 
@@ -33,19 +36,42 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="RECORD",
         help="file (AT2, COSMOS, GeoNet, K-NET, CSV and others); folder (all files in it); pattern"
-        " such as 'quakes/*.AT2'; or sample:Kobe, a sample record",
+        " such as 'quakes/*.AT2'; sample:Kobe, a sample record; or sample:all",
     )
     add(
         "--units",
         type=text_argument,
-        help="acceleration unit of files that state none: g, cm/s^2, ...",
+        metavar="UNIT",
+        help="unit of acceleration of files that state none: g, gal, ...; or column of --metadata",
     )
     add(
         "--component",
         type=text_argument,
-        help="name or number (from 1) in files with several components, or all",
+        metavar="NAME",
+        help="name or number (from 1) in files with several components; all; or vertical",
     )
-    add("--dt", type=float, help="time step [s] of files with one column")
+    add(
+        "--dt",
+        type=text_argument,
+        metavar="S",
+        help="time step [s] of files that state none (one column); or a column of --metadata",
+    )
+    add(
+        "--orientation",
+        action="extend",  # several records may have the same
+        nargs="+",
+        type=text_argument,
+        metavar="DIR",
+        help="direction of files that do not state it: an azimuth [degrees], N28W, up, ...; one for"
+        " each record; or a column of --metadata",
+    )
+    add(
+        "--metadata",
+        type=Path,
+        metavar="FILE",
+        help="CSV file with a row for each record, identified by a column file, record or name; its"
+        " columns units, dt (or dt_s) and orientation apply",
+    )
     add("--gaps", action="store_true", help="accept time steps over ten times the median")
     add(
         "--strict",
@@ -61,7 +87,7 @@ def add_vertical(parser: argparse.ArgumentParser) -> None:
     add(
         "--station",
         action="store_true",
-        help="each record is a file with all components of a station: its vertical component acts"
+        help="group the components of each station, from one file or several: the vertical one acts"
         " too, and --component is a horizontal component or an azimuth [degrees] (default: the"
         " first horizontal component)",
     )
@@ -83,6 +109,7 @@ class Motion(NamedTuple):
     motion: GroundMotion
     component: int | None  # from 1, where all are read
     units: str  # of the acceleration in the file; empty where it states none
+    given: str | None = None  # the unit where the file states none
 
 
 class Batch:
@@ -92,62 +119,104 @@ class Batch:
     ----------
     files : list of Path
         The files given, with folders and patterns expanded.
-    errors : list of dict
-        Failures so far, as --json lists them.
+    errors, left_out : list of dict
+        Failures and vertical components left out so far, as --json lists them.
     """
 
     def __init__(self, args: argparse.Namespace) -> None:
-        if args.units:
-            acceleration_unit(args.units)
         scale = getattr(args, "scale", None)
         for value in scale if isinstance(scale, tuple) else [scale]:
             if value is not None and not math.isfinite(value):
                 raise ValueError(f"--scale must be finite, got {value:g}")
         self.args = args
-        self.files = [file for given in args.records for file in _expanded(given)]
+        metadata = Metadata(args.metadata, "--metadata") if args.metadata else None
+        directions = args.orientation or []
+        self._reading = readings(
+            "--{}",
+            metadata,
+            units=args.units,
+            dt=args.dt,
+            orientation=directions[0] if len(directions) == 1 else None,
+            gaps=args.gaps,
+        )
+        self.files = [
+            file
+            for given in args.records
+            for file in _expanded(given)
+            if not (args.metadata and is_same_file(file, args.metadata))
+        ]
+        if metadata and self.files:
+            metadata.require_rows([str(file) for file in self.files])
+        self._directions = [_direction(text) for text in directions] if directions[1:] else []
+        if self._directions and len(self._directions) != len(self.files):
+            raise ValueError(
+                f"--orientation needs one direction for each of the {len(self.files)} records, got"
+                f" {len(self._directions)}"
+            )
         self.station = getattr(args, "station", False)
         self.vertical: Path | None = getattr(args, "vertical", None)
-        if self.station and args.component == "all":
-            raise ValueError("--station slides along one direction, got --component all")
+        if self.station and args.component in ("all", "vertical"):
+            raise ValueError(
+                f"--station slides along one direction, got --component {args.component}"
+            )
         if self.vertical is not None and len(self.files) != 1:
             raise ValueError(f"--vertical goes with one record, got {len(self.files)}")
         # What must not be written to.
-        self.inputs = [*self.files, *([self.vertical] if self.vertical else [])]
+        self.inputs = [*self.files, *(f for f in (self.vertical, args.metadata) if f)]
         self.errors: list[dict[str, str]] = []
+        self.left_out: list[dict[str, str]] = []
+        self.found = 0
         self.pictures = list(self._pictures())
         outputs = [("--plot", picture) for picture in self.pictures]
         if args.csv:
             outputs.append(("--csv", args.csv))
         check_outputs(outputs, self.inputs)
 
-    @property
-    def code(self) -> int:
-        """The exit code."""
-        return 1 if self.errors else 0
+    def finish(self) -> dict[str, list[dict[str, str]]]:
+        """Report what failed and what was left out; returns it for --json."""
+        for line in grouped((each["file"], each["error"]) for each in self.errors):
+            complain(line)
+        for line in grouped((each["file"], each["reason"]) for each in self.left_out):
+            complain(f"left out: {line}")
+        self.args.code = 1 if self.errors or (self.left_out and not self.found) else 0
+        return {"errors": self.errors, "left_out": self.left_out}
 
     @contextlib.contextmanager
     def reported(self, file: Path, prefix: str = "") -> Iterator[None]:
-        """Report a failure and continue, unless --strict."""
+        """Keep a failure for the end and continue, unless --strict."""
         try:
             yield
         except FAILURES as error:
-            reason = prefix + reason_of(error, file)
+            reason = prefix + with_options(reason_of(error, file), "--{}")
             if self.args.strict:
                 raise StrictError(f"{file}: {reason}") from error
-            complain(f"{file}: {reason}")
             self.errors.append({"file": str(file), "error": reason})
 
-    def motions(self, file: Path) -> list[Motion]:
-        """The requested ground motions of a file; prints warnings about them."""
+    def motions(self) -> Iterator[tuple[int, Path, Motion]]:
+        """The requested ground motions, with the place of their file; prints warnings."""
+        for each in self._stations() if self.station else self._records():
+            self.found += 1
+            yield each
+
+    def _records(self) -> Iterator[tuple[int, Path, Motion]]:
+        """The ground motions of separate files."""
+        for place, file in enumerate(self.files):
+            with self.reported(file):
+                with self._warnings(file):
+                    found = self._read(place, file)
+                for one in found:
+                    yield place, file, one
+
+    @contextlib.contextmanager
+    def _warnings(self, file: Path) -> Iterator[None]:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", PlausibilityWarning)
-            found = self._read(file)
+            yield
         for warning in caught:
             text = str(warning.message)
             if issubclass(warning.category, PlausibilityWarning):
                 text = f"{file}: {_in_words_of_the_command(text)}"
             complain(f"warning: {text}")
-        return found
 
     def picture(self, place: int, motion: Motion) -> Path:
         """The picture of one motion of a file."""
@@ -158,45 +227,87 @@ class Batch:
         check_outputs([("--plot", picture)], self.inputs)
         return picture
 
-    def _read(self, file: Path) -> list[Motion]:
-        found = self._read_horizontal(file)
+    def _read(self, place: int, file: Path) -> list[Motion]:
+        found = self._read_horizontal(place, file)
         if self.vertical is None:
             return found
         try:
-            up = read_record(self.vertical, **self._options)
+            reading = self._reading(str(self.vertical))._replace(orientation=None)
+            (up,) = read_components(self.vertical, reading, only_one=True)
         except FAILURES as error:  # else the line on stderr would name the record
             raise ValueError(f"--vertical: {reason_of(error)}") from error
-        return [one._replace(motion=_with_vertical(one.motion, up)) for one in found]
+        return [one._replace(motion=_with_vertical(one.motion, up.motion)) for one in found]
 
-    @property
-    def _options(self) -> dict[str, Any]:
-        """What the readers of all components are given."""
-        return {"units": self.args.units, "dt": self.args.dt, "gaps": self.args.gaps}
+    def _reading_of(self, place: int, file: str) -> Reading:
+        """What the reader of a file is given."""
+        given = self._reading(file)
+        return given._replace(orientation=self._directions[place]) if self._directions else given
 
-    def _read_horizontal(self, file: Path) -> list[Motion]:
+    def _read_horizontal(self, place: int, file: Path) -> list[Motion]:
         if str(file).startswith(_SAMPLE):
-            if self.station:
-                raise ValueError("a sample record has one component; --station needs a file")
             return [Motion(sample_record(str(file).removeprefix(_SAMPLE)), None, "g")]
         if file.is_dir():
             raise ValueError("the folder holds no files")
-        if self.station:
-            return [
-                Motion(read_station(file, along=self.args.component, **self._options), None, "")
-            ]
-        every = self.args.component == "all"
+        chosen = self.args.component
+        every = chosen in ("all", "vertical")
+        reading = self._reading_of(place, str(file))
         found = read_components(
-            file,
-            component=None if every else self.args.component,
-            only_one=self.args.component is None,
-            **self._options,
+            file, reading, component=None if every else chosen, only_one=chosen is None
         )
-        for one in found:
+        motions = []
+        for k, one in enumerate(found, 1):
+            if chosen == "vertical" and not one.is_vertical:
+                continue
+            if chosen in (None, "all") and self._leaves_out(str(file), one):
+                continue
             warn_if_implausible(one.motion, "read_record")
-        several = len(found) > 1
-        return [
-            Motion(one.motion, k if several else None, one.units) for k, one in enumerate(found, 1)
-        ]
+            number = k if len(found) > 1 else None
+            motions.append(
+                Motion(one.motion, number, one.units, reading.row_units or reading.units)
+            )
+        if chosen == "vertical" and not motions:
+            raise ValueError("no component is known to be vertical")
+        return motions
+
+    def _leaves_out(self, file: str, component: Component) -> bool:
+        """Whether a component is vertical and the command slides along it."""
+        if not (self.args.horizontal and component.is_vertical):
+            return False
+        reason = f"a vertical component ({component.motion.orientation}); --component vertical"
+        self.left_out.append({"file": file, "reason": f"{reason} slides along it"})
+        return True
+
+    def _stations(self) -> Iterator[tuple[int, Path, Motion]]:
+        """The ground motions of stations."""
+        places: dict[str, int] = {}
+        parts: list[Part] = []
+        for place, file in enumerate(self.files):
+            with self.reported(file):
+                if str(file).startswith(_SAMPLE):
+                    raise ValueError("a sample record has one component; --station needs a file")
+                if file.is_dir():
+                    raise ValueError("the folder holds no files")
+                for one in files_in(file):
+                    found = one.components(self._reading_of(place, one.shown))
+                    parts += [Part(one.shown, k, part) for k, part in enumerate(found, 1)]
+                    places[one.shown] = place
+        stations = stations_of(
+            parts, self.args.component, who="--component", together=bool(self._directions)
+        )
+        for station in stations:
+            place = places[station.files[0]]
+            file = self.files[place]
+            with self.reported(file):
+                only = station.parts[0].component
+                if station.reason and self._leaves_out(station.files[0], only):
+                    continue
+                if station.reason and not station.is_lonely:
+                    raise ValueError(station.reason)
+                with self._warnings(file):
+                    if station.reason:
+                        warnings.warn(f"{file}: {station.reason}", RuntimeWarning, stacklevel=1)
+                    warn_if_implausible(station.motion, "read_station")
+                yield place, file, Motion(station.motion, None, only.units)
 
     def _pictures(self) -> Iterator[Path]:
         """One picture for each record; a number distinguishes records of the same name."""
@@ -213,14 +324,19 @@ class Batch:
 
 def _expanded(given: Path) -> list[Path]:
     """The files of a folder or pattern; the path itself if it is neither, or names no file."""
-    if given.is_dir():
-        inside = sorted(file for file in given.rglob("*") if file.is_file())
-        shown = [f for f in inside if not any(p[0] == "." for p in f.relative_to(given).parts)]
-        return shown or [given]
-    if glob.has_magic(str(given)) and not given.exists():
-        matches = sorted(map(Path, glob.glob(str(given), recursive=True)))
-        return [file for match in matches for file in _expanded(match)] or [given]
-    return [given]
+    if str(given) in (f"{_SAMPLE}all", f"{_SAMPLE}*"):
+        return [Path(f"{_SAMPLE}{file.stem}") for file in sample_files()]
+    return expanded(given, enter=True) or [given]
+
+
+def _direction(text: str) -> str:
+    known = orientation_text(text)
+    if known is None:
+        raise ValueError(
+            "--orientation: with several, each must be an azimuth in degrees, N28W, up or the like,"
+            f" got {text!r}"
+        )
+    return known
 
 
 def _with_vertical(motion: GroundMotion, up: GroundMotion) -> GroundMotion:

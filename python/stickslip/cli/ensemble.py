@@ -19,10 +19,12 @@ from .. import (
 )
 from .._text import printable
 from .output import FAILURES, check_outputs, check_whole, complain, json_text, reason_of
-from .parser import numbers, text_argument
+from .parser import number, numbers, ratio, text_argument, whole
 from .slider import add_contact, add_slider, slider_of
 
 __all__ = ["add_ensemble"]
+
+_LEVELS = (0.01, 0.03, 0.1, 0.3, 1.0)  # default of --level [m]
 
 
 def add_ensemble(commands: argparse._SubParsersAction) -> None:
@@ -39,48 +41,51 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
     source.add_argument(
         "--event", metavar="NAME", type=text_argument, help="a scenario from the list below"
     )
-    source.add_argument("--rate", type=float, metavar="R", help="Poisson pulse rate [1/s]")
+    source.add_argument("--rate", type=number, metavar="R", help="Poisson pulse rate [1/s]")
     source.add_argument(
         "--band",
         nargs=3,
-        type=float,
+        type=number,
         metavar=("S0", "LOW", "HIGH"),
         help="Gaussian motion with two-sided spectral density S0 [m^2/s^3] from LOW to HIGH"
         " [rad/s]",
     )
-    add("--half-width", type=float, metavar="S", help="pulse half width [s] (with --rate)")
-    add("--sigma", type=float, metavar="A", help="rms pulse amplitude [m/s^2] (with --rate)")
-    add("--duration", type=float, metavar="S", help="duration [s] (with --rate)")
-    add("--dt", type=float, metavar="S", help="time step [s] (with --band)")
-    add("--samples", type=int, metavar="N", help="number of samples (with --band)")
+    add("--half-width", type=number, metavar="S", help="pulse half width [s] (with --rate)")
+    add("--sigma", type=number, metavar="A", help="rms pulse amplitude [m/s^2] (with --rate)")
+    add("--duration", type=number, metavar="S", help="duration [s] (with --rate)")
+    add("--dt", type=number, metavar="S", help="time step [s] (with --band)")
+    add("--samples", type=whole, metavar="N", help="number of samples (with --band)")
     add(
         "--vertical-ratio",
-        type=float,
+        type=ratio,
         metavar="R",
         help="add a vertical component, drawn independently of the horizontal one like it, and"
         " times this ratio (V/H, often near 2/3)",
     )
-    add("--mu", type=float, required=True, help="coefficient of friction [-]")
+    add("--mu", type=ratio, required=True, help="coefficient of friction [-]")
     add_slider(parser)
     add_contact(parser)
     add(
-        "--members", type=int, default=10_000, metavar="N", help="number of members (default 10000)"
+        "--members",
+        type=whole,
+        default=10_000,
+        metavar="N",
+        help="number of members (default 10000)",
     )
-    add("--seed", type=int, default=0, metavar="N", help="random seed (default 0)")
-    add("--threads", type=int, metavar="N", help="maximum number of threads (default: all cores)")
+    add("--seed", type=whole, default=0, metavar="N", help="random seed (default 0)")
+    add("--threads", type=whole, metavar="N", help="maximum number of threads (default: all cores)")
     add("--settle", action="store_true", help="continue after each motion until the block rests")
     add(
         "--level",
         nargs="+",
         type=numbers,
-        default=[0.01, 0.03, 0.1, 0.3, 1.0],
         metavar="M",
-        help="peak displacements whose probability of exceedance is printed [m] (default 0.01 0.03"
-        " 0.1 0.3 1)",
+        help="peak displacements whose probability of exceedance is printed [m], at most --stop-gap"
+        " (default 0.01 0.03 0.1 0.3 1)",
     )
     add(
         "--confidence",
-        type=float,
+        type=ratio,
         default=0.95,
         metavar="P",
         help="confidence level of the bounds (default 0.95)",
@@ -105,9 +110,16 @@ def _ensemble(args: argparse.Namespace) -> str:
     check_outputs((option, file) for option, file in files.items() if file)
     check_whole("--members", args.members, 2)  # for standard errors
     check_whole("--samples", args.samples, 1)
-    for level in args.level:
+    gap = math.inf if args.stop_gap is None else args.stop_gap
+    for level in args.level or ():
         if not 0 <= level < math.inf:
             raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
+        if level > gap:
+            raise ValueError(
+                f"--level must be at most --stop-gap, {gap:g} m, which keeps the block from"
+                f" exceeding it, got {level:g} m"
+            )
+    args.level = args.level or [level for level in _LEVELS if level <= gap]
     if not 0 < args.confidence < 1:
         raise ValueError(f"--confidence must lie between 0 and 1, got {args.confidence:g}")
     from ..ensemble import EnsembleError, run_ensemble  # imports NumPy, slowly
@@ -201,6 +213,8 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
             interval("peak_m", level, ensemble.exceedance(level, args.confidence))
             for level in args.level
         ],
+        **_impacts(args, ensemble),
+        "airborne": ensemble.airborne,
         **_residual(ensemble),
         "stationary": {
             "begin_s": stationary.begin,
@@ -212,6 +226,14 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
             "remark": stationary.remark,
         },
     }
+
+
+def _impacts(args: argparse.Namespace, ensemble: Ensemble) -> dict:
+    """The fraction of members that hit a stop; nothing without stops."""
+    if args.stop_gap is None:
+        return {}
+    value, low, high = ensemble.exceedance(args.stop_gap, args.confidence)
+    return {"impact_probability": {"value": value, "low": low, "high": high}}
 
 
 def _residual(ensemble: Ensemble) -> dict:
@@ -265,6 +287,11 @@ def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
     for i, found in enumerate(result["exceedance"]):
         level = f"{100 * found['peak_m']:g} cm"
         yield row("" if i else "peak exceeds", level, found, 100, "%")
+    if "impact_probability" in result:
+        gap = f"{100 * args.stop_gap:g} cm"
+        yield row("hits a stop", gap, result["impact_probability"], 100, "%")
+    if result["airborne"]:
+        yield f"{result['airborne']:,} members end in flight (--settle lets them land)"
     yield row("velocity variance", "", stationary["velocity_variance_m2_s2"], 1, "m^2/s^2")
     yield row("growth of variance of x", "", stationary["growth_rate_m2_s"], 1, "m^2/s")
     yield f"(the last two from {stationary['begin_s']:.3g} to {stationary['end_s']:.3g} s)"

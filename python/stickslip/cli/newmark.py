@@ -13,6 +13,7 @@ from .. import STANDARD_GRAVITY, Coulomb, GroundMotion
 from .._text import printable
 from .batch import Batch, add_files
 from .output import json_text, write_csv
+from .parser import ratio, ratios
 
 if TYPE_CHECKING:
     from ..sweeps import SweepTable
@@ -38,11 +39,11 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
     )
     add = parser.add_argument
     add_files(parser)
-    add("--ky", nargs="+", type=float, required=True, help="yield accelerations [g]")
-    add("--scale-pga", type=float, metavar="G", help="scale each record to this PGA [g]")
+    add("--ky", nargs="+", type=ratios, required=True, help="yield accelerations [g] or ranges")
+    add("--scale-pga", type=ratio, metavar="G", help="scale each record to this PGA [g]")
     add("--csv", type=Path, metavar="FILE", help="write the rows to a file, with all digits")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(run=_newmark, plot=None)
+    parser.set_defaults(horizontal=True, run=_newmark, plot=None)
 
 
 def newmark_rows(table: SweepTable) -> list[dict[str, Any]]:
@@ -60,9 +61,7 @@ def newmark_rows(table: SweepTable) -> list[dict[str, Any]]:
     """
     levels = table.parameters.get("ky", table.parameters.get("mu"))
     assert levels is not None
-    inverse, normal = (
-        table.peak[:, :, table.polarity.index(p)] for p in ("as recorded", "flipped")
-    )
+    inverse, normal = (table.peak[:, :, table.polarity.index(p)] for p in ("recorded", "reversed"))
     return [
         {
             "record": record,
@@ -81,8 +80,7 @@ def _block(ky: float) -> Coulomb:
 
 
 def _newmark(args: argparse.Namespace) -> str:
-    from ..suite import Suite  # imports NumPy, slowly
-    from ..sweeps import grid, sweep
+    from ..sweeps import grid, sweep  # imports NumPy, slowly
 
     for ky in args.ky:
         if not 0 < ky < math.inf:
@@ -92,15 +90,14 @@ def _newmark(args: argparse.Namespace) -> str:
     batch = Batch(args)
     files: list[Path] = []
     motions: list[GroundMotion] = []
-    for file in batch.files:
+    for _, file, found in batch.motions():
         with batch.reported(file):
-            for found in batch.motions(file):
-                motion = found.motion
-                if args.scale_pga is not None:
-                    motion = Suite([motion]).scaled_to(pga_g=args.scale_pga)[0]
-                files.append(file)
-                motions.append(motion)
-    args.code = batch.code
+            motion = found.motion
+            if args.scale_pga is not None:
+                motion = motion.scaled_to(pga_g=args.scale_pga)
+            files.append(file)
+            motions.append(motion)
+    said = batch.finish()
     rows: list[dict[str, Any]] = []
     if motions:
         rows = newmark_rows(sweep(grid(_block, ky=sorted(args.ky)), motions, settle=True))
@@ -111,7 +108,7 @@ def _newmark(args: argparse.Namespace) -> str:
     if args.csv:
         write_csv(args.csv, _COLUMNS, rows)
     if args.json:
-        return json_text({"results": rows, "statistics": _statistics(rows), "errors": batch.errors})
+        return json_text({"results": rows, "statistics": _statistics(rows), **said})
     return "\n".join(_lines(rows))
 
 

@@ -116,7 +116,13 @@ def version() -> str:
     info = build_info()
     contained = [
         f"{name} {info[key]}"
-        for name, key in (("FFTW", "fftw"), ("GSL", "gsl"), ("SUNDIALS", "sundials"))
+        for name, key in (
+            ("Eigen", "eigen"),
+            ("FFTW", "fftw"),
+            ("GSL", "gsl"),
+            ("Highway", "highway"),
+            ("SUNDIALS", "sundials"),
+        )
         if info.get(key)
     ]
     made = [f"{word} {info[word]}" for word in ("commit", "compiler") if info.get(word)]
@@ -143,5 +149,5 @@ def write_csv(file: Path, names: Sequence[str], rows: Iterable[dict[str, Any]]) 
 
 
 def column(value: float, width: int, places: int = 2) -> str:
-    text = f"{value:{width}.{places}f}"
+    text = f"{round(value, places) + 0.0:{width}.{places}f}"  # no -0.00
     return text if len(text) <= width else f"{value:{width}.1e}"

@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from typing import Any, NoReturn, TextIO
 
 from .._text import printable
 from .output import write, write_error
 
-__all__ = ["Parser", "numbers", "text_argument"]
+__all__ = ["Parser", "number", "numbers", "ratio", "ratios", "text_argument", "whole"]
 
 _MOST_STEPS = 10_000  # in a range
 
@@ -25,8 +26,10 @@ class Parser(argparse.ArgumentParser):
             self.register("action", action, Store)
 
     def error(self, message: str) -> NoReturn:
-        # argparse prints the usage on stdout where stderr is closed
-        self.exit(2, f"{self.format_usage()}{self.prog}: error: {printable(message)}\n")
+        # argparse prints the usage, up to ten lines, and on stdout where stderr is closed
+        self.exit(
+            2, f"{self.prog}: error: {printable(message)} ({self.prog} --help: all options)\n"
+        )
 
     def _print_message(self, message: str, file: TextIO | None = None) -> None:
         if file is sys.stdout:
@@ -71,14 +74,60 @@ def text_argument(argument: str) -> str:
 
 def numbers(argument: str) -> float | tuple[float, ...]:
     """A number, or those of a range START:STOP:STEP, including STOP, in decimal arithmetic."""
+    return _numbers(argument, _decimal)
+
+
+def ratios(argument: str) -> float | tuple[float, ...]:
+    """As `numbers`, for quantities that may be given in percent, such as 10%."""
+    return _numbers(argument, _ratio)
+
+
+def number(argument: str) -> float:
+    """One number."""
+    return _single(numbers(argument), argument)
+
+
+def ratio(argument: str) -> float:
+    """One number, which may be given in percent."""
+    return _single(ratios(argument), argument)
+
+
+def whole(argument: str) -> int:
+    """A whole number, such as 100000 or 1e5."""
+    value = _decimal(argument)
+    if not value.is_finite() or value != value.to_integral_value() or abs(value) >= 10**30:
+        raise argparse.ArgumentTypeError(f"must be a whole number, got {argument}")
+    return int(value)
+
+
+def _single(value: float | tuple[float, ...], argument: str) -> float:
+    if isinstance(value, tuple):
+        raise argparse.ArgumentTypeError(f"takes one number, got the range {argument}")
+    return value
+
+
+def _decimal(text: str) -> Decimal:
+    try:
+        return Decimal(text.strip())
+    except InvalidOperation:
+        percent = "; percent is for ratios" if text.strip().endswith("%") else ""
+        raise argparse.ArgumentTypeError(f"must be a number, got {text!r}{percent}") from None
+
+
+def _ratio(text: str) -> Decimal:
+    text = text.strip()
+    return _decimal(text[:-1]) / 100 if text.endswith("%") else _decimal(text)
+
+
+def _numbers(argument: str, parse: Callable[[str], Decimal]) -> float | tuple[float, ...]:
     if ":" not in argument:
-        return float(argument)
+        return float(parse(argument))
     parts = argument.split(":")
     try:
-        start, stop, step = map(Decimal, parts)
+        start, stop, step = map(parse, parts)
         if not all(part.is_finite() for part in (start, stop, step)):
-            raise InvalidOperation
-    except (InvalidOperation, ValueError):
+            raise ValueError
+    except (argparse.ArgumentTypeError, ValueError):
         raise argparse.ArgumentTypeError(
             f"a range is START:STOP:STEP, three finite numbers, got {argument}"
         ) from None

@@ -51,7 +51,7 @@ def add_records(commands: argparse._SubParsersAction) -> None:
     add_files(parser)
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
     add("--json", action="store_true", help="one JSON document, exact doubles")
-    parser.set_defaults(run=_records, component="all", plot=None)
+    parser.set_defaults(horizontal=False, run=_records, component="all", plot=None)
 
 
 class _Formats(argparse.Action):
@@ -77,19 +77,19 @@ class _Formats(argparse.Action):
 def _records(args: argparse.Namespace) -> str:
     batch = Batch(args)
     rows: list[dict[str, Any]] = []
-    for file in batch.files:
+    for _, file, found in batch.motions():
         with batch.reported(file):
-            rows += [_row(file, found, args.units) for found in batch.motions(file)]
+            rows.append(_row(file, found))
+    said = batch.finish()
     if args.csv:
         write_csv(args.csv, _COLUMNS, rows)
-    args.code = batch.code
     if args.json:
-        return json_text({"records": rows, "errors": batch.errors})
+        return json_text({"records": rows, "errors": said["errors"]})
     wrote = [f"wrote {printable(str(args.csv))}"] if args.csv else []
     return "\n".join([*_table(rows), *wrote])
 
 
-def _row(file: Path, found: Motion, given: str | None) -> dict[str, Any]:
+def _row(file: Path, found: Motion) -> dict[str, Any]:
     motion = found.motion
     measures = strong_motion(motion)
     return {
@@ -104,7 +104,7 @@ def _row(file: Path, found: Motion, given: str | None) -> dict[str, Any]:
         "pgv_m_s": measures.peak_velocity,
         "arias_intensity_m_s": measures.arias_intensity,
         "d5_95_s": measures.duration,
-        "units": found.units or given,
+        "units": found.units or found.given,
         "units_from": "file" if found.units else "option",
     }
 

@@ -11,8 +11,8 @@ from typing import Any, Literal
 from .. import STANDARD_GRAVITY, ConvergenceError, GroundMotion, Response, Slider, integrate
 from .._text import printable
 from .batch import Batch, add_files, add_vertical
-from .output import column, json_text, write_csv
-from .parser import numbers
+from .output import column, complain, json_text, write_csv
+from .parser import ratios
 from .slider import add_contact, add_slider, described, heading, slider_of, variations
 
 __all__ = ["add_slide"]
@@ -42,6 +42,10 @@ _COLUMNS = (
     "sliding_distance_m",
     "time_sliding_s",
     "slips",
+    "impacts_forward",
+    "impact_speed_forward_m_s",
+    "impacts_backward",
+    "impact_speed_backward_m_s",
     "at_rest",
 )
 
@@ -49,9 +53,9 @@ _COLUMNS = (
 def add_slide(commands: argparse._SubParsersAction) -> None:
     parser = commands.add_parser(
         "slide",
-        help="slide records and print displacements",
-        description="Slides a block through strong-motion records and continues after the end of"
-        " each record until the block comes to rest. Prints peak, residual and path length of the"
+        help="slide blocks under records and print displacements",
+        description="Slides blocks under strong-motion records and continues after the end of"
+        " each record until they come to rest. Prints peak, residual and path length of the"
         " displacement relative to the ground [cm], the time spent sliding [s] and the number of"
         " slips (a reversal ends one slip and begins another). Ground acceleration is given in g ="
         " 9.80665 m/s^2.",
@@ -70,24 +74,26 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     add(
         "--mu",
         nargs="+",
-        type=numbers,
+        type=ratios,
         required=True,
         help="coefficients of friction [-] or ranges; a repeated value is used once",
     )
     add_slider(parser, ranges=True)
     add_vertical(parser)
     add_contact(parser)
-    add("--scale", type=numbers, default=1.0, help="factor on the ground acceleration (default 1)")
-    add(
-        "--both",
-        action="store_true",
-        help="slide each record as recorded and reversed; also print the mean of both (for"
-        " residuals, of their magnitudes)",
+    add("--scale", type=ratios, default=1.0, help="factor on the ground acceleration (default 1)")
+    sense = parser.add_mutually_exclusive_group().add_argument
+    sense(
+        "--polarity",
+        choices=("recorded", "reversed", "both"),
+        help="slide each record as recorded (the default), reversed, or both; also prints the mean"
+        " of both (for residuals, of their magnitudes)",
     )
+    sense("--both", action="store_const", const="both", dest="polarity", help="--polarity both")
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(run=_slide)
+    parser.set_defaults(horizontal=True, run=_slide)
 
 
 def _slide(args: argparse.Namespace) -> str:
@@ -96,34 +102,38 @@ def _slide(args: argparse.Namespace) -> str:
     batch = Batch(args)
     rows: list[dict[str, Any]] = []
     written: list[str] = []
-    polarities = {"recorded": 1, "reversed": -1} if args.both else {None: 1}
-    for place, file in enumerate(batch.files):
-        with batch.reported(file):
-            for found in batch.motions(file):
-                responses = {}
-                for case, slider in sliders:
-                    label = ", ".join(described(case, several, "\u03bc"))
-                    who = ", ".join(described(case, several))
-                    with batch.reported(file, f"{who}: "):
-                        both = []
-                        for polarity, sign in polarities.items():
-                            factor = sign * case.scale
-                            motion = found.motion if factor == 1 else found.motion.scaled(factor)
-                            response = _settle(slider, motion, case.contact)
-                            responses[label + (f", {polarity}" if polarity else "")] = response
-                            both.append(
-                                _row(case, file, found.component, slider, response, polarity)
-                            )
-                        rows += [*both, *([_mean(both)] if args.both else [])]
-                if args.plot and responses:
-                    picture = batch.picture(place, found)
-                    _draw(responses, picture)
-                    written.append(str(picture))
+    slips, remark = False, ""
+    both_ways = args.polarity == "both"
+    signs = {"recorded": 1, "reversed": -1}
+    polarities = signs if both_ways else {args.polarity: signs[args.polarity or "recorded"]}
+    for place, file, found in batch.motions():
+        responses = {}
+        for case, slider in sliders:
+            label = ", ".join(described(case, several, "\u03bc"))
+            who = ", ".join(described(case, several))
+            with batch.reported(file, f"{who}: "):
+                both = []
+                for polarity, sign in polarities.items():
+                    factor = sign * case.scale
+                    motion = found.motion if factor == 1 else found.motion.scaled(factor)
+                    response = _settle(slider, motion, case.contact)
+                    responses[label + (f", {polarity}" if both_ways else "")] = response
+                    slips = slips or response.time_sliding > 0
+                    remark = remark or ("" if slips else response.remark)
+                    both.append(_row(case, file, found.component, slider, response, polarity))
+                rows += [*both, *([_mean(both)] if both_ways else [])]
+        if args.plot and responses:
+            with batch.reported(file):
+                picture = batch.picture(place, found)
+                _draw(responses, picture)
+                written.append(str(picture))
     if args.csv:
         write_csv(args.csv, _COLUMNS, rows)
-    args.code = batch.code
+    if args.units and remark and not slips:
+        complain("warning: " + remark.replace('units="g"', "--units g"))
+    said = batch.finish()
     if args.json:
-        return json_text({"results": rows, "errors": batch.errors, "figures": written})
+        return json_text({"results": rows, **said, "figures": written})
     written += [str(args.csv)] if args.csv else []
     table = _table(rows, [name for name in several if name != "mu"])
     return "\n".join([*table, *(f"wrote {printable(name)}" for name in written)])
@@ -183,8 +193,24 @@ def _row(
         "sliding_distance_m": response.sliding_distance,
         "time_sliding_s": response.time_sliding,
         "slips": response.slips,
+        **_impacts(response),
         "at_rest": response.at_rest,
     }
+
+
+def _impacts(response: Response) -> dict[str, Any]:
+    """The number of impacts on each stop and the largest speed before one; None without stops."""
+    names = ("impacts_{}", "impact_speed_{}_m_s")
+    if response.slider.stops is None:  # and no array is made, which would import NumPy
+        return {name.format(side): None for side in ("forward", "backward") for name in names}
+    hits = response.impacts
+    found: dict[str, Any] = {}
+    for side, sign in (("forward", 1), ("backward", -1)):
+        speed = abs(hits["velocity"][sign * hits["displacement"] > 0])
+        found |= zip(
+            (name.format(side) for name in names), (speed.size, float(speed.max(initial=0)))
+        )
+    return found
 
 
 def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
@@ -195,6 +221,8 @@ def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
         return statistics.fmean(abs(row[name]) for row in rows)
 
     names = ("peak_m", "residual_m", "sliding_distance_m", "time_sliding_s", "slips")
+    if rows[0]["impacts_forward"] is not None:
+        names += tuple(name for name in rows[0] if name.startswith("impact"))
     return {
         **rows[0],
         "polarity": "mean",
@@ -220,12 +248,21 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     if not rows:
         return
     names = [_name(row) for row in rows]
+    # Options that were given once would be in no column, and nothing else would tell of them.
+    given = [
+        name
+        for name in ("mu_static", "stop_gap", "restitution")
+        if rows[0][_KEYS[name]] is not None
+    ]
+    several = [*(name for name in given if name not in several), *several]
+    stops = rows[0]["impacts_forward"] is not None
     width = max(len("record"), *map(len, names))
     both = any(row["polarity"] for row in rows)
     more = "".join(f"  {heading(name):>11}" for name in several)
     yield (
         f"{'record':{width}}  PGA [g]     mu{more}{'  polarity' if both else ''}  peak [cm]"
         "  residual [cm]  distance [cm]  sliding [s]  slips"
+        f"{'  impacts  at most [m/s]' if stops else ''}"
     )
     last: object = None
     for name, row in zip(names, rows):
@@ -238,9 +275,17 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
             f"  {column(row['peak_m'] * 100, 9)}  {column(row['residual_m'] * 100, 13)}"
             f"  {column(row['sliding_distance_m'] * 100, 13)}"
             f"  {column(row['time_sliding_s'], 11)}"
-            f"  {row['slips']:5g}{'' if row['at_rest'] else '  never rests: at end of record'}"
+            f"  {row['slips']:5g}{_hits(row) if stops else ''}"
+            f"{'' if row['at_rest'] else '  never rests: at end of record'}"
         )
         last = this
+
+
+def _hits(row: dict[str, Any]) -> str:
+    """The columns of impacts: those on both stops together."""
+    count = row["impacts_forward"] + row["impacts_backward"]
+    speed = max(row["impact_speed_forward_m_s"], row["impact_speed_backward_m_s"])
+    return f"  {count:7g}  {speed:14.3g}"
 
 
 def _name(row: dict[str, Any]) -> str:

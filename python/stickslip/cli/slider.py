@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from .. import Caster, Coulomb, Slider, StaticKinetic, Stops
-from .parser import numbers
+from .parser import number, numbers, ratio, ratios
 
 __all__ = ["add_contact", "add_slider", "described", "heading", "slider_of", "variations"]
 
@@ -36,35 +36,38 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     ranges : bool, optional
         Whether the options accept ranges START:STOP:STEP.
     """
-    number: Callable[[str], Any] = numbers if ranges else float
+    length: Callable[[str], Any] = numbers if ranges else number
+    part: Callable[[str], Any] = ratios if ranges else ratio
     add = parser.add_argument
     add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
     add(
         "--mu-static",
-        type=number,
+        type=part,
         metavar="MU",
         help="coefficient of static friction [-], at least --mu, which is then the kinetic one",
     )
-    add("--reach", type=number, metavar="M", help="caster: distance over which the level falls [m]")
+    add("--reach", type=length, metavar="M", help="caster: distance over which the level falls [m]")
     add(
         "--trail",
-        type=float,
+        type=number,
         metavar="M",
         help="caster: pivot to wheel axis [m]; with --wheel-width, instead of --reach",
     )
-    add("--wheel-width", type=float, metavar="M", help="caster: width of a wheel [m]; with --trail")
-    add("--period", type=number, metavar="S", help="period of the mass on its spring [s]")
-    add("--damping-ratio", type=number, metavar="Z", help="damping ratio; with --period")
-    add("--slope", type=number, metavar="DEGREES", help="slope of the ground; downhill is forward")
+    add(
+        "--wheel-width", type=number, metavar="M", help="caster: width of a wheel [m]; with --trail"
+    )
+    add("--period", type=length, metavar="S", help="period of the mass on its spring [s]")
+    add("--damping-ratio", type=part, metavar="Z", help="damping ratio; with --period")
+    add("--slope", type=length, metavar="DEGREES", help="slope of the ground; downhill is forward")
     add(
         "--stop-gap",
-        type=number,
+        type=length,
         metavar="M",
         help="distance from the start to a stop, both ways [m]",
     )
     add(
         "--restitution",
-        type=number,
+        type=part,
         metavar="E",
         help="speed after an impact on a stop over that before, from 0 to 1; with --stop-gap",
     )

@@ -11,7 +11,7 @@ from .. import STANDARD_GRAVITY, ResponseSpectrum, response_spectrum
 from .._text import printable
 from .batch import Batch, Motion, add_files
 from .output import column, json_text, write_csv
-from .parser import numbers
+from .parser import numbers, ratio, ratios
 
 __all__ = ["add_spectrum"]
 
@@ -51,7 +51,7 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
     add(
         "--damping",
         nargs="+",
-        type=numbers,
+        type=ratios,
         default=[0.05],
         metavar="Z",
         help="ratios of critical damping, at least 0 and below 2 (default 0.05)",
@@ -62,17 +62,17 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         default="pseudo_acceleration",
         help="spectral quantity (default pseudo_acceleration)",
     )
-    add("--scale", type=float, default=1.0, help="factor on the ground acceleration (default 1)")
+    add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
     add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(run=_spectrum)
+    parser.set_defaults(horizontal=False, run=_spectrum)
 
 
 def _spectrum(args: argparse.Namespace) -> str:
-    for ratio in args.damping:
-        if not 0 <= ratio < 2:
-            raise ValueError(f"--damping must be at least 0 and below 2, got {ratio:g}")
+    for zeta in args.damping:
+        if not 0 <= zeta < 2:
+            raise ValueError(f"--damping must be at least 0 and below 2, got {zeta:g}")
     for period in args.periods or []:
         if not (period == 0 or 1e-6 <= period <= 1e6):
             raise ValueError(f"--periods must be 0 or from 1e-6 to 1e6 s, got {period:g} s")
@@ -81,30 +81,27 @@ def _spectrum(args: argparse.Namespace) -> str:
     rows: list[dict[str, Any]] = []
     written: list[str] = []
     in_files = args.csv or args.json or args.plot
-    for place, file in enumerate(batch.files):
+    for place, file, found in batch.motions():
         with batch.reported(file):
-            for found in batch.motions(file):
-                motion = found.motion if args.scale == 1 else found.motion.scaled(args.scale)
-                few = response_spectrum(
-                    motion, args.periods or _PRINTED, args.damping, kind=args.kind
-                )
-                printed += _rows(args, file, found, few)
-                if not in_files:
-                    continue
-                many = few
-                if not args.periods:
-                    many = response_spectrum(motion, _DRAWN, args.damping, kind=args.kind)
-                rows += _rows(args, file, found, many)
-                if args.plot:
-                    picture = batch.picture(place, found)
-                    _draw(many, motion.name, picture)
-                    written.append(str(picture))
+            motion = found.motion if args.scale == 1 else found.motion.scaled(args.scale)
+            few = response_spectrum(motion, args.periods or _PRINTED, args.damping, kind=args.kind)
+            printed += _rows(args, file, found, few)
+            if not in_files:
+                continue
+            many = few
+            if not args.periods:
+                many = response_spectrum(motion, _DRAWN, args.damping, kind=args.kind)
+            rows += _rows(args, file, found, many)
+            if args.plot:
+                picture = batch.picture(place, found)
+                _draw(many, motion.name, picture)
+                written.append(str(picture))
     if args.csv:
         names = ("file", "record", "component", "scale", "damping_ratio", "period_s")
         write_csv(args.csv, (*names, _KINDS[args.kind][2]), rows)
-    args.code = batch.code
+    said = batch.finish()
     if args.json:
-        return json_text({"results": rows, "errors": batch.errors, "figures": written})
+        return json_text({"results": rows, "errors": said["errors"], "figures": written})
     written += [str(args.csv)] if args.csv else []
     return "\n".join([*_table(args, printed), *(f"wrote {printable(name)}" for name in written)])
 
@@ -120,14 +117,14 @@ def _rows(
 ) -> Iterator[dict[str, Any]]:
     key = _KINDS[args.kind][2]
     values = spectrum.values.reshape(len(args.damping), -1).tolist()
-    for ratio, row in zip(args.damping, values):
+    for zeta, row in zip(args.damping, values):
         for period, value in zip(spectrum.periods.tolist(), row):
             yield {
                 "file": str(file),
                 "record": found.motion.name,
                 "component": found.component,
                 "scale": args.scale,
-                "damping_ratio": ratio,
+                "damping_ratio": zeta,
                 "period_s": period,
                 key: value,
             }

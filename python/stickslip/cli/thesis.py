@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 from .._files import replacing
 from .._text import printable
 from .output import check_whole
+from .parser import whole
 
 __all__ = ["add_thesis"]
 
@@ -29,12 +31,12 @@ def add_thesis(commands: argparse._SubParsersAction) -> None:
     add("numbers", nargs="*", metavar="NUMBER", help="such as 4.6, A.2, 'Table 5.1' (default: all)")
     add(
         "--members",
-        type=int,
+        type=whole,
         metavar="N",
         help="number of members of each ensemble (default 100000; --check: 2000)",
     )
-    add("--seed", type=int, metavar="N", help="random seed (default 1; --check: 2)")
-    add("--threads", type=int, metavar="N", help="maximum number of threads (default: all cores)")
+    add("--seed", type=whole, metavar="N", help="random seed (default 1; --check: 2)")
+    add("--threads", type=whole, metavar="N", help="maximum number of threads (default: all cores)")
     add(
         "--out",
         type=Path,
@@ -100,16 +102,19 @@ def _thesis(args: argparse.Namespace) -> str:
     if folder:
         with replacing(folder / "gallery.md") as stream:
             stream.write(thesis.page(figures, f".{args.format}").encode())
+    written = f"{len(figures)} figure{'' if len(figures) == 1 else 's'}"
     if not args.check:
-        return f"{summary}wrote {len(figures)} figures to {printable(str(folder))}"
+        return f"{summary}wrote {written} to {printable(str(folder))}"
     args.code = 0 if all(check.holds for check in checks) else 1
-    plural = "" if len(figures) == 1 else "s"
-    verdict = f"{len(figures)} figure{plural}, {thesis.thesis_verdict(checks)}"
+    verdict = f"{written}, {thesis.thesis_verdict(checks)}"
     return "\n".join([*map(_checked, checks), verdict])
 
 
 def _checked(check: Any) -> str:
+    verdict = "holds" if check.holds else "off  "
+    if math.isnan(check.found) and math.isnan(check.expected):  # a text
+        return f"{verdict}  {check.what}"
     return (
-        f"{'holds' if check.holds else 'off  '}  {check.what:28} found {check.found:<14.8g}"
+        f"{verdict}  {check.what:28} found {check.found:<14.8g}"
         f" expected {check.expected:<14.8g} +- {check.allowed:.2g}"
     )

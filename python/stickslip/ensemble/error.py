@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 from .._core import Ensemble
 
 
@@ -25,3 +27,9 @@ class EnsembleError(RuntimeError):
 
     def __reduce__(self) -> tuple[type[EnsembleError], tuple[str, range, Ensemble]]:
         return type(self), (str(self), self.members, self.partial)
+
+
+def how_to_pickle(error: BaseException) -> str:
+    """What to do about a law of a lambda or a local function, which no other process can get."""
+    is_of_pickle = isinstance(error, pickle.PicklingError) or "pickle" in str(error)
+    return " (define the functions of laws in a module, not in place)" if is_of_pickle else ""

@@ -7,6 +7,7 @@ import json
 import os
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,13 +15,26 @@ from .. import _core
 from .._core import Ensemble
 from .._files import check_regular, replacing
 
-_FORMAT = "stickslip ensemble 3"
-_FORMER = "stickslip ensemble 2"  # without the ground acceleration
+_FORMAT = "stickslip ensemble 4"
+# What earlier formats did not hold, and what then stands for it.
+_IMPACTS = {
+    "airborne": 0,
+    "gaps": np.full(2, np.inf),
+    "hits": np.zeros(3, np.uint64),
+    **{name: np.zeros(0, np.uint64) for name in ("impact_block", "impacts_forward")},
+    "impacts_backward": np.zeros(0, np.uint64),
+    **{f"impact_speed_{side}": np.zeros(0) for side in ("forward", "backward")},
+}
+_FORMER: dict[str, dict[str, Any]] = {
+    "stickslip ensemble 3": _IMPACTS,
+    "stickslip ensemble 2": _IMPACTS | {"ground_acceleration": False},
+}
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
     *("configuration", "dt", "times", "velocity_spectrum", "ground_acceleration"),
     *("level", "number", "count", "sums", "cut_block", "cut_size"),
     *("kept_block", "kept_size", "peak", "residual", "bin", "bin_count"),
+    *("has_impacts", *_IMPACTS),
 }
 
 
@@ -56,14 +70,14 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
             raise refuse(f"is damaged: {error}") from error
         if not str(about.get("format")).startswith("stickslip ensemble "):
             raise refuse(f"is not an ensemble: it holds {', '.join(sorted(entries)) or 'nothing'}")
-        former = str(about["format"]) == _FORMER
-        names = _NAMES - {"ground_acceleration"} if former else _NAMES
-        if str(about["format"]) != _FORMAT and not former:
+        missing = {_FORMAT: {}, **_FORMER}.get(str(about["format"]))
+        if missing is None:
             raise refuse(
                 f"is of format '{about['format']}', of stickslip {about.get('library')}; this is"
                 f" stickslip {_core.__version__}, which reads '{_FORMAT}' and"
-                f" '{_FORMER}'"
+                f" {' and '.join(map(repr, _FORMER))}"
             )
+        names = _NAMES - missing.keys() - ({"has_impacts"} if missing else set())
         if entries.keys() != names:
             odd = ", ".join(sorted(entries.keys() ^ names))
             raise refuse(f"does not hold what an ensemble does: missing or unknown {odd}")
@@ -74,7 +88,9 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
     ensemble = Ensemble.__new__(Ensemble)
     try:
         plain = {name: array.item() if array.ndim == 0 else array for name, array in state.items()}
-        plain.setdefault("ground_acceleration", False)
+        plain |= missing
+        # Former files hold no impacts: they are unknown if there may be stops.
+        plain.setdefault("has_impacts", "stops" not in plain["configuration"])
         plain["configuration"] = [tuple(entry) for entry in json.loads(plain["configuration"])]
         ensemble.__setstate__(plain)
     except (RuntimeError, TypeError, ValueError) as error:

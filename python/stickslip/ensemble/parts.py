@@ -9,7 +9,7 @@ from typing import Any
 from .. import _core
 from .._core import Ensemble
 from .checkpoint import Checkpoint
-from .error import EnsembleError
+from .error import EnsembleError, how_to_pickle
 from .progress import Progress
 from .sources import AnyMotions, AnySliders
 
@@ -145,8 +145,8 @@ class Parts:
     def _failed(self, members: range, error: BaseException) -> EnsembleError:
         return EnsembleError(
             f"run_ensemble: members {members[0]} to {members[-1]} failed in the executor:"
-            f" {type(error).__name__}: {error}; .partial has the {self.whole.members} members that"
-            " are done",
+            f" {type(error).__name__}: {error}{how_to_pickle(error)}; .partial has the"
+            f" {self.whole.members} members that are done",
             members,
             self.whole,
         )

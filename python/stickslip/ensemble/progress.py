@@ -59,7 +59,11 @@ class _Tqdm:
     def __call__(self, done: int, total: int) -> None:
         if self.bar is None:  # members from a checkpoint do not count for the speed
             self.bar = self.tqdm(
-                total=total, initial=done, unit=self.unit, unit_scale=True, file=sys.stderr
+                total=total,
+                initial=done,
+                unit=self.unit,
+                unit_scale=total >= 100_000,  # "1.23M of 3.00M"; smaller numbers are exact
+                file=sys.stderr,
             )
         self.bar.update(done - self.bar.n)
 

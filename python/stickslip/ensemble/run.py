@@ -5,16 +5,17 @@ from __future__ import annotations
 import math
 import operator
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from typing import Any, SupportsIndex
 
 from .. import _core
-from .._core import Ensemble
+from .._core import Ensemble, GroundMotion
+from .._units import warn_of_units
 from .checkpoint import Checkpoint
 from .parts import Parts
 from .progress import Progress, shown
-from .sources import AnyMotions, AnySliders
+from .sources import AnyMotions, AnySliders, check_directions
 
 
 def run_ensemble(
@@ -99,8 +100,8 @@ def run_ensemble(
     ------
     ValueError
         A value out of range; parameters of `Random` that the law rejects (names the member and the
-        value); a vertical motion under which a slider never lands (names the member); an empty
-        list; a checkpoint that is damaged, of another configuration (names the difference), or with
+        value); an empty list; ground motions of which some, but not all, are known to point up or
+        down; a checkpoint that is damaged, of another configuration (names the difference), or with
         members outside the run.
     TypeError
         An argument of the wrong type.
@@ -117,6 +118,11 @@ def run_ensemble(
         Before the run: the checkpoint cannot be read, or is not a writable regular file.
     KeyboardInterrupt
         Within a second of Ctrl-C.
+
+    Warns
+    -----
+    PlausibilityWarning
+        No member of a run under records slips, but some would if the accelerations were in g.
 
     Notes
     -----
@@ -154,6 +160,9 @@ def run_ensemble(
         "velocity_spectrum": velocity_spectrum,
         "ground_acceleration": ground_acceleration,
     }
+    if isinstance(motions, Sequence):
+        records = [motion for motion in motions if isinstance(motion, GroundMotion)]
+        check_directions(records, "run_ensemble")
     keeper = Checkpoint(checkpoint, checkpoint_every)
     start = keeper.load(range(first, first + total))
     with shown(progress) as show:
@@ -170,6 +179,8 @@ def run_ensemble(
                 raise
             raise ValueError(f"run_ensemble: with checkpoint '{checkpoint}': {error}") from error
     keeper.save(whole)
+    if whole.members <= 2**20 and not whole.peak.any():
+        warn_of_units("run_ensemble", sliders, motions, options["seed"])
     return whole
 
 

@@ -32,7 +32,7 @@ def ensemble_sensitivity(
     Parameters
     ----------
     sliders : Slider, Coulomb, a list of these, Drawn, Random or SliderSource
-        As for `run_ensemble`, with Coulomb friction and any mounting but stops and a pendulum.
+        As for `run_ensemble`, with Coulomb friction and any mounting but stops.
     motions : GaussianExcitation, PoissonPulses, WithVertical, GroundMotion or list of it, ...
         As for `run_ensemble`.
     parameter : str
@@ -62,7 +62,7 @@ def ensemble_sensitivity(
     Raises
     ------
     ValueError
-        Another law, stops or a pendulum; a parameter that the slider does not have; a member that
+        Another law, or stops; a parameter that the slider does not have; a member that
         leaves the ground or whose response is not differentiable (names it); a value out of range.
     TypeError
         An argument of the wrong type.

@@ -20,7 +20,26 @@ from .._core import (
     Stribeck,
     VelocityDependent,
     WithVertical,
+    _upward,
 )
+
+
+def check_directions(motions: Sequence[GroundMotion], who: str) -> None:
+    """Reject vertical ground motions among others: a slider moves along all of them alike.
+
+    Raises
+    ------
+    ValueError
+        Some motions, but not all, are known to point up or down.
+    """
+    upright = [i for i, motion in enumerate(motions) if _upward(motion.orientation)]
+    if upright and len(upright) < len(motions):
+        first = motions[upright[0]]
+        raise ValueError(
+            f"{who}: motions must all be horizontal or all be vertical, but {len(upright)} of"
+            f" {len(motions)} are known to be vertical, such as motions[{upright[0]}],"
+            f" '{first.name}' ({first.orientation})"
+        )
 
 
 class Excitation(Protocol):

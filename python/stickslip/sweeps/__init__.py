@@ -1,7 +1,7 @@
 """Sweeps: many sliders under many ground motions, in one table."""
 
 from .error import SweepError
-from .grid import Grid, grid
+from .parameter_grid import Grid, grid
 from .run import sweep
 from .spectrum import sliding_spectrum
 from .table import SweepFailure, SweepTable

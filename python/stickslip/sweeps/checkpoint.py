@@ -16,9 +16,10 @@ import numpy as np
 from .._core import GroundMotion
 from .._files import check_writable, replacing
 from ..ensemble.sources import AnySlider
-from .table import QUANTITIES, SweepFailure, SweepTable
+from .error import SweepError
+from .table import SweepFailure, SweepTable
 
-_FORMAT = "stickslip sweep 1"
+_FORMAT = "stickslip sweep 2"
 
 
 class Checkpoint:
@@ -56,7 +57,7 @@ class Checkpoint:
                         "is of another sweep: other sliders, motions, polarity, settle or contact"
                     )
                 done = kept["done"]
-                values = {name: kept[name] for name in QUANTITIES}
+                values = {name: kept[name] for name in table.arrays()}
                 failures = json.loads(str(kept["failures"]))
                 shapes = {array.shape for array in values.values()}
                 if shapes != {table.peak.shape} or done.shape != table.done.shape:
@@ -64,7 +65,7 @@ class Checkpoint:
         except (KeyError, EOFError, zipfile.BadZipFile, ValueError) as error:
             raise ValueError(f"sweep: checkpoint '{self.file}' {error}") from error
         for name, array in values.items():
-            getattr(table, name)[...] = array
+            table.arrays()[name][...] = array
         table.done[...] = done
         table.failures = tuple(SweepFailure(*one) for one in failures)
 
@@ -92,8 +93,6 @@ class Checkpoint:
         try:
             self._write(table)
         except OSError as error:
-            from .error import SweepError
-
             raise SweepError(
                 f"sweep: cannot write checkpoint '{self.file}': {error}; .partial has the"
                 f" {int(table.done.sum())} records that are done",
@@ -110,7 +109,7 @@ class Checkpoint:
                 key=self.key,
                 done=table.done,
                 failures=json.dumps([list(one) for one in table.failures]),
-                **{name: getattr(table, name) for name in QUANTITIES},
+                **table.arrays(),
             )
 
 

@@ -24,15 +24,17 @@ from .._core import (
     Stribeck,
     VelocityDependent,
 )
+from .._units import warn_of_units
+from ..ensemble.error import how_to_pickle
 from ..ensemble.progress import Progress, shown
-from ..ensemble.sources import AnySlider
+from ..ensemble.sources import AnySlider, check_directions
 from ..suite import Suite
 from .checkpoint import Checkpoint
 from .error import SweepError
-from .grid import Grid
-from .table import SweepTable, parameters_of
+from .parameter_grid import Grid
+from .table import POLARITIES, SweepTable, parameters_of
 
-Polarity = Literal["both", "as recorded", "flipped"]
+Polarity = Literal["both", "recorded", "reversed"]
 
 _SLIDERS = (
     Slider,
@@ -72,7 +74,7 @@ def sweep(
         Sliders with any laws; `grid` makes lists.
     motions : GroundMotion, Suite or list of GroundMotion
         Records, which may differ in length and time step.
-    polarity : {'both', 'as recorded', 'flipped'}
+    polarity : {'both', 'recorded', 'reversed'}
         Both n(t) and -n(t), n(t) only, or -n(t) only.
     settle : bool, optional
         Continue under zero ground acceleration after each record until the slider rests, so that
@@ -102,7 +104,8 @@ def sweep(
     Raises
     ------
     ValueError
-        An empty list; a value out of range; a checkpoint that is damaged or of another sweep.
+        An empty list; ground motions of which some, but not all, are known to point up or down; a
+        value out of range; a checkpoint that is damaged or of another sweep.
     TypeError
         An argument of the wrong type.
     SweepError
@@ -118,6 +121,8 @@ def sweep(
     RuntimeWarning
         Combinations failed: a slider that does not come to rest, a motion beyond the range of
         doubles. They are NaN, and `SweepTable.failures` says why. Other combinations continue.
+    PlausibilityWarning
+        No combination slips, but some would if the accelerations were in g.
 
     Notes
     -----
@@ -130,9 +135,9 @@ def sweep(
     """
     these = _sliders(sliders)
     those = [motions] if isinstance(motions, GroundMotion) else list(motions)
-    if polarity not in ("both", "as recorded", "flipped"):
+    if polarity not in ("both", *POLARITIES):
         raise ValueError(
-            f"sweep: polarity must be 'both', 'as recorded' or 'flipped', got {polarity!r}"
+            f"sweep: polarity must be 'recorded', 'reversed' or 'both', got {polarity!r}"
         )
     count = 0 if threads is None else operator.index(threads)
     if threads is not None and not 1 <= count <= 2**16:
@@ -154,14 +159,16 @@ def sweep(
             raise TypeError(
                 f"sweep: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
             )
+    check_directions(those, "sweep")
     table = SweepTable.empty(
         sliders=[repr(s) for s in these],
         parameters=parameters_of(these, getattr(sliders, "parameters", {})),
         records=[m.name or f"record {i}" for i, m in enumerate(those)],
         metadata=motions.metadata if isinstance(motions, Suite) else {},
-        polarity=("as recorded", "flipped") if polarity == "both" else (polarity,),
+        polarity=POLARITIES if polarity == "both" else (polarity,),
         settle=settle,
         contact=contact,
+        has_stops=any(getattr(s, "stops", None) is not None for s in these),
     )
     how = {"polarity": polarity, "settle": settle, "contact": contact}
     with shown(progress, who="sweep", things="combinations") as show:
@@ -185,6 +192,8 @@ def sweep(
             RuntimeWarning,
             stacklevel=2,
         )
+    elif not table.peak.any():
+        warn_of_units("sweep", these, those)
     return table
 
 
@@ -260,8 +269,8 @@ def _run_on(
     def failed(part: list[int], error: BaseException) -> SweepError:
         return SweepError(
             f"sweep: records {part[0]} to {part[-1]} failed in the executor:"
-            f" {type(error).__name__}: {error}; .partial has the {int(table.done.sum())} records"
-            " that are done",
+            f" {type(error).__name__}: {error}{how_to_pickle(error)}; .partial has the"
+            f" {int(table.done.sum())} records that are done",
             range(part[0], part[-1] + 1),
             table,
         )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .._core import Coulomb, GroundMotion, Slider
-from .grid import grid
+from .parameter_grid import grid
 from .run import Polarity, sweep
 from .table import SweepTable
 

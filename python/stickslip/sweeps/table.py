@@ -2,38 +2,50 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import STANDARD_GRAVITY, Coulomb
-from .._files import replacing
-from .._hdf5 import as_column, creating, opening, read_columns, read_texts, write_columns
+from .._hdf5 import as_column, creating, opening, read, read_columns, read_texts, write
 from .._optional import optional
-from .._tables import json_text
+from .._tables import Repeated, frame_of, json_text, write_csv
+from .._tabular import same
 from ..ensemble.sources import AnySlider
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import FigureBase
+    from matplotlib.figure import Figure
 
 __all__ = ["SweepFailure", "SweepTable"]
 
-_FORMAT = "stickslip sweep table 1"
+_FORMAT = "stickslip sweep table 2"
+_FORMER = "stickslip sweep table 1"  # without impacts, other words for polarities, other layout
+POLARITIES = ("recorded", "reversed")
+_FORMER_POLARITIES = {"as recorded": "recorded", "flipped": "reversed"}
+_AXES = {"slider": "sliders", "record": "records", "polarity": "polarity"}
 QUANTITIES = {
     "peak": ("peak", "m", "largest displacement over all time"),
     "residual": ("residual", "m", "displacement at the end"),
     "sliding_distance": ("sliding distance", "m", "length of the path slid"),
     "events": ("events", "", "breakaways, reversals and arrests"),
 }
+# These exist only if a slider has stops.
+IMPACTS = {
+    "impacts_forward": ("impacts forward", "", "number of impacts on the stop forward"),
+    "impact_speed_forward": ("speed", "m/s", "largest speed just before an impact forward"),
+    "impacts_backward": ("impacts backward", "", "number of impacts on the stop backward"),
+    "impact_speed_backward": ("speed", "m/s", "largest speed just before an impact backward"),
+}
+_AIRBORNE = {"airborne": ("airborne", "", "whether the slider is in flight at the end")}
+_ALL = QUANTITIES | IMPACTS | _AIRBORNE
+_UNITS = {name: unit for name, (_, unit, _) in _ALL.items() if unit}
 
 
 class SweepFailure(NamedTuple):
@@ -61,6 +73,14 @@ class SweepTable:
         Length of the path slid [m].
     events : ndarray of int
         Breakaways, reversals and arrests.
+    airborne : ndarray of bool
+        Whether the slider is in flight at the end, under vertical motion without `settle`; its
+        residual is then x at the end of the ground motion.
+    impacts_forward, impacts_backward : ndarray of int
+        Number of impacts on the stop of each side, bounces included. ValueError if no slider has
+        stops, or if the table was saved before impacts were kept; so too the next three.
+    impact_speed_forward, impact_speed_backward : ndarray
+        Largest speed just before an impact [m/s]; 0 without impacts.
     sliders : tuple of str
         The reprs of the sliders.
     parameters : dict of ndarray
@@ -71,7 +91,7 @@ class SweepTable:
     metadata : dict of ndarray
         Columns of the suite, with a value for each record.
     polarity : tuple of str
-        'as recorded' and 'flipped', or one of them.
+        'recorded', under n(t), and 'reversed', under -n(t), or one of them.
     settle : bool
         Whether the sweep continued until the sliders came to rest.
     contact : {'flight', 'clipped'}
@@ -99,6 +119,8 @@ class SweepTable:
         sliding_distance: ArrayLike,
         events: ArrayLike,
         failures: Sequence[SweepFailure] = (),
+        airborne: ArrayLike | None = None,
+        impacts: Mapping[str, ArrayLike] | None = None,
     ) -> None:
         self.sliders = tuple(sliders)
         self.parameters = {name: as_column(values) for name, values in parameters.items()}
@@ -113,11 +135,19 @@ class SweepTable:
         self.sliding_distance: NDArray[np.float64] = np.array(sliding_distance, float)
         self.events: NDArray[np.int64] = np.array(events, np.int64)
         shape = (len(self.sliders), len(self.records), len(self.polarity))
-        for name in QUANTITIES:
-            if getattr(self, name).shape != shape:
-                raise ValueError(
-                    f"SweepTable: {name} must have shape {shape}, got {getattr(self, name).shape}"
-                )
+        self.airborne: NDArray[np.bool_] = np.array(
+            np.zeros(shape) if airborne is None else airborne, bool
+        )
+        # None if no slider has stops, or if the table was saved before impacts were kept.
+        self._impacts: dict[str, NDArray[Any]] | None = None
+        if impacts is not None:
+            self._impacts = {
+                name: np.array(impacts[name], float if "speed" in name else np.int64)
+                for name in IMPACTS
+            }
+        for name, values in self.arrays().items():
+            if values.shape != shape:
+                raise ValueError(f"SweepTable: {name} must have shape {shape}, got {values.shape}")
         for columns, length in ((self.parameters, shape[0]), (self.metadata, shape[1])):
             for name, column in columns.items():
                 if column.shape != (length,):
@@ -127,7 +157,7 @@ class SweepTable:
         self.done = np.isfinite(self.peak).any(axis=(0, 2))
 
     @classmethod
-    def empty(cls, **about: Any) -> SweepTable:
+    def empty(cls, *, has_stops: bool, **about: Any) -> SweepTable:
         """A table without results."""
         shape = tuple(len(about[name]) for name in ("sliders", "records", "polarity"))
         nothing = np.full(shape, np.nan)
@@ -137,13 +167,58 @@ class SweepTable:
             residual=nothing,
             sliding_distance=nothing,
             events=np.zeros(shape, int),
+            impacts=dict.fromkeys(IMPACTS, np.zeros(shape)) if has_stops else None,
         )
+
+    def arrays(self, columns: bool = False) -> dict[str, NDArray[Any]]:
+        """The arrays over slider, record and polarity; in columns `airborne` only if one is."""
+        arrays = {name: getattr(self, name) for name in QUANTITIES} | (self._impacts or {})
+        return (
+            arrays if columns and not self.airborne.any() else arrays | {"airborne": self.airborne}
+        )
+
+    def _impact(self, name: str) -> NDArray[Any]:
+        if self._impacts is not None:
+            return self._impacts[name]
+        if any("stops=" in slider for slider in self.sliders):
+            raise ValueError(
+                "SweepTable: impacts are unknown, because the table was saved before impacts were"
+                " kept; run the sweep again"
+            )
+        raise ValueError("SweepTable: no slider has stops")
+
+    @property
+    def impacts_forward(self) -> NDArray[np.int64]:
+        return self._impact("impacts_forward")
+
+    @property
+    def impacts_backward(self) -> NDArray[np.int64]:
+        return self._impact("impacts_backward")
+
+    @property
+    def impact_speed_forward(self) -> NDArray[np.float64]:
+        return self._impact("impact_speed_forward")
+
+    @property
+    def impact_speed_backward(self) -> NDArray[np.float64]:
+        return self._impact("impact_speed_backward")
+
+    @property
+    def impact_fraction(self) -> NDArray[np.float64]:
+        """Fraction of the records and polarities in which a slider hits a stop, shape (sliders,).
+
+        Combinations that failed do not count. ValueError if no slider has stops, or if the table
+        was saved before impacts were kept.
+        """
+        hit = (self.impacts_forward + self.impacts_backward > 0).sum(axis=(1, 2))
+        count = np.isfinite(self.peak).sum(axis=(1, 2))
+        return np.where(count > 0, hit / np.maximum(count, 1), np.nan)
 
     def put(self, records: Sequence[int], result: Mapping[str, Any]) -> None:
         """Enter the results for some records."""
         places = list(records)
-        for name in QUANTITIES:
-            getattr(self, name)[:, places, :] = result[name]
+        for name, values in self.arrays().items():
+            values[:, places, :] = result[name]
         self.done[places] = True
         failures = [SweepFailure(s, places[r], p, text) for s, r, p, text in result["failures"]]
         self.failures = tuple(sorted((*self.failures, *failures)))
@@ -152,7 +227,7 @@ class SweepTable:
         if not isinstance(other, SweepTable):
             return NotImplemented
         mine, theirs = self.__getstate__(), other.__getstate__()
-        return all(_same(mine[name], theirs[name]) for name in mine)
+        return all(same(mine[name], theirs[name]) for name in mine)
 
     __hash__ = None  # type: ignore[assignment]  # its arrays can change
 
@@ -197,29 +272,47 @@ class SweepTable:
         Returns
         -------
         pandas.DataFrame
-            Slider and its parameters, record and its metadata, polarity, peak [m], residual [m],
-            sliding distance [m], events.
+            Columns `slider` and its parameters, `record` and its metadata, `polarity`, `peak`,
+            `residual`, `sliding_distance` [m], `events`; with stops also `impacts_forward`,
+            `impact_speed_forward` [m/s] and the same backward; `airborne` if a slider ends in
+            flight. Texts are of the type `category`.
+            ``frame.attrs["units"]`` has the units by name.
 
         Raises
         ------
         ImportError
             pandas is missing.
         """
-        return optional("pandas", "tables", "SweepTable.to_dataframe").DataFrame(self._columns())
+        return frame_of(self._columns(), _UNITS, "SweepTable.to_dataframe")
 
-    def _columns(self) -> dict[str, NDArray[Any]]:
+    def _beside(self) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
+        """Parameters and metadata under names that nothing else has in a table."""
+        taken = {*_AXES, *_ALL}
+        found: list[dict[str, NDArray[Any]]] = []
+        for columns in (self.parameters, self.metadata):
+            found.append({})
+            for name, column in columns.items():
+                free = name
+                while free in taken:
+                    free += "_"
+                taken.add(free)
+                found[-1][free] = column
+        return found[0], found[1]
+
+    def _columns(self) -> dict[str, NDArray[Any] | Repeated]:
         s, r, p = (index.ravel() for index in np.indices(self.peak.shape))
-        columns: dict[str, NDArray[Any]] = {"slider": np.array(self.sliders)[s]}
-        columns |= {name: column[s] for name, column in self.parameters.items()}
-        columns["record"] = np.array(self.records)[r]
-        columns |= {name: column[r] for name, column in self.metadata.items()}
-        columns["polarity"] = np.array(self.polarity)[p]
-        for name, (heading, unit, _) in QUANTITIES.items():
-            columns[f"{heading} [{unit}]" if unit else heading] = getattr(self, name).ravel()
-        return columns
+        columns: dict[str, NDArray[Any] | Repeated] = {
+            "slider": Repeated(np.array(self.sliders), s)
+        }
+        parameters, metadata = self._beside()
+        columns |= {name: Repeated(column, s) for name, column in parameters.items()}
+        columns["record"] = Repeated(np.array(self.records), r)
+        columns |= {name: Repeated(column, r) for name, column in metadata.items()}
+        columns["polarity"] = Repeated(np.array(self.polarity), p)
+        return columns | {name: array.ravel() for name, array in self.arrays(True).items()}
 
     def to_csv(self, file: str | os.PathLike[str]) -> Path:
-        """Write the rows of `to_dataframe` to a CSV file.
+        """Write the rows of `to_dataframe` to a CSV file, whose head has the units, as `peak [m]`.
 
         Parameters
         ----------
@@ -235,14 +328,7 @@ class SweepTable:
         OSError
             The file cannot be written.
         """
-        columns = self._columns()
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*(column.tolist() for column in columns.values())))
-        with replacing(file) as stream:
-            stream.write(text.getvalue().encode())
-        return Path(file)
+        return write_csv(self._columns(), _UNITS, file)
 
     def to_json(self) -> str:
         """The table as one JSON document, for tools on the web.
@@ -252,7 +338,8 @@ class SweepTable:
         str
             An object: `format`; `sliders`, `records`, `polarity`, `settle`, `contact`; `parameters`
             and `metadata`, by name a list with a value for each slider or record; `units` of the
-            quantities; `peak`, `residual`, `sliding_distance` and `events`, each a list over
+            quantities; `peak`, `residual`, `sliding_distance`, `events` and `airborne`, with stops
+            also `impacts_forward`, `impact_speed_forward` and the same backward, each a list over
             sliders of lists over records of lists over polarities; `failures`, each with `slider`
             and `record` (counted from 0), `polarity` and `message`.
 
@@ -271,8 +358,8 @@ class SweepTable:
                 name: {key: _listed(column) for key, column in getattr(self, name).items()}
                 for name in ("parameters", "metadata")
             },
-            "units": {name: unit for name, (_, unit, _) in QUANTITIES.items() if unit},
-            **{name: getattr(self, name) for name in QUANTITIES},
+            "units": _UNITS,
+            **self.arrays(),
             "failures": [one._asdict() for one in self.failures],
         }
         return json_text(document)
@@ -300,18 +387,21 @@ class SweepTable:
         except ValueError as error:
             raise ValueError(f"SweepTable.from_json: needs a JSON document: {error}") from None
         found = document.get("format") if isinstance(document, dict) else None
-        if found != _FORMAT:
+        if found not in (_FORMAT, _FORMER):
             raise ValueError(
                 f"SweepTable.from_json: the document must be of format '{_FORMAT}', got {found!r}"
             )
         try:
-            return cls(
+            return cls._of(
+                found == _FORMER,
                 **{name: document[name] for name in ("sliders", "records", "polarity")},
                 **{
                     name: {key: _unlisted(values) for key, values in document[name].items()}
                     for name in ("parameters", "metadata")
                 },
                 **{name: document[name] for name in QUANTITIES},  # float makes NaN of null
+                airborne=document.get("airborne"),
+                impacts=document if "impacts_forward" in document else None,
                 settle=document["settle"],
                 contact=document["contact"],
                 failures=[
@@ -325,12 +415,14 @@ class SweepTable:
             raise ValueError(f"SweepTable.from_json: the document is damaged: {error}") from None
 
     def to_xarray(self) -> Any:
-        """An xarray Dataset over slider, record and polarity.
+        """An xarray Dataset over the parameters of the sliders, record and polarity.
 
         Returns
         -------
         xarray.Dataset
-            Parameters and metadata are coordinates.
+            If the sliders are a full grid, as `grid` makes it, each parameter is a dimension, and
+            `slider` (the reprs) a coordinate over them; otherwise `slider` is one dimension, and
+            the parameters are coordinates over it. The metadata are coordinates over `record`.
 
         Raises
         ------
@@ -338,29 +430,57 @@ class SweepTable:
             xarray is missing.
         """
         xarray = optional("xarray", "tables", "SweepTable.to_xarray")
-        dimensions = ("slider", "record", "polarity")
+        names, lengths, order = self._grid()
         coordinates: dict[str, Any] = {
-            "slider": list(self.sliders),
+            "slider": (names, np.array(self.sliders)[order].reshape(lengths)),
             "record": list(self.records),
             "polarity": list(self.polarity),
         }
-        coordinates |= {name: ("slider", column) for name, column in self.parameters.items()}
-        coordinates |= {name: ("record", column) for name, column in self.metadata.items()}
+        parameters, metadata = self._beside()
+        for name, column in parameters.items():
+            if name in names:
+                axis = names.index(name)
+                values = column[order].reshape(lengths)
+                coordinates[name] = (
+                    name,
+                    np.moveaxis(values, axis, 0).reshape(lengths[axis], -1)[:, 0],
+                )
+            else:
+                coordinates[name] = (names, column[order].reshape(lengths))
+        coordinates |= {name: ("record", column) for name, column in metadata.items()}
         return xarray.Dataset(
             {
                 name: (
-                    dimensions,
-                    getattr(self, name),
-                    {"long_name": what} | ({"units": unit} if unit else {}),
+                    (*names, "record", "polarity"),
+                    array[order].reshape(*lengths, *array.shape[1:]),
+                    _attributes(name),
                 )
-                for name, (_, unit, what) in QUANTITIES.items()
+                for name, array in self.arrays(True).items()
             },
             coords=coordinates,
             attrs={"settle": int(self.settle), "contact": self.contact},
         )
 
+    def _grid(self) -> tuple[list[str], list[int], NDArray[np.intp]]:
+        """Dimensions of the sliders, their lengths, and the sliders in the order of the dimensions.
+
+        The parameters if each combination of their values occurs once, otherwise one dimension.
+        """
+        parameters, _ = self._beside()
+        names = list(parameters)
+        places = []
+        for column in parameters.values():
+            seen: dict[Any, int] = {}
+            places.append([seen.setdefault(value, len(seen)) for value in column.tolist()])
+        lengths = [max(column) + 1 for column in places]
+        if names and math.prod(lengths) == len(self.sliders):
+            flat = np.ravel_multi_index(places, lengths)
+            if np.unique(flat).size == flat.size:
+                return names, lengths, np.argsort(flat)
+        return ["slider"], [len(self.sliders)], np.arange(len(self.sliders))
+
     def save(self, file: str | os.PathLike[str]) -> Path:
-        """Write the table to an HDF5 file.
+        """Write the table to an HDF5 file, which xarray opens too.
 
         Parameters
         ----------
@@ -377,18 +497,33 @@ class SweepTable:
             h5py is missing: ``pip install stickslip[suites]``.
         OSError
             The file cannot be written.
+
+        Notes
+        -----
+        The file is also of the format netCDF-4: ``xarray.open_dataset(file)`` opens it with the
+        package netCDF4 or h5netcdf, over the dimensions `slider`, `record` and `polarity`. Every
+        array has checksums; `open` rejects a damaged file.
         """
         with creating(file, _FORMAT, "SweepTable.save") as h5:
-            h5.attrs["settle"] = self.settle
+            h5.attrs["settle"] = int(self.settle)
             h5.attrs["contact"] = self.contact
             h5.attrs["failures"] = json.dumps([list(one) for one in self.failures])
-            for name in ("sliders", "records", "polarity"):
-                h5[name] = list(getattr(self, name))
-            for name, (_, unit, what) in QUANTITIES.items():
-                h5[name] = getattr(self, name)
-                h5[name].attrs.update({"units": unit, "long_name": what})
-            for name in ("parameters", "metadata"):
-                write_columns(h5, name, getattr(self, name))
+            for axis, name in _AXES.items():
+                write(h5, axis, getattr(self, name)).make_scale(axis)
+            beside = []
+            kinds = (("slider", "parameters"), ("record", "metadata"))
+            for (axis, kind), columns in zip(kinds, self._beside()):
+                for (key, column), name in zip(columns.items(), getattr(self, kind)):
+                    key = key.replace("/", "\\")  # a slash would create a group
+                    data = write(h5, key, column)
+                    data.attrs.update({"kind": kind, "name": name})
+                    data.dims[0].attach_scale(h5[axis])
+                    beside += [key] if len(key.split()) == 1 else []
+            for name, array in self.arrays().items():
+                data = write(h5, name, array)
+                data.attrs.update({**_attributes(name), "coordinates": " ".join(beside)})
+                for place, axis in enumerate(_AXES):
+                    data.dims[place].attach_scale(h5[axis])
         return Path(file)
 
     @classmethod
@@ -413,16 +548,67 @@ class SweepTable:
         ValueError
             The file is not a table of a sweep, or is damaged.
         """
-        with opening(file, _FORMAT, "SweepTable.open") as h5:
-            return cls(
-                **{name: read_texts(h5[name]) for name in ("sliders", "records", "polarity")},
-                **{name: read_columns(h5, name) for name in ("parameters", "metadata")},
-                **{name: h5[name][:] for name in QUANTITIES},
-                settle=bool(h5.attrs["settle"]),
-                contact=h5.attrs["contact"],
-                failures=json.loads(h5.attrs["failures"]),
+        with opening(file, (_FORMAT, _FORMER), "SweepTable.open") as h5:
+            about: dict[str, Any] = {
+                "settle": bool(h5.attrs["settle"]),
+                "contact": h5.attrs["contact"],
+                "failures": json.loads(h5.attrs["failures"]),
+            }
+            if h5.attrs["format"] == _FORMER:
+                return cls._of(
+                    True,
+                    **{name: read_texts(h5[name]) for name in ("sliders", "records", "polarity")},
+                    **{name: read_columns(h5, name) for name in ("parameters", "metadata")},
+                    **{name: h5[name][:] for name in QUANTITIES},
+                    **about,
+                )
+            axes = {name: read(h5, axis) for axis, name in _AXES.items()}
+            shape = tuple(len(values) for values in axes.values())
+            columns: dict[str, dict[str, NDArray[Any]]] = {"parameters": {}, "metadata": {}}
+            for key in h5:
+                if "kind" in h5[key].attrs:
+                    kind = h5[key].attrs["kind"]
+                    length = shape[0 if kind == "parameters" else 1]
+                    columns[kind][h5[key].attrs["name"]] = read(h5, key, (length,))
+            impacts = {name: read(h5, name, shape) for name in IMPACTS if "impacts_forward" in h5}
+            return cls._of(
+                False,
+                **axes,
+                **columns,
+                **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
+                impacts=impacts or None,
+                **about,
             )
 
+    @classmethod
+    def _of(cls, former: bool, **content: Any) -> SweepTable:
+        """The table of a file, whose words for polarities may be former ones."""
+        if former:
+            now = _FORMER_POLARITIES
+            content["polarity"] = [now.get(one, one) for one in content["polarity"]]
+            content["failures"] = [
+                SweepFailure(s, r, now.get(p, p), text) for s, r, p, text in content["failures"]
+            ]
+        return cls(**content)
+
+    @overload
+    def plot(
+        self,
+        quantity: str = "peak",
+        *,
+        against: str | None = None,
+        ax: None = None,
+        title: str | None = None,
+    ) -> Figure: ...
+    @overload
+    def plot(
+        self,
+        quantity: str = "peak",
+        *,
+        against: str | None = None,
+        ax: Axes,
+        title: str | None = None,
+    ) -> Axes: ...
     def plot(
         self,
         quantity: str = "peak",
@@ -430,28 +616,33 @@ class SweepTable:
         against: str | None = None,
         ax: Axes | None = None,
         title: str | None = None,
-    ) -> FigureBase:
-        """Plot the median, 16 and 84 % over records and polarities, and each record as a thin line.
+    ) -> Figure | Axes:
+        """Plot the median and the 16 and 84 % quantiles over records and polarities.
+
+        Up to 200 histories are also drawn as thin lines; of more, the 5 and 95 % quantiles are. One
+        record has a line for each polarity, or one line if both are the same.
 
         Parameters
         ----------
         quantity : {'peak', 'residual', 'sliding_distance'}
             The residual counts by its magnitude.
         against : str, optional
-            The parameter on the horizontal axis; default: the first one with numbers. If others
-            vary too, each combination of them has its own median and band, at most six.
+            The parameter on the horizontal axis; default: the first one with numbers, or the
+            sliders themselves if no parameter has any. If others vary too, each combination of
+            them has its own median and band, at most six.
         ax : matplotlib Axes, optional
             Where to draw; default: a new figure of 7 x 4.5 inches.
         title : str, optional
 
         Returns
         -------
-        matplotlib Figure
+        matplotlib Figure or Axes
+            The axes if they were given, otherwise the new figure.
 
         Raises
         ------
         ValueError
-            No parameter with numbers; an unknown quantity or parameter; more than six combinations.
+            An unknown quantity or parameter; more than six combinations.
         ImportError
             matplotlib is missing.
         """
@@ -508,6 +699,11 @@ def parameters_of(
     return {"mu": [one.slip_level / STANDARD_GRAVITY for one in blocks]}
 
 
+def _attributes(name: str) -> dict[str, str]:
+    _, unit, what = _ALL[name]
+    return {"long_name": what} | ({"units": unit} if unit else {})
+
+
 _INFINITE = {math.inf: "Infinity", -math.inf: "-Infinity"}
 
 
@@ -531,11 +727,3 @@ def _checked(quantity: str) -> str:
             f"SweepTable: quantity must be one of {', '.join(names)}, got {quantity!r}"
         )
     return quantity
-
-
-def _same(a: Any, b: Any) -> bool:
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(_same(a[k], b[k]) for k in a)
-    if isinstance(a, np.ndarray):
-        return np.array_equal(a, b, equal_nan=a.dtype.kind == "f" and b.dtype.kind == "f")
-    return bool(a == b)

@@ -1,0 +1,43 @@
+// A remark where nothing slips, but would if the accelerations were in g.
+#pragma once
+
+#include <string>
+
+#include "bindings.hpp"
+#include "friction/plausibility.hpp"
+
+namespace stickslip::python {
+
+/// Whether a slider at rest at x begins to slip under a motion.
+template <FrictionLaw Law>
+bool begins_to_slip(const Slider<Law>& slider, const GroundMotion& motion, double x) {
+  const detail::Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
+  const detail::GroundLoad loads(motion, slider.slope());
+  bool slips = false;
+  loads.nodes(motion.time(0), motion.time(motion.segments()), [&](const detail::Load& load) {  // monotonic between them
+    const double weight = std::max(load.normal, 0.0) / standard_gravity;
+    const double net = load.load - slider.stiffness() * (slider.mounting().pendulum ? weight : 1) * x;
+    const Direction direction = net < 0 ? Direction::backward : Direction::forward;
+    const double level = bounds.bound(direction, x, hold(law_at(slider.law(), State::at(x, 0), weight), x, direction));
+    slips = std::abs(net) > detail::WeighedSegment::weigh(weight, level);
+    return !slips;
+  });
+  return slips;
+}
+
+/// The remark on a slider that did not slip; empty if it would not slip either if the accelerations were in g. Records
+/// are below 4 g.
+inline std::string units_remark(const AnySlider& slider, const GroundMotion& motion, double x = 0) {
+  constexpr double most_g = 4;
+  const double peak = motion.peak_acceleration();
+  if (!(peak > 0 && peak <= most_g)) return "";
+  const GroundMotion in_g = motion.scaled(standard_gravity);
+  const bool slips = std::visit(
+      [&](const auto& one) { return !begins_to_slip(one, motion, x) && begins_to_slip(one, in_g, x); }, slider);
+  if (!slips) return "";
+  return "nothing slips: the peak ground acceleration is " + digits(peak) + " m/s^2 (" +
+         digits(peak / standard_gravity) + " g); if the accelerations are in g, give units=\"g\": at " + digits(peak) +
+         " g it slips";
+}
+
+}  // namespace stickslip::python

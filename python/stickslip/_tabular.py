@@ -1,0 +1,107 @@
+"""What objects with a table have in common: pandas, CSV, JSON, notebooks."""
+
+from __future__ import annotations
+
+import os
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import build_info
+from ._tables import frame_of, heading, html_table, json_text, write_csv
+from ._text import printable
+
+__all__ = ["Tabular", "same"]
+
+_MOST_ROWS = 20  # in a notebook
+
+
+class Tabular(ABC):
+    """An object with columns of equal length, with names and units as in `docs/conventions.md`."""
+
+    @abstractmethod
+    def _table(self) -> tuple[Mapping[str, NDArray[Any]], Mapping[str, str]]:
+        """The columns by name, and their units by name."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return same(self.__dict__, other.__dict__)
+
+    __hash__ = None  # type: ignore[assignment]  # a subclass whose parts cannot change may have one
+
+    def to_dataframe(self) -> Any:
+        """Convert to a pandas DataFrame, with the units in ``attrs["units"]``.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            pandas is missing.
+        """
+        return frame_of(*self._table(), f"{type(self).__name__}.to_dataframe")
+
+    def to_csv(self, file: str | os.PathLike[str]) -> Path:
+        """Write a CSV file with the unit in each head; numbers read back to the same double.
+
+        Parameters
+        ----------
+        file : path-like
+            Replaced whole or not at all.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        OSError
+            The file cannot be written.
+        """
+        return write_csv(*self._table(), file)
+
+    def to_json(self) -> str:
+        """Convert to a JSON object: each column as a list by name, and `units`.
+
+        Returns
+        -------
+        str
+            Numbers read back to the same double; NaN and infinity are null.
+        """
+        columns, units = self._table()
+        named = {name: units[name] for name in columns if units.get(name)}
+        document = {"stickslip": build_info()["version"], "units": named, **columns}
+        return json_text(document)
+
+    def _repr_html_(self) -> str:
+        columns, units = self._table()
+        rows = list(zip(*(column[:_MOST_ROWS].tolist() for column in columns.values())))
+        count = len(next(iter(columns.values())))
+        heads = [heading(name.replace("_", " "), units.get(name, "")) for name in columns]
+        title = f"{type(self).__name__}: {count:,} rows" + (
+            f", the first {_MOST_ROWS}" if count > _MOST_ROWS else ""
+        )
+        return html_table(title, heads, ([_shown(cell) for cell in row] for row in rows))
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two values, arrays or dicts of them are equal; NaN equals NaN."""
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(same(a[k], b[k]) for k in a)
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b, equal_nan=a.dtype.kind == "f" and b.dtype.kind == "f")
+    return bool(a == b)
+
+
+def _shown(value: Any) -> str:
+    """A cell as a person reads it."""
+    if isinstance(value, float):
+        return "" if np.isnan(value) else f"{value:.4g}"
+    return printable(str(value))

@@ -1,0 +1,135 @@
+"""Ensembles as tables: pandas, xarray, CSV and JSON."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import Ensemble, Interval, build_info
+from .._optional import optional
+from .._tables import frame_of, impact_probabilities, json_text, write_csv
+
+# Name, unit, description.
+_BY_MEMBER = (
+    ("peak", "m", "largest displacement over all time"),
+    ("residual", "m", "displacement at the end"),
+)
+_IMPACTS = (
+    ("impacts_forward", "", "number of impacts on the stop forward"),
+    ("impact_speed_forward", "m/s", "largest speed just before an impact forward"),
+    ("impacts_backward", "", "number of impacts on the stop backward"),
+    ("impact_speed_backward", "m/s", "largest speed just before an impact backward"),
+)
+_BY_TIME = (
+    ("displacement_mean", "m", "mean of x"),
+    ("displacement_variance", "m^2", "variance of x"),
+    ("covariance", "m^2/s", "covariance of x and x'"),
+    ("velocity_mean", "m/s", "mean of x'"),
+    ("velocity_variance", "m^2/s^2", "variance of x'"),
+)
+_GROUND = (
+    ("ground_acceleration_mean", "m/s^2", "mean of the ground acceleration"),
+    ("ground_acceleration_variance", "m^2/s^4", "variance of the ground acceleration"),
+)
+_ABOUT = {
+    name: (unit, what)
+    for name, unit, what in (
+        *_BY_MEMBER,
+        *_IMPACTS,
+        *(
+            one
+            for name, unit, what in (*_BY_TIME, *_GROUND)
+            for one in ((name, unit, what), (f"{name}_error", unit, f"standard error, {what}"))
+        ),
+        ("time", "s", "time"),
+        ("member", "", "number of the member"),
+    )
+}
+_UNITS = {name: unit for name, (unit, _) in _ABOUT.items() if unit}
+_PROBABILITIES = (0.05, 0.16, 0.5, 0.84, 0.95, 0.99)
+
+
+def to_dataframe(ensemble: Ensemble, by: str = "member") -> Any:
+    """Implementation of `Ensemble.to_dataframe` (see there)."""
+    return frame_of(_columns(ensemble, by), _UNITS, "Ensemble.to_dataframe", index=by)
+
+
+def to_csv(ensemble: Ensemble, path: str | os.PathLike[str], by: str = "member") -> Path:
+    """Implementation of `Ensemble.to_csv` (see there)."""
+    return write_csv(_columns(ensemble, by), _UNITS, path)
+
+
+def to_xarray(ensemble: Ensemble) -> Any:
+    """Implementation of `Ensemble.to_xarray` (see there)."""
+    xarray = optional("xarray", "tables", "Ensemble.to_xarray")
+    variables = {
+        name: (by, column, _attributes(name))
+        for by in _forms(ensemble)
+        for name, column in _columns(ensemble, by).items()
+    }
+    coordinates = {by: variables.pop(by) for by in _forms(ensemble)}
+    about = {"configuration": json.dumps(ensemble.configuration), "airborne": ensemble.airborne}
+    return xarray.Dataset(variables, coordinates, about)
+
+
+def to_json(ensemble: Ensemble) -> str:
+    """Implementation of `Ensemble.to_json` (see there)."""
+    several = ensemble.members > 1
+    document: dict[str, Any] = {
+        "stickslip": build_info()["version"],
+        "configuration": ensemble.configuration,
+        "members": ensemble.members,
+        "airborne": ensemble.airborne,
+        "units": _UNITS,
+        "quantiles": [
+            {"probability": p, **_bounds(ensemble.quantile(p))} for p in _PROBABILITIES if several
+        ],
+    }
+    if several:
+        document |= {name: _bounds(one) for name, one in impact_probabilities(ensemble).items()}
+    document |= {f"by_{by}": _columns(ensemble, by) for by in _forms(ensemble)}
+    return json_text(document)
+
+
+def _forms(ensemble: Ensemble) -> list[str]:
+    """The tables that exist; single members are not kept if there are very many."""
+    forms = ["time"] if ensemble.time.size and ensemble.members > 1 else []
+    try:
+        _ = ensemble.peak
+    except ValueError:
+        return forms
+    return ["member", *forms]
+
+
+def _columns(ensemble: Ensemble, by: str) -> dict[str, NDArray[Any]]:
+    if by == "member":
+        numbers = [np.arange(*ends) for ends in ensemble.member_ranges]
+        columns = {"member": np.concatenate([np.zeros(0, int), *numbers])}
+        names = [name for name, _, _ in _BY_MEMBER]
+        try:
+            _ = ensemble.impacts_forward
+            names += [name for name, _, _ in _IMPACTS]
+        except ValueError:  # no stops, or not kept
+            pass
+    elif by == "time":
+        columns = {"time": ensemble.time}
+        with_ground = ensemble.configuration.get("ground_acceleration", False)
+        statistics = (*_BY_TIME, *(_GROUND if with_ground else ()))
+        names = [n for name, _, _ in statistics for n in (name, f"{name}_error")]
+    else:
+        raise ValueError(f"Ensemble: by must be 'member' or 'time', got {by!r}")
+    return columns | {name: np.array(getattr(ensemble, name)) for name in names}
+
+
+def _attributes(name: str) -> dict[str, str]:
+    unit, what = _ABOUT[name]
+    return {"long_name": what} | ({"units": unit} if unit else {})
+
+
+def _bounds(interval: Interval) -> dict[str, float]:
+    return dict(zip(("value", "low", "high"), interval))
