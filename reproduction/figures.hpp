@@ -15,6 +15,7 @@
 namespace stickslip::detail {
 
 using Kind = ThesisCurve::Kind;
+using Bound = ThesisStatement::Bound;
 
 ThesisFigure figure_2_1(Thesis&);
 ThesisFigure figure_2_2(Thesis&);
@@ -41,6 +42,7 @@ ThesisFigure figure_5_5(Thesis&);
 ThesisFigure figure_5_6(Thesis&);
 ThesisFigure table_5_1(Thesis&);
 ThesisFigure figure_5_7(Thesis&);
+ThesisFigure section_5_6(Thesis&);
 ThesisFigure figure_a_2(Thesis&);
 
 /// `count` numbers from `first` to `last`, evenly, or in even ratios.

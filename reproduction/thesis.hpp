@@ -49,15 +49,27 @@ struct ThesisPanel {
 
 /// A numerical statement of the thesis or of this library's documentation, and the number found.
 struct ThesisStatement {
+  enum class Bound { about, at_most, at_least };
+
   std::string where;          ///< section or equation of the thesis; empty for statements of this library
   std::string claim;          ///< the statement, with the unit
+  Bound bound;                ///< whether `said` is a value or a bound
   double said;                ///< in the thesis, or in this library
+  double within;              ///< largest deviation from a value that its digits or its words allow; 0 for a bound
   double found;               ///< by this library
   double error;               ///< standard error of `found`; 0 if it is not an estimate
-  bool agrees;                ///< within the stated digits or bound, and 3 standard errors
   std::string why;            ///< reason for a difference, or method
   std::uint64_t members = 0;  ///< of the ensembles behind `found`; 0 if it is not an estimate
+
+  /// Whether `found` is within the stated digits or bound, and 3 standard errors.
+  bool agrees() const { return agrees_with({found, error}); }
+
+  /// The same for another number.
+  bool agrees_with(Estimate number) const;
 };
+
+/// The bound in words: "about", "at most", "at least".
+const char* name_of(ThesisStatement::Bound bound) noexcept;
 
 /// A figure or table of the thesis, as computed here.
 struct ThesisFigure {
@@ -69,14 +81,14 @@ struct ThesisFigure {
   double seconds = 0;  ///< computing time here
 };
 
-/// A number of a figure and its expected value.
+/// A number or a text of a figure and what is expected of it.
 struct ThesisCheck {
   std::string what;  ///< the figure, and panel / curve / point or statement; says so where a number is missing
-  double found;      ///< NaN where the figure lacks the number
-  double expected;   ///< NaN where no value is expected
+  double found;      ///< NaN where the figure lacks the number, and for texts
+  double expected;   ///< NaN where no value is expected, and for texts
   double allowed;    ///< largest allowed deviation
-  bool holds;        ///< whether the deviation is within `allowed`
-  bool loose;        ///< whether `allowed` is more than half of `expected`, because there are few members
+  bool holds;        ///< whether the deviation is within `allowed`, or the text is the expected one
+  bool loose;        ///< whether half of a nonzero expected value would hold too, because there are few members
 };
 
 struct ThesisOptions {
@@ -126,12 +138,16 @@ std::string thesis_summary(std::span<const ThesisFigure> figures);
 
 /// Compares a figure with its expected values: a number that is missing, or for which no value is expected, fails.
 ///
-/// Numbers are every simulated point, every statement and up to nine points of each other curve. They are expected as
-/// 100,000 members and seed 1 have them, so that another seed is an independent trial. A simulated number may be off by
-/// 5 standard errors of the difference, its own error being the expectation's times the root of the ratio of their
-/// members: a false alarm in 2 million for each, if Gaussian. Where one member in a hundred moves it is not: with 2000
-/// members 16 seeds of 8000 numbers had three alarms, all at such points. Any other number may be off by 1e-6 of the
-/// largest that is expected of its curve.
+/// Numbers are every simulated point, up to nine points of each other curve, and of every statement the number found,
+/// the number claimed and the deviation that the claim allows. They are expected as 100,000 members and seed 1 have
+/// them, so that another seed is an independent trial. Any number may be off by 1e-6 of itself and, for round-off, by
+/// 1e-12 of the largest that is expected of its curve. A simulated number may also be off by 5 standard errors of the
+/// difference, its own error being the expectation's times the root of the ratio of their members: a false alarm in 2
+/// million for each, if Gaussian. Where one member in a hundred moves it is not: with 2000 members 16 seeds of 8000
+/// numbers had three alarms, all at such points.
+///
+/// Texts are the titles and axes of panels, the labels and kinds of curves, and of every statement the claim and
+/// whether the expected number agrees with it.
 std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure);
 
 /// A summary of checks in one line: how many were made, how many are loose, how many fail.

@@ -8,7 +8,7 @@ using namespace stickslip;
 
 TEST_CASE("the build information identifies how a number was computed") {
   const BuildInfo& info = build_info();
-  for (const std::string& version : {info.version, info.fftw, info.gsl, info.sundials}) {
+  for (const std::string& version : {info.version, info.eigen, info.fftw, info.gsl, info.highway, info.sundials}) {
     CAPTURE(version);
     REQUIRE(!version.empty());
     CHECK(std::isdigit(static_cast<unsigned char>(version[0])));

@@ -22,4 +22,25 @@ set(core stickslip/core.hpp)
 expect_refusal(all "needs IEEE 754 arithmetic" -std=c++20 -ffast-math)
 expect_refusal(core "needs IEEE 754 arithmetic" -std=c++20 -Ofast)
 expect_refusal(core "needs IEEE 754 arithmetic" -std=c++20 -ffinite-math-only)
+expect_refusal(core "needs exceptions" -std=c++20 -fno-exceptions)
 expect_refusal(core "needs C\\+\\+20" -std=c++17)
+
+# A class that is not a friction law: one error, which says what is expected.
+function(expect_rejected_law resist reason)
+  file(WRITE ${FOLDER}/rejected.cpp "#include \"stickslip/core.hpp\"\n"
+       "using stickslip::Direction;\n"
+       "struct Law { static constexpr bool numeric = true; double ${resist} { return 1; } };\n"
+       "const stickslip::Slider slider(Law{});\n")
+  execute_process(
+    COMMAND ${COMPILER} -std=c++20 -I${INCLUDE} -fsyntax-only ${FOLDER}/rejected.cpp
+    RESULT_VARIABLE result ERROR_VARIABLE output OUTPUT_QUIET)
+  string(REPLACE ";" "," output "${output}") # else a list
+  string(REGEX MATCHALL "error: [^\n]*" errors "${output}")
+  list(LENGTH errors count)
+  if(result EQUAL 0 OR NOT count EQUAL 1 OR NOT errors MATCHES "${reason}")
+    message(FATAL_ERROR "law with ${resist}: expected one error with '${reason}', got\n${output}")
+  endif()
+endfunction()
+expect_rejected_law("resist(double, Direction, double) const" "the order of arguments is resist.x, speed, direction.")
+expect_rejected_law("resist(double) const" "must be copyable and define .resist.x, direction. const. or")
+expect_rejected_law("resist(double, Direction)" "must be copyable and define .resist.x, direction. const. or")

@@ -1,10 +1,12 @@
 // The C interface: the same bits as `advance`, and errors as codes.
 #include "stickslip/stickslip.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,17 +23,31 @@ namespace {
 
 double up(int m) { return 4 * 2.5 * std::cos(0.5 * m + 0.2); }
 
-/// Both interfaces over record A, segment by segment; how often it flew.
+struct Destroy {
+  void operator()(stickslip_model* model) const { stickslip_destroy(model); }
+};
+using Model = std::unique_ptr<stickslip_model, Destroy>;
+
+Model create(const stickslip_slider& slider) {
+  stickslip_model* model = nullptr;
+  REQUIRE(stickslip_create(&slider, &model) == STICKSLIP_OK);
+  return Model(model);
+}
+
+/// Advance by C++, by the slider's numbers and by a model over record A, segment by segment; how often it flew.
 template <class Law>
 int check_same_bits(const stickslip_slider& c, const Slider<Law>& slider, bool vertical, Contact contact) {
   const std::vector<double> n = record_a_samples();
-  stickslip_state state = {};
+  const Model model = create(c);
+  stickslip_state state = {}, stepped = {};
   State expected;
   int flights = 0;
   for (int m = 0; m < 400; ++m) {
     const auto i = static_cast<std::size_t>(m);
     const stickslip_segment segment = {0.1, n[i], n[i + 1], vertical ? up(m) : 0, vertical ? up(m + 1) : 0};
     REQUIRE(stickslip_advance(&c, &segment, &state) == STICKSLIP_OK);
+    REQUIRE(stickslip_step(model.get(), &segment, &stepped) == STICKSLIP_OK);
+    REQUIRE(std::memcmp(&state, &stepped, sizeof state) == 0);
     const Segment horizontal{0.1, n[i], n[i + 1]};
     if (vertical)
       advance(slider, detail::load_segment(horizontal, slider.slope(), up(m), up(m + 1)), expected, NoObserver{},
@@ -96,7 +112,7 @@ TEST_CASE("errors of the C interface are codes with a message, and change nothin
       {[](Slip& s, Seg&, St&) { s.static_level = 0.5; }, "at least the kinetic one of 1 m/s^2, got 0.5"},
       {[&](Slip& s, Seg&, St&) { s.static_level = nan; }, "got nan"},
       {[](Slip& s, Seg&, St&) { s.natural_frequency = -2; }, "natural_frequency must be finite and at least 0, got -2"},
-      {[](Slip& s, Seg&, St&) { s.damping = -2; }, "damping must be finite and at least 0, got -2"},
+      {[](Slip& s, Seg&, St&) { s.damping = -2; }, "damping and its square must be finite and at least 0, got -2"},
       {[](Slip& s, Seg&, St&) { s.slope_degrees = 90; }, "slope_degrees must be from 0 to less than 90, got 90"},
       {[](Slip& s, Seg&, St&) { s.slope_degrees = 30; }, "slides under its own weight"},
       {[](Slip& s, Seg&, St&) { s.gap = -0.1; }, "gap must be at least 0, got -0.1 m"},
@@ -121,7 +137,7 @@ TEST_CASE("errors of the C interface are codes with a message, and change nothin
       {[](Slip& s, Seg& seg, St& st) {
          s.natural_frequency = 1e17, seg = {10, 5, -3, 0, 0}, st.displacement = 1e-3;
        },
-       "the spring is too stiff", STICKSLIP_NO_CONVERGENCE},
+       "the spring or damper is too stiff", STICKSLIP_NO_CONVERGENCE},
   };
   for (const Case& c : cases) {
     stickslip_slider slider = {.slip_level = 1};
@@ -131,6 +147,15 @@ TEST_CASE("errors of the C interface are codes with a message, and change nothin
     const stickslip_state before = state;
     INFO(c.says);
     CHECK(stickslip_advance(&slider, &segment, &state) == c.code);
+    CHECK_THAT(std::string(stickslip_message()), ContainsSubstring(c.says));
+    CHECK(std::memcmp(&state, &before, sizeof state) == 0);
+    stickslip_model* made = nullptr;
+    int code = stickslip_create(&slider, &made);  // what is wrong with the slider is found here, the rest by each step
+    const Model model(made);
+    CHECK((code == STICKSLIP_OK) == (made != nullptr));
+    CHECK(code == stickslip_check(&slider));
+    if (code == STICKSLIP_OK) code = stickslip_step(made, &segment, &state);
+    CHECK(code == c.code);
     CHECK_THAT(std::string(stickslip_message()), ContainsSubstring(c.says));
     CHECK(std::memcmp(&state, &before, sizeof state) == 0);
   }
@@ -150,6 +175,44 @@ TEST_CASE("null pointers are named, and a slider can be checked alone") {
   CHECK(stickslip_check(&bad) == STICKSLIP_INVALID_ARGUMENT);
   CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("got -1 m/s^2"));
   CHECK(stickslip_check(nullptr) == STICKSLIP_INVALID_ARGUMENT);
+
+  const Model model = create(slider);
+  CHECK(stickslip_step(nullptr, &segment, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("model must not be null"));
+  CHECK(stickslip_step(model.get(), nullptr, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("segment must not be null"));
+  CHECK(stickslip_step(model.get(), &segment, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("state must not be null"));
+  CHECK(stickslip_create(&slider, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("model must not be null"));
+  stickslip_model* none = model.get();
+  CHECK(stickslip_create(nullptr, &none) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK(none == nullptr);
+  stickslip_destroy(nullptr);
+}
+
+TEST_CASE("a model outlives the numbers that it was made of, and many threads step it") {
+  stickslip_slider slider = {.slip_level = 1, .static_level = 1.2, .natural_frequency = 2};
+  const Model model = create(slider);
+  const stickslip_slider copy = slider;
+  slider = {};
+  const std::vector<double> n = record_a_samples();
+  const auto run = [&](auto&& step) {
+    stickslip_state state = {};
+    for (std::size_t i = 0; i < 400; ++i) {
+      const stickslip_segment segment = {0.1, n[i], n[i + 1], 0, 0};
+      if (step(&segment, &state) != STICKSLIP_OK) return stickslip_state{not_a_number, 0, 0, 0, 0, 0};
+    }
+    return state;
+  };
+  const stickslip_state alone = run([&](auto* g, auto* at) { return stickslip_advance(&copy, g, at); });
+  CHECK(alone.displacement != 0);
+  std::array<stickslip_state, 4> states{};
+  std::vector<std::thread> threads;
+  for (stickslip_state& state : states)
+    threads.emplace_back([&] { state = run([&](auto* g, auto* at) { return stickslip_step(model.get(), g, at); }); });
+  for (std::thread& thread : threads) thread.join();
+  for (const stickslip_state& state : states) CHECK(std::memcmp(&state, &alone, sizeof state) == 0);
 }
 
 TEST_CASE("each thread has its own message") {

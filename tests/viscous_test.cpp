@@ -243,7 +243,7 @@ TEST_CASE("an ensemble under pulses, whose times are uneven, is its members", "[
 }
 
 TEST_CASE("invalid arguments of a viscous slider are rejected", "[viscous]") {
-  CHECK_THROWS_WITH(ViscousSlider(-1), "Slider: damping must be finite and at least 0, got -1 1/s");
+  CHECK_THROWS_WITH(ViscousSlider(-1), "Slider: damping and its square must be finite and at least 0, got -1 1/s");
   CHECK_THROWS_AS(ViscousSlider(infinity), std::invalid_argument);
   CHECK_THROWS_AS(ViscousSlider(not_a_number), std::invalid_argument);
   CHECK_THROWS_WITH(ViscousSlider(1, -2), "Slider: natural_frequency must be finite and at least 0, got -2 rad/s");

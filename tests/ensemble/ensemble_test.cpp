@@ -899,7 +899,7 @@ TEST_CASE("the moments of an ensemble are its figures by time") {
 TEST_CASE("laws of the speed that differ are told apart, and dampers too", "[ensemble]") {
   struct Rate {
     double scale;
-    double resist(double, Direction, double speed) const { return 2 + std::exp(-speed / scale); }
+    double resist(double, double speed, Direction) const { return 2 + std::exp(-speed / scale); }
   };
   static_assert(SpeedLaw<Rate>);
   CHECK(detail::describe(Slider(Rate{0.001})) != detail::describe(Slider(Rate{0.0025})));

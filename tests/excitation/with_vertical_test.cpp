@@ -153,7 +153,26 @@ TEST_CASE("components that do not fit are refused", "[excitation][errors]") {
                     ContainsSubstring("both components must be lines between samples or both held values"));
   const WithVertical both(along, 1.0);
   CHECK_THROWS_WITH(WithVertical(both, along).sample(1, 0),
-                    ContainsSubstring("the horizontal excitation must make motions of one component"));
+                    ContainsSubstring("the horizontal excitation must make motions without a vertical component"));
   CHECK_THROWS_WITH(WithVertical(along, both).sample(1, 0),
                     ContainsSubstring("the vertical excitation must make motions of one component"));
+}
+
+TEST_CASE("a transverse component is kept, also where the times differ", "[excitation]") {
+  const GroundMotion along({1, 2, 4}, 0.5), across({3, 7, -1}, 0.5);
+  const GroundMotion ground = along.with_components({3, 7, -1});
+  for (const GroundMotion& vertical : {GroundMotion({0, 1, 2}, 0.5), GroundMotion({0, 1, 2, 3, 4}, 0.25)}) {
+    const GroundMotion all = detail::with_vertical(ground, vertical, 2);
+    REQUIRE(all.samples() == vertical.samples());
+    for (std::size_t i = 0; i < all.samples(); ++i) {
+      const double place = all.time(i) / 0.5;
+      const auto k = std::min<std::size_t>(static_cast<std::size_t>(place), 1);
+      const auto read = [&](const GroundMotion& motion) {
+        return std::lerp(motion.acceleration()[k], motion.acceleration()[k + 1], place - static_cast<double>(k));
+      };
+      CHECK(all.acceleration()[i] == Approx(read(along)));
+      CHECK(all.transverse()[i] == Approx(read(across)));
+      CHECK(all.vertical()[i] == Approx(2 * vertical.acceleration()[i]));
+    }
+  }
 }

@@ -23,8 +23,8 @@ struct ByNumbers {
   static constexpr bool numeric = true;
   Law law;
 
-  double resist(double x, Direction direction, double speed) const {
-    return stickslip::resist(law, x, direction, speed);
+  double resist(double x, double speed, Direction direction) const {
+    return stickslip::resist(law, x, speed, direction);
   }
   double hold(double x, Direction direction) const { return stickslip::hold(law, x, direction); }
 };
@@ -32,12 +32,12 @@ struct ByNumbers {
 /// 1 up to x = 0.1 m, 0.5 from 0.2 m on, and straight between.
 struct Steps {
   static constexpr bool numeric = true;
-  double resist(double x, Direction, double) const { return 1 - 5 * std::min(std::max(x - 0.1, 0.0), 0.1); }
+  double resist(double x, double, Direction) const { return 1 - 5 * std::min(std::max(x - 0.1, 0.0), 0.1); }
 };
 /// Not a number above 0.05 m/s.
 struct Broken {
   static constexpr bool numeric = true;
-  double resist(double, Direction, double speed) const { return speed > 0.05 ? not_a_number : 1; }
+  double resist(double, double speed, Direction) const { return speed > 0.05 ? not_a_number : 1; }
 };
 
 const VelocityDependent liner(0.3, 0.6, 50), weakening(0.9, 0.4, 20);
@@ -134,4 +134,76 @@ TEST_CASE("kinks in a law by numbers are crossed", "[collocation]") {
 
 TEST_CASE("a law that is not a number is refused", "[collocation]") {
   REQUIRE_THROWS_AS(integrate(Broken{}, record_a()), ConvergenceError);
+}
+
+namespace {
+
+/// A law with its series, and the same by its numbers alone, which records the range in which it is called and has no
+/// level beyond a limit.
+struct Growing {
+  double by_x, by_speed;
+
+  template <class X, class Speed>
+  auto resist(const X& x, const Speed& speed, Direction) const {
+    return 1 + by_x * (x * x) + by_speed * (speed * speed);
+  }
+};
+struct Watched {
+  static constexpr bool numeric = true;
+  Growing law;
+  double* farthest;
+  double* fastest;
+  double limit_x = infinity, limit_speed = infinity;
+
+  double resist(double x, double speed, Direction direction) const {
+    *farthest = std::max(*farthest, std::abs(x));
+    *fastest = std::max(*fastest, speed);
+    if (std::abs(x) > limit_x || speed > limit_speed) throw InvalidLevel("no level");
+    return law.resist(x, speed, direction);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a law by its numbers is not called where no force of the step leads", "[collocation]") {
+  const GroundMotion motion({1.26, 2.68, 1.7, -.85, -2.9, -1.5, .8, 2.2, 2.4, -2.3}, 0.05);
+  for (const Growing law : {Growing{100, 0}, Growing{0, 20}, Growing{30, 5}})
+    for (const double frequency : {0.0, 3.0, 15.0, 40.0}) {
+      CAPTURE(law.by_x, law.by_speed, frequency);
+      double farthest = 0, fastest = 0;
+      const auto watched = [&](double limit_x, double limit_speed) {
+        return Slider<Watched>({law, &farthest, &fastest, limit_x, limit_speed}, frequency);
+      };
+      const Response one = integrate(Slider(law, frequency), motion, from(0, 0, true));
+      double highest = 0;
+      for (const Event& e : one.events) highest = std::max(highest, std::abs(e.velocity));
+      highest = std::max(highest, largest(one.velocity));
+      const Response other = integrate(watched(infinity, infinity), motion, from(0, 0, true));
+      CHECK(std::abs(other.residual - one.residual) <= 1e-9 * one.peak);
+      // No load of 3 m/s^2 does more in the first second of the rest, the longest trial step.
+      CHECK(farthest <= 1.5);
+      CHECK(fastest <= 4);
+      // An exception outside the motion changes the steps, not the motion.
+      const Response limited = integrate(watched(1.05 * one.peak, 1.5 * highest), motion, from(0, 0, true));
+      CHECK(std::abs(limited.residual - one.residual) <= 1e-9 * one.peak);
+
+      State whole = State::at(0.01, 0.3), series = whole;
+      advance(watched(infinity, infinity), Segment{1, 0, 0}, whole);  // one long step
+      advance(Slider(law, frequency), Segment{1, 0, 0}, series);
+      CHECK(std::abs(whole.displacement - series.displacement) <= 1e-9);
+    }
+}
+
+TEST_CASE("where the motion itself leaves a law by its numbers, its exception is passed on", "[collocation]") {
+  double farthest = 0, fastest = 0;
+  State state = State::at(0, 0.3);
+  const State before = state;
+  const Growing law{1, 1};
+  CHECK_THROWS_AS(advance(Slider<Watched>({law, &farthest, &fastest, 0.02}), Segment{1, 0, 0}, state), InvalidLevel);
+  CHECK_THROWS_AS(advance(Slider<Watched>({law, &farthest, &fastest, infinity, 0.5}), Segment{1, -3, -3}, state),
+                  InvalidLevel);
+  CHECK_THROWS_AS(advance(Slider<Watched>({law, &farthest, &fastest, infinity, 0}), Segment{1, -3, -3}, state),
+                  InvalidLevel);
+  CHECK(state.displacement == before.displacement);
+  CHECK(state.velocity == before.velocity);
 }

@@ -33,7 +33,7 @@ struct Sticky {
 struct Viscous {
   double slip_level, damping;
   template <class X, class Speed>
-  auto resist(const X&, Direction, const Speed& speed) const {
+  auto resist(const X&, const Speed& speed, Direction) const {
     return slip_level + damping * speed;
   }
 };
@@ -181,7 +181,8 @@ TEST_CASE("the first stop is where the speed first comes down to zero", "[damped
 }
 
 TEST_CASE("a slider's damping is checked", "[damped][errors]") {
-  CHECK_THROWS_WITH(Slider(Coulomb(1), 0, -2), "Slider: damping must be finite and at least 0, got -2 1/s");
+  CHECK_THROWS_WITH(Slider(Coulomb(1), 0, -2),
+                    "Slider: damping and its square must be finite and at least 0, got -2 1/s");
   CHECK_THROWS_AS(Slider(Coulomb(1), 0, infinity), std::invalid_argument);
   CHECK_THROWS_AS(Slider(Coulomb(1), 0, not_a_number), std::invalid_argument);
   CHECK(Slider(Coulomb(1), 2, 3).damping() == 3);

@@ -1,5 +1,8 @@
 // The Taylor flow, and the first root of its speed.
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <random>
 
 #include "support/catch.hpp"
 #include "support/motions.hpp"
@@ -195,4 +198,50 @@ TEST_CASE("a sum of Taylor steps ends where one of the right length does", "[tay
   }
   CHECK(std::abs(whole.displacement - parts.displacement) <= 1e-14);
   CHECK(std::abs(whole.velocity - parts.velocity) <= 1e-14 * 2.5);
+}
+
+namespace {
+
+/// Integrate over a segment in one step, and in `parts` parts; the largest difference of x relative to the distance.
+template <class Law>
+double apart(const Slider<Law>& slider, const LoadSegment& segment, const State& start, int parts) {
+  State one = start, other = start;
+  advance(slider, segment, one, NoObserver{}, Contact::clipped);
+  for (int i = 0; i < parts; ++i) {
+    const double begin = segment.duration * i / parts, end = segment.duration * (i + 1) / parts;
+    advance(
+        slider,
+        LoadSegment{end - begin, segment.load(begin), segment.load(end), segment.normal(begin), segment.normal(end)},
+        other, NoObserver{}, Contact::clipped);
+  }
+  const double way = std::max(std::abs(start.velocity) * segment.duration, std::abs(other.displacement));
+  return std::abs(one.displacement - other.displacement) / way;
+}
+
+}  // namespace
+
+TEST_CASE("a law that changes at low speeds alone is seen in one long step", "[taylor]") {
+  // At a high speed the series shows nothing of the change, and where the normal force vanishes at the end of the step
+  // the equation of motion does not either.
+  std::mt19937_64 bits(4);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto between = [&](double low, double high) { return low + (high - low) * uniform(bits); };
+  const double g = standard_gravity;
+  double worst = 0;
+  for (int problem = 0; problem < 1500; ++problem) {
+    const double kinetic = between(0.5, 1.5), velocity = between(0.01, 0.1), time = between(0.05, 0.3);
+    const int exponent = 2 + static_cast<int>(7 * uniform(bits));
+    const double frequency = problem % 4 == 0 ? between(1, 12) : 0;
+    const double load = between(-2, 1), speed = between(1, 5) * velocity;
+    LoadSegment segment{time, load, load + between(-2, 3), g * between(0.7, 1.3), 0};
+    // To zero at the end, or below zero, or constant with a load that turns.
+    if (problem % 3 == 1) segment.normal_end = -g * between(0, 1);
+    if (problem % 3 == 2) segment.normal_end = segment.normal_start, segment.load_end = between(1, 6);
+    const State start = State::at(0, speed);
+    const Stribeck stribeck(kinetic * between(1.2, 3), kinetic, velocity, exponent);
+    const VelocityDependent rising(kinetic * between(0.1, 0.9), kinetic, between(100, 1000));
+    worst = std::max(worst, apart(Slider(stribeck, frequency), segment, start, 64));
+    worst = std::max(worst, apart(Slider(rising, frequency), segment, start, 64));
+  }
+  CHECK(worst <= 1e-10);
 }

@@ -418,7 +418,7 @@ TEST_CASE("forces, loops and floor motions know how far the slider has slid", "[
   // The floor's acceleration at the samples is -(friction + damper + spring).
   double time = 0;
   std::size_t i = 0;
-  for (const Segment& s : floor_motion(slider, motion, r, 1e-4)) {
+  for (const Segment& s : floor_motion(slider, motion, r, 1e-4).segments) {
     if (std::abs(time - motion.time(i)) < 1e-9 && f.stuck[i] == 0 && r.velocity[i] != 0)
       CHECK(std::abs(s.start - f.acceleration(i)) <= 1e-12);
     time += s.duration;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/outcome.hpp"
@@ -122,4 +123,58 @@ TEST_CASE("friction that grows with the speed creeps to rest on a spring", "[vel
   CHECK(r.state.mode == Mode::stuck);
   CHECK(r.events[r.events.size() - 2].kind == EventKind::arrest);
   CHECK(std::abs(r.energy.imbalance()) <= 1e-14 * r.energy.initial);
+}
+
+TEST_CASE("friction that vanishes at rest lets a slider creep to rest in bounded work", "[velocity_dependent]") {
+  // v' = -fast (1 - exp(-rate v)): w = exp(rate v) - 1 decays as exp(-fast rate t), and the slider comes to rest at the
+  // integral of v / (fast (1 - exp(-rate v))) over the speeds, here by the quadrature of log-spaced parts.
+  struct Steps {
+    int count = 0;
+    void slide(const Slip&) { ++count; }
+    void event(EventKind, double, const State&) {}
+  };
+  const double v0 = 1;
+  for (const double fast : {0.1, 1.0, 5.0})
+    for (const double rate : {0.5, 5.0, 100.0}) {
+      CAPTURE(fast, rate);
+      const VelocityDependent law(0, fast, rate);
+      for (const double time : {1.0, 6.0, 100.0}) {
+        State state = State::at(0, v0);
+        Steps steps;
+        advance(Slider(law), Segment{time, 0, 0}, state, steps);
+        const double left = std::log1p(std::expm1(rate * v0) * std::exp(-fast * rate * time)) / rate;
+        if (left > 1e-300) CHECK(state.velocity == Approx(left).epsilon(1e-11));
+        CHECK(steps.count <= 50 + 2 * fast * rate * time);
+      }
+      double far = 0;
+      for (double v = v0; v > 1e-18 * v0; v /= 2)
+        far += numerics::gauss_integral<20>(v / 2, v, [&](double u) { return u / (-fast * std::expm1(-rate * u)); });
+      const Response r = integrate(law, GroundMotion({0, 0, 0}, 0.1), from(0, v0, true));
+      CHECK(r.residual == Approx(far).epsilon(1e-12));
+      CHECK(r.state.mode == Mode::stuck);
+      CHECK(r.events[r.events.size() - 2].kind == EventKind::arrest);
+    }
+}
+
+TEST_CASE("friction that all but vanishes at rest, or at speed, is followed", "[velocity_dependent]") {
+  const GroundMotion motion({0, 3, -3, 0}, 0.1);
+  const double limit = integrate(VelocityDependent(0, 1, 5), motion, from(0, 0, true)).residual;
+  for (const double slow : {1e-300, 1e-100, 1e-20, 1e-9}) {
+    const Response r = integrate(VelocityDependent(slow, 1, 5), motion, from(0, 0, true));
+    CHECK(std::abs(r.residual - limit) <= 1e-14 + 100 * slow);
+    CHECK(r.state.mode == Mode::stuck);
+  }
+  // On springs and as pendulums it creeps or swings to the middle.
+  for (const double frequency : {0.5, 3.0}) {
+    const Response r = integrate(Slider(VelocityDependent(0, 1, 5), frequency), motion, from(0, 0, true));
+    CHECK(std::abs(r.residual) <= 1e-12 * r.peak);
+    CHECK(r.state.mode == Mode::stuck);
+  }
+  const Response dish =
+      integrate(Slider<VelocityDependent>::friction_pendulum(VelocityDependent(0, 1, 50), 2), motion, from(0, 0, true));
+  CHECK(std::abs(dish.residual) <= 1e-12 * dish.peak);
+  // A level that vanishes at high speed: a load of 10 m/s^2 meets a work of 1/50 m^2/s^2 per meter of speed.
+  State state = State::at(0, 1);
+  advance(Slider(VelocityDependent(1, 0, 50)), Segment{1, -10, -10}, state);
+  CHECK(state.velocity == Approx(11).epsilon(1e-14));  // exp(-50) of the level is left at the start
 }

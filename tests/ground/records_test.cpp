@@ -306,6 +306,12 @@ TEST_CASE("records as pyslammer writes them", "[records]") {
   }
 }
 
+TEST_CASE("all that a file leaves unspecified is told at once", "[records]") {
+  says(refusal("1\n2\n3\n"), {"no units of acceleration and no time step: pass units", ", and pass dt"});
+  says(refusal("1\n2\n3\n", {.units = "g"}), {"the file states no time step: pass dt"});
+  says(refusal("1\n2\n3\n", {.dt = 0.1}), {"the file states no units of acceleration: pass units"});
+}
+
 TEST_CASE("a byte-order mark and DOS line ends are taken in every format", "[records]") {
   for (const std::string& text : {peer("5 .01 NPTS, DT"), smc(), geonet(), cosmos_channel("HNE", cosmos_data)}) {
     const RecordOptions first{.component = "1"};

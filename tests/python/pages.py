@@ -15,6 +15,20 @@ def blocks(page, language):
     )
 
 
+def assert_same_picture(drawn, shown):
+    """The picture that a page shows is the one that was drawn.
+
+    It has 64 colors: each pixel is off by some 1 %. Letters of other fonts are off in few pixels; a
+    line elsewhere is too, but in more of them.
+    """
+    import numpy as np
+    from matplotlib.image import imread
+
+    first, second = (imread(file)[:, :, :3] for file in (drawn, shown))
+    assert first.shape == second.shape
+    assert np.mean(np.abs(first - second).max(axis=2) > 0.25) < 0.004
+
+
 def run(page, code, names):
     exec(compile(code, str(page), "exec"), names)
 

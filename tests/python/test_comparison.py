@@ -1,5 +1,8 @@
 """Theory and simulation side by side."""
 
+import csv
+import json
+
 import numpy as np
 import pytest
 import stickslip as ss
@@ -97,8 +100,8 @@ def test_other_spectra_bring_stationary_linearization():
         "EquivalentLinearization, thesis",
         "StationaryLinearization",
     ]
-    assert "misplaces 12.6 % of its variance" in c.theories["EquivalentLinearization"].remark
-    assert len(c.time) == 6 and c.time[-1] == pytest.approx(band.duration)
+    assert "(misfit 12.6 % of its variance)" in c.theories["EquivalentLinearization"].remark
+    assert len(c.time) == 12 and c.time[-1] == pytest.approx(band.duration)
 
 
 def test_an_envelope_leaves_linearization_in_time():
@@ -163,3 +166,40 @@ def test_other_excitations_are_refused():
         c.simulated("peak")
     with pytest.raises(ValueError, match="theory must be one of"):
         c.ratio("Newmark", "covariance")
+
+
+def test_a_comparison_goes_to_tables(tmp_path):
+    pytest.importorskip("pandas")
+    pulses = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
+    c = ss.compare(ss.Coulomb(slip_level=0.5), pulses, [2, 4], members=640)
+    frame = c.to_dataframe()
+    assert list(dict.fromkeys(frame.source)) == ["simulation", *c.theories]
+    assert frame.attrs["units"]["velocity_variance_error"] == "m^2/s^2"
+    value, error = c.simulated("covariance")
+    simulated = frame[frame.source == "simulation"]
+    assert np.array_equal(simulated.covariance, value)
+    assert np.array_equal(simulated.covariance_error, error)
+    for name, moments in c.theories.items():
+        mine = frame[frame.source == name]
+        assert np.array_equal(mine.time, c.time)
+        assert np.array_equal(
+            mine.displacement_variance, moments.displacement_variance, equal_nan=True
+        )
+    rows = list(csv.DictReader(c.to_csv(tmp_path / "c.csv").read_text().splitlines()))
+    stored = [float(row["velocity_variance [m^2/s^2]"]) for row in rows]
+    assert np.array_equal(stored, frame.velocity_variance, equal_nan=True)
+    document = json.loads(c.to_json(), parse_constant=pytest.fail)
+    assert document["simulation"]["covariance"] == value.tolist()
+    assert list(document["theories"]) == list(c.theories)
+    assert document["refused"] == c.refused
+    assert repr(c).startswith("<Comparison: 640 members, 2 times to 4 s, PulseChain, ")
+
+
+def test_no_two_theories_look_alike():
+    pytest.importorskip("matplotlib")
+    from stickslip.plotting import _theory_style
+    from stickslip.theory import THEORIES
+
+    styles = [_theory_style(i) for i in range(len(THEORIES))]
+    for keys in (("color",), ("linestyle", "marker")):  # also in gray
+        assert len({tuple(style[key] for key in keys) for style in styles}) == len(styles)

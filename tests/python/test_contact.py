@@ -374,7 +374,6 @@ def test_what_has_no_sensitivity_is_refused_with_the_reason():
         "covers Coulomb friction": (ss.Caster(mu=0.1, reach=0.5), record, "mu"),
         "has one level for sliding and rest": (ss.Coulomb(mu=0.1), record, "mu_static"),
         "without a spring": (ss.Coulomb(mu=0.1), record, "natural_frequency"),
-        "got a pendulum": (ss.FrictionPendulum(radius=2, mu=0.05), record, "mu"),
         "must not leave the ground": (ss.Coulomb(mu=0.1), shaken(5), "mu"),
         r"motion.sampled\(dt\)": (ss.Coulomb(mu=0.1), ss.HarmonicMotion(2, 3, 4), "mu"),
         "must be one of 'mu', .*, got 'color'": (ss.Coulomb(mu=0.1), record, "color"),

@@ -77,6 +77,6 @@ def test_without_friction_none_is_taken():
 def test_energy_says_its_accounts_and_does_not_change():
     e = ss.integrate(ss.Coulomb(slip_level=1.0), ss.GroundMotion([2, 2], dt=1)).energy
     for name in ("initial", "input", "dissipated", "kinetic", "elastic"):
-        assert f"{name}={getattr(e, name):.16g}" in repr(e)
+        assert f"{name} {getattr(e, name):.4g}" in repr(e)
         with pytest.raises(AttributeError):
             setattr(e, name, 0.0)

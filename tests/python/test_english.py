@@ -6,8 +6,12 @@ import re
 import pytest
 from pages import ROOT
 
+_BESIDE = (
+    *("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md"),
+    *("CODE_OF_CONDUCT.md", "SECURITY.md", "paper.md"),
+)
 PAGES = [
-    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "bench/README.md")),
+    *(ROOT / name for name in _BESIDE),
     *sorted((ROOT / "docs").glob("*.md")),
     *sorted((ROOT / "docs" / "guides").glob("*.md")),
     *sorted((ROOT / "docs" / "reference").rglob("*.rst")),
@@ -18,6 +22,13 @@ INSTEAD = {  # what not to write, as a regular expression: what to write
     r"for ever": "indefinitely, always",
     r"at hand": "available",
     r"heartbeat": "progress callback",
+    r"(?:which|that) lies beside": "next to",
+    r"a zero at its end": "null-terminated",
+    r"until it rests": "until it comes to rest",
+    r"unaccounted for": "residual",
+    r"meters? of way": "sliding distance",
+    r"the motion to come": "the future motion",
+    r"by one call a step": "by one call per step",
     r"is told": "is reported, is documented",
     r"so many": "the number itself",
     r"of one's own": "your own",
@@ -63,15 +74,22 @@ COMMENT_OR_LITERAL = re.compile(
 )
 
 
-def comments(code):
-    """The C or C++ code with all but its comments blanked; lines keep their numbers."""
+FORTRAN_COMMENT_OR_LITERAL = re.compile(
+    r"""(?P<comment>![^\n]*) | "[^"\n]*" | '[^'\n]*'""", re.VERBOSE
+)
+
+
+def comments(code, pattern=COMMENT_OR_LITERAL):
+    """The code with all but its comments blanked; lines keep their numbers."""
     shown, end = [], 0
-    for found in COMMENT_OR_LITERAL.finditer(code):
+    for found in pattern.finditer(code):
         start = found.end() if found["comment"] is None else found.start()
         shown += [re.sub(r"[^\n]", " ", code[end:start]), code[start : found.end()]]
         end = found.end()
     text = "".join([*shown, re.sub(r"[^\n]", " ", code[end:])])
-    return re.sub(r"^( *)///?<?", lambda mark: " " * len(mark[0]), text, flags=re.MULTILINE)
+    return re.sub(
+        r"^( *)(?://[/]?<?|!>?)", lambda mark: " " * len(mark[0]), text, flags=re.MULTILINE
+    )
 
 
 def wrong(text):
@@ -119,15 +137,17 @@ SOURCES = sorted(
         "tests",
     )
     for file in (ROOT / folder).rglob("*")
-    if file.suffix in {".c", ".cpp", ".h", ".hpp"}
+    if file.suffix in {".c", ".cpp", ".f90", ".h", ".hpp", ".inl"}
 )
 
 
 @pytest.mark.parametrize("source", SOURCES, ids=lambda source: source.relative_to(ROOT).as_posix())
 def test_a_comment_has_no_word_to_avoid(source):
+    pattern = FORTRAN_COMMENT_OR_LITERAL if source.suffix == ".f90" else COMMENT_OR_LITERAL
+    text = comments(source.read_text(encoding="utf-8"), pattern)
     found = [
         f"{source.relative_to(ROOT)}:{line}: '{words}', write '{better}'"
-        for line, words, better in wrong(comments(source.read_text(encoding="utf-8")))
+        for line, words, better in wrong(text)
     ]
     assert not found, "\n".join(found)
 
@@ -174,3 +194,16 @@ def test_the_terms_are_those_that_developers_read():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     assert "`gone on with`" in text and "`heartbeat`" in text
     assert "test_english.py" in text
+
+
+def test_comments_of_fortran_are_read_and_literals_are_not():
+    code = """x = 'a ! coloured' ! a centre
+! so
+! many
+print *, "metre"
+"""
+    found = wrong(comments(code, FORTRAN_COMMENT_OR_LITERAL))
+    assert [(line, words.split()) for line, words, _ in found] == [
+        (2, ["so", "many"]),
+        (1, ["centre"]),
+    ]

@@ -143,15 +143,13 @@ def test_vertical_motion_on_the_ground():
             ss.Slider(BLOCK, stops=ss.Stops(gap=0.1, restitution=0.5)),
             "stops: near a grazing impact",
         ),
-        (ss.FrictionPendulum(radius=2, mu=0.05), "got a pendulum"),
     ],
     ids=lambda value: type(value).__name__,
 )
 def test_responses_that_jump_or_have_no_derivative_are_rejected(slider, message):
     with pytest.raises(ValueError, match=message) as caught:
         ss.ensemble_sensitivity(slider, SHAKING, "mu", members=5, seed=1)
-    if "pendulum" not in message:
-        assert "take differences of two ensembles with the same seed" in str(caught.value)
+    assert "take differences of two ensembles with the same seed" in str(caught.value)
 
 
 def test_arguments_out_of_range_are_rejected():

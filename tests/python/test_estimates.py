@@ -121,3 +121,29 @@ def test_quantiles_of_several_probabilities_come_as_a_list(ensemble):
 def test_quantiles_of_other_probabilities_are_refused(ensemble, asked, message):
     with pytest.raises(ValueError, match=message):
         ensemble.quantile(asked)
+
+
+def test_products_and_quotients_convert_the_unit(ensemble):
+    interval = ensemble.quantile(0.5)
+    for got in (100 * interval, interval * 100, np.float64(100) * interval, interval / 0.01):
+        assert type(got) is ss.Interval
+        assert tuple(got) == pytest.approx(tuple(100 * np.array(tuple(interval))), rel=1e-15)
+    turned = -2 * interval
+    assert tuple(turned) == (-2 * interval.value, -2 * interval.high, -2 * interval.low)
+    assert tuple(0 * interval) == (0, 0, 0)
+    estimate = ensemble.stationary.velocity_variance
+    for got in (-4 * estimate, estimate * -4, estimate / -0.25):
+        assert type(got) is ss.Estimate
+        assert tuple(got) == (-4 * estimate.value, 4 * estimate.error)
+    for one in (interval, estimate):
+        negative = -one
+        assert -negative == one
+        for wrong in (math.nan, math.inf):
+            with pytest.raises(ValueError, match="must be finite"):
+                one * wrong
+        with pytest.raises(ValueError, match="a divisor must be finite and not zero, got 0"):
+            one / 0
+        with pytest.raises(TypeError):
+            one * "2"
+        with pytest.raises(TypeError):
+            one * one

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stickslip as ss
+from pages import assert_same_picture
 
 pytest.importorskip("matplotlib")
 
@@ -21,16 +22,8 @@ PICTURES = PAGE.parent / "images" / "examples"
 
 
 def assert_shown(picture):
-    """The picture of the page shows what was drawn; if not, docs/draw_examples.py draws it anew.
-
-    It has 64 colors: each pixel is off by some 1 %. Letters of other fonts are off in few pixels; a
-    line elsewhere is too, but in more of them.
-    """
-    from matplotlib.image import imread
-
-    drawn, shown = (imread(file)[:, :, :3] for file in (picture, PICTURES / picture.name))
-    assert drawn.shape == shown.shape
-    assert np.mean(np.abs(drawn - shown).max(axis=2) > 0.25) < 0.004
+    """The picture of the page shows what was drawn; if not, draw it with docs/draw_examples.py."""
+    assert_same_picture(picture, PICTURES / picture.name)
 
 
 def test_the_page_shows_the_code_and_the_pictures_of_the_examples():
@@ -78,7 +71,7 @@ def test_01_one_record(run, capsys):
     assert r.motion.name.startswith("Kobe")
     assert r.at_rest
     assert abs(r.residual) <= r.peak <= r.sliding_distance
-    # All that the ground put in went into friction, mu g for each meter of way.
+    # All that the ground put in went into friction, mu g for each meter of sliding distance.
     assert r.energy.dissipated == pytest.approx(0.2 * G * r.sliding_distance, rel=1e-12)
     assert abs(r.energy.imbalance) < 1e-12 * r.energy.input
     assert f"peak displacement      {100 * r.peak:7.2f} cm" in capsys.readouterr().out
@@ -216,7 +209,9 @@ def test_09_pulses_of_a_record(run):
     asked, had = spectrum(omega), names["shaped"].density(omega)
     assert np.abs(had - asked).sum() < 0.011 * asked.sum()
     fitted = names["rectangular"].density(omega)
-    assert np.abs(fitted - asked).sum() / asked.sum() == pytest.approx(fit.misfit, rel=0.03)
+    # The misfit is a sum over lines, each the mean of 11; the estimate takes the mean of 9 and is
+    # straight between lines, which alone changes the integral by 5 %.
+    assert np.abs(fitted - asked).sum() / asked.sum() == pytest.approx(fit.misfit, rel=0.05)
 
 
 def test_10_map(run):

@@ -410,7 +410,7 @@ def test_a_motion_plots_itself():
     assert axes.get_title(loc="left") == "noise"
     assert np.allclose(axes.lines[0].get_ydata() * ss.STANDARD_GRAVITY, NOISE.acceleration)
     mine = Figure().subplots()
-    assert NOISE.plot(ax=mine, title="mine") is mine.figure
+    assert NOISE.plot(ax=mine, title="mine") is mine
     assert any("PGA" in text.get_text() for text in mine.texts)
 
 
@@ -443,8 +443,48 @@ def test_a_trace_of_obspy_itself_becomes_a_motion():
     offset = obspy.Trace(np.sin(np.arange(400)) + 0.02, header)
     with pytest.warns(ss.PlausibilityWarning, match=r"from_obspy \(XX.STA..HNE\): the mean"):
         ss.GroundMotion.from_obspy(offset)
-    with pytest.raises(TypeError, match=r"got Stream; select one .* such as stream\[0\]"):
-        ss.GroundMotion.from_obspy(obspy.Stream([trace]))
+    assert ss.GroundMotion.from_obspy(obspy.Stream([trace])) == motion
+
+
+def test_a_stream_of_obspy_becomes_a_station():
+    obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
+    samples = np.random.default_rng(5).normal(size=(3, 40))
+    header = {"delta": 0.01, "network": "XX", "station": "STA"}
+    traces = [obspy.Trace(n, {**header, "channel": f"HN{last}"}) for n, last in zip(samples, "ENZ")]
+    stream = obspy.Stream(traces)
+    motion = ss.GroundMotion.from_obspy(stream, units="gal")
+    assert np.array_equal(motion.acceleration, 0.01 * samples[0])  # the first horizontal one
+    assert np.array_equal(motion.transverse, -0.01 * samples[1])  # 90 degrees clockwise of east
+    assert np.array_equal(motion.vertical, 0.01 * samples[2])
+    assert ss.GroundMotion.from_obspy(stream, units="gal", name="mine").name == "mine"
+    assert ss.read_station(stream, units="gal") == motion
+    north = ss.read_station(stream, along="N")
+    assert np.array_equal(north.acceleration, samples[1])
+    assert np.array_equal(north.transverse, samples[0])
+    with pytest.raises(ValueError, match="from_obspy: needs one vertical component at most"):
+        ss.GroundMotion.from_obspy(obspy.Stream([*traces, traces[2]]))
+    slow = obspy.Trace(samples[1], {**header, "channel": "HNN", "delta": 0.02})
+    with pytest.raises(ValueError, match="from_obspy: components must have the same time step"):
+        ss.GroundMotion.from_obspy(obspy.Stream([traces[0], slow]))
+
+
+@pytest.mark.parametrize(
+    "times",
+    [np.arange(301) * 0.005, np.linspace(0, 1.5, 301), np.cumsum([0.0] + [0.005] * 300)],
+)
+def test_even_times_are_a_time_step(times):
+    samples = np.sin(np.arange(301.0))
+    motion = ss.GroundMotion(samples, times=times)
+    assert motion.dt == pytest.approx(0.005, rel=1e-12)
+    assert motion.time == pytest.approx(times, abs=1e-12)
+    even = ss.GroundMotion(samples, dt=0.005)
+    peaks = [ss.integrate(ss.Coulomb(mu=0.02), one).peak for one in (motion, even)]
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-10)
+    assert ss.GroundMotion(samples, times=even.time) == even
+    times = np.array(times)
+    times[150] += 1e-6
+    assert ss.GroundMotion(samples, times=times).dt is None
+    assert ss.GroundMotion(samples, times=1 + even.time).time[0] == 1  # a start that is kept
 
 
 # ---- components

@@ -43,11 +43,20 @@ def blocks(language):
 def empty(tmp_path, monkeypatch, pyslammer_files, request):
     """An empty current directory: code of a page is copied and pasted, and finds nothing there.
 
-    The page on ground motions reads files of the reader's: for it there are some of their names.
+    The pages on ground motions and on the command read files of the reader's: for them there are
+    some of their names.
     """
-    if "ground_motions" in request.node.name:
+    if "ground_motions" in request.node.name or "[command" in request.node.name:
         record = ss.read_record(next(f for f in pyslammer_files if f.name.startswith("Kobe")))
         write_records(tmp_path, "Kobe, Japan 1995, TAK", record.acceleration, record.dt)
+    if "[command" in request.node.name:
+        for name, twin in (("north", "RSN1_H1"), ("east", "RSN1_H2"), ("up", "RSN1_UP")):
+            (tmp_path / f"{name}.AT2").rename(tmp_path / f"{twin}.AT2")
+        column = (tmp_path / "column.txt").read_text()
+        (tmp_path / "pairs").mkdir()
+        for name in ("a.txt", "b.txt", "c.txt", "pairs/a.txt", "pairs/b.txt"):
+            (tmp_path / name).write_text(column)
+        (tmp_path / "pairs.csv").write_text("file,dt\na.txt,0.01\nb.txt,0.02\n")
     monkeypatch.chdir(tmp_path)
 
 
@@ -101,6 +110,28 @@ def test_the_cpp_compiles_and_runs(code, tmp_path):
     answer = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     for expected in re.findall(r"printf\(.*?// (.*)$", code, re.MULTILINE):
         assert expected in answer
+
+
+@pytest.mark.parametrize(
+    "compiler, code",
+    [
+        pytest.param(compiler, *block.values, id=f"{language}-{block.id}")
+        for language, compiler in (("c", "cc"), ("fortran", "gfortran"))
+        for block in blocks(language)
+    ],
+)
+def test_the_c_and_the_fortran_are_valid(compiler, code, tmp_path):
+    """With the header and the module as installed, and no warning; the consumer tests run them."""
+    if shutil.which(compiler) is None:
+        pytest.skip(f"no {compiler} here")
+    include = DOCS.parent / "include"
+    source = tmp_path / ("guide.c" if compiler == "cc" else "guide.f90")
+    source.write_text(code)
+    files = [source] if compiler == "cc" else [include / "stickslip" / "stickslip.f90", source]
+    options = ["-Wall", "-Wextra", "-Werror", "-fsyntax-only"]
+    for file in files:  # the first one leaves its module in the folder
+        command = [compiler, *options, f"-I{include}", f"-I{tmp_path}", file]
+        subprocess.run(command, check=True, cwd=tmp_path)
 
 
 # ---- the tables, slid again

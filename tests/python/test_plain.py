@@ -85,6 +85,13 @@ def test_every_class_can_be_looked_into(name):
         assert FOREIGN.search(repr(cls)) is None
 
 
+@pytest.mark.parametrize("thing", [ss.integrate, ss.response_spectrum, ss.advance])
+def test_help_of_a_function_has_no_word_of_the_binding_library(thing):
+    text = pydoc.plain(pydoc.render_doc(thing, renderer=pydoc.plaintext))
+    assert "pybind11" not in text
+    assert "stickslip.function" in text
+
+
 def test_signatures_say_what_a_call_takes():
     for thing, text in (
         (ss.Coulomb, "(*, mu=None, slip_level=None, backward=None, mu_backward=None)"),
@@ -99,7 +106,7 @@ def test_signatures_say_what_a_call_takes():
             " sliding_distance=0.0, heat=None)",
         ),
         (ss.GroundMotion.scaled, "(self, factor)"),
-        (ss.Response.plot, "(self, *, figure=None, title=None)"),
+        (ss.Response.plot, "(self, *, figure=None, title=None, time=None)"),
     ):
         assert str(inspect.signature(thing)) == text
     motion = ss.GroundMotion([1, 2], dt=1)
@@ -188,7 +195,7 @@ SAID = {
     ),
     "spectrum": (
         lambda: ss.response_spectrum(3, [1]),
-        "response_spectrum: motion must be a GroundMotion or a Response, got 3",
+        "response_spectrum: motion must be a GroundMotion, a Response or a Suite, got 3",
     ),
     "operator": (lambda: QUAKE + 1, "unsupported operand type(s) for +: 'stickslip.GroundMotion'"),
 }

@@ -1,5 +1,6 @@
 """Plots: they show the computed values."""
 
+import io
 import math
 import os
 import re
@@ -30,7 +31,7 @@ SLIDERS = {
     "one-way": ss.Slider(ss.Coulomb(mu=0.1, backward=math.inf)),
     "slope": ss.Slider(ss.Coulomb(mu=0.3), slope_degrees=10),
     "caster": ss.Slider(ss.Caster(mu=0.1, reach=0.5)),
-    "heavy": ss.Slider(ss.Coulomb(mu=9.0)),
+    "heavy": ss.Slider(ss.Coulomb(slip_level=90.0)),
 }
 
 
@@ -369,11 +370,11 @@ def test_an_ensemble_says_what_slid(ensemble):
 
 
 def test_an_ensemble_that_never_slips_is_drawn():
-    e = ss.run_ensemble(ss.Coulomb(mu=9), SHAKING, members=10, seed=1)
+    e = ss.run_ensemble(ss.Coulomb(slip_level=90), SHAKING, members=10, seed=1)
     texts = [text.get_text() for text in e.plot().axes[1].texts]
     assert "none slips" in texts
     with pytest.raises(ValueError, match="two members"):
-        ss.run_ensemble(ss.Coulomb(mu=9), SHAKING, members=1, seed=1).plot()
+        ss.run_ensemble(ss.Coulomb(slip_level=90), SHAKING, members=1, seed=1).plot()
 
 
 def test_a_friction_sweep_shows_every_record_and_their_median():
@@ -444,3 +445,164 @@ def test_pyplot_shows_the_picture_where_it_has_windows(response, monkeypatch):
     assert response.plot(figure=figure.add_subfigure(figure.add_gridspec(1, 1)[0])) is not figure
     assert len(pyplot.get_fignums()) == 1
     pyplot.close(figure)
+
+
+# ---- what fits, and what is marked
+
+
+LONG = "GeoNet 2016-11-13 Kaikoura WTMC 20161113 110259 Te Mara Farm Waiau North Canterbury, N26E"
+
+
+def outside(figure):
+    """The titles, labels and annotations that do not lie within the figure."""
+    figure.canvas.draw()
+    page = figure.bbox
+    found = []
+    for axes in figure.axes:
+        parts = [axes.title, axes._left_title, axes.xaxis.label, axes.yaxis.label, *axes.texts]
+        found += [(part.get_text(), part.get_window_extent()) for part in parts if part.get_text()]
+    return [
+        text
+        for text, box in found
+        if not (page.x0 <= box.x0 <= box.x1 <= page.x1 and page.y0 <= box.y0 <= box.y1 <= page.y1)
+    ]
+
+
+def test_names_of_any_length_lie_within_the_picture():
+    for name in (LONG, 3 * LONG, "/".join(20 * ["folder"]), "W" * 200):
+        quake = ss.GroundMotion(motion().acceleration, dt=0.02, name=name)
+        slider = ss.Slider(ss.Coulomb(mu=0.05, backward=0.1), natural_frequency=2.0, damping=0.1)
+        r = ss.integrate(slider, quake, settle=True)
+        for figure in (
+            r.plot(),
+            plotting.plot_response(r, time=(1, 3)),
+            r.plot_hysteresis(),
+            quake.plot(),
+            plotting.plot_responses([r]),
+        ):
+            assert not outside(figure), name
+            title = figure.axes[0].get_title(loc="left")
+            assert "".join(title.split()) == "".join(name.split())
+
+
+def test_a_part_of_a_response_is_drawn():
+    r = ss.integrate(SLIDERS["block"], motion(), settle=True)
+    figure = plotting.plot_response(r, time=(2, 5.5))
+    ground, speed, way = figure.axes
+    for axes in figure.axes:
+        assert axes.get_xlim() == (2, 5.5)
+    # Inside the part the lines are those of the whole; outside it nothing is drawn but an end.
+    whole = plotting.plot_response(r).axes
+    for part, complete in zip((ground, speed, way), whole):
+        t, values = part.lines[0].get_data()
+        scale = (
+            1.0 if part is not way else values[3] / np.interp(t[3], *complete.lines[0].get_data())
+        )
+        assert (t[0], t[-1]) == pytest.approx((2, 5.5), abs=0.0401)
+        assert np.interp(t[1:-1], *complete.lines[0].get_data()) * scale == pytest.approx(
+            values[1:-1], abs=1e-9 * np.abs(values).max()
+        )
+    x, _ = plotting.plot_hysteresis(r, time=(2, 5.5)).axes[0].lines[0].get_data()
+    assert 0 < len(x) < len(plotting.plot_hysteresis(r).axes[0].lines[0].get_xdata())
+    for wrong in ((5, 2), (-1, 3), (100, 200), (math.nan, 3)):
+        with pytest.raises(ValueError, match="begin and a later end within 0 to"):
+            plotting.plot_response(r, time=wrong)
+    for wrong in (3, (1, 2, 3), ("a", 2)):
+        with pytest.raises(TypeError, match=r"a begin and an end \[s\], such as \(0, 25\), got"):
+            plotting.plot_hysteresis(r, time=wrong)
+    # A part that ends after the response ends with it.
+    assert plotting.plot_response(r, time=(0, 1e3)).axes[2].get_xlim() == whole[2].get_xlim()
+
+
+def texts(axes):
+    return " ".join(text.get_text() for text in axes.texts)
+
+
+def test_the_peak_and_the_residual_are_marked_where_they_are_in_the_part():
+    r = ss.integrate(SLIDERS["block"], motion(), settle=True)
+    events = r.events
+    at = events["time"][np.abs(events["displacement"]).argmax()]
+    end = max(r.time[-1], events["time"][-1])
+    whole = texts(r.plot().axes[2])
+    assert "peak" in whole and "residual" in whole
+    before, after = (
+        plotting.plot_response(r, time=w).axes[2] for w in ((0, at / 2), (at + 0.5, end))
+    )
+    assert "peak" not in texts(before) and "here at" in texts(before)
+    assert "peak" not in texts(after) and "residual" in texts(after)
+
+
+def test_a_residual_has_no_more_digits_than_the_peak_gives_it():
+    assert plotting._places(1.7e-5, 0.289, 100) == "0.00"
+    assert plotting._places(-1.7e-5, 0.289, 100) == "0.00"
+    assert plotting._places(-0.0595, 0.182, 100) == "\N{MINUS SIGN}5.95"
+    assert plotting._places(0.182, 0.182, 100) == "18.2"
+    assert plotting._places(0.0, 0.0, 100) == plotting._digits(0.0)
+    for peak in (0.0012, 0.034, 0.5, 7.0, 30.0):
+        length, _ = plotting._unit(peak)
+        for value in np.geomspace(1e-7, 1, 30) * peak:
+            shown = float(plotting._places(value, peak, length)) / length
+            assert shown == pytest.approx(value, rel=0.006, abs=6e-4 * peak)
+
+
+def test_stops_have_a_name_and_lie_in_the_picture():
+    slider = ss.Slider(
+        ss.Coulomb(mu=0.1), stops=ss.Stops(gap=0.02, backward=0.021, restitution=0.3)
+    )
+    push = ss.GroundMotion([0.0, -4.0, -4.0, 0.0, 0.0], dt=0.2)  # toward one stop alone
+    r = ss.integrate(slider, push, settle=True)
+    assert r.residual > 0 and len(r.impacts)
+    way = r.plot().axes[2]
+    low, high = way.get_ylim()
+    assert low < -2.1 and high > 2
+    assert "stop 2.00 cm" in texts(way) and "stop \N{MINUS SIGN}2.10 cm" in texts(way)
+
+
+def test_a_tiny_gap_has_no_panel_and_short_flights_are_counted():
+    quake = motion()
+    up = np.zeros(len(quake))
+    up[200] = -1.02 * G  # for a moment the ground falls faster than the block
+    both = ss.GroundMotion(quake.acceleration, quake.dt, vertical=up)
+    r = ss.integrate(ss.Coulomb(mu=0.1), both, settle=True)
+    assert "liftoff" in r.events["kind"] and r.gap.max() < 1e-4
+    figure = r.plot()
+    assert len(figure.axes) == 4
+    assert "no contact\n1 time" in texts(figure.axes[3])
+    assert len(ss.integrate(ss.Coulomb(mu=0.4), lifted().motion).plot().axes) == 5
+
+
+def test_a_spectrum_has_a_title_and_an_axis_that_suits_its_periods():
+    quake = motion()
+    periods = np.geomspace(0.05, 5, 30)
+    (axes,) = ss.response_spectrum(quake, periods).plot().axes
+    assert axes.get_title(loc="left") == "Elastic response spectrum"
+    assert axes.get_xscale() == "log"
+    labels = [label.get_text() for label in axes.get_xticklabels()]
+    assert labels[0] == "0.05" and labels[-1] == "5" and "1" in labels
+    (axes,) = ss.response_spectrum(quake, periods[::-1]).plot(title="mine").axes
+    assert axes.get_xscale() == "log" and axes.get_title(loc="left") == "mine"
+    for even in (np.linspace(0.1, 4, 40), [0.0, 0.1, 0.2, 0.4], [1.0], [1.0, 1.1, 1.21]):
+        (axes,) = ss.response_spectrum(quake, even).plot().axes
+        assert axes.get_xscale() == "linear"
+
+
+def test_pictures_fit_into_figures_of_pyplot():
+    """Into the axes of plt.subplots; and what a function returns has savefig."""
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    r = ss.integrate(SLIDERS["spring"], motion())
+    spectrum = ss.response_spectrum(motion(), [0.5, 1.0])
+    figure, axes = pyplot.subplots(1, 3)
+    try:
+        drawn = [
+            motion().plot(ax=axes[0]),
+            r.plot_hysteresis(ax=axes[1]),
+            spectrum.plot(ax=axes[2]),
+        ]
+        assert all(one is ax for one, ax in zip(drawn, axes))
+        assert all(ax.lines for ax in axes)
+    finally:
+        pyplot.close(figure)
+    for picture in (r.plot(), r.plot_hysteresis(), motion().plot(), spectrum.plot()):
+        content = io.BytesIO()
+        picture.savefig(content)
+        assert content.getvalue().startswith(b"\x89PNG")

@@ -202,9 +202,98 @@ def test_the_peak_of_brownian_motion():
     with pytest.raises(ValueError, match=r"probability must lie in \(0, 1\), got 1"):
         ss.theory.peak_from_growth(1, 1, 1)
     walk = ss.theory.PulseChain().peak(BLOCK, pulses, 0.9)
-    assert 0.95 < walk / found.value < 1.05
+    assert 0.95 < walk.value / found.value < 1.05
+    assert 0 < walk.low < found.value < walk.high
     with pytest.raises(ValueError, match=r"probability must lie in \(0, 1\), got 0"):
         ss.theory.PulseChain().peak(BLOCK, pulses, 0)
+
+
+PAGES = {
+    name: (ROOT / "docs" / name).read_text(encoding="utf-8")
+    for name in ("pulse_chain.md", "pulse_superposition.md")
+}
+
+
+def quoted(sentence, *texts):
+    """Whether texts contain a sentence, with line breaks anywhere."""
+    return all(" ".join(sentence.split()) in " ".join(text.split()) for text in texts)
+
+
+def notes(function):
+    """What the notes of a docstring say of accuracy, up to the sentence on other parameters."""
+    text = function.__doc__.split("Notes\n-----\n")[1]
+    return re.split(r" (?:Elsewhere|Takes|If overlaps) ", text)[0]
+
+
+def rows_below(heading, page="pulse_chain.md"):
+    lines = iter(PAGES[page].splitlines())
+    assert any(line == heading for line in lines)
+    next(lines)
+    rows = []
+    for line in lines:
+        if not line.startswith("|"):
+            break
+        rows.append([cell.strip() for cell in line.split("|")[1:-1]])
+    return rows
+
+
+def test_remarks_docstrings_and_pages_state_the_same_errors():
+    chain, refined = ss.theory.PulseChain(), ss.theory.PulseChain(refined=True)
+    page = PAGES["pulse_chain.md"]
+    assert quoted(notes(ss.theory.PulseChain.distribution), page)
+    assert quoted(notes(ss.theory.PulseChain.peak), page)
+    weak = ss.PoissonPulses(rate=0.5, half_width=1, sigma=0.25, duration=100)
+    _, _, remark = chain.predict(BLOCK, weak, [100]).remark.partition(" is below 0.3. ")
+    assert len(remark) > 100
+    assert quoted(remark, page)
+    _, _, remark = chain.distribution(BLOCK, weak, 100).remark.partition("= 0.25. ")
+    assert len(remark) > 100
+    assert quoted(remark, page)
+    near = ss.Coulomb(slip_level=1, backward=1.1)
+    both = ss.PoissonPulses(rate=0.5, half_width=1, sigma=1, duration=100)
+    assert chain.predict(near, both, [100]).remark == ""
+    remark = refined.predict(near, both, [100]).remark
+    assert "26 %" in remark
+    assert quoted(remark, page)
+    rare = ss.PoissonPulses(rate=0.1, half_width=1, sigma=1, duration=100)
+    superposition = ss.theory.PulseSuperposition()
+    _, _, remark = superposition.distribution(BLOCK, rare, 100).remark.partition("by PulseChain. ")
+    assert len(remark) > 100
+    assert quoted(remark, PAGES["pulse_superposition.md"], superposition.distribution.__doc__)
+
+
+def test_a_peak_is_bounded_by_the_errors_of_the_table():
+    chain = ss.theory.PulseChain()
+
+    def peak(rate, sigma, slips, probability=0.95):
+        first = ss.PoissonPulses(rate=rate, half_width=1, sigma=sigma, duration=100)
+        duration = slips / chain.distribution(BLOCK, first, 100).slips * 100
+        pulses = ss.PoissonPulses(rate=rate, half_width=1, sigma=sigma, duration=duration)
+        return chain.peak(BLOCK, pulses, probability)
+
+    def ratios(columns):
+        rows = rows_below(
+            "| p | sigma_B | 3 slips: 50 % | 95 % | 99 % | 10 slips: 50 % | 95 % | 99 % "
+            "| 50 slips: 50 % | 95 % | 99 % |"
+        )
+        return [float(row[i]) for row in rows for i in columns if row[i] != "-"]
+
+    for slips, columns in ((12, range(5, 11)), (4, range(2, 5))):
+        found = peak(0.1, 1, slips)
+        largest, smallest = found.value / found.low, found.value / found.high
+        table = ratios(columns)
+        assert smallest - 1e-9 <= min(table) < smallest + 0.05
+        assert largest - 0.05 < max(table) <= largest + 1e-9
+    # Where nothing was measured: fewer slips, more pulses, other quantiles, weak pulses.
+    for found in (
+        peak(0.1, 1, 2),
+        peak(2.5, 1, 20),
+        peak(0.5, 1, 20, probability=0.999),
+        peak(0.5, 0.3, 20),
+    ):
+        assert found.low == 0
+        assert found.high == math.inf
+        assert found.value > 0
 
 
 def value(text):
@@ -290,6 +379,11 @@ def test_the_distribution_of_rare_pulses_is_a_poisson_mixture():
         law.quantile(0.0)
     with pytest.raises(ValueError, match="must be a number"):
         law.cdf([0.0, math.nan])
+    assert law.remark == ""
+    with pytest.raises(ValueError, match="within a factor of 2 of that by PulseChain"):
+        ss.theory.PulseSuperposition().distribution(
+            BLOCK, ss.PoissonPulses(rate=0.1, half_width=1, sigma=0.5, duration=200), 200
+        )
     with pytest.raises(ValueError, match=r"at most 0.1, got 0.5"):
         ss.theory.PulseSuperposition().distribution(
             ss.Coulomb(slip_level=1), ss.PoissonPulses.event("great near field"), 60.0

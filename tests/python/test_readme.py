@@ -8,16 +8,25 @@ import subprocess
 import sys
 
 import pytest
-from pages import README, blocks, run
+from pages import README, assert_same_picture, blocks, run
 
 
-def test_the_python_runs(tmp_path, monkeypatch, capsys):
+def test_the_python_runs_and_draws_the_figure_of_the_page(tmp_path, monkeypatch, capsys):
+    """If the figure is not the one that the program draws, draw it with docs/draw_readme.py."""
+    plotting = pytest.importorskip("stickslip.plotting")
     monkeypatch.chdir(tmp_path)
     code, _, _ = blocks(README, "python")
-    run(README, code, {})
+    names = {}
+    run(README, code, names)
     lines = capsys.readouterr().out.splitlines()
     assert re.fullmatch(r"peak \d+\.\d cm, residual -?\d+\.\d cm, \d+ slips", lines[0])
     assert len(lines) == 5
+    shown = re.search(r"!\[[^\]]*\]\(([^)]*)\)", README.read_text(encoding="utf-8"))[1]
+    drawn = plotting.save(names["figure"], tmp_path / "figure.png")
+    assert_same_picture(drawn, README.parent / shown)
+    # The text explains the cart: it is far beyond the reach of its casters.
+    assert names["cart"].reach < 0.05
+    assert float(lines[1].split()[-2]) == pytest.approx(4.5, abs=0.05)
 
 
 def test_the_ensembles_run(tmp_path, monkeypatch, capsys):

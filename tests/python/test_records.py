@@ -398,6 +398,55 @@ def test_a_pipe_that_may_never_end_is_not_waited_for(tmp_path):
         ss.read_record(tmp_path / "pipe")
 
 
+def zeros_in(kind, size):
+    """A small archive of a large file."""
+    import io
+    import zlib
+
+    stream = io.BytesIO()
+    if kind == "zip":
+        with (
+            zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive,
+            archive.open("a.txt", "w") as file,
+        ):
+            for _ in range(size >> 20):
+                file.write(b"0\n" * (1 << 19))
+        return stream.getvalue()
+    packer = zlib.compressobj(1, wbits=31)
+    parts = [packer.compress(b"0\n" * (1 << 19)) for _ in range(size >> 20)]
+    return b"".join([*parts, packer.flush()])
+
+
+@pytest.mark.parametrize("kind", ["zip", "gz"])
+def test_an_archive_never_fills_the_memory(tmp_path, kind):
+    file = tmp_path / f"bomb.{kind}"
+    file.write_bytes(zeros_in(kind, 70 << 20))
+    assert file.stat().st_size < 400_000
+    with pytest.raises(ValueError, match="unpacks to more than 64 MiB; unpack it to read it"):
+        ss.read_record(file, units="g", dt=0.01)
+    with pytest.raises(ValueError, match="cannot read 1 of 1 files"):
+        ss.Suite.read(file, units="g", dt=0.01)
+
+
+def test_ctrl_c_ends_the_wait_for_a_large_file(tmp_path):
+    """The reader is stood in for by a sleep of C, which no interrupt of Python ends."""
+    file = tmp_path / "large.txt"
+    file.write_text("0.001\n" * 1_600_000)
+    code = (
+        "import _thread, ctypes, threading, stickslip as ss, stickslip.records as records\n"
+        "def endless(*arguments):\n"
+        "    threading.Timer(0.05, _thread.interrupt_main).start()\n"
+        "    ctypes.CDLL(None).sleep(600)\n"
+        "records._core._parse_components = endless\n"
+        "try:\n"
+        f"    ss.read_record({str(file)!r}, units='g', dt=.01)\n"
+        "except KeyboardInterrupt:\n"
+        "    print('interrupted')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (0, "interrupted\n")
+
+
 # ---- what ObsPy reads
 
 

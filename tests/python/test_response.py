@@ -186,7 +186,7 @@ def test_the_time_sliding_runs_from_breakaways_to_arrests(response):
 
 def test_a_response_says_the_main_numbers():
     r = block()
-    for part in ("Response", f"peak {r.peak!r} m", f"{len(r.events)} events"):
+    for part in ("Response", f"peak {r.peak:.4g} m", f"{len(r.events)} events"):
         assert part in repr(r)
 
 

@@ -157,7 +157,7 @@ def test_it_plots_itself():
         "5 % damping",
     ]
     mine = Figure().subplots()
-    assert spectrum.plot(ax=mine) is mine.figure
+    assert spectrum.plot(ax=mine) is mine
     assert len(mine.lines) == 2
     ss.response_spectrum(QUAKE, 1.0, kind="velocity").plot(ax=mine)
     assert "velocity" in mine.get_ylabel()

@@ -1,7 +1,6 @@
 """Type stubs: they agree with the compiled module, and a checker accepts a user's script."""
 
 import os
-import shutil
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -23,7 +22,10 @@ from pathlib import Path
 
 import numpy as np
 import stickslip as ss
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
+from stickslip import plotting
 
 block = ss.Coulomb(mu=0.2)
 block = ss.Coulomb(slip_level=1, backward=float("inf"))
@@ -44,9 +46,13 @@ quake = ss.GroundMotion([0, 1], dt=0.01, units="g").scaled_to(pga_g=0.4).cut(0, 
 quake = -(2 * quake / np.float32(3)).resampled(0.005).detrended(order=1) * 2
 ground: NDArray[np.float64] = quake.velocity + quake.displacement
 picture = quake.plot(title="mine")
+samples: NDArray[np.float64] = np.asarray(quake, dtype=np.float64)
+quake.to_csv(Path("quake.csv"))
 spectrum = ss.response_spectrum(quake, np.geomspace(0.01, 10, 20), [0.02, 0.05], kind="velocity")
 sa: NDArray[np.float64] = ss.response_spectrum(quake, 1.0).values
 picture = spectrum.plot()
+plotting.save(picture, "spectrum.png")
+table_of_sa, measures = spectrum.to_dataframe(), ss.strong_motion(quake).to_json()
 warned: type[UserWarning] = ss.PlausibilityWarning
 
 r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
@@ -68,7 +74,21 @@ forces: NDArray[np.float64] = r.force + r.acceleration
 sticking: NDArray[np.bool_] = ~r.stuck
 file: Path = r.to_csv("r.csv")
 table, dataset = r.to_dataframe(), r.to_xarray()
-r.plot_hysteresis(title="mine")
+r.plot_hysteresis(title="mine").savefig("loop.png")
+r.plot(time=(0, 25)).savefig("r.png")
+plotting.save(r.plot(title="mine"), "r.png")
+plotting.save(plotting.plot_responses([r, r]), Path("both.png"))
+page = Figure()
+part: object = r.plot(figure=page.add_subfigure(page.add_gridspec(1, 1)[0])).suptitle("upper")
+axes: Axes = page.subplots()
+panels: list[Axes] = [quake.plot(ax=axes), r.plot_hysteresis(ax=axes, time=(0, 1))]
+scaled: ss.GroundMotion = r.motion.scaled(2)
+blocks_of = ss.grid(ss.Coulomb, mu=[0.1, 0.2, 0.3])
+swept = ss.sweep(ss.grid(ss.Slider, law=blocks_of, period=[2.0, 3.0]), [quake])
+swept.plot("residual", title="mine").savefig("sweep.png")
+panels.append(swept.plot(ax=axes))
+for interface in ss.interfaces():
+    low: float = interface["mu_low"]
 far = max(r.peak, r.residual, r.sliding_distance, r.time_sliding)
 same: bool = block == wheel or hash(block) == hash(cart)
 words: dict[str, str] = ss.build_info()
@@ -149,6 +169,7 @@ class MyTheory:
         return ss.Moments(times, velocity_variance=times**2, growth_rate=3)
 
 compared = ss.compare(block, pulses, members=10, theories=[*ss.theory.THEORIES, MyTheory()])
+plotting.save(compared.plot(), "theories.png")
 answer: bool = bool(ss.theory.PulseChain().covers(wheel, pulses))
 moments = ss.theory.PulseChain().predict(block, pulses, [1, 2])
 moments = ss.theory.StationaryLinearization().predict(block, 0.1, [1, 2])
@@ -223,11 +244,12 @@ def test_a_strict_checker_takes_what_runs_and_refuses_what_does_not(tmp_path):
 def documented(tmp_path):
     """The Python of the README and of the guides, a file for each block."""
     docs = ROOT / "docs"
-    guides = [docs / "start.md", docs / "ground_motions.md", *(docs / "guides").glob("*.md")]
-    for page in [ROOT / "README.md", *guides]:
+    names = ("start", "ground_motions", "contact", "sweeps", "coming_from", "trust")
+    guides = [docs / f"{name}.md" for name in names]
+    for page in [ROOT / "README.md", *guides, *(docs / "guides").glob("*.md")]:
         for number, code in enumerate(blocks(page, "python"), 1):
             (tmp_path / f"{page.stem}_{number}.py").write_text(code)
-    assert len(list(tmp_path.glob("*.py"))) > 25
+    assert len(list(tmp_path.glob("*.py"))) > 40
     return tmp_path
 
 
@@ -241,7 +263,8 @@ def test_pyright_passes_the_code_of_readme_and_guides_and_the_stubs(documented):
     pyright = [sys.executable, "-m", "pyright"]  # fetches itself from npm's registry when first run
     if subprocess.run([*pyright, "--version"], capture_output=True, check=False).returncode:
         pytest.skip("needs pyright: pip install pyright[nodejs], and a network the first time")
-    shutil.copy(Path(ss.__file__).parent / "_core.pyi", documented / "core.pyi")
+    stubs = (Path(ss.__file__).parent / "_core.pyi").read_text(encoding="utf-8")
+    (documented / "core.pyi").write_text(stubs.replace("\nfrom .", "\nfrom stickslip."))
     (documented / "pyrightconfig.json").write_text('{"typeCheckingMode": "strict"}')
     command = [*pyright, "--pythonpath", sys.executable, "."]
     done = subprocess.run(command, cwd=documented, capture_output=True, text=True, check=False)

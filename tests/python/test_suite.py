@@ -167,6 +167,29 @@ def test_all_files_that_cannot_be_read_are_told_at_once(folder):
     assert len(ss.Suite.read(sorted(folder.glob("one/r[56].csv")), units="m/s^2")) == 2
 
 
+@pytest.mark.parametrize("pattern", ["{}", "{}/**", "{}/**/*.csv", "{}/*/*.csv"])
+def test_a_loop_of_links_leaves_each_record_once(folder, pattern):
+    (folder / "one" / "up").symlink_to(folder)
+    (folder / "two" / "again").symlink_to(folder / "one")
+    suite = ss.Suite.read(pattern.format(folder))
+    assert [name.rsplit("/", 1)[1] for name in suite.file] == [f"r{i}.csv" for i in range(4)]
+
+
+def test_a_link_to_a_folder_elsewhere_is_followed(folder, tmp_path_factory):
+    database = tmp_path_factory.mktemp("database")
+    (database / "linked").symlink_to(folder)
+    assert len(ss.Suite.read(f"{database}/**/*.csv")) == 4
+    assert len(ss.Suite.read(database)) == 4
+
+
+def test_progress_tells_the_files_that_are_read(folder, capsys):
+    told = []
+    ss.Suite.read(folder, progress=lambda done, total: told.append((done, total)))
+    assert told == [(i, 4) for i in range(1, 5)]
+    ss.Suite.read(folder, progress=True)
+    assert "4 of 4 files" in capsys.readouterr().err
+
+
 def test_files_that_are_the_same_record_are_told(folder):
     write(folder / "two", "copy.csv", MOTIONS[0])
     with pytest.warns(ss.PlausibilityWarning, match="r0.csv = copy.csv"):
@@ -185,6 +208,19 @@ def test_metadata_beside_the_records_are_joined_in_any_order(folder):
     assert ss.Suite.read(folder / "one", metadata=frame).vs30 == pytest.approx(
         [760, math.nan], nan_ok=True
     )
+
+
+def test_a_column_named_like_a_quantity_of_the_suite_is_renamed(folder):
+    table = {"file": ["r0", "r1", "r2", "r3"], "pga_g": [1.0, 2.0, 3.0, 4.0], "save": list("abcd")}
+    with pytest.warns(RuntimeWarning, match="'pga_g' to 'pga_g_given', 'save' to 'save_given'"):
+        suite = ss.Suite.read(folder, metadata=table)
+    assert suite.pga_g_given.tolist() == [1, 2, 3, 4]
+    assert suite.save_given.tolist() == list("abcd")
+    assert suite.pga_g.tolist() == [m.peak_acceleration / ss.STANDARD_GRAVITY for m in suite]
+    with pytest.warns(RuntimeWarning, match="'duration' to 'duration_given'"):
+        suite = ss.Suite(MOTIONS, {"duration": [1, 2, 3, 4]})
+    assert suite.duration_given.tolist() == [1, 2, 3, 4]
+    assert suite.duration[0] == MOTIONS[0].duration
 
 
 @pytest.mark.parametrize(
@@ -231,6 +267,76 @@ def test_all_components_are_saved_and_told_apart(tmp_path):
     assert saved[2].vertical is None
     assert suite.duplicates == []  # the axes of two are the same, the vertical components are not
     assert ss.Suite([whole, whole]).duplicates == [(0, 1)]
+
+
+def test_every_changed_byte_of_a_saved_suite_is_found_or_changes_nothing(tmp_path):
+    """Bytes of padding may change; values may not."""
+    pytest.importorskip("h5py")
+    n, t = (m.acceleration[:60] for m in MOTIONS[:2])
+    motion = ss.GroundMotion(n, dt=0.02, transverse=t, orientation="N28W", name="whole")
+    suite = ss.Suite([motion, MOTIONS[2].cut(0, 1)], {"magnitude": [6.5, 7.0], "event": ["a", "b"]})
+    file = suite.save(tmp_path / "s.h5")
+    whole = file.read_bytes()
+    found = 0
+    for place in range(0, len(whole), 61):
+        damaged = bytearray(whole)
+        damaged[place] ^= 0x20
+        file.write_bytes(damaged)
+        try:
+            assert ss.Suite.open(file) == suite, place
+        except ValueError:
+            found += 1
+    assert found > (2 * n.nbytes) // 61
+
+
+@pytest.mark.parametrize(
+    "change, said",
+    [
+        (lambda h5: rewritten(h5, "name", h5["name"][:2]), "'first' must have shape"),
+        (lambda h5: rewritten(h5, "first", [0, 400, 800, 1200, 1700]), "'first' must rise from 0"),
+        (lambda h5: rewritten(h5, "first", [-5, 400, 800, 1200, 1600]), "'first' must rise from 0"),
+        (lambda h5: rewritten(h5, "vertical", [1.0, 2.0]), "'vertical' must have 0 samples, has 2"),
+        (lambda h5: rewritten(h5, "dt", [0.02]), "'dt' must have shape"),
+        (lambda h5: rewritten(h5["metadata"], "event", ["a"]), "'event' must have shape"),
+        (lambda h5: linked(h5, "acceleration"), "'acceleration' is a link"),
+    ],
+)
+def test_a_suite_of_other_lengths_is_refused(tmp_path, change, said):
+    h5py = pytest.importorskip("h5py")
+    file = SUITE.save(tmp_path / "s.h5")
+    with h5py.File(file, "a") as h5:
+        change(h5)
+    with pytest.raises(ValueError, match=f"is damaged: {said}"):
+        ss.Suite.open(file)
+
+
+def rewritten(group, name, values):
+    del group[name]
+    group[name] = values
+
+
+def linked(h5, name):
+    import h5py
+
+    with h5py.File(h5.filename.replace("s.h5", "other.h5"), "w") as other:
+        other[name] = h5[name][:]
+    del h5[name]
+    h5[name] = h5py.ExternalLink("other.h5", name)
+
+
+def test_a_suite_without_checksums_is_read(tmp_path):
+    """As versions before there were checksums wrote it."""
+    h5py = pytest.importorskip("h5py")
+    file = SUITE.save(tmp_path / "s.h5")
+    with h5py.File(tmp_path / "old.h5", "w") as old, h5py.File(file) as h5:
+        old.attrs["format"] = "stickslip suite 1"
+        for name in h5:
+            if name != "metadata":
+                old[name] = h5[name][:]
+        group = old.create_group("metadata", track_order=True)
+        for name in h5["metadata"]:
+            group[name] = h5["metadata"][name][:]
+    assert ss.Suite.open(tmp_path / "old.h5") == SUITE
 
 
 # ---- stations
@@ -294,23 +400,33 @@ def test_stations_in_an_archive_and_in_other_folders_are_kept_apart(stations, tm
     assert suite.files[3].startswith(f"{file}::AAA-000.AT2; ")
     assert np.array_equal(suite[3].vertical, suite[0].vertical)
     # Without stations an archive of several files stands for all of them, too.
-    assert len(ss.Suite.read(file)) == 3
+    with pytest.warns(RuntimeWarning, match="all.zip::AAA-UP.AT2: a vertical component"):
+        assert len(ss.Suite.read(file)) == 2
 
 
 def test_what_fits_no_station_stays_alone_with_its_reason(stations):
     component(stations, ("Quake, AAA", "090 "), quake(3))  # twice the same direction
     component(stations, ("Quake, BBB", "UP"), quake(4, samples=300))
     (stations / "table.csv").write_text("Time (s),a (g),b (g)\n0,1,2\n1,2,1\n")
-    with pytest.warns(RuntimeWarning, match="10 of 10 components"):
+    with pytest.warns(RuntimeWarning) as said:
         suite = ss.Suite.read(stations, stations=True)
+    left, alone = (str(one.message) for one in said)
+    assert "8 of 10 components" in alone
     assert set(suite.components) == {1}
     reasons = dict(suite.alone)
+    # A vertical component alone is no horizontal record.
+    verticals = dict(suite.left_out)
+    assert [name.rsplit("/", 1)[1] for name in verticals] == ["AAA-UP.AT2", "BBB-UP.AT2"]
+    assert "same number of samples" in verticals[str(stations / "BBB-UP.AT2")]
+    assert "AAA-UP.AT2: a vertical component (UP): needs one or two horizontal" in left
     assert "one or two horizontal components, got 3" in reasons[str(stations / "AAA-000.AT2")]
     assert "same number of samples" in reasons[str(stations / "BBB-045.AT2")]
     assert "neither the file nor its name" in reasons[str(stations / "table.csv")]
-    with pytest.warns(RuntimeWarning, match="7 of 10"), warnings.catch_warnings():
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", RuntimeWarning)
         warnings.simplefilter("ignore", ss.PlausibilityWarning)  # what is cut leaves an offset
         cut = ss.Suite.read(stations, stations=True, common_length=True)
+    assert "6 of 10 components" in str(said[-1].message)
     (three,) = cut[cut.components == 3]
     assert len(three) == 300
 
@@ -331,9 +447,10 @@ def test_all_components_are_motions_of_a_suite(tmp_path):
     (tmp_path / "three.csv").write_text(
         "Time (s),NS (g),EW (g),UD (g)\n0,1,2,3\n1,2,1,3\n2,0,0,1\n"
     )
-    suite = ss.Suite.read(tmp_path, component="all")
-    assert suite.component.tolist() == ["NS", "EW", "UD"]
-    assert list(suite) == ss.read_record(tmp_path / "three.csv", component="all")
+    with pytest.warns(RuntimeWarning, match="left out, because sliders move horizontally"):
+        suite = ss.Suite.read(tmp_path, component="all")
+    assert suite.component.tolist() == ["NS", "EW"]
+    assert list(suite) == ss.read_record(tmp_path / "three.csv", component="all")[:2]
     assert set(suite.file) == {str(tmp_path / "three.csv")}
 
 
@@ -389,7 +506,8 @@ def test_a_suite_is_a_table():
     pytest.importorskip("pandas")
     frame = SUITE.to_dataframe()
     assert frame["record"].tolist() == list(SUITE.names)
-    assert frame["PGA [g]"].tolist() == SUITE.pga_g.tolist()
+    assert frame.pga_g.tolist() == SUITE.pga_g.tolist()
+    assert frame.attrs["units"] == {"pga_g": "g", "duration": "s"}
     assert repr(SUITE) == "Suite(4 records, with magnitude, event)"
 
 

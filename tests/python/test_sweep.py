@@ -50,9 +50,9 @@ def test_each_combination_is_what_integrate_says():
 
 
 def test_one_slider_one_motion_and_one_polarity_make_a_table_of_one():
-    table = ss.sweep(ss.Coulomb(mu=0.1), QUAKES[0], polarity="flipped")
+    table = ss.sweep(ss.Coulomb(mu=0.1), QUAKES[0], polarity="reversed")
     assert table.peak.shape == (1, 1, 1)
-    assert table.polarity == ("flipped",)
+    assert table.polarity == ("reversed",)
     assert table.residual[0, 0, 0] == pytest.approx(
         ss.integrate(ss.Coulomb(mu=0.1), -QUAKES[0]).residual, rel=1e-12
     )
@@ -102,7 +102,9 @@ def test_what_is_no_slider_motion_or_option_is_refused_by_name():
         ss.sweep([one, 3], QUAKES)
     with pytest.raises(TypeError, match=r"motions\[0\] must be a GroundMotion, got str"):
         ss.sweep(one, "kobe.AT2")
-    with pytest.raises(ValueError, match=r"polarity must be 'both', .* got 'up'"):
+    with pytest.raises(
+        ValueError, match=r"polarity must be 'recorded', 'reversed' or 'both', got 'up'"
+    ):
         ss.sweep(one, QUAKES, polarity="up")
     with pytest.raises(ValueError, match="threads must be from 1 to 65536, got 0"):
         ss.sweep(one, QUAKES, threads=0)
@@ -136,14 +138,19 @@ def test_the_table_goes_to_frames_files_and_back(tmp_path):
     table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES)
     frame = table.to_dataframe()
     assert len(frame) == 48
-    row = frame[(frame.mu == 0.1) & (frame.magnitude == 6.5) & (frame.polarity == "flipped")]
-    assert row["peak [m]"].item() == table.peak[1, 3, 1]
+    row = frame[(frame.mu == 0.1) & (frame.magnitude == 6.5) & (frame.polarity == "reversed")]
+    assert row.peak.item() == table.peak[1, 3, 1]
+    assert frame.attrs["units"] == dict.fromkeys(("peak", "residual", "sliding_distance"), "m")
+    texts = [name for name, kind in frame.dtypes.items() if kind == "category"]
+    assert texts == ["slider", "record", "polarity"]
+    assert frame.record.tolist() == [name for name in QUAKES.names for _ in (0, 1)] * 4
+    assert len(frame.query("peak > 0.01 and mu < 0.3")) == (table.peak[:3] > 0.01).sum()
     data = table.to_xarray()
-    assert data.peak.sel(polarity="flipped").values == pytest.approx(table.peak[:, :, 1], rel=0)
+    assert data.peak.sel(polarity="reversed").values == pytest.approx(table.peak[:, :, 1], rel=0)
     assert data.magnitude.values.tolist() == QUAKES.magnitude.tolist()
     assert ss.SweepTable.open(table.save(tmp_path / "t.h5")) == table
     rows = list(csv.DictReader(table.to_csv(tmp_path / "t.csv").read_text().splitlines()))
-    assert [float(r["peak [m]"]) for r in rows] == frame["peak [m]"].tolist()
+    assert [float(r["peak [m]"]) for r in rows] == frame.peak.tolist()
     assert pickle.loads(pickle.dumps(table)) == table
     assert table != ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES, settle=True)
 
@@ -176,8 +183,8 @@ def test_a_table_goes_to_json_and_back():
     "change, message",
     [
         (lambda text: text[:-5], "needs a JSON document"),
-        (lambda text: "[1, 2]", "must be of format 'stickslip sweep table 1', got None"),
-        (lambda text: text.replace("table 1", "table 0"), "got 'stickslip sweep table 0'"),
+        (lambda text: "[1, 2]", "must be of format 'stickslip sweep table 2', got None"),
+        (lambda text: text.replace("table 2", "table 0"), "got 'stickslip sweep table 0'"),
         (lambda text: text.replace('"peak": [', '"top": ['), "lacks 'peak'"),
         (lambda text: text.replace('"peak": [[', '"peak": [[],['), "damaged"),
     ],
@@ -193,7 +200,7 @@ def test_a_file_that_is_no_table_is_refused(tmp_path):
     with pytest.raises(ValueError, match="is not an HDF5 file, or is damaged"):
         ss.SweepTable.open(tmp_path / "x.h5")
     QUAKES.save(tmp_path / "s.h5")
-    with pytest.raises(ValueError, match="must be of format 'stickslip sweep table 1', got"):
+    with pytest.raises(ValueError, match="must be of format 'stickslip sweep table 2', got"):
         ss.SweepTable.open(tmp_path / "s.h5")
     with pytest.raises(FileNotFoundError):
         ss.SweepTable.open(tmp_path / "none.h5")
@@ -215,13 +222,128 @@ def test_a_table_draws_records_thin_and_their_median():
     lines = axes.get_lines()
     assert len(lines) == 13  # 12 histories and the median
     assert lines[-1].get_ydata() == pytest.approx(100 * table.quantile(0.5), rel=1e-12)
+    mine = table.plot().subplots()
+    assert table.plot("residual", ax=mine) is mine
     floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=MU), period=[2, 3])
     both = ss.sweep(floors, QUAKES[:2])
     assert len(both.plot(against="mu").axes[0].get_lines()) == 2
     with pytest.raises(ValueError, match="against must be one of mu, period, got 'law'"):
         both.plot(against="law")
-    with pytest.raises(ValueError, match="needs a parameter with numbers"):
-        ss.sweep([ss.Slider(ss.Coulomb(mu=0.1), period=2)], QUAKES).plot()
+
+
+def test_many_histories_are_drawn_as_bands():
+    pytest.importorskip("matplotlib")
+    many = ss.sweep(ss.grid(ss.Coulomb, mu=MU), [quake(i, 50) for i in range(101)])
+    (axes,) = many.plot().axes
+    (median,) = axes.get_lines()
+    assert median.get_ydata() == pytest.approx(100 * many.quantile(0.5), rel=1e-12)
+    outer, inner = (band.get_paths()[0].vertices[:, 1] for band in axes.collections)
+    for band, ends in ((outer, (0.05, 0.95)), (inner, (0.16, 0.84))):
+        low, high = 100 * many.quantile(ends)
+        assert {*np.round(low, 9), *np.round(high, 9)} <= {*np.round(band, 9)}
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["5 to 95 %", "16 to 84 %", "median of 202 histories"]
+
+
+def test_a_list_of_sliders_is_drawn_by_place():
+    pytest.importorskip("matplotlib")
+    sliders = [ss.Slider(ss.Coulomb(mu=0.1), period=2), ss.Coulomb(mu=0.1, backward=math.inf)]
+    (axes,) = ss.sweep(sliders, QUAKES).plot("residual").axes
+    assert [" ".join(tick.get_text().split()) for tick in axes.get_xticklabels()] == [
+        "Slider(Coulomb(mu=0.1), natural_frequency=3.142)",
+        "Coulomb(mu=0.1, backward=float('inf'))",
+    ]
+    (axes,) = ss.sweep([sliders[0]] * 20, QUAKES).plot().axes
+    assert axes.get_xlabel() == "slider, by its place in the list"
+
+
+def test_polarities_that_are_the_same_are_one_line():
+    pytest.importorskip("matplotlib")
+    (axes,) = ss.sliding_spectrum(QUAKES[5], MU, period=[1, 2, math.inf]).plot().axes
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == [f"period = {p}, recorded and reversed" for p in ("1", "2", "inf")]
+    assert len(axes.get_lines()) == 3
+    (axes,) = ss.sliding_spectrum(QUAKES[5], MU, one_way=True).plot().axes
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["recorded", "reversed"]
+
+
+def test_a_grid_has_an_axis_for_each_parameter_in_xarray(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=MU), period=[2, 3])
+    table = ss.sweep(floors, QUAKES)
+    data = table.to_xarray()
+    assert data.peak.dims == ("mu", "period", "record", "polarity")
+    for i, (mu, period) in enumerate(zip(*table.parameters.values())):
+        there = data.sel(mu=mu, period=period)
+        assert np.array_equal(there.peak, table.peak[i])
+        assert there.slider.item() == table.sliders[i]
+    assert data.peak.sel(mu=0.11, method="nearest").mu == 0.1
+    assert "slider" in ss.sweep([*floors[:3], *floors[5:]], QUAKES).to_xarray().dims
+    file = table.save(tmp_path / "t.h5")
+    for engine in ("h5netcdf", "netcdf4"):
+        if engine == "netcdf4":
+            pytest.importorskip("netCDF4")
+        with xarray.open_dataset(file, engine=engine) as stored:
+            assert stored.peak.dims == ("slider", "record", "polarity")
+            assert np.array_equal(stored.peak, table.peak)
+            assert stored.peak.attrs["units"] == "m"
+            assert stored.coords["mu"].dims == ("slider",)
+            assert stored.record.values.tolist() == list(QUAKES.names)
+            assert stored.polarity.values.tolist() == ["recorded", "reversed"]
+            assert np.array_equal(stored.coords["magnitude"], QUAKES.magnitude)
+
+
+def test_columns_with_the_names_of_results_are_kept(tmp_path):
+    pytest.importorskip("h5py")
+    pytest.importorskip("pandas")
+    suite = QUAKES.with_metadata({"peak": np.arange(6), "depth/km": np.arange(6.0)})
+    table = ss.sweep(ss.Coulomb(mu=0.1), suite)
+    frame = table.to_dataframe()
+    assert frame.peak_.tolist() == np.arange(6).repeat(2).tolist()
+    assert np.array_equal(frame.peak, table.peak.ravel())
+    again = ss.SweepTable.open(table.save(tmp_path / "t.h5"))
+    assert again == table
+    assert list(again.metadata) == list(table.metadata)
+
+
+def test_damage_to_a_saved_table_is_found(tmp_path):
+    pytest.importorskip("h5py")
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES)
+    file = table.save(tmp_path / "t.h5")
+    whole = file.read_bytes()
+    place = whole.index(table.peak.tobytes())
+    for offset in (0, 7, table.peak.nbytes - 1):
+        damaged = bytearray(whole)
+        damaged[place + offset] ^= 1
+        file.write_bytes(damaged)
+        with pytest.raises(ValueError, match=r"SweepTable.open: .* is damaged"):
+            ss.SweepTable.open(file)
+
+
+def test_tables_of_the_former_layout_open(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=MU), QUAKES)
+    with h5py.File(tmp_path / "t.h5", "w") as h5:
+        h5.attrs.update({"format": "stickslip sweep table 1", "contact": "flight"})
+        h5.attrs.update({"settle": False, "failures": "[]"})
+        h5["sliders"], h5["records"] = list(table.sliders), list(table.records)
+        h5["polarity"] = ["as recorded", "flipped"]
+        for name in ("peak", "residual", "sliding_distance", "events"):
+            h5[name] = getattr(table, name)
+        h5["parameters/mu"] = table.parameters["mu"]
+        h5.create_group("metadata")["magnitude"] = table.metadata["magnitude"]
+    assert ss.SweepTable.open(tmp_path / "t.h5") == table
+
+
+def test_a_law_of_a_lambda_names_the_remedy_for_processes():
+    law = ss.Law(resist=lambda x, speed, direction: 1.0)
+    with ProcessPoolExecutor(1) as pool:
+        with pytest.raises(ss.SweepError, match="define the functions of laws in a module"):
+            ss.sweep(law, QUAKES[:1], executor=pool)
+        with pytest.raises(ss.EnsembleError, match="define the functions of laws in a module"):
+            ss.run_ensemble(law, QUAKES[0], members=2, seed=1, executor=pool)
 
 
 def test_a_sliding_spectrum_is_a_sweep_of_one_record():

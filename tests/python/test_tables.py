@@ -1,5 +1,6 @@
 """Responses as tables: of pandas and xarray, in files, and in notebooks."""
 
+import csv
 import io
 import json
 import os
@@ -9,9 +10,10 @@ import xml.etree.ElementTree
 import numpy as np
 import pytest
 import stickslip as ss
+from stickslip._tables import Repeated, write_csv
 
 UNITS = {
-    "ground acceleration": "m/s^2",
+    "ground_acceleration": "m/s^2",
     "displacement": "m",
     "velocity": "m/s",
     "acceleration": "m/s^2",
@@ -21,7 +23,7 @@ UNITS = {
     "force": "m/s^2",
     "stuck": "",
 }
-COLUMNS = [f"{name} [{unit}]" if unit else name for name, unit in UNITS.items()]
+HEADS = [f"{name} [{unit}]" if unit else name for name, unit in UNITS.items()]  # of a CSV file
 SLIDER = ss.Slider(ss.Coulomb(mu=0.05), period=3, damping_ratio=0.1)
 
 
@@ -45,19 +47,22 @@ def histories(r):
     return [ground, *(getattr(r, name) for name in named), r.stuck]
 
 
-def test_a_data_frame_has_every_history_under_its_unit(response):
+def test_a_data_frame_has_every_history_and_its_unit(response):
     pandas = pytest.importorskip("pandas")
     frame = response.to_dataframe()
     assert isinstance(frame, pandas.DataFrame)
-    assert frame.index.name == "time [s]"
+    assert frame.index.name == "time"
     assert np.array_equal(frame.index, response.time)
-    assert list(frame.columns) == COLUMNS
-    for name, history in zip(COLUMNS, histories(response), strict=True):
+    assert list(frame.columns) == list(UNITS)
+    assert all(name.isidentifier() for name in frame.columns)
+    assert frame.attrs["units"] == {"time": "s"} | {n: u for n, u in UNITS.items() if u}
+    for name, history in zip(UNITS, histories(response), strict=True):
         assert np.array_equal(frame[name], history), name
     assert frame["stuck"].dtype == bool
-    assert frame["displacement [m]"].abs().max() <= response.peak
-    frame["mine"] = frame["force [m/s^2]"] * 2  # a table of one's own
-    frame.loc[frame.index[0], "displacement [m]"] = 5.0
+    assert frame.displacement.abs().max() <= response.peak
+    assert len(frame.query("velocity != 0")) == (response.velocity != 0).sum()
+    frame["mine"] = frame.force * 2  # a table of one's own
+    frame.loc[frame.index[0], "displacement"] = 5.0
     assert response.displacement[0] == 0
 
 
@@ -68,7 +73,7 @@ def test_a_dataset_has_every_history_with_its_unit(response):
     assert np.array_equal(data["time"], response.time)
     assert data["time"].attrs["units"] == "s"
     for (name, unit), history in zip(UNITS.items(), histories(response), strict=True):
-        variable = data[name.replace(" ", "_")]
+        variable = data[name]
         assert variable.dims == ("time",)
         assert np.array_equal(variable, history), name
         assert variable.attrs.get("units", "") == unit
@@ -89,7 +94,7 @@ def test_a_file_reads_back_to_the_bit(response, tmp_path):
     assert response.to_csv(path) == path
     frame = pandas.read_csv(path, index_col=0)
     assert frame.index.name == "time [s]"
-    assert list(frame.columns) == COLUMNS
+    assert list(frame.columns) == HEADS
     # a reader that may round, by a unit of the last digit; NumPy's does not
     assert frame["displacement [m]"].to_numpy() == pytest.approx(response.displacement, rel=5e-16)
     table = np.loadtxt(path, delimiter=",", skiprows=1)
@@ -97,6 +102,24 @@ def test_a_file_reads_back_to_the_bit(response, tmp_path):
     for column, history in zip(table.T[1:], histories(response), strict=True):
         assert np.array_equal(column, history)
     assert set(table[:, -1]) <= {0, 1}
+
+
+def test_texts_in_a_file_are_quoted_where_they_must_be(tmp_path):
+    names = ["plain", "a, b", 'say "no"', "two\nlines", ""]
+    columns = {
+        "record": Repeated(np.array(names), np.array([0, 1, 2, 3, 4, 1])),
+        "event": np.array([*names, "é"]),
+        "peak": np.array([0.1, 1e300, -0.0, np.inf, np.nan, 5e-324]),
+        "sliding": np.array([True, False] * 3),
+    }
+    path = write_csv(columns, {"peak": "m"}, tmp_path / "t.csv")
+    head, *rows = csv.reader(io.StringIO(path.read_text(), newline=""))
+    assert head == ["record", "event", "peak [m]", "sliding"]
+    record, event, peak, sliding = zip(*rows)
+    assert list(record) == [*names, "a, b"]
+    assert list(event) == [*names, "é"]
+    assert np.array_equal([float(p) for p in peak], columns["peak"], equal_nan=True)
+    assert sliding == ("1", "0") * 3
 
 
 def test_a_long_file_has_all_its_lines(tmp_path):
@@ -197,9 +220,8 @@ def test_json_has_every_number_and_no_nan(response):
     assert document["residual"] == response.residual
     assert document["slider"] == repr(response.slider)
     assert document["time"] == response.time.tolist()
-    for column, values in zip(UNITS, histories(response), strict=True):
-        name = column.replace(" ", "_")
+    for name, values in zip(UNITS, histories(response), strict=True):
         assert document[name] == np.asarray(values).tolist(), name
-        assert document["units"].get(name, "") == UNITS[column]
+        assert document["units"].get(name, "") == UNITS[name]
     assert [one["time"] for one in document["events"]] == response.events["time"].tolist()
     assert [one["kind"] for one in document["events"]] == response.events["kind"].tolist()

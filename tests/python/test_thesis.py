@@ -8,8 +8,8 @@ from stickslip.thesis import Thesis, file_stem, page, plot
 
 def test_every_figure_has_a_name_of_its_own():
     stems = {file_stem(number) for number in Thesis.numbers}
-    assert len(stems) == len(Thesis.numbers) == 26
-    assert {"figure_2_1", "figure_a_2", "table_5_1"} <= stems
+    assert len(stems) == len(Thesis.numbers) == 27
+    assert {"figure_2_1", "figure_a_2", "table_5_1", "section_5_6"} <= stems
 
 
 def test_a_picture_has_the_panels_and_says_what_is_seen():
@@ -83,12 +83,35 @@ def test_the_command_writes_pictures_numbers_and_a_page(tmp_path, capsys):
     assert (out / "figure_a_2.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_one_figure_is_one_figure(tmp_path, capsys):
+    pytest.importorskip("matplotlib")
+    assert cli.main(["thesis", "A.2", "--out", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert f"wrote 1 figure to {tmp_path}" in printed
+    # A bound is read as a sentence: what the thesis states, then what is found here.
+    assert ": at most 0.5 (thesis), " in printed and " here" in printed
+
+
+def test_reference_lines_come_last_in_a_legend():
+    pytest.importorskip("matplotlib")
+    figure = Thesis(members=100).figure("5.7")
+    assert [curve.label for curve in figure.panels[0].curves][3] == "ground"  # drawn early
+    for axes in plot(figure).axes:
+        labels = [text.get_text() for text in axes.get_legend().get_texts()]
+        assert labels[-1] == "ground" and labels.count("ground") == 1
+        assert len(labels) == 5
+
+
 def test_the_command_checks(capsys):
     assert cli.main(["thesis", "2.1", "A.2", "--check"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    numbers = len(lines) - 1
-    assert numbers > 20 and all(line.startswith("holds") for line in lines[:-1])
-    assert lines[-1].startswith(f"2 figures, {numbers} numbers checked, none skipped; ")
+    texts = sum(" text " in line for line in lines[:-1])
+    numbers = len(lines) - 1 - texts
+    assert numbers > 20 and texts > 5 and all(line.startswith("holds") for line in lines[:-1])
+    assert any("text 0: " in line and "|" in line for line in lines)
+    assert lines[-1].startswith(
+        f"2 figures, {numbers} numbers and {texts} texts checked, none skipped; "
+    )
     assert lines[-1].endswith("; 0 off")
 
 

@@ -23,6 +23,10 @@ WHITE, BAND = ss.Spectrum.white(s0=1 / 3), ss.Spectrum.band_pass(s0=1.0, low=2.0
 TABLE = ss.Spectrum.from_table([0, 1, 3], [0.1, 1, 0])
 SHAKING = ss.GaussianExcitation(BAND, dt=0.1, samples=256)
 PULSES = ss.PoissonPulses(rate=3, half_width=1 / 6, sigma=2.5, duration=6)
+LONGER = SHAKING.sample(seed=1, member=0)
+TWO = ss.GroundMotion(
+    LONGER.acceleration, dt=0.1, transverse=SHAKING.sample(seed=1, member=1).acceleration
+)
 ENSEMBLE = ss.run_ensemble(BLOCK, SHAKING, members=70, seed=1)
 SMALLER = ss.run_ensemble(BLOCK, SHAKING, members=64, seed=1)
 COMPARED = ss.compare(ss.Coulomb(slip_level=0.5), PULSES, [2, 4], members=64)
@@ -167,6 +171,15 @@ EXAMPLES = {
         ss.sweep(ss.Coulomb(mu=0.1), EVEN, settle=True),
         ss.sweep(ss.Coulomb(mu=0.2), EVEN),
     ],
+    ss.IntensityMeasures: [
+        ss.Suite([LONGER]).intensity_measures(),
+        ss.Suite([LONGER.scaled(2)]).intensity_measures(),
+    ],
+    ss.SuiteSpectra: [
+        ss.response_spectrum(ss.Suite([LONGER]), [0.5, 1]),
+        ss.response_spectrum(ss.Suite([LONGER]), [0.5, 2]),
+    ],
+    ss.RotD: [ss.rotd(TWO, [0.5, 1]), ss.rotd(TWO, [0.5])],
     ss.SweepError: [ss.SweepError("no node here", range(2, 4), SWEPT)],
     ss.Energy: [r.energy for r in RESPONSES],
     ss.WithVertical: [
@@ -350,7 +363,8 @@ def test_what_differs_compares_different(kind):
 
 def test_what_can_change_has_no_hash_and_all_else_has_one():
     unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
-    assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid, ss.SweepTable}
+    tables = {ss.SweepTable, ss.IntensityMeasures, ss.SuiteSpectra, ss.RotD}
+    assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid} | tables
     for kind in EXAMPLES.keys() - unhashable:
         assert len({*EXAMPLES[kind], *EXAMPLES[kind]}) == len(EXAMPLES[kind])
 

@@ -136,13 +136,10 @@ def test_what_does_not_fit_is_rejected():
         ss.compare(BLOCK, ss.WithVertical(SHAKING), members=10, seed=1)
 
 
-def test_a_member_that_never_lands_is_named():
+def test_held_values_may_end_below_minus_g():
     # Held values end with that of the last step, which is below -g in some members.
     held = ss.GaussianExcitation(
         ss.Spectrum.band_pass(s0=2, low=2, high=40), dt=0.02, samples=401, interpolation="constant"
     )
-    with pytest.raises(
-        ValueError,
-        match=r"run_ensemble: member \d+: the ground must press on the slider at the end",
-    ):
-        ss.run_ensemble(BLOCK, ss.WithVertical(held), members=64, seed=1)
+    e = ss.run_ensemble(BLOCK, ss.WithVertical(held), members=64, seed=1)
+    assert 0 < e.airborne < 64

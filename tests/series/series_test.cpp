@@ -75,6 +75,18 @@ TEST_CASE("exp, sinh, cosh, sin and cos of t have their well-known series", "[se
               by_rule([&](int k) { return k % 2 == 1 ? signs[k % 4] * reciprocal(k) : 0; })) <= tight);
 }
 
+TEST_CASE("what decays from one level to another has the series of exp, and no cancellation", "[series]") {
+  const auto from = [](double first, double last) { return [=](auto x) { return decaying(x, first, last); }; };
+  for (const double first : {0.0, 1e-20, 2.0})
+    for (const double last : {0.0, 1e-20, 3.0}) {
+      const Expansion found = expand(from(first, last), {0, 1});
+      CHECK(error(found, by_rule([&](int k) { return k == 0 ? first : (first - last) / factorial(k); })) <= tight);
+    }
+  CHECK(decaying(-1e-200, 0, 1) == 1e-200);
+  CHECK(std::abs(decaying(-100, 1, 0) / std::exp(-100.0) - 1) <= 1e-15);
+  CHECK(decaying(-3, 0.7, 0.7) == 0.7);
+}
+
 TEST_CASE("log, powers and roots of 1 + t have the binomial series", "[series]") {
   CHECK(error(expand([](auto x) { return log(x); }, {1, 1}),
               by_rule([](int k) { return k == 0 ? 0.0L : (k % 2 == 1 ? 1.0L : -1.0L) / k; })) <= tight);

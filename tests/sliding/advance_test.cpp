@@ -383,3 +383,30 @@ TEST_CASE("where the loads balance to the last digit, the slowest slip ends", "[
   CHECK(state.mode == Mode::stuck);
   CHECK(state.displacement == 0x1.15c71c71c71c7p+10);
 }
+
+TEST_CASE("extreme but legal input ends in bounded work, with an answer or a reason", "[advance][range][errors]") {
+  using Catch::Matchers::ContainsSubstring;
+  const GroundMotion motion({0, 3, -3, 1}, 0.1);
+  CHECK_THROWS_WITH(Slider(Coulomb(1), 0, 1e200),
+                    "Slider: damping and its square must be finite and at least 0, got "
+                    "1e+200 1/s");
+  const Response damped = integrate(Slider(Coulomb(1), 0, 1e150), motion);
+  CHECK(damped.peak == Approx(1e-151).epsilon(1e-6));  // 3 m/s^2 - 1 m/s^2 over 1e150 1/s, for 0.05 s on average
+  for (const double frequency : {0.0, 3.0}) {
+    const Slider slider(Coulomb(1), {.natural_frequency = frequency, .stops = Stops(0.1, 0.5)});
+    State state = State::at(0.001, 0.1);
+    advance(slider, Segment{0.1, 1e99, -5e98}, state);
+    CHECK(state.displacement == 0.1);
+    CHECK_THROWS_WITH(advance(slider, Segment{0.1, 1e308, -5e307}, state),
+                      "advance: load and normal force must be at most 1e100 m/s^2 in magnitude, got 1e+308 m/s^2");
+    CHECK(state.displacement == 0.1);
+  }
+  CHECK_THROWS_WITH(
+      KumarFriction({.mu_ref = 1e308, .static_pressure = 3e7, .reference_pressure = 3e7, .contact_radius = 0.1}),
+      ContainsSubstring("mu_ref must be from 0 to 1e300"));
+  State state = State::at(0, 1);
+  CHECK_THROWS_AS(advance(Slider(Stribeck(1e308, 1, 0.1, 2)), Segment{0.1, 3, -3}, state), ConvergenceError);
+  CHECK_THROWS_WITH(advance(Slider(Coulomb(1, infinity)), Segment{1, 0, 0}, state = State::at(0, -1)),
+                    "advance: velocity must not point where the slip level is infinite, got -1 m/s");
+  CHECK(state.velocity == -1);
+}

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -183,7 +184,7 @@ TEST_CASE("a block thrown up flies a parabola and lands on time", "[contact]") {
   CHECK(std::abs(same.residual - faster.residual) <= 1e-13);
   // And that does: d|v|/dJ = -mu(v), by Simpson's rule for dJ = d|v| / mu.
   const VelocityDependent law_of_speed(0.05 * g, 0.1 * g, 3);
-  const auto mu = [&](double v) { return law_of_speed.resist(0.0, Direction::forward, v) / g; };
+  const auto mu = [&](double v) { return law_of_speed.resist(0.0, v, Direction::forward) / g; };
   const double after = detail::after_impulse(law_of_speed, 0, Direction::forward, 0.7, hits);
   double impulse = 0;
   constexpr int steps = 200;
@@ -293,4 +294,57 @@ TEST_CASE("what cannot be is refused", "[contact]") {
                     ContainsSubstring("level ground"));
   State state;
   CHECK_THROWS_AS(advance(Slider(Coulomb(1)), LoadSegment{0.1, 0, 0, not_a_number, 1}, state), std::invalid_argument);
+}
+
+TEST_CASE("Stribeck friction stops a slider before the normal force vanishes, however few the samples", "[contact]") {
+  // The vertical acceleration falls to -20 m/s^2 in k straight pieces, all on one line.
+  const auto answer = [](int k, Contact contact) {
+    std::vector<double> n, times, up;
+    for (int j = 0; j <= k; ++j) {
+      const double f = static_cast<double>(j) / k;
+      n.push_back(0.1 + 0.4 * f);
+      times.push_back(0.1 * f);
+      up.push_back(-20 * f);
+    }
+    n.push_back(0.5);
+    times.push_back(0.2);
+    up.push_back(0);
+    IntegrateOptions options;
+    options.velocity = 0.04;
+    options.contact = contact;
+    return integrate(Stribeck(2.4, 1.2, 0.02, 6), GroundMotion(n, times).with_components({}, up), options);
+  };
+  for (const Contact contact : {Contact::clipped, Contact::flight}) {
+    const Response fine = answer(100, contact);
+    for (const int k : {1, 2, 4}) {
+      const Response r = answer(k, contact);
+      CHECK(std::abs(r.residual - fine.residual) <= 1e-12 * fine.peak);
+      CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
+    }
+  }
+}
+
+TEST_CASE("a slider in flight that touches the ground and falls lands at once", "[contact]") {
+  struct Kinds {
+    std::vector<std::pair<EventKind, double>> seen;
+    void slide(const Slip&) {}
+    void event(EventKind kind, double time, const State&) { seen.emplace_back(kind, time); }
+  };
+  const double g = standard_gravity, level = 0.1 * g, speed = 1, fall = 0.5;
+  State state = State::at(0, speed);
+  state.in_flight = true;
+  state.gap_velocity = -fall;
+  Kinds kinds;
+  advance(Slider(Coulomb(level)), LoadSegment{0.1, 0, 0, g, g}, state, kinds);
+  REQUIRE(kinds.seen.size() == 1);
+  CHECK(kinds.seen[0].first == EventKind::landing);
+  CHECK(kinds.seen[0].second == 0);
+  CHECK(!state.in_flight);
+  CHECK(state.velocity == Approx(speed - 0.1 * fall - level * 0.1).epsilon(1e-14));
+  // Without a rate either, it lands as soon as the ground presses on it.
+  State resting = State::at(0, speed);
+  resting.in_flight = true;
+  advance(Slider(Coulomb(level)), LoadSegment{0.1, 0, 0, 0, g}, resting);
+  CHECK(!resting.in_flight);
+  CHECK(resting.velocity == Approx(speed - level * 0.05).epsilon(1e-14));
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "stickslip/friction/velocity_dependent.hpp"
@@ -45,7 +46,7 @@ GroundMotion record(std::size_t samples = 300, double dt = 0.05) {
 
 template <class Law>
 std::vector<Segment> floor_of(const Slider<Law>& slider, const GroundMotion& motion, double tolerance = 1e-6) {
-  return floor_motion(slider, motion, integrate(slider, motion), tolerance);
+  return floor_motion(slider, motion, integrate(slider, motion), tolerance).segments;
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ TEST_CASE("what accelerates a floor gives it the velocity that it has", "[floor_
   const auto check = [&](const auto& slider, double tolerance) {
     const Response r = integrate(slider, motion);
     REQUIRE(r.events.size() > 10);
-    const std::vector<Segment> pieces = floor_motion(slider, motion, r);
+    const std::vector<Segment> pieces = floor_motion(slider, motion, r).segments;
     const double gained = r.velocity.back() + impulse({[&] {
                             std::vector<Segment> ground;
                             for (std::size_t i = 0; i < motion.segments(); ++i) ground.push_back(motion.segment(i));
@@ -87,6 +88,107 @@ TEST_CASE("what accelerates a floor gives it the velocity that it has", "[floor_
       check(Slider(Caster(1, 5), wn, c), 2e-6);
       check(Slider(VelocityDependent(0.6, 1.2, 5), wn, c), 2e-6);
     }
+}
+
+TEST_CASE("in every mounting the floor gains the velocity that its acceleration and impulses give it",
+          "[floor_motion]") {
+  // x'' + n cos(slope) - a_z sin(slope) integrates to the velocity along x, with the jumps at stops and landings.
+  std::mt19937_64 bits(1);
+  const auto random = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(bits); };
+  double worst = 0;
+  int impacts = 0, landings = 0, clipped = 0;
+  const auto check = [&](const auto& slider, const GroundMotion& motion, const IntegrateOptions& options) {
+    const Response r = integrate(slider, motion, options);
+    const FloorMotion floor = floor_motion(slider, motion, r, 1e-7);
+    double ground = 0;
+    const bool linear = motion.interpolation() == Interpolation::linear;
+    for (std::size_t i = 0; i < motion.segments(); ++i) {
+      const Segment n = motion.segment(i);
+      const double up = (motion.vertical()[i] + motion.vertical()[linear ? i + 1 : i]) / 2;
+      ground += n.duration * ((n.start + n.end) / 2 * std::cos(slider.slope()) - up * std::sin(slider.slope()));
+    }
+    double jumps = 0;
+    for (const Impulse& one : floor.impulses) jumps += one.velocity;
+    const double gained = r.velocity.back() - r.velocity.front() + ground, scale = largest(floor.segments) + 1;
+    worst = std::max(worst, std::abs(impulse(floor.segments) + jumps - gained) / (scale * motion.duration()));
+    for (const Event& e : r.events) impacts += e.kind == EventKind::impact, landings += e.kind == EventKind::landing;
+    clipped += options.contact == Contact::clipped;
+  };
+  for (int k = 0; k < 60; ++k) {
+    std::vector<double> n, up;
+    const double a = random(0.2, 1.2), b = random(0.3, 2), strong = random(1, 6), high = random(1, 16);
+    for (int i = 0; i < 60; ++i) {
+      n.push_back(strong * (std::sin(a * i) + 0.6 * std::sin(1.7 * b * i)));
+      up.push_back(i < 58 ? high * std::cos(b * i) : 0);
+    }
+    const GroundMotion motion =
+        GroundMotion(n, 0.05, k % 3 == 0 ? Interpolation::constant : Interpolation::linear).with_components({}, up);
+    Mounting on;
+    on.natural_frequency = k % 2 == 0 ? random(1, 8) : 0;
+    on.damping = k % 5 < 2 ? random(0, 2) : 0;
+    on.slope_degrees = k % 4 == 1 ? random(2, 15) : 0;
+    on.one_way = k % 8 == 5;
+    on.pendulum = k % 4 == 2;
+    if (k % 3 != 1) on.stops = Stops(random(0.02, 0.2), random(0.02, 0.2), k % 9 == 0 ? 0 : random(0, 1));
+    const IntegrateOptions options{.velocity = k % 6 == 0 ? 0.2 : 0,
+                                   .settle = k % 7 < 3,
+                                   .contact = k % 10 < 5 ? Contact::flight : Contact::clipped};
+    const double level = random(0.5, 3) + (on.slope_degrees > 0 ? 3 : 0);
+    check(Slider(Coulomb(level, random(0.5, 3)), on), motion, options);
+    check(Slider(StaticKinetic(Coulomb(level), 1.3 * level), on), motion, options);
+    check(Slider(Degrading({0, 0.3}, {level + 1, level}), on), motion, options);
+  }
+  CHECK(worst < 1e-6);  // chords of 1e-7 of the largest acceleration, and the law that degrades to the sixth order
+  CHECK(impacts > 100);
+  CHECK(landings > 100);
+  CHECK(clipped > 50);
+}
+
+TEST_CASE("without vertical motion a pendulum is a floor on a spring", "[floor_motion]") {
+  const GroundMotion motion = record();
+  for (const double c : {0.0, 0.4}) {
+    const auto spring = floor_of(Slider(Coulomb(1), 3, c), motion);
+    const auto pendulum =
+        floor_of(Slider(Coulomb(1), {.natural_frequency = 3, .damping = c, .pendulum = true}), motion);
+    const std::vector<double> periods{0, 0.1, 0.5, 2};
+    const auto one = response_spectrum(spring, periods).values, other = response_spectrum(pendulum, periods).values;
+    for (std::size_t i = 0; i < one.size(); ++i) CHECK(other[i] == Approx(one[i]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("an impulse sets an oscillator moving with its velocity", "[floor_motion]") {
+  const std::vector<Segment> still{{0.5, 0, 0}, {0.25, 0, 0}, {0.25, 0, 0}};
+  const double jump = 0.3;
+  for (const std::size_t before : {0, 1, 2, 3})
+    for (const double period : {0.03, 0.4, 5.0}) {
+      const double wn = 2 * std::numbers::pi / period;
+      const auto value = [&](double damping, SpectrumKind kind, const std::vector<Impulse>& impulses) {
+        return response_spectrum(still, {period}, {damping}, kind, impulses).values[0];
+      };
+      const std::vector<Impulse> one{{before, jump}};
+      CHECK(value(0, SpectrumKind::pseudo_acceleration, one) == Approx(wn * jump).epsilon(1e-12));
+      CHECK(value(0.3, SpectrumKind::velocity, one) == Approx(jump).epsilon(1e-12));
+      // damped: x = jump exp(-z wn t) sin(wd t) / wd, largest where tan(wd t) = wd / (z wn)
+      const double z = 0.3, wd = wn * std::sqrt(1 - z * z), at = std::atan2(wd, z * wn) / wd;
+      CHECK(value(z, SpectrumKind::displacement, one) ==
+            Approx(jump * std::exp(-z * wn * at) * std::sin(wd * at) / wd).epsilon(1e-12));
+      CHECK(value(z, SpectrumKind::displacement, {{before, jump}, {before, -jump}}) == 0);
+    }
+  // A block thrown against a stop 0.1 m away stays there: the floor loses 1 m/s, in one jump.
+  const Slider block(Coulomb(0), {.stops = Stops(0.1, 0)});
+  const GroundMotion motion = line(0, 0, 1);
+  const FloorMotion floor = floor_motion(block, motion, integrate(block, motion, from(0, 1)));
+  REQUIRE(floor.impulses.size() == 1);
+  CHECK(floor.impulses[0].velocity == Approx(-1).epsilon(1e-14));
+  CHECK(largest(floor.segments) == 0);
+  const std::vector<Impulse> one{{0, jump}};
+  CHECK_THROWS_WITH(response_spectrum(still, {0.0}, {0.05}, SpectrumKind::acceleration, one),
+                    ContainsSubstring("give periods above 0"));
+  CHECK(response_spectrum(still, {0.0}, {0.05}, SpectrumKind::displacement, one).values[0] == 0);
+  CHECK_THROWS_WITH(response_spectrum(still, {1.0}, {0.05}, SpectrumKind::velocity, {{4, 1}}),
+                    ContainsSubstring("impulses[0].before must be at most the number of segments, 3, got 4"));
+  CHECK_THROWS_WITH(response_spectrum(still, {1.0}, {0.05}, SpectrumKind::velocity, {{0, NAN}}),
+                    ContainsSubstring("impulses[0].velocity must be finite"));
 }
 
 TEST_CASE("a sliding floor shakes what stands on it no harder than its friction", "[floor_motion]") {
@@ -164,7 +266,7 @@ TEST_CASE("between samples a law that changes is followed to the sixth order", "
 TEST_CASE("under a harmonic motion the floor sticks to a cosine", "[floor_motion]") {
   const HarmonicMotion motion(0.8, 3, 10, 0.1);
   const Slider slider(Coulomb(1));
-  const auto pieces = floor_motion(slider, motion, integrate(slider, motion));
+  const auto pieces = floor_motion(slider, motion, integrate(slider, motion)).segments;
   CHECK(largest(pieces) == Approx(0.8).epsilon(1e-12));
   double time = 0;
   for (const Segment& s : pieces) {

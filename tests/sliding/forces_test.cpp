@@ -39,7 +39,7 @@ Balance balance(const Slider<Law>& slider, const GroundMotion& motion) {
                                 -f.friction[i] - hold(slider.law(), x, Direction::backward)});
     } else if (v != 0) {
       const Direction direction = v > 0 ? Direction::forward : Direction::backward;
-      CHECK(f.friction[i] == sign(direction) * resist(slider.law(), x, direction, std::abs(v)));
+      CHECK(f.friction[i] == sign(direction) * resist(slider.law(), x, std::abs(v), direction));
     }
   }
   result.friction /= r.energy.dissipated;

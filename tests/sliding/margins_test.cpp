@@ -116,6 +116,28 @@ TEST_CASE("margins follow the memory of a law", "[margins]") {
   CHECK(margins(law, motion, pushed).load == Approx(0.5).epsilon(1e-12));
 }
 
+TEST_CASE("the margin of a breakaway under a vanishing normal force does not depend on the samples", "[margins]") {
+  // It breaks away while the load rises and the normal force falls below zero, and slides on when it presses again.
+  IntegrateOptions clipped;
+  clipped.contact = Contact::clipped;
+  std::vector<double> found;
+  for (const int parts : {1, 2, 10, 100}) {
+    std::vector<double> n, times, up;
+    for (int j = 0; j <= parts; ++j) {
+      const double f = static_cast<double>(j) / parts;
+      n.push_back(0.3 + 0.2 * f);
+      times.push_back(0.1 * f);
+      up.push_back(-20 * f);
+    }
+    n.push_back(0.5);
+    times.push_back(0.2);
+    up.push_back(0);
+    found.push_back(margins_of(Coulomb(1), GroundMotion(n, times).with_components({}, up), clipped).load);
+  }
+  CHECK(found.front() > 0.1);
+  for (const double margin : found) CHECK(margin == Approx(found.front()).epsilon(1e-9));
+}
+
 TEST_CASE("levels that are zero or infinite decide nothing", "[margins]") {
   CHECK(margins_of(Coulomb(0), record_a()).load == infinity);
   CHECK(margins_of(Coulomb(0), record_a()).impact == infinity);

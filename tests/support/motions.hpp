@@ -143,7 +143,7 @@ struct RateDependent {
   double at_rest, sliding, scale;
 
   template <class X, class Speed>
-  auto resist(const X&, Direction, const Speed& speed) const {
+  auto resist(const X&, const Speed& speed, Direction) const {
     using std::exp;
     return sliding + (at_rest - sliding) * exp(-speed / scale);
   }

@@ -76,9 +76,9 @@ Differences differences(const SweepTable& table, const std::vector<S>& sliders,
   for (std::size_t s = 0; s < sliders.size(); ++s)
     for (std::size_t r = 0; r < motions.size(); ++r)
       for (std::size_t p = 0; p < table.polarities; ++p) {
-        const bool flipped = options.polarity == Polarity::flipped || p == 1;
+        const bool reversed = options.polarity == Polarity::reversed || p == 1;
         const Response expected = of(sliders[s], [&](const auto& slider) {
-          return integrate(slider, motions[r].scaled(flipped ? -1 : 1), {.settle = options.settle});
+          return integrate(slider, motions[r].scaled(reversed ? -1 : 1), {.settle = options.settle});
         });
         const std::size_t i = table.at(s, r, p);
         const double reach = expected.sliding_distance + motions[r].dt() * motions[r].dt();
@@ -165,7 +165,7 @@ TEST_CASE("settled, in one polarity or both, with sliders of all kinds, a sweep 
   for (std::uint64_t seed = 100; seed < 110; ++seed) motions.push_back(quake(seed));
   motions.push_back({{0, 3, -2, 1, 0}, std::vector<double>{0, 0.5, 0.75, 2, 2.5}});  // uneven steps
   motions.push_back(broadband(3, 9000));
-  for (const Polarity polarity : {Polarity::as_recorded, Polarity::flipped, Polarity::both}) {
+  for (const Polarity polarity : {Polarity::recorded, Polarity::reversed, Polarity::both}) {
     const SweepOptions options{.polarity = polarity, .settle = true};
     const SweepTable table = sweep(blocks, motions, options);
     CHECK(table.polarities == (polarity == Polarity::both ? 2 : 1));
@@ -187,7 +187,7 @@ TEST_CASE("settled, in one polarity or both, with sliders of all kinds, a sweep 
       }
 }
 
-TEST_CASE("a block that is alike both ways does the same the other way under the flipped motion", "[sweep]") {
+TEST_CASE("a block that is alike both ways does the same the other way under the reversed motion", "[sweep]") {
   const std::vector<GroundMotion> motions{quake(7), quake(8)};
   const SweepTable table = sweep(std::vector{Coulomb(0.1), Coulomb(0.5)}, motions);
   for (std::size_t s = 0; s < 2; ++s)
@@ -227,7 +227,7 @@ TEST_CASE("one-way displacement never grows with the yield acceleration", "[swee
 TEST_CASE("a combination that fails is not a number and says why, and the others go on", "[sweep]") {
   const std::vector<Slider<Coulomb>> sliders{Slider(Coulomb(0)), Slider(Coulomb(0.5)), Slider(Coulomb(0), 2)};
   const std::vector<GroundMotion> motions{line(1, 3, 1), line(0.1, 0.2, 1)};
-  const SweepTable table = sweep(sliders, motions, {.polarity = Polarity::as_recorded, .settle = true, .threads = 2});
+  const SweepTable table = sweep(sliders, motions, {.polarity = Polarity::recorded, .settle = true, .threads = 2});
   CHECK(table.failures.size() == 4);
   for (const SweepFailure& failure : table.failures) {
     CHECK(failure.slider != 1);

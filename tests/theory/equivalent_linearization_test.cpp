@@ -390,8 +390,17 @@ TEST_CASE("remarks name the effects that are neglected", "[equivalent_linearizat
   for (const std::string& coulomb : {remark(by_gauss, Coulomb(1)), remark(by_thesis, Caster(1, infinity))})
     CHECK_THAT(coulomb, ContainsSubstring("WhiteNoise has the exact figures"));
   CHECK_THAT(remark(by_thesis, Caster(1, 1)), ContainsSubstring("a21"));
-  CHECK_THAT(remark(by_gauss, Caster(1, 100)), ContainsSubstring("gamma"));
   CHECK(remark(by_gauss, Caster(1, 1)).empty());
+  CHECK(remark(by_gauss, Caster(1, 100)).empty());  // at t = 1 it has not broken loose
+  const auto loose = [](const auto& slider, double s0, double time) {
+    const std::array<double, 2> times = {time / 2, time};
+    return by_gauss.predict(slider, s0, times).remark;
+  };
+  CHECK_THAT(loose(Caster(1, 100), 1, 80), ContainsSubstring("here z is from ") && ContainsSubstring("= 0.01"));
+  // In other units of length and time, gamma is the same.
+  CHECK(loose(Caster(4, 100 * 0.25 / 64), 0.5, 80 * 0.5 / 16) == loose(Caster(1, 100), 1, 80));
+  CHECK(loose(Caster(1, 100), 1, 2000).find("breaks loose") == std::string::npos);  // it has
+  CHECK_THAT(loose(Slider(Caster(1, 1), 4), 1, 20), ContainsSubstring("on a spring"));
   CHECK(remark(by_thesis, Coulomb(0)).empty());  // exact
 }
 

@@ -291,14 +291,48 @@ TEST_CASE("there is no stationary solution where nothing holds the motion", "[sh
 }
 
 TEST_CASE("below the threshold of motion nothing moves", "[shaped_linearization]") {
-  // sigma_n < sqrt(2 / pi) a, (4.22). What creeps is r / sqrt(1 - r^2) of the floor, 1e-6 of sigma_n over the filter's
-  // rate, 15 rad/s, with r = 1 / (1.3 sqrt(2 / pi)).
+  // sigma_n < sqrt(2 / pi) a, (4.22).
   const double a = 1.3 * std::sqrt(soil.variance());
-  const Moments m = by_gauss.predict(Coulomb(a), soil, std::array<double, 1>{20});
-  CHECK(std::sqrt(m.velocity_variance.value[0]) < 1e-6 * (a / 1.3 / 15) * 3.7);
-  CHECK_THAT(m.remark, ContainsSubstring("times that below which no motion is predicted"));
+  for (const double wn : {0.0, 2.0}) {
+    const Moments m = by_gauss.predict(Slider(Coulomb(a), wn), soil, std::array<double, 2>{1, 20});
+    CHECK(m.velocity_variance.value == std::vector<double>{0, 0});
+    CHECK(m.displacement_variance.value == std::vector<double>{0, 0});
+    CHECK_THAT(m.remark, ContainsSubstring("times that below which no motion is predicted"));
+    CHECK_THAT(m.remark, ContainsSubstring("at 2 of 2 times friction is predicted to hold the slider"));
+  }
   CHECK(by_gauss.stationary(Slider(Coulomb(a)), soil).velocity_variance.value[0] == 0);
   CHECK(by_gauss.predict(Coulomb(0.2), soil, std::array<double, 1>{20}).remark.empty());
+}
+
+TEST_CASE("whether friction holds is judged at each time, not by the tolerance", "[shaped_linearization]") {
+  // The rms acceleration, 3.8 m/s^2 in the strong phase from 4 to 10 s, is below sqrt(1/2) of the level before 1.7 s
+  // and after 15.6 s.
+  const Spectrum strong = Spectrum::kanai_tajimi(0.25, 9, 0.4);
+  GaussianOptions options;
+  options.zero_frequency = true;
+  options.envelope = Envelope(4, 6, 0.3);
+  const GaussianExcitation quake(strong, 0.02, 1024, options);
+  const std::vector<double> times = {0.5, 8, 30};
+  std::vector<Moments> found;
+  for (const double tolerance : {1e-10, 1e-8, 1e-6, 1e-4})
+    for (const double wn : {0.0, 2.0}) {
+      CAPTURE(tolerance, wn);
+      const EquivalentLinearization el({.force = Force::laplace, .tolerance = tolerance});
+      const Moments m = el.predict(Slider(Coulomb(1), wn), quake, times);
+      for (const std::size_t held : {std::size_t{0}, std::size_t{2}}) {
+        CHECK(m.velocity_variance.value[held] == 0);
+        CHECK(m.covariance.value[held] == 0);
+      }
+      CHECK(m.displacement_variance.value[0] == 0);
+      CHECK(m.velocity_variance.value[1] > 0.01);
+      CHECK_THAT(m.remark, ContainsSubstring("at 2 of 3 times friction is predicted to hold the slider"));
+      if (wn == 0) CHECK(m.displacement_variance.value[2] > m.displacement_variance.value[1]);
+      found.push_back(m);
+      const Moments& exact = found[wn == 0 ? 0 : 1];
+      CHECK(relative(m.velocity_variance.value[1], exact.velocity_variance.value[1]) < 10 * tolerance + 1e-8);
+      CHECK(relative(m.displacement_variance.value[1], exact.displacement_variance.value[1]) < 10 * tolerance + 1e-8);
+    }
+  CHECK(by_laplace.predict(Coulomb(1), quake, std::array<double, 2>{5, 8}).remark.empty());
 }
 
 TEST_CASE("unequal levels drift, mirrored levels the other way", "[shaped_linearization]") {
@@ -320,6 +354,20 @@ TEST_CASE("unequal levels drift, mirrored levels the other way", "[shaped_linear
         CHECK(relative(one.displacement_mean.value[3], 0.15 / (wn * wn)) < 1e-7);
       }
     }
+  // Without a spring motion begins where the stationary solution does, with a drift.
+  for (const auto& [el, force] : {std::pair(by_gauss, "gaussian"), std::pair(by_laplace, "laplace")})
+    for (const double backward : {1.0, 1.5, 3.0, 1000.0}) {
+      CAPTURE(force, backward);
+      const auto ratio = [&](double level) {  // of the rms acceleration to the threshold, as the remark gives it
+        const Moments m = el.stationary(Slider(Coulomb(level, backward * level)), soil);
+        const std::size_t at = m.remark.find(" is ") + 4;
+        return std::pair(std::stod(m.remark.substr(at)), m.velocity_variance.value[0]);
+      };
+      const double sigma = std::sqrt(soil.variance()), guess = 1.2 * sigma;
+      const double threshold = guess * ratio(guess).first;  // level at which the ratio is 1, to its three digits
+      CHECK(ratio(1.01 * threshold).second == 0);
+      CHECK(ratio(0.99 * threshold).second > 0);
+    }
   // Levels that hardly differ are equal ones.
   CHECK(apart(by_gauss.predict(Coulomb(0.5, std::nextafter(0.5, 1)), soil, times),
               by_gauss.predict(Coulomb(0.5), soil, times)) < 1e-8);
@@ -337,7 +385,7 @@ TEST_CASE("pulses shake as their spectrum and their envelope do", "[shaped_linea
   CHECK(m.velocity_variance.value[1] == Approx(pulses.ground_velocity_variance()).epsilon(0.01));  // measured, 0.2 %
   const double growth = (m.displacement_variance.value[1] - m.displacement_variance.value[0]) / 20;
   CHECK(growth == Approx(pulses.ground_displacement_variance(1)).epsilon(0.05));
-  CHECK_THAT(m.remark, ContainsSubstring("a filter of order 6 stands for the spectrum and misplaces"));
+  CHECK_THAT(m.remark, ContainsSubstring("the spectrum is approximated by a filter of order 6 (misfit"));
 
   // From rest where no pulse begins before time zero; half an hour later all the same.
   PoissonOptions options;

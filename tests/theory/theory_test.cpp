@@ -45,7 +45,7 @@ struct Glue : Bump {
 /// One that weakens with the speed.
 struct Film {
   template <class T>
-  auto resist(const T&, Direction, const T& speed) const {
+  auto resist(const T&, const T& speed, Direction) const {
     return 1 / (1 + speed * speed);
   }
 };

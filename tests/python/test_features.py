@@ -1,0 +1,300 @@
+"""The tables of docs/features.md: each cell is tried, and says what the library does."""
+
+import contextlib
+import json
+import math
+import pickle
+import re
+import warnings
+
+import numpy as np
+import pytest
+import stickslip as ss
+from pages import ROOT
+from stickslip import harmonic, theory
+
+G = ss.STANDARD_GRAVITY
+M = np.arange(161)
+FADE = np.sin(np.pi * M / 160) ** 2
+AXIS = FADE * (2.5 * np.sin(0.7 * M) + 1.5 * np.cos(1.9 * M + 0.4))
+UP = FADE * 14 * np.cos(0.9 * M + 0.2)
+QUAKE = ss.GroundMotion(AXIS, dt=0.05)
+SHAKEN = ss.GroundMotion(AXIS, dt=0.05, vertical=UP)
+UNEVEN = ss.GroundMotion(AXIS, times=0.05 * M + 0.01 * np.sin(M) * np.sin(np.pi * M / 160))
+HELD = ss.GroundMotion(AXIS, dt=0.05, interpolation="constant")
+COSINE = ss.HarmonicMotion(2.5, 4.0, 8.0, dt=0.05)
+STOPS = ss.Stops(gap=0.02, restitution=0.4)
+BLOCK = ss.Coulomb(mu=0.05)
+
+
+def resist(x, speed, direction):
+    """A law of one's own."""
+    return 0.5 + 0.3 * math.exp(-20 * speed)
+
+
+# By name: the slider on a spring, the law alone (for theories), the ground motion, and options.
+LAWS = {
+    "`Coulomb`": BLOCK,
+    "`Coulomb`, unequal levels": ss.Coulomb(mu=0.05, mu_backward=0.08),
+    "`StaticKinetic`": ss.StaticKinetic(mu_static=0.07, mu_kinetic=0.05),
+    "`Caster`": ss.Caster(mu=0.05, reach=0.1),
+    "`VelocityDependent`": ss.VelocityDependent(mu_slow=0.03, mu_fast=0.06, rate=50),
+    "`Stribeck`": ss.Stribeck(mu_static=0.08, mu_kinetic=0.05, velocity=0.1, exponent=2),
+    "`Degrading`": ss.Degrading(distance=[0, 0.1], mu=[0.07, 0.04]),
+    "`KumarFriction`": ss.KumarFriction(
+        mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2
+    ),
+    "`Law`": ss.Law(resist=resist),
+}
+SPRING = {"period": 2.0}
+ROWS = {name: (ss.Slider(law, **SPRING), law, QUAKE, "flight") for name, law in LAWS.items()} | {
+    "spring and damper": (
+        ss.Slider(BLOCK, damping_ratio=0.05, **SPRING),
+        ss.Slider(BLOCK, damping_ratio=0.05, **SPRING),
+        QUAKE,
+        "flight",
+    ),
+    "`FrictionPendulum`": (
+        ss.FrictionPendulum(radius=1, mu=0.05),
+        ss.FrictionPendulum(radius=1, mu=0.05),
+        QUAKE,
+        "flight",
+    ),
+    "stops": (
+        ss.Slider(BLOCK, stops=STOPS, **SPRING),
+        ss.Slider(BLOCK, stops=STOPS),
+        QUAKE,
+        "flight",
+    ),
+    "slope": (
+        ss.Slider(ss.Coulomb(mu=0.15), slope_degrees=5, period=0.7),
+        ss.Slider(ss.Coulomb(mu=0.2), slope_degrees=5),
+        QUAKE,
+        "flight",
+    ),
+    "one-way": (
+        ss.Slider(BLOCK, one_way=True, **SPRING),
+        ss.Slider(BLOCK, one_way=True),
+        QUAKE,
+        "flight",
+    ),
+    "vertical motion, flight": (ss.Slider(BLOCK, **SPRING), None, SHAKEN, "flight"),
+    "vertical motion, clipped": (ss.Slider(BLOCK, **SPRING), None, SHAKEN, "clipped"),
+    "pendulum, vertical motion": (
+        ss.FrictionPendulum(radius=1, mu=0.05),
+        None,
+        SHAKEN,
+        "clipped",
+    ),
+    "stops, vertical motion": (
+        ss.Slider(BLOCK, stops=STOPS, **SPRING),
+        None,
+        SHAKEN,
+        "flight",
+    ),
+    "uneven times": (ss.Slider(BLOCK, **SPRING), None, UNEVEN, "flight"),
+    "held values": (ss.Slider(BLOCK, **SPRING), None, HELD, "flight"),
+    "`HarmonicMotion`": (ss.Slider(BLOCK, **SPRING), None, COSINE, "flight"),
+    "`ViscousSlider`": (ss.ViscousSlider(0.5, 3.0), ss.ViscousSlider(0.5, 3.0), QUAKE, "flight"),
+}
+
+# Why a cell is not "yes": the letter of its footnote, by what the refusal says.
+REASONS = {
+    "a": r"sensitivity: covers Coulomb friction, also with a static level|law whose level changes",
+    "b": r"must not leave the ground",
+    "c": r"static friction above kinetic: its response jumps",
+    "d": r"got stops: near a grazing impact",
+    "e": r"HarmonicMotion|must be a GroundMotion|an Excitation",
+    "f": r"does not come to rest",
+}
+THEORY_REASONS = {
+    "g": r"depends on the (speed|distance)|static friction|take power series",
+    "h": r"on level ground that slide both ways",
+    "i": r"a spring is not covered|known with a spring",
+    "j": r"with a damper",
+    "k": r"covers Coulomb friction",
+    "l": r"both ways|mirrored slip",
+}
+
+
+class Cells:
+    """One row: each method is a column of the first table."""
+
+    def __init__(self, slider, motion, contact, folder):
+        self.slider, self.motion, self.contact, self.folder = slider, motion, contact, folder
+        self.response = ss.integrate(slider, motion, contact=contact)
+
+    def integrate(self):
+        r = self.response
+        assert r.time_sliding > 0
+        scale = r.energy.initial + abs(r.energy.input) + r.energy.dissipated
+        assert abs(r.energy.imbalance) < 1e-6 * scale
+
+    def advance(self):
+        if not isinstance(self.motion, ss.GroundMotion):
+            raise TypeError("advance: segments of a HarmonicMotion are in C++ only")
+        state, n, up = ss.State(), self.motion.acceleration, self.motion.vertical
+        linear = self.motion.interpolation == "linear"
+        for i, dt in enumerate(np.diff(self.motion.time)):
+            j = i + 1 if linear else i
+            lifts = {} if up is None else {"vertical_start": up[i], "vertical_end": up[j]}
+            state = ss.advance(self.slider, state, dt, n[i], n[j], contact=self.contact, **lifts)
+        r = self.response
+        scale = r.peak + 1e-9
+        assert abs(state.displacement - r.displacement[len(n) - 1]) < 1e-5 * scale
+
+    def settle(self):
+        r = ss.integrate(self.slider, self.motion, contact=self.contact, settle=True)
+        assert r.at_rest
+
+    def sweep(self):
+        table = ss.sweep(self.slider, [self.motion], polarity="recorded", contact=self.contact)
+        assert table.peak.ravel()[0] == pytest.approx(self.response.peak, rel=1e-9)
+
+    def run_ensemble(self):
+        e = ss.run_ensemble(self.slider, [self.motion], members=2, seed=1, contact=self.contact)
+        assert e.quantile(0.5).value == pytest.approx(self.response.peak, rel=1e-6)
+
+    def sensitivity(self):
+        assert math.isfinite(self.response.sensitivity("scale").peak)
+
+    def ensemble_sensitivity(self):
+        s = ss.ensemble_sensitivity(
+            self.slider, [self.motion], "scale", members=2, seed=1, contact=self.contact
+        )
+        one = self.response.sensitivity("scale").peak
+        assert s.peak_mean.value == pytest.approx(one, rel=1e-9, abs=1e-12)
+
+    def margin(self):
+        assert self.response.margin >= 0
+
+    def forces(self):
+        r = self.response
+        assert np.isfinite(r.force).all()
+        assert np.isfinite(r.acceleration).all()
+
+    def floor_spectrum(self):
+        values = ss.response_spectrum(self.response, [0.2, 0.5, 2.0]).values
+        assert np.isfinite(values).all()
+        assert (values > 0).all()
+
+    def effective_period(self):
+        r = ss.integrate(self.slider, self.motion, contact=self.contact)
+        assert 0 < r.effective_period < 3
+        assert 0 < r.effective_damping < 1.5
+
+    def hysteresis(self):
+        pytest.importorskip("matplotlib", reason="pictures need matplotlib")
+        self.response.plot_hysteresis()
+
+    def plot(self):
+        pytest.importorskip("matplotlib", reason="pictures need matplotlib")
+        self.response.plot()
+
+    def tables(self):
+        r = self.response
+        document = json.loads(r.to_json())
+        assert document["peak"] == r.peak
+        assert r.to_csv(self.folder / "r.csv").stat().st_size > 1000
+        for convert, module in ((r.to_dataframe, "pandas"), (r.to_xarray, "xarray")):
+            with contextlib.suppress(ImportError):
+                __import__(module)
+                convert()
+
+    def pickle(self):
+        assert pickle.loads(pickle.dumps(self.response)) == self.response
+        assert pickle.loads(pickle.dumps(self.slider)) == self.slider
+
+
+COLUMNS = [name for name in vars(Cells) if not name.startswith("_")]
+
+SHAKING = ss.GaussianExcitation(ss.Spectrum.band_pass(s0=0.3, low=2, high=30), dt=0.05, samples=201)
+NOISE = ss.GaussianExcitation(ss.Spectrum.white(s0=0.3), dt=0.05, samples=201, zero_frequency=True)
+PULSES = ss.PoissonPulses(rate=0.5, half_width=0.5, sigma=1.0, duration=20.0)
+
+THEORIES = {
+    "`WhiteNoise`": (theory.WhiteNoise(), NOISE),
+    "`EquivalentLinearization`": (theory.EquivalentLinearization(), NOISE),
+    "`StationaryLinearization`": (theory.StationaryLinearization(), SHAKING),
+    "`PulseSuperposition`": (theory.PulseSuperposition(), PULSES),
+    "`PulseChain`": (theory.PulseChain(), PULSES),
+    "`SlowlyVaryingParameters`": (theory.SlowlyVaryingParameters(), COSINE),
+}
+
+
+def cell(call, reasons):
+    """'yes', or the letter of the reason for which the call is refused."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # of figures
+            call()
+    except (ValueError, TypeError, ss.ConvergenceError) as refusal:
+        text = str(refusal)
+        for letter, pattern in reasons.items():
+            if re.search(pattern, text):
+                return letter
+        raise AssertionError(f"no footnote for: {text}") from refusal
+    return "yes"
+
+
+def theory_cell(its_theory, slider, excitation):
+    coverage = its_theory.covers(slider, excitation)
+    if coverage:
+        return "yes"
+    for letter, pattern in THEORY_REASONS.items():
+        if re.search(pattern, coverage.reason):
+            return letter
+    raise AssertionError(f"no footnote for: {coverage.reason}")
+
+
+def orbits_cell(slider):
+    def call():
+        harmonic.orbits(slider, 2.0, 4.0)
+
+    return cell(call, THEORY_REASONS)
+
+
+def page():
+    return (ROOT / "docs" / "features.md").read_text()
+
+
+def table(heading):
+    """The cells of the table below a heading, by row and column."""
+    text = page().split(f"## {heading}\n", 1)[1]
+    lines = [line for line in text.split("\n## ")[0].splitlines() if line.startswith("|")]
+    rows = [[part.strip() for part in line.strip("|").split("|")] for line in lines]
+    names = rows[0][1:]
+    return {row[0]: dict(zip(names, row[1:])) for row in rows[2:]}
+
+
+def test_the_tables_have_every_row_and_column():
+    analyses, theories = table("Analyses"), table("Theories")
+    assert list(analyses) == list(ROWS)
+    assert all(list(row) == COLUMNS for row in analyses.values())
+    assert list(theories) == [name for name, row in ROWS.items() if row[1] is not None]
+    assert all(list(row) == [*THEORIES, "`harmonic.orbits`"] for row in theories.values())
+
+
+def test_every_footnote_is_used_and_explained():
+    used = {c for t in ("Analyses", "Theories") for row in table(t).values() for c in row.values()}
+    explained = set(re.findall(r"^- ([a-z]): ", page(), re.MULTILINE))
+    assert used - {"yes"} == explained
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_every_analysis_of_a_row_is_as_the_table_says(name, tmp_path):
+    slider, _, motion, contact = ROWS[name]
+    cells = Cells(slider, motion, contact, tmp_path)
+    found = {column: cell(getattr(cells, column), REASONS) for column in COLUMNS}
+    assert found == table("Analyses")[name]
+
+
+@pytest.mark.parametrize("name", [name for name, row in ROWS.items() if row[1] is not None])
+def test_every_theory_of_a_row_is_as_the_table_says(name):
+    slider = ROWS[name][1]
+    found = {
+        column: theory_cell(one, slider, excitation)
+        for column, (one, excitation) in THEORIES.items()
+    }
+    found["`harmonic.orbits`"] = orbits_cell(slider)
+    assert found == table("Theories")[name]

@@ -1,0 +1,155 @@
+"""Files that other sites read: they parse, and what they name exists."""
+
+import re
+
+import pytest
+from pages import ROOT
+
+yaml = pytest.importorskip("yaml")
+TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
+
+
+def load(file):
+    return yaml.safe_load(file.read_text(encoding="utf-8"))
+
+
+def test_read_the_docs_builds_what_script_docs_builds():
+    settings = load(ROOT / ".readthedocs.yaml")
+    assert settings["version"] == 2
+    assert (ROOT / settings["sphinx"]["configuration"]).is_file()
+    assert settings["sphinx"]["fail_on_warning"] is True
+    assert settings["build"]["tools"]["python"] == "3.11"
+    needed = re.search(r'^packages="(.*)"', (ROOT / "script/bootstrap").read_text(), re.MULTILINE)
+    libraries = {name for name in needed[1].split() if name.startswith("lib")}
+    assert len(libraries) == 5
+    assert set(settings["build"]["apt_packages"]) == {*libraries, "doxygen", "pkg-config"}
+    commands = [c for step in settings["build"]["jobs"].values() for c in step]
+    by_hand = (ROOT / "script" / "docs").read_text(encoding="utf-8")
+    for words in ("--group docs", "stickslip thesis --out docs/thesis", "doxygen docs/Doxyfile"):
+        assert any(words in command for command in commands)
+        assert words in by_hand
+    extras = re.search(r"script/install (\S+)", by_hand)[1]
+    assert any(f'".[{extras}]"' in command for command in commands)
+
+
+@pytest.mark.parametrize("file", TEMPLATES, ids=lambda file: file.stem)
+def test_an_issue_template_is_a_form(file):
+    form = load(file)
+    assert form["name"] and form["description"]
+    names = [part["id"] for part in form["body"] if part["type"] != "markdown"]
+    assert len(names) == len(set(names)) >= 3
+    for part in form["body"]:
+        assert part["type"] in ("markdown", "textarea", "input")
+        assert part["attributes"]["value" if part["type"] == "markdown" else "label"]
+    assert any(part.get("validations", {}).get("required") for part in form["body"])
+
+
+def test_the_templates_are_the_three_that_are_needed():
+    stems = [file.stem for file in TEMPLATES]
+    assert stems == ["bug_report", "feature_request", "wrong_number"]
+    import stickslip as ss
+
+    asked = " ".join(file.read_text(encoding="utf-8") for file in TEMPLATES)
+    r = ss.integrate(ss.Coulomb(mu=0.1), ss.GroundMotion([0.0, 3.0, 0.0], dt=0.1))
+    for name in re.findall(r"`r\.([\w.]+)`", asked):
+        for part in name.split("."):
+            r_part = getattr(r if part == name.split(".")[0] else r.energy, part)
+            assert r_part is not None
+    assert "stickslip.build_info()" in asked and ss.build_info()
+
+
+def front_matter():
+    text = (ROOT / "paper.md").read_text(encoding="utf-8")
+    _, head, body = text.split("---\n", 2)
+    return yaml.safe_load(head), body
+
+
+def test_the_citation_and_the_paper_agree():
+    citation, (head, _) = load(ROOT / "CITATION.cff"), front_matter()
+    assert citation["cff-version"] == "1.2.0"
+    assert {"message", "title", "authors", "license"} <= set(citation)
+    assert head["title"] == citation["title"]
+    assert [a["name"] for a in head["authors"]] == [a["name"] for a in citation["authors"]]
+    known = {place["index"] for place in head["affiliations"]}
+    assert {author["affiliation"] for author in head["authors"]} <= known
+    assert (ROOT / head["bibliography"]).is_file()
+
+
+def test_every_reference_of_the_paper_is_cited_and_every_citation_is_known():
+    _, body = front_matter()
+    text = (ROOT / "paper.bib").read_text(encoding="utf-8")
+    entries = re.findall(r"^@\w+\{(\w+),\n(.*?)^\}", text, re.DOTALL | re.MULTILINE)
+    assert len(entries) == text.count("@") >= 7
+    assert {key for key, _ in entries} == set(re.findall(r"@(\w+)", body))
+    for key, fields in entries:
+        names = re.findall(r"^  (\w+) +=", fields, re.MULTILINE)
+        assert {"author", "title", "year"} <= set(names), key
+        for doi in re.findall(r"doi += \{(.*)\}", fields):
+            assert re.fullmatch(r"10\.\d{4,5}/\S+", doi), key
+
+
+def test_the_paper_has_its_sections_and_a_length_that_the_journal_takes():
+    _, body = front_matter()
+    assert re.findall(r"^# (.*)$", body, re.MULTILINE) == [
+        "Summary",
+        "Statement of need",
+        "State of the field",
+        "Method",
+        "Accuracy",
+        "References",
+    ]
+    assert 250 < len(body.split()) < 1750
+
+
+# Words of the paper, and words of a page with the same numbers.
+NUMBERS = [
+    (
+        "0.1 % in the median and by up to 3.3 %",
+        "README.md",
+        "0.1 % in the median and by up to 3.3 %",
+    ),
+    ("pySLAMMER 0.2.2", "docs/validation.md", "pySLAMMER 0.2.2"),
+    (
+        "6.5 % in the median and by up to 41 %, with 10 and with 40 steps per sample",
+        "docs/guides/equipment.md",
+        "| 0.1 mm | 40 | 0.1 | 2.8 % | 11 % | 4.7 % | 20 % | | | | 0.2 | 6.5 % | 41 % |",
+    ),
+    ("$10^{-13}$ of the scale", "docs/trust.md", "1e-13 of the scale, measured 1.6e-15"),
+    ("over 400 segments", "docs/trust.md", "400 segments"),
+    ("$2.8\\times10^{-14}$ of the dissipated", "docs/trust.md", "2.8e-14 of the dissipated"),
+    ("$10^{-10}$ of the scale", "docs/limits.md", "by collocation, to 1e-10 of the scale"),
+    (
+        "temperature to $10^{-7}$",
+        "docs/limits.md",
+        "temperature is integrated to 1e-7 of the scale",
+    ),
+    ("160,000 members agree with the exact theory within 0.6 %", "docs/trust.md", "within 0.6 %"),
+    ("within 4 % of simulation", "README.md", "within 4 % of simulation"),
+    ("13 to 25 ns per sample", "README.md", "13 to 25 ns per sample"),
+    (
+        "takes 22 to 40 ns",
+        "bench/README.md",
+        "| 40 (5e-14) | 30 (6e-14) | 22 (3e-14) |",
+    ),
+    ("401,000 to 681,000 ns", "bench/README.md", "| 681,000 (1e-4) | 542,000 (6e-15) | 401,000"),
+]
+
+
+@pytest.mark.parametrize("words, page, there", NUMBERS, ids=[words for words, *_ in NUMBERS])
+def test_a_number_of_the_paper_stands_in_the_documentation(words, page, there):
+    _, body = front_matter()
+    assert words in " ".join(body.split())
+    assert there in " ".join((ROOT / page).read_text(encoding="utf-8").split())
+
+
+def test_links_of_the_pages_beside_the_site_name_files():
+    checked = 0
+    names = ("README.md", "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "docs/roadmap.md")
+    for name in names:
+        page = ROOT / name
+        text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+        for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            if "://" not in target and not target.startswith("#"):
+                checked += 1
+                assert (page.parent / target.partition("#")[0]).exists(), f"{name}: {target}"
+    assert checked > 20
