@@ -15,9 +15,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import stickslip as ss
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 DOCS = Path(__file__).parent
 PAGE = DOCS / "refinements.md"
@@ -563,42 +567,54 @@ def replaced(text: str, new: str) -> str:
 
 
 def draw() -> None:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
     from PIL import Image
+    from stickslip import plotting
 
-    figure, (loops, forces, peaks) = plt.subplots(1, 3, figsize=(13, 4.2), layout="constrained")
+    with plotting.style():
+        figure = draw_fits()
+    plotting.save(figure, PICTURE)
+    Image.open(PICTURE).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
+        PICTURE, optimize=True
+    )
+
+
+def draw_fits() -> Figure:
+    """A loop of one isolator, and both ratios of all of them."""
+    from stickslip import plotting
+
+    figure = plotting.new_figure(11, 4)
+    loops, forces, peaks = figure.subplots(1, 3)
     isolator = ISOLATORS[1]
     shown = next(one for one in fits(isolator) if "PAC" in one.motion.name)
     motion = finely(shown.motion)
     pendulum = ss.FrictionPendulum(radius=RADIUS, mu=shown.mu_of_peak)
-    labels = (f"{shown.mu_of_peak:.3f}", "0.085 to 0.163")
-    for slider, label, color in zip((pendulum, isolator.slider), labels, ("C1", "C0")):
+    labels = (f"constant mu = {shown.mu_of_peak:.3f}", "mu from 0.085 to 0.163")
+    colors = (plotting.VERMILION, plotting.BLUE)
+    for slider, label, color in zip((pendulum, isolator.slider), labels, colors):
         r = ss.integrate(slider, motion, settle=True)
-        loops.plot(100 * r.displacement, r.force / G, color=color, lw=0.9, label=f"mu = {label}")
-    loops.set(xlabel="displacement [cm]", ylabel="force / weight", title=shown.motion.name)
-    loops.legend(loc="center", bbox_to_anchor=(0.38, 0.5), fontsize="small")
-    names = [one.name.replace(", ", "\n", 1) for one in ISOLATORS]
+        loops.plot(100 * r.displacement, r.force / G, color=color, lw=0.9, label=label)
+    loops.set(
+        xlabel="displacement [cm]", ylabel="force / weight [\N{MINUS SIGN}]", title="One record"
+    )
+    loops.legend(loc="upper left", fontsize=8, title=shown.motion.name, title_fontsize=8)
+    low, high = loops.get_ylim()
+    loops.set_ylim(low, high + 0.3 * (high - low))  # room for the legend
+    names = [one.name.replace(", ", "\n") for one in ISOLATORS]
     for axes, attribute, title in (
-        (forces, "force_ratio", "force, with the peak displacement right"),
-        (peaks, "peak_ratio", "peak displacement, with the force right"),
+        (forces, "force_ratio", "Force, if mu reproduces the peak"),
+        (peaks, "peak_ratio", "Peak, if mu reproduces the force"),
     ):
         for i, one in enumerate(ISOLATORS):
             ratios = np.array([getattr(f, attribute) for f in fits(one)])
             beside = i + 0.3 * (np.arange(len(ratios)) / len(ratios) - 0.5)
-            axes.plot(beside, ratios, ".", color=f"C{i}", ms=4)
-        axes.axhline(1, color="0.5", lw=0.8)
-        axes.set_xticks(range(len(names)), names, fontsize="x-small")
-        axes.set(title=title, ylabel="constant mu / isolator", yscale="log")
+            axes.plot(beside, ratios, ".", color=plotting.COLORS[i], ms=4)
+        axes.axhline(1, color=plotting.GRAY, lw=0.8)
+        axes.set_xticks(range(len(names)), names, fontsize=7)
+        axes.set(title=title, ylabel="constant mu / isolator [\N{MINUS SIGN}]", yscale="log")
         ticks = [0.3, 0.5, 0.7, 1, 1.5, 2] if attribute == "peak_ratio" else [0.7, 0.8, 0.9, 1, 1.1]
         axes.set_yticks(ticks, [str(tick) for tick in ticks])
         axes.minorticks_off()
-    figure.savefig(PICTURE, dpi=110)
-    Image.open(PICTURE).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
-        PICTURE, optimize=True
-    )
+    return figure
 
 
 def main() -> None:

@@ -1,8 +1,8 @@
 // Slides a block on a floor through one earthquake record:
 //
-//     one_record [file [mu]]        the record, in any format read_record knows, and the coefficient of friction
+//     one_record [file [mu]]        a record in a format that read_record reads, and the coefficient of friction
 //
-// Without a file, the ground is accelerated for half a second in one direction and half a second in the other.
+// Without a file, the ground accelerates for half a second in one direction and then for half a second in the other.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ int main(int argc, char** argv) try {
   std::printf("peak displacement     %8.4f m\n", response.peak);
   std::printf("residual displacement %8.4f m\n", response.residual);
 
-  // The residual displacement cannot exceed the peak, and friction has dissipated all the work of the ground.
+  // The residual displacement cannot exceed the peak, and friction dissipates all the work of the ground.
   const Energy& energy = response.energy;
   const bool sane = std::abs(response.residual) <= response.peak &&
                     std::abs(energy.imbalance()) <= 1e-12 * (energy.dissipated + std::abs(energy.input));

@@ -21,7 +21,7 @@ ask.add_argument("record", nargs="?", help="a file of any format that read_recor
 ask.add_argument("--mu", type=float, default=0.5, help="friction of wheel and floor [-]")
 ask.add_argument("--trail", type=float, default=0.04, help="from pivot to wheel axis [m]")
 ask.add_argument("--width", type=float, default=0.032, help="of the wheel [m]")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 if args.record:

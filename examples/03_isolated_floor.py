@@ -20,7 +20,7 @@ from stickslip.plotting import save, style
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
 ask.add_argument("records", nargs="*", help="files of any format that read_record knows")
 ask.add_argument("--period", type=float, default=3.0, help="of the floor without friction [s]")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 g, wn = ss.STANDARD_GRAVITY, 2 * math.pi / args.period

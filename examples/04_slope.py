@@ -21,7 +21,7 @@ ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawT
 ask.add_argument("record", nargs="?", help="a file of any format that read_record knows")
 ask.add_argument("--degrees", type=float, default=5.0, help="of the slope")
 ask.add_argument("--yield-g", type=float, default=0.1, help="yield acceleration downhill [g]")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 g = ss.STANDARD_GRAVITY
@@ -51,10 +51,10 @@ def two_way(ky):
 ky = args.yield_g * g
 print(f"{quake.name}: yields at {ky / g:g} g downhill, {uphill(ky) / g:.3f} g uphill")
 shown = {}
-for facing, motion in (("as recorded", quake), ("reversed", quake.scaled(-1))):
+for facing, motion in (("recorded", quake), ("reversed", quake.scaled(-1))):
     for name, law in (("one-way", one_way(ky)), ("two-way", two_way(ky))):
         r = shown[name, facing] = ss.integrate(law, motion, settle=True)
-        print(f"{name}, {facing:12} ends {100 * r.residual:7.2f} cm downhill, {r.slips} slips")
+        print(f"{name}, {facing:8} ends {100 * r.residual:7.2f} cm downhill, {r.slips} slips")
 
 levels = np.geomspace(0.02, 0.5, 60)  # [g]
 sweep = {
@@ -70,7 +70,7 @@ with style():
     way, over = figure.subplots(1, 2)
     looks = {"one-way": "#0072b2", "two-way": "#d55e00"}
     for (name, facing), r in shown.items():
-        dashes = "-" if facing == "as recorded" else "--"
+        dashes = "-" if facing == "recorded" else "--"
         way.plot(r.time, 100 * r.displacement, dashes, color=looks[name], label=f"{name}, {facing}")
     way.set(xlabel="time [s]", ylabel="displacement downhill [cm]", title=f"Yield at {ky / g:g} g")
     way.set_xlim(0, min(quake.duration, 25))

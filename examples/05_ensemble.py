@@ -19,7 +19,7 @@ ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawT
 ask.add_argument("--event", default="great very near field", choices=ss.PoissonPulses.events())
 ask.add_argument("--limit", type=float, default=0.5, help="the clearance [m]")
 ask.add_argument("--members", type=int, default=20_000, help="earthquakes")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 quakes = ss.PoissonPulses.event(args.event)

@@ -16,7 +16,7 @@ ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawT
 ask.add_argument("--event", default="great near field", choices=ss.PoissonPulses.events())
 ask.add_argument("--mu", type=float, default=0.1, help="coefficient of friction [-]")
 ask.add_argument("--members", type=int, default=20_000, help="of the ensemble")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 block, quakes = ss.Coulomb(mu=args.mu), ss.PoissonPulses.event(args.event)

@@ -2,7 +2,7 @@
 
     python examples/07_own_law.py [--program FILE] [--out DIR]
 
-Without --program it compiles the source that lies beside it, by $CXX or c++.
+Without --program it compiles the source next to it with $CXX or c++.
 """
 
 import argparse
@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-ask.add_argument("--program", type=Path, help="the compiled example, where there is one already")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--program", type=Path, help="the compiled example, if it exists")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 source = Path(__file__).with_suffix(".cpp")

@@ -12,7 +12,7 @@
 
 using namespace stickslip;
 
-// One storey, damping 5 %, period 0.5 s, stepped by the semi-implicit Euler method.
+// One storey, damping 5 %, period 0.5 s, integrated by the semi-implicit Euler method.
 class Building {
  public:
   // Advances by one step; returns the absolute acceleration of the floor [m/s^2].
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
 
   // The same floor motion, integrated in one call.
   const Response response = integrate(slider, GroundMotion(floor_history, dt));
-  std::printf("on its way it was at most %.4f m away\n", response.peak);
+  std::printf("its largest displacement was %.4f m\n", response.peak);
 
   if (argc > 1) {
     std::ofstream file(argv[1]);

@@ -2,7 +2,7 @@
 
     python examples/08_time_loop.py [--program FILE] [--out DIR]
 
-Without --program it compiles the source that lies beside it, by $CXX or c++.
+Without --program it compiles the source next to it with $CXX or c++.
 """
 
 import argparse
@@ -17,8 +17,8 @@ from stickslip import STANDARD_GRAVITY
 from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-ask.add_argument("--program", type=Path, help="the compiled example, where there is one already")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--program", type=Path, help="the compiled example, if it exists")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 source = Path(__file__).with_suffix(".cpp")
@@ -37,7 +37,7 @@ with style():
     shaking.axhspan(-0.3, 0.3, color="#0072b2", alpha=0.12, linewidth=0, label="held: mu = 0.3")
     shaking.plot(time, floor / STANDARD_GRAVITY, color="#222222", linewidth=0.8)
     shaking.set_ylabel("floor acceleration\n[g]")
-    shaking.set_title("A block on the floor of a building, moved by one call a step")
+    shaking.set_title("A block on the floor of a building, advanced by one call per step")
     shaking.legend(fontsize=8)
     way.plot(time, 100 * block)
     way.axhline(0, color="#8a8a8a", linewidth=0.6)

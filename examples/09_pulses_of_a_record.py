@@ -16,7 +16,7 @@ from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
 ask.add_argument("record", nargs="?", type=Path, help="default: Loma Prieta 1989, of pyslammer")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 quake = ss.read_record(args.record) if args.record else ss.sample_record("Loma_Prieta")

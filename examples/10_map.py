@@ -18,7 +18,7 @@ from stickslip.plotting import save, style
 
 ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
 ask.add_argument("--cells", type=int, default=1000, help="along each side")
-ask.add_argument("--out", type=Path, default=Path(), help="folder of the picture")
+ask.add_argument("--out", type=Path, default=Path(), help="folder for the picture")
 args = ask.parse_args()
 
 # Terrain: a random surface with a spectrum that falls off; 1 % of it is steeper than 0.6.
