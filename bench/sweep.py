@@ -36,7 +36,7 @@ def against_pyslammer(rounds: int) -> None:
     samples = len(YIELD) * sum(map(len, suite))
 
     def ours() -> np.ndarray:
-        return ss.sweep(blocks, suite, polarity="as recorded", settle=True, threads=1).peak[:, :, 0]
+        return ss.sweep(blocks, suite, polarity="recorded", settle=True, threads=1).peak[:, :, 0]
 
     def its() -> np.ndarray:
         return np.array(

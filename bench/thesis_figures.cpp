@@ -25,7 +25,7 @@ constexpr const char* usage =
     "  --expectations  prints what reproduction/expected.inc is made of\n";
 
 std::string file_name(const std::string& number) {
-  std::string name = number.starts_with("Table") ? number : "figure " + number;
+  std::string name = number.find(' ') != std::string::npos ? number : "figure " + number;
   std::ranges::transform(name, name.begin(), [](unsigned char c) {
     return static_cast<char>(c == ' ' || c == '.' ? '_' : std::tolower(c));
   });
