@@ -10,7 +10,7 @@
 #include <string>
 #include <variant>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/static_kinetic.hpp"

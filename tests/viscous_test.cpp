@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "simd/instruction_sets.hpp"
-#include "simd/viscous_lanes.hpp"
+#include "lanes/instruction_sets.hpp"
+#include "lanes/viscous_lanes.hpp"
 #include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"

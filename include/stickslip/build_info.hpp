@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

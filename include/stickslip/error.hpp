@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/stops.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 
 namespace stickslip {
 

@@ -1,7 +1,7 @@
 // Internal quantities are in SI units; conversions of other units are here.
 #pragma once
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -1,4 +1,4 @@
-#include "stickslip/detail/ensemble/block.hpp"
+#include "stickslip/ensemble/detail/block.hpp"
 
 #include <fftw3.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <utility>
 
+#include "lanes/row_moments.hpp"
 #include "numerics/fftw_plan.hpp"
 #include "numerics/kaiser_window.hpp"
-#include "simd/row_moments.hpp"
 #include "stickslip/ensemble/ensemble.hpp"
 
 namespace stickslip::detail {

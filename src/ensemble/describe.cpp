@@ -1,9 +1,9 @@
-#include "stickslip/detail/ensemble/describe.hpp"
+#include "stickslip/ensemble/detail/describe.hpp"
 
 #include <array>
 #include <bit>
 
-#include "detail/json.hpp"
+#include "base/json.hpp"
 
 namespace stickslip::detail {
 std::string parameters(const Coulomb& law) {

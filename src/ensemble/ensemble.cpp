@@ -12,7 +12,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "simd/row_moments.hpp"
+#include "lanes/row_moments.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/root.hpp"
 

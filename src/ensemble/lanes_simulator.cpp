@@ -1,4 +1,4 @@
-#include "stickslip/detail/ensemble/lanes_simulator.hpp"
+#include "stickslip/ensemble/detail/lanes_simulator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "simd/caster_lanes.hpp"
-#include "simd/coulomb_lanes.hpp"
-#include "simd/pulse_lanes.hpp"
-#include "simd/viscous_lanes.hpp"
+#include "lanes/caster_lanes.hpp"
+#include "lanes/coulomb_lanes.hpp"
+#include "lanes/pulse_lanes.hpp"
+#include "lanes/viscous_lanes.hpp"
 
 namespace stickslip::detail {
 namespace {

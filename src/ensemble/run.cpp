@@ -6,7 +6,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "detail/threads.hpp"
+#include "base/threads.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "detail/threads.hpp"
+#include "base/threads.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -1,5 +1,5 @@
 // Members with the usual sliders, instantiated once.
-#include "stickslip/detail/ensemble/simulator.hpp"
+#include "stickslip/ensemble/detail/simulator.hpp"
 
 namespace stickslip::detail {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "detail/json.hpp"
-#include "detail/table.hpp"
+#include "base/json.hpp"
+#include "base/table.hpp"
 #include "stickslip/error.hpp"
 
 namespace stickslip {

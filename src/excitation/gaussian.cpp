@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "detail/json.hpp"
+#include "base/json.hpp"
 #include "excitation/interpolation_loss.hpp"
 #include "numerics/fftw_plan.hpp"
 #include "stickslip/error.hpp"

@@ -10,7 +10,7 @@
 #include <queue>
 #include <stdexcept>
 
-#include "detail/json.hpp"
+#include "base/json.hpp"
 #include "excitation/pulse_shape.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/excitation/random.hpp"

@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "detail/json.hpp"
-#include "detail/table.hpp"
+#include "base/json.hpp"
+#include "base/table.hpp"
 #include "numerics/quadrature.hpp"
 #include "stickslip/error.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/excitation/random.hpp"
 
 namespace stickslip::detail {

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "simd/oscillator_lanes.hpp"
-#include "stickslip/detail/lanes/row.hpp"
+#include "lanes/oscillator_lanes.hpp"
 #include "stickslip/flow/damped.hpp"
+#include "stickslip/lanes/row.hpp"
 #include "stickslip/numerics/root.hpp"
 
 namespace stickslip {

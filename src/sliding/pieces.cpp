@@ -1,4 +1,4 @@
-#include "stickslip/detail/pieces.hpp"
+#include "stickslip/sliding/detail/pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "simd/coulomb_lanes.hpp"
-#include "stickslip/detail/lanes/transpose.hpp"
-#include "stickslip/detail/run.hpp"
+#include "lanes/coulomb_lanes.hpp"
+#include "stickslip/lanes/transpose.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/run.hpp"
 
 namespace stickslip::detail {
 namespace {

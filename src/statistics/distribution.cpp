@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detail/json.hpp"
+#include "base/json.hpp"
 #include "stickslip/error.hpp"
 
 namespace stickslip {

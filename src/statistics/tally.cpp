@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "simd/row_moments.hpp"
+#include "lanes/row_moments.hpp"
 
 namespace stickslip::detail {
 

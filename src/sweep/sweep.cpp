@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "detail/threads.hpp"
-#include "simd/level_lanes.hpp"
+#include "base/threads.hpp"
+#include "lanes/level_lanes.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "stickslip/detail/pulse_accuracy.hpp"
+#include "stickslip/theory/detail/pulse_accuracy.hpp"
 
 #include <limits>
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "simd/instruction_sets.hpp"
+#include "lanes/instruction_sets.hpp"
 #include "stickslip/excitation/random.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"

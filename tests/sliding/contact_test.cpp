@@ -1,5 +1,5 @@
 // Vertical motion, slopes and lost contact: reference values, closed forms, limits, energy.
-#include "stickslip/detail/contact.hpp"
+#include "stickslip/sliding/detail/contact.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "stickslip/detail/pieces.hpp"
+#include "stickslip/sliding/detail/pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "simd/instruction_sets.hpp"
+#include "lanes/instruction_sets.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"

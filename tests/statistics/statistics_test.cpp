@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "simd/instruction_sets.hpp"
-#include "simd/row_moments.hpp"
+#include "lanes/instruction_sets.hpp"
+#include "lanes/row_moments.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 

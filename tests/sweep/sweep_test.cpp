@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "simd/instruction_sets.hpp"
+#include "lanes/instruction_sets.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "stickslip/detail/ensemble/describe.hpp"
 #include "stickslip/ensemble/configuration.hpp"
+#include "stickslip/ensemble/detail/describe.hpp"
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/friction/law.hpp"

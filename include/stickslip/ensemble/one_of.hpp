@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/ensemble/describe.hpp"
+#include "stickslip/ensemble/detail/describe.hpp"
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 

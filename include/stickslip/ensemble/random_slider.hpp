@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/ensemble/describe.hpp"
+#include "stickslip/ensemble/detail/describe.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/distribution.hpp"

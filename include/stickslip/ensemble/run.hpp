@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/ensemble/lanes_simulator.hpp"
-#include "stickslip/detail/ensemble/simulator.hpp"
+#include "stickslip/ensemble/detail/lanes_simulator.hpp"
+#include "stickslip/ensemble/detail/simulator.hpp"
 #include "stickslip/ensemble/ensemble.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "stickslip/detail/ensemble/simulator.hpp"
+#include "stickslip/ensemble/detail/simulator.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

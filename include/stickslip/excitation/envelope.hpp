@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/excitation/envelope.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/ground_motion.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/excitation/envelope.hpp"
 #include "stickslip/excitation/pulse_shape.hpp"
 #include "stickslip/excitation/spectrum.hpp"

@@ -1,7 +1,7 @@
 // Pulses fitted to a spectrum.
 #pragma once
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 
 namespace stickslip {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

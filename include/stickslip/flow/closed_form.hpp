@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -7,8 +7,8 @@
 #include <exception>
 #include <optional>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/friction/law.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/series/series.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/state.hpp"
 

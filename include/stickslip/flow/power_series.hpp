@@ -6,8 +6,8 @@
 #include <concepts>
 #include <type_traits>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"

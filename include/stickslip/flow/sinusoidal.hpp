@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/oscillator.hpp"
 #include "stickslip/state.hpp"

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/flow/sinusoidal.hpp"

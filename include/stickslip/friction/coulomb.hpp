@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/units.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/state.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/state.hpp"

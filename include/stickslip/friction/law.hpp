@@ -4,7 +4,7 @@
 #include <concepts>
 #include <stdexcept>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/state.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/harmonic/orbits.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 

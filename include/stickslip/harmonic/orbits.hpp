@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/balanced.hpp"
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/balanced.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 

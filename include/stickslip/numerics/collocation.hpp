@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 
 namespace stickslip::numerics {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip::numerics {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 
 namespace stickslip::numerics {
 

@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -8,10 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "stickslip/detail/contact.hpp"
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/event_loop.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/oscillator.hpp"
@@ -22,6 +20,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/contact.hpp"
+#include "stickslip/sliding/detail/event_loop.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/state.hpp"
 

@@ -8,17 +8,17 @@
 #include <stdexcept>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/load_history.hpp"
-#include "stickslip/detail/min_max.hpp"
-#include "stickslip/detail/recorder.hpp"
-#include "stickslip/detail/run.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/load_history.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"

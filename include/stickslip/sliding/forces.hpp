@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"

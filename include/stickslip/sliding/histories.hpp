@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "stickslip/detail/recorder.hpp"
-#include "stickslip/detail/run.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {

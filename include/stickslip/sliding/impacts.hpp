@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/sliding/response.hpp"
 
 namespace stickslip {

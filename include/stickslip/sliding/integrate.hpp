@@ -6,14 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stickslip/detail/function.hpp"
-#include "stickslip/detail/min_max.hpp"
-#include "stickslip/detail/recorder.hpp"
-#include "stickslip/detail/run.hpp"
+#include "stickslip/base/function.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/response.hpp"
 
 namespace stickslip {

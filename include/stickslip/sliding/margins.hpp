@@ -6,13 +6,13 @@
 #include <limits>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/event_loop.hpp"
-#include "stickslip/detail/load_history.hpp"
-#include "stickslip/detail/min_max.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/event_loop.hpp"
+#include "stickslip/sliding/detail/load_history.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"

@@ -12,10 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/detail/equal.hpp"
-#include "stickslip/detail/min_max.hpp"
-#include "stickslip/detail/recorder.hpp"
-#include "stickslip/detail/run.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
@@ -24,6 +22,8 @@
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"

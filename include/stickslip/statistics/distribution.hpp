@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

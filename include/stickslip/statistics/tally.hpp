@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "stickslip/detail/function.hpp"
+#include "stickslip/base/function.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 
 namespace stickslip::detail {
 

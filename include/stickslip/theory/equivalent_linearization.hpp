@@ -7,7 +7,7 @@
 #include <string>
 #include <variant>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"

@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "stickslip/detail/pulse_accuracy.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/statistics/tally.hpp"
+#include "stickslip/theory/detail/pulse_accuracy.hpp"
 #include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/theory.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stickslip/detail/requirements.hpp"
+#include "stickslip/base/requirements.hpp"
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/excitation/spectrum.hpp"
 

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "stickslip/detail/balanced.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/balanced.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/theory/theory.hpp"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "stickslip/detail/equal.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"

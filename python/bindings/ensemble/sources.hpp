@@ -14,7 +14,7 @@
 #include "bindings.hpp"
 #include "drawn.hpp"
 #include "excitation/with_vertical.hpp"
-#include "stickslip/detail/ensemble/block.hpp"
+#include "stickslip/ensemble/detail/block.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"
 

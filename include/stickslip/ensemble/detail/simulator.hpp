@@ -1,0 +1,261 @@
+// Simulates the members of an ensemble, block by block.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/ensemble/detail/block.hpp"
+#include "stickslip/ensemble/member.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/sliding/detail/run.hpp"
+#include "stickslip/sliding/impacts.hpp"
+#include "stickslip/sliding/integrate.hpp"
+
+namespace stickslip::detail {
+
+/// Simulates the members of a block. Each thread has its own.
+class Simulator {
+ public:
+  virtual ~Simulator() = default;
+  virtual void simulate(std::uint64_t first_member, std::size_t members, Block& block) = 0;
+};
+
+/// Run the work for a member; errors name the member.
+template <class Work>
+void naming_member(std::uint64_t member, Work&& work, const char* who = "run_ensemble") {
+  const auto named = [&](const std::exception& error) {
+    return who + (": member " + std::to_string(member)) + ": " + error.what();
+  };
+  try {
+    work();
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(named(error));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(named(error));
+  }
+}
+
+/// The output of one member of a block.
+struct MemberPlace {
+  Block& block;
+  std::size_t index;                ///< of the member in the block
+  double *displacement, *velocity;  ///< of all members by time, `block.width()` at each
+
+  void keep(std::size_t time, double x, double v) const noexcept {
+    displacement[time * block.width() + index] = x;
+    velocity[time * block.width() + index] = v;
+  }
+  void end(double peak, double residual) const noexcept {
+    block.peak()[index] = peak;
+    block.residual()[index] = residual;
+  }
+};
+
+/// The first `time` of a segment, of which `rest` [s] remains.
+inline Segment cut(Segment& segment, double time, double rest) noexcept {
+  const double middle = segment.start + (segment.end - segment.start) * (time / segment.duration);
+  const Segment taken{time, segment.start, middle};
+  segment = {rest, middle, segment.end};
+  return taken;
+}
+inline LoadSegment cut(LoadSegment& segment, double time, double rest) noexcept {
+  const LoadSegment taken = take(segment, time, segment.normal(time));
+  segment.duration = rest;
+  return taken;
+}
+
+/// Iterate over the segments of a motion: `go` integrates over a segment, and `keep` is called at each time of the
+/// statistics, which divides the segment that contains it.
+template <class Pieces, class Go, class Keep>
+void go_through(const Pieces& pieces, std::size_t segments, const Block& block, Go&& go, Keep&& keep_at) {
+  const std::size_t times = block.times().count;
+  const double dt = block.times().dt, begin = pieces.time(0);
+  std::size_t next = 0;  // time of the statistics
+  const auto keep = [&] { keep_at(next++); };
+  if (times > 0) keep();
+  double wanted = dt;
+  const auto through = [&](std::size_t, double segment_begins, double segment_ends, auto segment) {
+    double from = segment_begins - begin;
+    const double to = segment_ends - begin;
+    while (next < times && wanted < to) {
+      if (wanted > from) {
+        go(cut(segment, wanted - from, to - wanted));
+        from = wanted;
+      }
+      keep();
+      wanted = static_cast<double>(next) * dt;
+    }
+    go(segment);
+    if (next < times && equal(wanted, to)) {
+      keep();
+      wanted = static_cast<double>(next) * dt;
+    }
+  };
+  block.check_stopped();
+  walk(pieces, segments, 1024, through, [&] { block.check_stopped(); });
+  while (next < times) keep();  // a last time that exceeds the end by rounding
+}
+
+/// The ground acceleration at the times of the statistics; at a jump, the value after it.
+inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times, std::vector<double>& values) {
+  values.resize(times.count);
+  const double begin = motion.time(0);
+  std::size_t next = 0;
+  const auto read_off = [&](std::size_t i, double segment_begins, double segment_ends, const Segment& s) {
+    const double from = segment_begins - begin, to = segment_ends - begin;
+    const bool last = i + 1 == motion.segments();
+    for (double at; next < times.count && ((at = static_cast<double>(next) * times.dt) < to || last); ++next)
+      values[next] =
+          s.duration > 0 ? s.start + (s.end - s.start) * std::clamp((at - from) / s.duration, 0.0, 1.0) : s.end;
+  };
+  walk(motion, motion.segments(), read_off, [] {});
+}
+
+/// Computes the largest |x| and the impacts of a member, and checks regularly whether the run was stopped.
+template <FrictionLaw Law>
+class PeakObserver {
+ public:
+  PeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
+
+  double peak() const noexcept { return peak_; }
+  const Impacts& impacts() const noexcept { return impacts_; }
+
+  void slide(const Slip& slip) {
+    if constexpr (!ConstantLevelLaw<Law>) count_work();
+    peak_ = std::max(peak_, std::abs(slip.to()));
+  }
+  void event(EventKind kind, double, const State& state) {
+    if (kind == EventKind::impact) impacts_.add(state.displacement, state.velocity);
+    count_work();
+    if (++events_ > event_limit_) refuse_more_events(event_limit_);
+  }
+
+ private:
+  void count_work() {
+    if (++work_ % Recorder<Law>::work_per_report == 0) block_.check_stopped();
+  }
+  const Block& block_;
+  std::size_t event_limit_, events_ = 0;
+  std::uint32_t work_ = 0;
+  double peak_ = 0;
+  Impacts impacts_;
+};
+
+// Out of line: inlined at each call it would take minutes to compile.
+template <FrictionLaw Law, class Flows>
+[[gnu::flatten, gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows,
+                                                    const Segment& segment, State& state, PeakObserver<Law>& observer) {
+  advance(slider.law(), flows, segment, state, observer);
+}
+
+/// Continue without ground acceleration until the slider rests.
+template <FrictionLaw Law, class Flows>
+void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, PeakObserver<Law>& observer,
+                   const Block& block) {
+  settle(slider, state, [&](double duration) {
+    block.check_stopped();
+    advance_member(slider, flows, Segment{duration, 0, 0}, state, observer);
+  });
+}
+
+/// The same for any slider, under load and normal force.
+template <FrictionLaw Law, class Flows>
+[[gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows, const LoadSegment& segment,
+                                      Contact contact, State& state, PeakObserver<Law>& observer) {
+  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
+  advance(slider.law(), flows, segment, bounds, contact, state, observer);
+}
+
+/// Simulate one member from rest at x = 0, by the event loop of `advance`. A member may end in flight.
+/// @param settle  whether to continue without ground acceleration until it comes to rest
+template <FrictionLaw Law>
+void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place) {
+  Block& block = place.block;
+  const bool under_load = loaded(slider, motion);
+  with_flows(slider, motion.dt(), [&](const auto& flows) {
+    State state;
+    PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
+    const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
+    const auto go_loaded = [&](const LoadSegment& segment) {
+      advance_member(slider, flows, segment, contact, state, observer);
+    };
+    if (under_load)
+      go_through(LoadPieces(motion, slider.slope()), motion.segments(), block, go_loaded, keep);
+    else
+      go_through(
+          GroundMotion::Pieces(motion), motion.segments(), block,
+          [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); }, keep);
+    if (settle && under_load)
+      detail::settle(slider, state, [&](double duration) {
+        block.check_stopped();
+        go_loaded(load_segment(Segment{duration, 0, 0}, slider.slope()));
+      });
+    else if (settle)
+      settle_member(slider, flows, state, observer, block);
+    place.end(observer.peak(), state.displacement);
+    if (const Stops& stops = slider.mounting().stops) block.impacts(place.index, stops, observer.impacts());
+    if (state.in_flight) block.ends_airborne();
+  });
+}
+
+/// The same for any type of slider.
+template <class... Sliders>
+void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place) {
+  std::visit([&](const auto& one) { simulate_member(one, motion, settle, contact, place); }, slider);
+}
+
+/// Simulates any members, one after the other.
+template <MemberSource Source>
+class MemberSimulator final : public Simulator {
+ public:
+  /// @param source  held by reference
+  MemberSimulator(const Source& source, std::uint64_t seed, bool settle, Contact contact = Contact::flight)
+      : source_(source), seed_(seed), settle_(settle), contact_(contact) {}
+
+  void simulate(std::uint64_t first_member, std::size_t members, Block& block) override {
+    const std::size_t times = block.times().count, width = block.width();
+    displacement_.resize(times * width);
+    velocity_.resize(times * width);
+    for (std::size_t i = 0; i < members; ++i) {
+      const auto& member = source_.member(seed_, first_member + i);
+      naming_member(first_member + i, [&] {
+        const MemberPlace place{block, i, displacement_.data(), velocity_.data()};
+        simulate_member(member.slider, member.motion, settle_, contact_, place);
+      });
+    }
+    for (std::size_t k = 0; k < times; ++k) block.row(k, &displacement_[k * width], &velocity_[k * width]);
+  }
+
+ private:
+  const Source& source_;
+  std::uint64_t seed_;
+  bool settle_;
+  Contact contact_;
+  std::vector<double> displacement_, velocity_;  // by time and member
+};
+
+}  // namespace stickslip::detail
+
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
+namespace stickslip::detail {
+extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, Contact, const MemberPlace&);
+extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, Contact, const MemberPlace&);
+}  // namespace stickslip::detail
+#endif

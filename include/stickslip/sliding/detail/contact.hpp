@@ -1,0 +1,165 @@
+// One segment of a slider that may lose contact with the ground.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/flow/polynomial.hpp"
+#include "stickslip/flow/power_series.hpp"
+#include "stickslip/flow/remembering.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/ground/segment.hpp"
+#include "stickslip/sliding/detail/event_loop.hpp"
+#include "stickslip/state.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+namespace detail {
+
+/// Passes the events of a part of a segment to the observer, with times measured from the start of the whole segment.
+/// The part starts at `begin` [s].
+template <class Observer>
+struct WithinSegment {
+  Observer& observer;
+  double begin;
+
+  void slide(const Slip& slip) { observer.slide(slip); }
+  void event(EventKind kind, double time, const State& state) { observer.event(kind, begin + time, state); }
+  template <class Flow>
+  void follow(const Flow& flow, double taken) requires requires(Observer& o) {
+    o.follow(flow, taken);
+  }
+  { observer.follow(flow, taken); }
+  void dissipate(double work) requires requires(Observer& o) { o.dissipate(work); }
+  { observer.dissipate(work); }
+  void lose(double energy) requires requires(Observer& o) { o.lose(energy); }
+  { observer.lose(energy); }
+};
+
+/// A law evaluated at a fixed displacement.
+template <MemorylessLaw Law>
+struct AtPlace {
+  static constexpr bool numeric = NumericLaw<Law>;
+
+  const Law* law;
+  double displacement;
+
+  template <class X, class Speed>
+  auto resist(const X&, const Speed& speed, Direction direction) const {
+    return stickslip::resist(*law, displacement, speed, direction);
+  }
+};
+
+/// The speed that remains of `speed` after a normal impulse J of `impulse` [m/s]: d|v|/dJ = -mu(|v|). This is a slide
+/// of duration J / g under weight g and no load.
+template <MemorylessLaw Law>
+double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
+  if constexpr (SpeedLaw<Law>) {
+    const Slider<AtPlace<Law>> slider({&law, displacement});
+    State state = State::at(0, sign(direction) * speed);
+    NoObserver none;
+    advance(slider.law(), general_flows(slider), Segment{impulse / standard_gravity, 0, 0}, state, none);
+    return std::abs(state.velocity);
+  } else {
+    return std::max(speed - law.resist(displacement, direction) / standard_gravity * impulse, 0.0);
+  }
+}
+
+/// Remove and return the first `time` [s] of a segment; the normal force at its end is given.
+inline LoadSegment take(LoadSegment& segment, double time, double normal) noexcept {
+  const double load = segment.load(time);
+  const LoadSegment taken{time, segment.load_start, load, segment.normal_start, normal};
+  segment = {segment.duration - time, load, segment.load_end, normal, segment.normal_end};
+  return taken;
+}
+
+/// Time at which a slider in flight lands within a segment [s]; `never` if it does not land.
+inline double landing(const LoadSegment& s, double gap, double gap_velocity) noexcept {
+  const double square = s.duration * s.duration;
+  const double w[] = {gap, gap_velocity * s.duration, -s.normal_start * square / 2,
+                      -(s.normal_end - s.normal_start) * square / 6};
+  int leading = 0;  // leading zeros: the slider has just left the ground
+  while (leading < 3 && equal(w[leading], 0)) ++leading;
+  if (w[leading] < 0) return 0;
+  const double root = leading < 3 ? FirstRoot(w + leading, 3 - leading).find() : never;
+  return root < never ? root * s.duration : never;
+}
+
+/// The event loop over a segment in which the slider can reach a stop, leave the ground, and land.
+template <FrictionLaw Law, class Flows, MotionObserver Observer>
+[[gnu::noinline]] void advance_with_contact(const Law& law, const Flows& flows, LoadSegment segment,
+                                            const Bounds& bounds, Contact contact, State& state, Observer& observer) {
+  const double duration = segment.duration;
+  const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
+  // Integrates over the first `time` of the rest of the segment.
+  const auto go = [&](double time, double normal, bool touching) {
+    const double begin = duration - segment.duration;
+    const LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});
+    const WeighedSegment weighed{piece.duration, piece.load_start, piece.load_end,
+                                 weight_of(piece.normal_start, touching), weight_of(piece.normal_end, touching)};
+    WithinSegment<Observer> within{observer, begin};
+    advance(law, flows, weighed, state, within, bounds);
+  };
+  const auto tell = [&](EventKind kind) { observer.event(kind, duration - segment.duration, state); };
+  while (segment.duration > 0) {
+    const double first = segment.normal_start, last = segment.normal_end;
+    const auto crossing = [&] { return segment.duration * (first / (first - last)); };  // of N and zero
+    if (state.in_flight) {
+      const double lands = landing(segment, state.gap, state.gap_velocity);
+      const double t = std::min(lands, segment.duration), change = (last - first) * (t / segment.duration);
+      const double gap = state.gap + t * (state.gap_velocity - t * (first / 2 + change / 6));
+      const double gap_velocity = state.gap_velocity - t * (first + change / 2);
+      go(t, first + change, false);
+      state.gap = std::max(gap, 0.0);
+      state.gap_velocity = gap_velocity;
+      if (equal(lands, never)) continue;
+      tell(EventKind::landing);
+      state.in_flight = false;
+      const double impulse = std::max(-std::exchange(state.gap_velocity, 0.0), 0.0);
+      state.gap = 0;
+      if (state.mode == Mode::stuck) continue;
+      const Direction direction = direction_of(state.mode);
+      const double before = std::abs(state.velocity);
+      const double after = after_impulse(law_at(law, state), state.displacement, direction, before, impulse);
+      if constexpr (requires { observer.dissipate(0.0); }) observer.dissipate((before * before - after * after) / 2);
+      state.velocity = sign(direction) * after;
+      if (after > 0) continue;
+      state.mode = Mode::stuck;
+      tell(EventKind::arrest);
+    } else if (first < 0 || (equal(first, 0) && last < 0)) {
+      if (contact == Contact::flight) {
+        state.in_flight = true;
+        tell(EventKind::liftoff);
+      } else {
+        go(last > 0 ? crossing() : segment.duration, 0, false);
+      }
+    } else {
+      go(last < 0 ? crossing() : segment.duration, 0, true);
+    }
+  }
+}
+
+/// The event loop over any segment. If the slider stays on the ground and cannot reach a stop, it checks for neither.
+template <FrictionLaw Law, class Flows, MotionObserver Observer>
+[[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const LoadSegment& segment,
+                                           const Bounds& bounds, Contact contact, State& state, Observer& observer) {
+  if constexpr (requires { typename Flows::Basis; }) {  // other flows cost more than these checks
+    const double first = segment.normal_start, last = segment.normal_end;
+    if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1), state)) {
+      if (equal(first, standard_gravity) && equal(last, standard_gravity))
+        return advance(law, flows, Segment{segment.duration, -segment.load_start, -segment.load_end}, state, observer);
+      const WeighedSegment weighed{segment.duration, segment.load_start, segment.load_end, first / standard_gravity,
+                                   last / standard_gravity};
+      return advance(law, flows, weighed, state, observer);
+    }
+  }
+  State moving = state;  // a state whose address is taken is kept in memory
+  advance_with_contact(law, flows, segment, bounds, contact, moving, observer);
+  state = moving;
+}
+
+}  // namespace detail
+}  // namespace stickslip
