@@ -150,6 +150,13 @@ class Slider {
 
 namespace detail {
 
+/// Force of the spring at x under a weight N+/g, per unit mass [m/s^2]: only a pendulum's depends on the weight.
+template <class Law>
+double pull(const Slider<Law>& slider, double x, double weight) noexcept {
+  const double pull = slider.stiffness() * x;
+  return slider.mounting().pendulum ? weight * pull : pull;
+}
+
 /// Throws for a mounting that a function without vertical motion does not cover. (A pendulum is then a spring.)
 template <FrictionLaw Law>
 void require_plain_mounting(const Slider<Law>& slider, std::string_view function) {

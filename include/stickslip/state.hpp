@@ -50,4 +50,42 @@ struct State {
   }
 };
 
+namespace detail {
+
+/// A state without the memory of a law, which the event loop carries for laws without memory: 40 bytes instead of 392.
+struct BareState {
+  double displacement = 0, velocity = 0;
+  Mode mode = Mode::stuck;
+  bool in_flight = false;
+  double gap = 0, gap_velocity = 0;
+
+  BareState() = default;
+  explicit BareState(const State& s) noexcept
+      : displacement(s.displacement),
+        velocity(s.velocity),
+        mode(s.mode),
+        in_flight(s.in_flight),
+        gap(s.gap),
+        gap_velocity(s.gap_velocity) {}
+  explicit operator State() const noexcept {
+    return {.displacement = displacement,
+            .velocity = velocity,
+            .mode = mode,
+            .in_flight = in_flight,
+            .gap = gap,
+            .gap_velocity = gap_velocity};
+  }
+  /// Replaces these parts of a state.
+  void store(State& s) const noexcept {
+    s.displacement = displacement;
+    s.velocity = velocity;
+    s.mode = mode;
+    s.in_flight = in_flight;
+    s.gap = gap;
+    s.gap_velocity = gap_velocity;
+  }
+};
+
+}  // namespace detail
+
 }  // namespace stickslip

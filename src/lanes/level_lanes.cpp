@@ -328,15 +328,16 @@ void advance_lane(LevelLane& lane, const LevelGround& ground, std::size_t i) {
   Watch watch{lane};
   const double duration = ground.duration();
   const std::size_t end = i + ground.next();
+  BareState state(lane.state);
   if (ground.weighed()) {
-    const WeighedSegment segment{duration, ground.load()[i], ground.load()[end], ground.weight()[i],
-                                 ground.weight()[end]};
-    detail::advance(lane.law, Polynomial{}, segment, lane.state, watch);
+    const WeighedLoad load{duration, ground.load()[i], ground.load()[end], ground.weight()[i], ground.weight()[end]};
+    detail::advance(BlockFlows(lane.law, Polynomial{}), load, state, watch);
   } else {
     const double s = lane.turned ? -1 : 1;
-    detail::advance(lane.law.sliding(), Polynomial{}, Segment{duration, s * ground.start()[i], s * ground.end()[i]},
-                    lane.state, watch);
+    const Segment segment{duration, s * ground.start()[i], s * ground.end()[i]};
+    detail::advance(BlockFlows(lane.law.sliding(), Polynomial{}), segment, state, watch);
   }
+  state.store(lane.state);
 }
 
 LevelGround::LevelGround(const GroundMotion& motion)

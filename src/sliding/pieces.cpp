@@ -100,8 +100,10 @@ class SideBySide {
 
   void step(std::size_t segment, State& state) {
     recorder_.begin_segment(ground_.time(segment), ground_.time(segment + 1));
-    advance(law_, Polynomial{}, ground_.segment(segment), state, recorder_);
-    histories_.keep(segment + 1, law_, state);
+    BareState moving(state);
+    advance(BlockFlows(law_, Polynomial{}), ground_.segment(segment), moving, recorder_);
+    histories_.keep(segment + 1, law_, moving);
+    moving.store(state);
   }
 
  private:

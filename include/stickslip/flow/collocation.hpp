@@ -10,6 +10,7 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/collocation.hpp"
@@ -78,7 +79,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
  public:
   /// Kept out of line: inlining it wherever a flow is made would take a compiler minutes.
   /// @param longest  step to try first [s]
-  [[gnu::noinline]] CollocationFlow(const Slider<Law>& slider, Direction direction, const State& state,
+  [[gnu::noinline]] CollocationFlow(const Slider<Law>& slider, Direction direction, const detail::StateOf<Law>& state,
                                     const SlipStart& start, double duration, double longest, detail::Cooling& cooling)
       : Base(slider.mounting(), direction, state.displacement, start, duration, longest),
         law_(slider.law()),
@@ -278,29 +279,88 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
 
 /// Makes the flows of a slider by collocation.
 template <FrictionLaw Law>
-class Collocating {
- public:
-  explicit Collocating(const Slider<Law>& slider) : slider_(slider) {}
+class Collocating : public detail::LawFlows<Law> {
+  using Base = detail::LawFlows<Law>;
+  using Nodes = detail::Nodes;
 
-  double pull(double displacement) const noexcept { return slider_.stiffness() * displacement; }
+ public:
+  explicit Collocating(const Slider<Law>& slider) : Base(slider.law()), slider_(slider) {}
+
+  double pull(double x, double weight) const noexcept { return detail::pull(slider_, x, weight); }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
-  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
 
   template <class SlipStart>
-  CollocationFlow<Law, SlipStart> flow(Direction direction, const State& state, const SlipStart& start,
+  CollocationFlow<Law, SlipStart> flow(Direction direction, const detail::StateOf<Law>& state, const SlipStart& start,
                                        double duration) const {
     const CollocationFlow<Law, SlipStart> flow(slider_, direction, state, start, duration, 2 * last_step_, cooling_);
     const double step = flow.horizon();
     last_step_ = step < duration ? step : std::max(step, last_step_);
     return flow;
   }
-  template <class SlipStart>
-  CollocationFlow<Law, SlipStart> flow(Direction direction, double displacement, const SlipStart& start,
-                                       double duration) const {
-    return flow(direction, State{.displacement = displacement}, start, duration);
+
+  using Base::remember;
+  template <class Flow>
+  void remember(const Flow& flow, double time, State& state) const requires HeatedLaw<Law> {
+    flow.heat(time, state.heat);
   }
 
-  detail::Cooling& cooling() const noexcept { return cooling_; }
+  using Base::departure;
+  /// Of a level that changes as the surface cools. The margins are approximated by polynomials on successive parts of
+  /// the time, to 1e-9 of the level.
+  template <class Load, class Bounds>
+  [[gnu::noinline]] detail::Departure departure(const Load& load, const Bounds& bounds, State& state, double /*net*/,
+                                                double /*pull*/, double forward, double backward,
+                                                double left) const requires HeatedLaw<Law> {
+    const Nodes& nodes = Nodes::get();
+    const Law& law = this->law_;
+    detail::Departure departure;
+    for (double passed = 0, step = left;;) {
+      const Nodes::Values half = cooling_.half_integrals(state.heat, step);
+      Nodes::Values holds, net;
+      double scale = 0;
+      for (std::size_t i = 0; i < half.size(); ++i) {
+        const double then = std::max(left - (passed + nodes.nodes[i] * step), 0.0), weight = load.weight(then);
+        holds[i] = weight * law.level(0, weight, half[i]);
+        net[i] = load.before_end(then) - pull(state.displacement, weight);
+        scale = std::max(scale, std::abs(net[i]) + holds[i]);
+      }
+      bool resolved = true;
+      const auto first_exceeded = [&](Direction direction, double level) -> double {
+        if (!(level < never)) return never;
+        Nodes::Values margin, powers;
+        for (std::size_t i = 0; i < margin.size(); ++i) margin[i] = holds[i] - sign(direction) * net[i];
+        const Nodes::Values c = nodes.chebyshev(margin);
+        resolved = resolved && std::abs(c[c.size() - 1]) + std::abs(c[c.size() - 2]) <= 1e-9 * scale;
+        int degree = Nodes::powers(c, 1e-15 * scale, powers);
+        const double* from = powers.data();
+        if (!(margin[0] > 0))  // a load equal to the level is held
+          for (++from, --degree; degree >= 0 && detail::equal(*from, 0);) ++from, --degree;
+        if (degree < 0) return never;
+        return *from > 0 ? FirstRoot(from, degree).find() : 0;
+      };
+      const double to_forward = first_exceeded(Direction::forward, forward);
+      const double to_backward = first_exceeded(Direction::backward, backward);
+      if (!resolved && step > 0x1p-40 * left) {
+        step /= 2;
+        continue;
+      }
+      const double part = std::min(to_forward, to_backward);
+      if (part <= 1) {
+        state.heat.rest(part * step);
+        departure.mode = to_forward <= to_backward ? Mode::forward : Mode::backward;
+        departure.delay = passed + part * step;
+        const Direction direction = direction_of(departure.mode);
+        const double weight = load.weight(left - departure.delay);
+        departure.net =
+            sign(direction) * Load::weigh(weight, hold(law_at(law, state, weight), state.displacement, direction));
+        return departure;
+      }
+      state.heat.rest(step);
+      passed += step;
+      if (!(passed < left)) return departure;
+      step = std::min(2 * step, left - passed);
+    }
+  }
 
  private:
   const Slider<Law>& slider_;

@@ -234,7 +234,7 @@ class Damped {
   /// The time from one zero of the acceleration to the next; `never` if there is at most one.
   double half_period() const noexcept { return swings_ ? std::numbers::pi / rate_ : never; }
 
-  DampedFlow flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept;
+  DampedFlow flow(const Start& start, double duration) const noexcept;
 
  private:
   DampedBasis compute(double t) const noexcept { return {damping_, natural_frequency_, t}; }
@@ -368,8 +368,6 @@ class DampedFlow {
   Progress end_;
 };
 
-inline DampedFlow Damped::flow(Direction, double, const Start& start, double duration) const noexcept {
-  return {*this, start, duration};
-}
+inline DampedFlow Damped::flow(const Start& start, double duration) const noexcept { return {*this, start, duration}; }
 
 }  // namespace stickslip

@@ -59,9 +59,7 @@ class Harmonic {
   double pull(double displacement) const noexcept { return w_ * w_ * displacement; }
   static constexpr double drag(double) noexcept { return 0; }
 
-  ClosedForm<Harmonic> flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept {
-    return {*this, start, duration};
-  }
+  ClosedForm<Harmonic> flow(const Start& start, double duration) const noexcept { return {*this, start, duration}; }
 
  private:
   // The closed forms of b3 and b4 suffer from cancellation at small wn t; the series would at large wn t.

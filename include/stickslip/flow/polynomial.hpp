@@ -12,7 +12,6 @@ namespace stickslip {
 ///     speed = u + a t + g t / 2,    distance = u t + a t^2 / 2 + g t^2 / 6.
 struct Polynomial {
   using Basis = double;  // the time itself
-  static constexpr bool stops_twice_at_most = true;
 
   static constexpr Basis basis(double t) noexcept { return t; }
   static constexpr bool one_arch(double) noexcept { return true; }
@@ -38,9 +37,7 @@ struct Polynomial {
   static constexpr double pull(double) noexcept { return 0; }
   static constexpr double drag(double) noexcept { return 0; }
 
-  ClosedForm<Polynomial> flow(Direction, double /*displacement*/, const Start& start, double duration) const noexcept {
-    return {*this, start, duration};
-  }
+  ClosedForm<Polynomial> flow(const Start& start, double duration) const noexcept { return {*this, start, duration}; }
 };
 
 }  // namespace stickslip

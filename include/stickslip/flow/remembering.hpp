@@ -8,7 +8,7 @@
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/flow/collocation.hpp"
 #include "stickslip/flow/damped.hpp"
-#include "stickslip/flow/sinusoidal.hpp"
+#include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
@@ -62,13 +62,12 @@ class LinearLevelFlow {
 /// Makes the flows of a slider whose law has memory, from the law that applies from each state on. The flow has a
 /// closed form if both that law and the load are linear; otherwise it is a Taylor series.
 template <MemoryLaw Law>
-class Remembering {
+class Remembering : public detail::LawFlows<Law> {
  public:
-  explicit Remembering(const Slider<Law>& slider) : slider_(slider) {}
+  explicit Remembering(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
 
-  double pull(double displacement) const noexcept { return slider_.stiffness() * displacement; }
+  double pull(double x, double weight) const noexcept { return detail::pull(slider_, x, weight); }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
-  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
 
   /// The returned flow must be destroyed before the next call.
   template <class SlipStart>
@@ -98,7 +97,7 @@ auto general_flows(const Slider<Law>& slider) {
   else if constexpr (MemoryLaw<Law>)
     return Remembering<Law>(slider);
   else
-    return Taylor<Law>{slider};
+    return Taylor<Law>(slider);
 }
 
 }  // namespace stickslip

@@ -157,8 +157,7 @@ class Sinusoidal {
   static constexpr double pull(double) noexcept { return 0; }
   static constexpr double drag(double) noexcept { return 0; }
 
-  SinusoidalFlow flow(Direction, double /*displacement*/, const SinusoidalStart& start,
-                      double duration) const noexcept {
+  SinusoidalFlow flow(const SinusoidalStart& start, double duration) const noexcept {
     return {oscillator_, start, duration};
   }
 

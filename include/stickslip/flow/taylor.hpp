@@ -12,6 +12,7 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
+#include "stickslip/flow/detail/maker.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/flow/sinusoidal.hpp"
 #include "stickslip/friction/law.hpp"
@@ -250,31 +251,31 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
 
 /// Makes the Taylor flows of one slider.
 template <FrictionLaw Law>
-struct Taylor {
-  const Slider<Law>& slider;
-  mutable double last_step = never;  // step to which a flow was last shortened, for long segments [s]
+class Taylor : public detail::LawFlows<Law> {
+ public:
+  explicit Taylor(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
 
-  double pull(double displacement) const noexcept { return slider.stiffness() * displacement; }
-  double drag(double speed) const noexcept { return slider.damping() * speed; }
+  double pull(double x, double weight) const noexcept { return detail::pull(slider_, x, weight); }
+  double drag(double speed) const noexcept { return slider_.damping() * speed; }
 
-  bool pendulum() const noexcept { return slider.mounting().pendulum; }
-
-  TaylorFlow<Law> flow(Direction direction, double displacement, const Start& start, double duration) const {
-    return {slider, direction, displacement, start, duration};
-  }
-
-  TaylorFlow<Law, LoadStart> flow(Direction direction, double displacement, const LoadStart& start,
+  template <class AnyState, class SlipStart>
+  TaylorFlow<Law, SlipStart> flow(Direction direction, const AnyState& state, const SlipStart& start,
                                   double duration) const {
-    return {slider, direction, displacement, start, duration};
+    return {slider_, direction, state.displacement, start, duration};
   }
-
-  TaylorFlow<Law, SinusoidalStart> flow(Direction direction, double displacement, const SinusoidalStart& start,
+  template <class AnyState>
+  TaylorFlow<Law, SinusoidalStart> flow(Direction direction, const AnyState& state, const SinusoidalStart& start,
                                         double duration) const {
-    const TaylorFlow<Law, SinusoidalStart> flow(slider, direction, displacement, start, duration, 1.25 * last_step);
+    const TaylorFlow<Law, SinusoidalStart> flow(slider_, direction, state.displacement, start, duration,
+                                                1.25 * last_step_);
     const double step = flow.horizon();
-    last_step = step < duration ? step : std::max(step, last_step);
+    last_step_ = step < duration ? step : std::max(step, last_step_);
     return flow;
   }
+
+ private:
+  const Slider<Law>& slider_;
+  mutable double last_step_ = never;  // step to which a flow was last shortened, for long segments [s]
 };
 
 }  // namespace stickslip

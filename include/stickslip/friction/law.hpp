@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <stdexcept>
+#include <type_traits>
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
@@ -103,6 +104,14 @@ concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
 
 namespace detail {
 
+/// The state that the event loop carries: with the memory of the law, if it has one.
+template <FrictionLaw Law>
+using StateOf = std::conditional_t<MemoryLaw<Law>, State, BareState>;
+
+/// Stores a state of the event loop in a public one.
+inline void store(const BareState& from, State& to) noexcept { from.store(to); }
+inline void store(const State& from, State& to) noexcept { to = from; }
+
 /// A class with the arguments of `resist` in the wrong order, for the error message.
 template <class Law>
 concept LawWithDirectionBeforeSpeed = !FrictionLaw<Law> && requires(const Law& law, double x, Direction direction) {
@@ -113,8 +122,8 @@ concept LawWithDirectionBeforeSpeed = !FrictionLaw<Law> && requires(const Law& l
 
 /// The law that applies from a state on, under a normal force of `weight` times g: `law.at(...)` for a law with memory,
 /// otherwise the law itself.
-template <FrictionLaw Law>
-decltype(auto) law_at(const Law& law, const State& state, double weight = 1) {
+template <FrictionLaw Law, class AnyState>
+decltype(auto) law_at(const Law& law, const AnyState& state, double weight = 1) {
   if constexpr (HeatedLaw<Law>)
     return law.at(state, weight);
   else if constexpr (MemoryLaw<Law>)

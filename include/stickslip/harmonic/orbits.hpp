@@ -104,8 +104,9 @@ class OrbitFinder {
   template <class Observer = const NoObserver>
   State after(const Place& from, double radians, Observer&& observer = {}) const {
     State state = from.state;
-    detail::advance(slider_.law(), flows_, HarmonicSegment{radians / omega_, load_, omega_, from.phase}, state,
-                    observer);
+    typename Flows::Place moving(state);
+    detail::advance(flows_, HarmonicSegment{radians / omega_, load_, omega_, from.phase}, moving, observer);
+    store(moving, state);
     return state;
   }
 

@@ -12,6 +12,7 @@
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/damped.hpp"
+#include "stickslip/flow/detail/block.hpp"
 #include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/polynomial.hpp"
 #include "stickslip/flow/remembering.hpp"
@@ -20,8 +21,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/axis.hpp"
 #include "stickslip/sliding/detail/contact.hpp"
-#include "stickslip/sliding/detail/event_loop.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/state.hpp"
 
@@ -34,11 +35,12 @@ template <FrictionLaw Law, class Work>
 auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
     if (slider.mounting().pendulum) [[unlikely]]
-      return work(Taylor<Law>{slider});
+      return work(Taylor<Law>(slider));
     if (slider.damping() > 0) [[unlikely]]
-      return work(Damped{slider.damping(), slider.natural_frequency(), usual_duration});
-    if (slider.stiffness() > 0) return work(Harmonic{slider.natural_frequency(), usual_duration});
-    return work(Polynomial{});
+      return work(BlockFlows(slider.law(), Damped(slider.damping(), slider.natural_frequency(), usual_duration)));
+    if (slider.stiffness() > 0)
+      return work(BlockFlows(slider.law(), Harmonic(slider.natural_frequency(), usual_duration)));
+    return work(BlockFlows(slider.law(), Polynomial{}));
   } else {
     return work(general_flows(slider));
   }
@@ -48,23 +50,25 @@ auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
 template <FrictionLaw Law, class Work>
 auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
-    if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0)) return work(Sinusoidal{omega, usual_duration});
+    if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0))
+      return work(BlockFlows(slider.law(), Sinusoidal(omega, usual_duration)));
   }
   return work(general_flows(slider));
 }
 
 /// The state after a segment.
-template <FrictionLaw Law, class Flows, class Piece, MotionObserver Observer>
-State advanced(const Law& law, const Flows& flows, const Piece& segment, State state, Observer& observer) {
-  advance(law, flows, segment, state, observer);
+template <FlowMaker Flows, class Piece, MotionObserver Observer>
+auto advanced(const Flows& flows, const Piece& segment, typename Flows::Place state, Observer& observer) {
+  advance(flows, segment, state, observer);
   return state;
 }
 
 /// The same with a damper. It is out of line to keep the common case small, and takes everything by value, so that the
 /// values can stay in registers.
 template <FrictionLaw Law, class Piece, MotionObserver Observer>
-[[gnu::noinline]] State advanced(Law law, Damped flows, Piece segment, State state, Observer& observer) {
-  advance(law, flows, segment, state, observer);
+[[gnu::noinline]] BareState advanced(BlockFlows<Law, Damped> flows, Piece segment, BareState state,
+                                     Observer& observer) {
+  advance(flows, segment, state, observer);
   return state;
 }
 
@@ -118,11 +122,11 @@ template <FrictionLaw Law>
 
 /// The state after a segment for a slider that is not plain, or under a variable normal force. Out of line, as above.
 template <FrictionLaw Law, MotionObserver Observer>
-[[gnu::noinline]] State advanced(const Slider<Law>& slider, const LoadSegment& segment, Contact contact,
-                                 double usual_duration, State state, Observer& observer) {
+[[gnu::noinline]] StateOf<Law> advanced(const Slider<Law>& slider, const LoadSegment& segment, Contact contact,
+                                        double usual_duration, StateOf<Law> state, Observer& observer) {
   const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
   with_flows(slider, usual_duration,
-             [&](const auto& flows) { advance(slider.law(), flows, segment, bounds, contact, state, observer); });
+             [&](const auto& flows) { advance(flows, segment, bounds, contact, state, observer); });
   return state;
 }
 
@@ -140,12 +144,12 @@ void advance_plain(const Slider<Law>& slider, const Segment& segment, State& sta
   if (!finite(segment, state)) [[unlikely]]
     refuse(segment, state);
   check_memory<Law>(state);
-  const State moved = with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
-    return advanced(slider.law(), flows, segment, state, observer);
+  const StateOf<Law> moved = with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
+    return advanced(flows, segment, StateOf<Law>(state), observer);
   });
   if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
     refuse_overflow(slider.law(), state);
-  state = moved;
+  store(moved, state);
 }
 
 /// Throw if the slider starts beyond a stop, or moves backward although it is one-way.
@@ -187,10 +191,10 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
   detail::check_start(slider, state, "advance");
   detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
-  const State moved = detail::advanced(slider, segment, contact, unusual, state, observer);
+  const auto moved = detail::advanced(slider, segment, contact, unusual, detail::StateOf<Law>(state), observer);
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
     detail::refuse_overflow(slider.law(), state);
-  state = moved;
+  detail::store(moved, state);
 }
 
 /// Integrate the motion of a slider over one segment of ground motion:
@@ -231,12 +235,12 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
     detail::refuse(segment, state);
   detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
-  const State moved = detail::with_harmonic_flows(slider, segment.omega, unusual, [&](const auto& flows) {
-    return detail::advanced(slider.law(), flows, segment, state, observer);
+  const auto moved = detail::with_harmonic_flows(slider, segment.omega, unusual, [&](const auto& flows) {
+    return detail::advanced(flows, segment, detail::StateOf<Law>(state), observer);
   });
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
     detail::refuse_overflow(slider.law(), state);
-  state = moved;
+  detail::store(moved, state);
 }
 
 }  // namespace stickslip

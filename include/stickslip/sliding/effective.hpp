@@ -159,9 +159,9 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
   const double normal = std::max(detail::load_history(motion, slider.slope()).after(end).normal, 0.0);
   const double weight = state.in_flight ? 0 : normal / standard_gravity;
   const double pull = slider.stiffness() * (pendulum ? weight : 1) * e.displacement;
-  const double friction = detail::WeighedSegment::weigh(
-      weight, resist(law_at(slider.law(), state, weight), e.displacement, std::abs(e.velocity),
-                     s < 0 ? Direction::backward : Direction::forward));
+  const double friction =
+      detail::weigh(weight, resist(law_at(slider.law(), state, weight), e.displacement, std::abs(e.velocity),
+                                   s < 0 ? Direction::backward : Direction::forward));
   const double force = s * (pull - downhill) + friction;
   if (!(force > 0))
     throw std::invalid_argument(

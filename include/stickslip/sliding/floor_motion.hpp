@@ -175,7 +175,7 @@ class FloorPiece {
     State there{.displacement = x, .sliding_distance = way};
     if constexpr (HeatedLaw<Law>) there.heat = SurfaceHeat::with(half_integral_);
     const double level = resist(law_at(slider_.law(), there, weight), x, std::abs(v), direction_);
-    return sign(direction_) * WeighedSegment::weigh(weight, level);
+    return sign(direction_) * weigh(weight, level);
   }
   /// Friction, damper and spring.
   double opposes(double x, double v, const Load& now) const {

@@ -169,7 +169,7 @@ Forces forces(const Slider<Law>& slider, const M& motion, const Response& respon
       State there = slid.to(x);
       there.heat = detail::heat_at(slider.law(), motion, response, time);
       const double level = resist(law_at(slider.law(), there, weight), x, std::abs(v), direction);
-      result.friction[i] = sign(direction) * detail::WeighedSegment::weigh(weight, level) + 0.0;  // no minus zero
+      result.friction[i] = sign(direction) * detail::weigh(weight, level) + 0.0;  // no minus zero
     }
   }
   return result;

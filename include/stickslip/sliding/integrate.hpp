@@ -37,8 +37,8 @@ namespace detail {
 /// spring or where friction vanishes at rest. It is at rest when x no longer changes, but by round-off, and its speed
 /// is negligible beside the spring or, without one, has at least halved meanwhile.
 /// @return whether it crept to rest, without an event
-template <FrictionLaw Law, class Go>
-bool settle(const Slider<Law>& slider, State& state, Go&& go) {
+template <FrictionLaw Law, class Place, class Go>
+bool settle(const Slider<Law>& slider, Place& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
   if constexpr (ConstantLevelLaw<Law>) {
     const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };

@@ -11,7 +11,7 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/detail/event_loop.hpp"
+#include "stickslip/sliding/detail/bounds.hpp"
 #include "stickslip/sliding/detail/load_history.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/response.hpp"

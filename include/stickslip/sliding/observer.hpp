@@ -18,11 +18,19 @@ struct Slip {
 };
 
 /// Receives each slip, or part of one, and each event while a motion is computed. Times are measured from the start of
-/// the segment [s]. An observer with `follow(flow, taken)` also receives each flow and its duration [s].
+/// the segment [s]. If it has `follow(flow, taken)`, it also receives each flow and its duration [s].
 template <class Observer>
 concept MotionObserver = requires(Observer& observer, const Slip& slip, double time, EventKind kind, State state) {
   observer.slide(slip);
   observer.event(kind, time, state);
+};
+
+/// An observer that also receives the work against friction, and the energy lost in impacts and landings, each per unit
+/// mass [m^2/s^2].
+template <class Observer>
+concept EnergyObserver = MotionObserver<Observer> && requires(Observer& observer, double work) {
+  observer.dissipate(work);
+  observer.lose(work);
 };
 
 /// An observer that ignores everything.

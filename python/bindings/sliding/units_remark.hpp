@@ -19,7 +19,7 @@ bool begins_to_slip(const Slider<Law>& slider, const GroundMotion& motion, doubl
     const double net = load.load - slider.stiffness() * (slider.mounting().pendulum ? weight : 1) * x;
     const Direction direction = net < 0 ? Direction::backward : Direction::forward;
     const double level = bounds.bound(direction, x, hold(law_at(slider.law(), State::at(x, 0), weight), x, direction));
-    slips = std::abs(net) > detail::WeighedSegment::weigh(weight, level);
+    slips = std::abs(net) > detail::weigh(weight, level);
     return !slips;
   });
   return slips;

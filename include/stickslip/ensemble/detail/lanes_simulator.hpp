@@ -27,7 +27,7 @@ void settle_all(const Slider<Law>& slider, const LaneStates& states, std::uint64
                 std::size_t segments, const Block& block) {
   with_flows(slider, 0, [&](const auto& flows) {
     for (std::size_t i = 0; i < members; ++i) {
-      State state = State::at(states.displacement[i], states.velocity[i]);
+      StateOf<Law> state(State::at(states.displacement[i], states.velocity[i]));
       PeakObserver<Law> observer(block, max_events(segments + block.times().count));
       naming_member(first_member + i, [&] { settle_member(slider, flows, state, observer, block); });
       states.displacement[i] = state.displacement;

@@ -157,28 +157,28 @@ class PeakObserver {
 };
 
 // Out of line: inlined at each call it would take minutes to compile.
-template <FrictionLaw Law, class Flows>
-[[gnu::flatten, gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows,
-                                                    const Segment& segment, State& state, PeakObserver<Law>& observer) {
-  advance(slider.law(), flows, segment, state, observer);
+template <FlowMaker Flows, class Observer>
+[[gnu::flatten, gnu::noinline]] void advance_member(const Flows& flows, const Segment& segment,
+                                                    typename Flows::Place& state, Observer& observer) {
+  advance(flows, segment, state, observer);
 }
 
 /// Continue without ground acceleration until the slider rests.
-template <FrictionLaw Law, class Flows>
-void settle_member(const Slider<Law>& slider, const Flows& flows, State& state, PeakObserver<Law>& observer,
+template <FrictionLaw Law, FlowMaker Flows>
+void settle_member(const Slider<Law>& slider, const Flows& flows, StateOf<Law>& state, PeakObserver<Law>& observer,
                    const Block& block) {
   settle(slider, state, [&](double duration) {
     block.check_stopped();
-    advance_member(slider, flows, Segment{duration, 0, 0}, state, observer);
+    advance_member(flows, Segment{duration, 0, 0}, state, observer);
   });
 }
 
 /// The same for any slider, under load and normal force.
-template <FrictionLaw Law, class Flows>
+template <FrictionLaw Law, FlowMaker Flows>
 [[gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows, const LoadSegment& segment,
-                                      Contact contact, State& state, PeakObserver<Law>& observer) {
+                                      Contact contact, StateOf<Law>& state, PeakObserver<Law>& observer) {
   const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
-  advance(slider.law(), flows, segment, bounds, contact, state, observer);
+  advance(flows, segment, bounds, contact, state, observer);
 }
 
 /// Simulate one member from rest at x = 0, by the event loop of `advance`. A member may end in flight.
@@ -189,7 +189,7 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
   Block& block = place.block;
   const bool under_load = loaded(slider, motion);
   with_flows(slider, motion.dt(), [&](const auto& flows) {
-    State state;
+    StateOf<Law> state;
     PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
     const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
     const auto go_loaded = [&](const LoadSegment& segment) {
@@ -200,7 +200,7 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
     else
       go_through(
           GroundMotion::Pieces(motion), motion.segments(), block,
-          [&](const Segment& segment) { advance_member(slider, flows, segment, state, observer); }, keep);
+          [&](const Segment& segment) { advance_member(flows, segment, state, observer); }, keep);
     if (settle && under_load)
       detail::settle(slider, state, [&](double duration) {
         block.check_stopped();

@@ -11,7 +11,7 @@
 #include "stickslip/flow/remembering.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
-#include "stickslip/sliding/detail/event_loop.hpp"
+#include "stickslip/sliding/detail/axis.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
 
@@ -33,10 +33,8 @@ struct WithinSegment {
     o.follow(flow, taken);
   }
   { observer.follow(flow, taken); }
-  void dissipate(double work) requires requires(Observer& o) { o.dissipate(work); }
-  { observer.dissipate(work); }
-  void lose(double energy) requires requires(Observer& o) { o.lose(energy); }
-  { observer.lose(energy); }
+  void dissipate(double work) requires EnergyObserver<Observer> { observer.dissipate(work); }
+  void lose(double energy) requires EnergyObserver<Observer> { observer.lose(energy); }
 };
 
 /// A law evaluated at a fixed displacement.
@@ -59,9 +57,9 @@ template <MemorylessLaw Law>
 double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
   if constexpr (SpeedLaw<Law>) {
     const Slider<AtPlace<Law>> slider({&law, displacement});
-    State state = State::at(0, sign(direction) * speed);
+    BareState state(State::at(0, sign(direction) * speed));
     NoObserver none;
-    advance(slider.law(), general_flows(slider), Segment{impulse / standard_gravity, 0, 0}, state, none);
+    advance(general_flows(slider), Segment{impulse / standard_gravity, 0, 0}, state, none);
     return std::abs(state.velocity);
   } else {
     return std::max(speed - law.resist(displacement, direction) / standard_gravity * impulse, 0.0);
@@ -89,21 +87,21 @@ inline double landing(const LoadSegment& s, double gap, double gap_velocity) noe
 }
 
 /// The event loop over a segment in which the slider can reach a stop, leave the ground, and land.
-template <FrictionLaw Law, class Flows, MotionObserver Observer>
-[[gnu::noinline]] void advance_with_contact(const Law& law, const Flows& flows, LoadSegment segment,
-                                            const Bounds& bounds, Contact contact, State& state, Observer& observer) {
+template <FlowMaker Flows, class Place, MotionObserver Observer>
+[[gnu::noinline]] void advance_with_contact(const Flows& flows, LoadSegment segment, const Bounds& bounds,
+                                            Contact contact, Place& state, Observer& observer) {
   const double duration = segment.duration;
   const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
   // Integrates over the first `time` of the rest of the segment.
   const auto go = [&](double time, double normal, bool touching) {
     const double begin = duration - segment.duration;
     const LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});
-    const WeighedSegment weighed{piece.duration, piece.load_start, piece.load_end,
-                                 weight_of(piece.normal_start, touching), weight_of(piece.normal_end, touching)};
+    const WeighedLoad weighed{piece.duration, piece.load_start, piece.load_end, weight_of(piece.normal_start, touching),
+                              weight_of(piece.normal_end, touching)};
     WithinSegment<Observer> within{observer, begin};
-    advance(law, flows, weighed, state, within, bounds);
+    advance(flows, weighed, state, within, bounds);
   };
-  const auto tell = [&](EventKind kind) { observer.event(kind, duration - segment.duration, state); };
+  const auto tell = [&](EventKind kind) { observer.event(kind, duration - segment.duration, State(state)); };
   while (segment.duration > 0) {
     const double first = segment.normal_start, last = segment.normal_end;
     const auto crossing = [&] { return segment.duration * (first / (first - last)); };  // of N and zero
@@ -123,8 +121,8 @@ template <FrictionLaw Law, class Flows, MotionObserver Observer>
       if (state.mode == Mode::stuck) continue;
       const Direction direction = direction_of(state.mode);
       const double before = std::abs(state.velocity);
-      const double after = after_impulse(law_at(law, state), state.displacement, direction, before, impulse);
-      if constexpr (requires { observer.dissipate(0.0); }) observer.dissipate((before * before - after * after) / 2);
+      const double after = after_impulse(flows.law_now(state, 1), state.displacement, direction, before, impulse);
+      if constexpr (EnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
       state.velocity = sign(direction) * after;
       if (after > 0) continue;
       state.mode = Mode::stuck;
@@ -143,21 +141,21 @@ template <FrictionLaw Law, class Flows, MotionObserver Observer>
 }
 
 /// The event loop over any segment. If the slider stays on the ground and cannot reach a stop, it checks for neither.
-template <FrictionLaw Law, class Flows, MotionObserver Observer>
-[[gnu::always_inline]] inline void advance(const Law& law, const Flows& flows, const LoadSegment& segment,
-                                           const Bounds& bounds, Contact contact, State& state, Observer& observer) {
-  if constexpr (requires { typename Flows::Basis; }) {  // other flows cost more than these checks
+template <FlowMaker Flows, class Place, MotionObserver Observer>
+[[gnu::always_inline]] inline void advance(const Flows& flows, const LoadSegment& segment, const Bounds& bounds,
+                                           Contact contact, Place& state, Observer& observer) {
+  if constexpr (Flows::in_closed_form) {  // other flows cost more than these checks
     const double first = segment.normal_start, last = segment.normal_end;
-    if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1), state)) {
+    if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1, 1), state)) {
       if (equal(first, standard_gravity) && equal(last, standard_gravity))
-        return advance(law, flows, Segment{segment.duration, -segment.load_start, -segment.load_end}, state, observer);
-      const WeighedSegment weighed{segment.duration, segment.load_start, segment.load_end, first / standard_gravity,
-                                   last / standard_gravity};
-      return advance(law, flows, weighed, state, observer);
+        return advance(flows, Segment{segment.duration, -segment.load_start, -segment.load_end}, state, observer);
+      const WeighedLoad weighed{segment.duration, segment.load_start, segment.load_end, first / standard_gravity,
+                                last / standard_gravity};
+      return advance(flows, weighed, state, observer);
     }
   }
-  State moving = state;  // a state whose address is taken is kept in memory
-  advance_with_contact(law, flows, segment, bounds, contact, moving, observer);
+  Place moving = state;  // a state whose address is taken is kept in memory
+  advance_with_contact(flows, segment, bounds, contact, moving, observer);
   state = moving;
 }
 

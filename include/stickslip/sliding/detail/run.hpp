@@ -25,7 +25,7 @@ struct HistorySpans {
   std::span<double> temperature{};  // empty if friction does not depend on it
 
   template <FrictionLaw Law>
-  void keep(std::size_t sample, const Law& law, const State& state) const noexcept {
+  void keep(std::size_t sample, const Law& law, const StateOf<Law>& state) const noexcept {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
     if constexpr (HeatedLaw<Law>)
@@ -60,19 +60,19 @@ template <class Go, class Report>
 
 /// Integrate over all segments in order.
 /// @tparam RecorderType  a RecorderFor the motion and law, or NoRecorder
-template <FrictionLaw Law, class Flows, class RecorderType>
-[[gnu::flatten]] void run(const Law& law, const Flows& flows, const GroundMotion& motion, State& state,
-                          RecorderType& recorder, const HistorySpans& histories) {
-  State moving = state;
+template <FlowMaker Flows, class RecorderType>
+[[gnu::flatten]] void run(const Flows& flows, const GroundMotion& motion, State& state, RecorderType& recorder,
+                          const HistorySpans& histories) {
+  typename Flows::Place moving(state);
   walk(
       GroundMotion::Pieces(motion), motion.segments(), RecorderType::work_per_report,
       [&](std::size_t i, double begin, double end, const Segment& segment) {
         recorder.begin_segment(begin, end);
-        detail::advance(law, flows, segment, moving, recorder);
-        histories.keep(i + 1, law, moving);
+        detail::advance(flows, segment, moving, recorder);
+        histories.keep(i + 1, flows.law(), moving);
       },
       [&] { recorder.report_progress(); });
-  state = moving;
+  store(moving, state);
 }
 
 /// Call `work` with the flows that suit the slider under a motion.
@@ -92,14 +92,15 @@ inline std::size_t pieces(const HarmonicMotion& motion) noexcept {
   return std::max(motion.segments(), static_cast<std::size_t>(motion.duration() / motion.period()));
 }
 
-template <FrictionLaw Law, class Flows>
-void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State& state,
-         RecorderFor<HarmonicMotion, Law>& recorder, const HistorySpans& histories) {
+template <FlowMaker Flows, class RecorderType>
+void run(const Flows& flows, const HarmonicMotion& motion, State& state, RecorderType& recorder,
+         const HistorySpans& histories) {
+  typename Flows::Place moving(state);
   std::uint32_t pieces = 0;
   const auto piece = [&](double begin, double end, double duration, double phase) {
-    if (++pieces % RecorderFor<HarmonicMotion, Law>::work_per_report == 0) recorder.report_progress();
+    if (++pieces % RecorderType::work_per_report == 0) recorder.report_progress();
     recorder.begin_segment(begin, end);
-    detail::advance(law, flows, HarmonicSegment{duration, motion.amplitude(), motion.omega(), phase}, state, recorder);
+    detail::advance(flows, HarmonicSegment{duration, motion.amplitude(), motion.omega(), phase}, moving, recorder);
   };
   const bool short_steps = motion.dt() <= motion.period();
   for (std::size_t i = 0; i < motion.segments(); ++i) {
@@ -113,8 +114,9 @@ void run(const Law& law, const Flows& flows, const HarmonicMotion& motion, State
         time = next;
       }
     }
-    histories.keep(i + 1, law, state);
+    histories.keep(i + 1, flows.law(), moving);
   }
+  store(moving, state);
 }
 
 /// The load and normal force of a slider on a slope under a ground motion.
@@ -171,27 +173,27 @@ inline void check_landing(const GroundMotion& motion, double slope) {
 }
 
 /// Integrate over all segments of load and normal force in order.
-template <FrictionLaw Law, class Flows, class RecorderType>
+template <FrictionLaw Law, FlowMaker Flows, class RecorderType>
 [[gnu::flatten]] void run_loaded(const Slider<Law>& slider, const Flows& flows, const GroundMotion& motion,
                                  Contact contact, State& state, RecorderType& recorder, const HistorySpans& histories) {
   const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
   const LoadPieces pieces(motion, slider.slope());
-  State moving = state;
+  StateOf<Law> moving(state);
   const auto go = [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
     recorder.begin_segment(begin, end);
-    advance(slider.law(), flows, segment, bounds, contact, moving, recorder);
+    advance(flows, segment, bounds, contact, moving, recorder);
     histories.keep(i + 1, slider.law(), moving);
     if (!histories.gap.empty()) histories.gap[i + 1] = moving.gap;
   };
   walk(pieces, motion.segments(), RecorderType::work_per_report, go, [&] { recorder.report_progress(); });
-  state = moving;
+  store(moving, state);
 }
 
 /// The same with the flows that suit the slider.
 template <FrictionLaw Law, Motion M, class RecorderType>
 void run_in_order(const Slider<Law>& slider, const M& motion, State& state, RecorderType& recorder,
                   const HistorySpans& histories) {
-  with_flows(slider, motion, [&](const auto& flows) { run(slider.law(), flows, motion, state, recorder, histories); });
+  with_flows(slider, motion, [&](const auto& flows) { run(flows, motion, state, recorder, histories); });
 }
 
 /// The same by the fastest available method.

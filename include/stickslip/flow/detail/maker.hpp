@@ -1,0 +1,103 @@
+// What a sliding system asks the flows of its law.
+#pragma once
+
+#include <concepts>
+
+#include "stickslip/flow/closed_form.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip::detail {
+
+/// The direction and the time in which a slider at rest begins to slip; stuck if it stays at rest.
+struct Departure {
+  Mode mode = Mode::stuck;
+  double delay = 0;  ///< from now [s]
+  double net = 0;    ///< load minus pull of the spring at that time [m/s^2]
+
+  bool departs() const noexcept { return mode != Mode::stuck; }
+};
+
+/// Makes the flows of a slider, and knows the forces on it:
+///
+///     law_now(state, weight)            // the law in x and speed that applies now, under a weight N+/g
+///     pull(x, weight), drag(speed)      // forces of spring and damper, per unit mass [m/s^2]
+///     flow(direction, state, start, duration)
+///                                       // a slip from its start on; over a part of `duration` if it is not known for
+///                                       // longer. `law_now` applies over a distance `ahead(state, direction)` [m], at
+///                                       // whose end `pass(state, direction)` puts a state
+///     departure(load, bounds, state, net, pull, forward, backward, left)
+///                                       // as SegmentLoad, with the net load at that time. A memory that changes
+///                                       // at rest then has its value at the departure, or at the end of the segment
+///     remember(flow, time, state), slid(state, distance)
+///                                       // update the memory of the law after a part of a flow
+///     friction_work(slide, leg, state)  // work against friction during a leg [m^2/s^2]
+///     in_closed_form                    // whether its flows are, so that they cost little
+///     stops_twice_at_most               // whether slips stop at most twice under a linear load
+///     most_steps                        // in a hundredth of a segment (Standstill)
+template <class Maker>
+concept FlowMaker = requires(const Maker& maker, const typename Maker::Place& state, typename Maker::Place& there,
+                             Direction direction, double value) {
+  { maker.law_now(state, value) } -> MemorylessLaw;
+  { maker.pull(value, value) } -> std::convertible_to<double>;
+  { maker.drag(value) } -> std::convertible_to<double>;
+  { maker.ahead(state, direction) } -> std::convertible_to<double>;
+  maker.pass(there, direction);
+  maker.slid(there, value);
+  { Maker::in_closed_form } -> std::convertible_to<bool>;
+  { Maker::stops_twice_at_most } -> std::convertible_to<bool>;
+  { Maker::most_steps } -> std::convertible_to<int>;
+};
+
+/// The answers of a maker of flows that only depend on its law.
+template <FrictionLaw Law>
+class LawFlows {
+ public:
+  using Place = StateOf<Law>;
+  static constexpr bool in_closed_form = false, stops_twice_at_most = false;
+  static constexpr int most_steps = 3'000'000;
+
+  explicit LawFlows(const Law& law) noexcept : law_(law) {}
+
+  const Law& law() const noexcept { return law_; }
+
+  template <class AnyState>
+  decltype(auto) law_now(const AnyState& state, double weight) const {
+    return law_at(law_, state, weight);
+  }
+
+  template <class Load, class Bounds, class AnyState>
+  [[gnu::always_inline]] Departure departure(const Load& load, const Bounds&, const AnyState&, double net, double pull,
+                                             double forward, double backward, double left) const {
+    Departure departure = load.departure(net, pull, forward, backward, left);
+    const double then = load.weight(left - departure.delay);
+    departure.net = departure.mode == Mode::forward ? Load::weigh(then, forward) : -Load::weigh(then, backward);
+    return departure;
+  }
+
+  template <class AnyState>
+  double ahead(const AnyState& state, Direction direction) const {
+    if constexpr (MemoryLaw<Law>) return law_.ahead(state, direction);
+    return never;
+  }
+  template <class AnyState>
+  void pass(AnyState& state, Direction direction) const {
+    if constexpr (MemoryLaw<Law>) law_.pass(state, direction);
+  }
+  template <class AnyState>
+  void slid(AnyState& state, double distance) const noexcept {
+    if constexpr (MemoryLaw<Law>) state.sliding_distance += distance;
+  }
+  template <class Flow, class AnyState>
+  void remember(const Flow&, double, AnyState&) const noexcept {}
+
+  template <class Slide, class Leg, class AnyState>
+  double friction_work(const Slide& slide, const Leg& leg, const AnyState&) const {
+    return slide.flow.friction_work(leg.time);
+  }
+
+ protected:
+  const Law& law_;
+};
+
+}  // namespace stickslip::detail
