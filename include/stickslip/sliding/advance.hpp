@@ -32,7 +32,7 @@ namespace detail {
 /// Return the result of `work` with the flows that suit the slider: closed forms if the resistance is constant or
 /// linear in the distance slid, else Taylor series.
 template <FrictionLaw Law, class Work>
-auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
+[[gnu::always_inline]] inline auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
   if constexpr (ConstantLevelLaw<Law>) {
     if (slider.mounting().pendulum) [[unlikely]]
       return work(Taylor<Law>(slider));
@@ -56,20 +56,23 @@ auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_d
   return work(general_flows(slider));
 }
 
-/// The state after a segment.
+/// Move a state through a segment.
 template <FlowMaker Flows, class Piece, MotionObserver Observer>
-auto advanced(const Flows& flows, const Piece& segment, typename Flows::Place state, Observer& observer) {
+[[gnu::always_inline]] inline void move(const Flows& flows, const Piece& segment, typename Flows::Place& state,
+                                        Observer& observer) {
   advance(flows, segment, state, observer);
-  return state;
 }
 
 /// The same with a damper. It is out of line to keep the common case small, and takes everything by value, so that the
 /// values can stay in registers.
 template <FrictionLaw Law, class Piece, MotionObserver Observer>
-[[gnu::noinline]] BareState advanced(BlockFlows<Law, Damped> flows, Piece segment, BareState state,
-                                     Observer& observer) {
+[[gnu::noinline]] BareState moved(BlockFlows<Law, Damped> flows, Piece segment, BareState state, Observer& observer) {
   advance(flows, segment, state, observer);
   return state;
+}
+template <FrictionLaw Law, class Piece, MotionObserver Observer>
+void move(const BlockFlows<Law, Damped>& flows, const Piece& segment, BareState& state, Observer& observer) {
+  state = moved(flows, segment, state, observer);
 }
 
 /// Whether all numbers are finite, judged by their sum: numbers near the largest double count as infinite.
@@ -144,9 +147,9 @@ void advance_plain(const Slider<Law>& slider, const Segment& segment, State& sta
   if (!finite(segment, state)) [[unlikely]]
     refuse(segment, state);
   check_memory<Law>(state);
-  const StateOf<Law> moved = with_flows(slider, std::numeric_limits<double>::quiet_NaN(), [&](const auto& flows) {
-    return advanced(flows, segment, StateOf<Law>(state), observer);
-  });
+  StateOf<Law> moved(state);
+  with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
+             [&](const auto& flows) { move(flows, segment, moved, observer); });
   if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
     refuse_overflow(slider.law(), state);
   store(moved, state);
@@ -235,9 +238,9 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
     detail::refuse(segment, state);
   detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
-  const auto moved = detail::with_harmonic_flows(slider, segment.omega, unusual, [&](const auto& flows) {
-    return detail::advanced(flows, segment, detail::StateOf<Law>(state), observer);
-  });
+  detail::StateOf<Law> moved(state);
+  detail::with_harmonic_flows(slider, segment.omega, unusual,
+                              [&](const auto& flows) { detail::move(flows, segment, moved, observer); });
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
     detail::refuse_overflow(slider.law(), state);
   detail::store(moved, state);

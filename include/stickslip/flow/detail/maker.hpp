@@ -70,6 +70,7 @@ class LawFlows {
   [[gnu::always_inline]] Departure departure(const Load& load, const Bounds&, const AnyState&, double net, double pull,
                                              double forward, double backward, double left) const {
     Departure departure = load.departure(net, pull, forward, backward, left);
+    if (!departure.departs()) return departure;
     const double then = load.weight(left - departure.delay);
     departure.net = departure.mode == Mode::forward ? Load::weigh(then, forward) : -Load::weigh(then, backward);
     return departure;

@@ -259,7 +259,7 @@ class Axis {
   }
 
   const Flows& flows_;
-  const Forces& forces_;
+  Forces forces_;
   Place& state_;
   Limits limits_;
   double left_;                 // time to the end of the segment [s]
