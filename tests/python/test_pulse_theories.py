@@ -253,7 +253,7 @@ def test_remarks_docstrings_and_pages_state_the_same_errors():
     both = ss.PoissonPulses(rate=0.5, half_width=1, sigma=1, duration=100)
     assert chain.predict(near, both, [100]).remark == ""
     remark = refined.predict(near, both, [100]).remark
-    assert "26 %" in remark
+    assert "27 % at a difference of a tenth" in remark
     assert quoted(remark, page)
     rare = ss.PoissonPulses(rate=0.1, half_width=1, sigma=1, duration=100)
     superposition = ss.theory.PulseSuperposition()
