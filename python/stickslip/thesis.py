@@ -235,7 +235,8 @@ def _clear_curves_of_legends(picture: Figure, panels: list[ThesisPanel]) -> None
             return
         if len(labels) == 1:
             for axes in picture.axes[:-1]:
-                axes.get_legend().remove()
+                if (legend := axes.get_legend()) is not None:
+                    legend.remove()
             hiding = drawn[-1:]
         for axes, panel in hiding:
             _put_legend(axes, panel, beside=True)
