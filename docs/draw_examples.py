@@ -1,7 +1,7 @@
 """Draws the pictures of the page of examples: python docs/draw_examples.py [NAME...]
 
-They are in the repository, so that the page shows them wherever it is read; with 64 colors each has
-at most 200 kB.
+They are in the repository, so that the page shows them wherever it is read; with 256 colors, chosen
+to cover the range of a map, each has at most 200 kB.
 """
 
 import subprocess
@@ -22,9 +22,9 @@ def draw(example: Path) -> Path:
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         (drawn,) = Path(folder).iterdir()
         picture = PICTURES / drawn.name
-        Image.open(drawn).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
-            picture, optimize=True
-        )
+        Image.open(drawn).convert("RGB").quantize(
+            256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE
+        ).save(picture, optimize=True)
     return picture
 
 

@@ -5,8 +5,8 @@
 rewrites the tables of caster.md, white_noise.md, equivalent_linearization.md and filtered_noise.md,
 or the named ones. Each row states its parameters, the simulated moments with their standard errors,
 and the ratio of theory to simulation; the test recomputes the theory of every row, and simulates
-some rows again with fewer members. The table of casters that roll takes half an hour on one core,
-all others together three minutes.
+some rows again with fewer members. The table of casters that roll takes five minutes of processor
+time, all others together three.
 """
 
 from __future__ import annotations

@@ -161,7 +161,8 @@ def replaced(text: str, heading: str, rows: list[list[str]]) -> str:
     begin = lines.index(heading)
     end = next((i for i in range(begin, len(lines)) if not lines[i].startswith("|")), len(lines))
     rule = "|" + "---|" * (heading.count("|") - 1)
-    new = [heading, rule, *("| " + " | ".join(row) + " |" for row in rows)]
+    lines_of_rows = ["| " + " | ".join(row) + " |" for row in rows]
+    new = [heading, rule, *(line.replace("|  |", "| |") for line in lines_of_rows)]
     return "\n".join([*lines[:begin], *new, *lines[end:]]) + "\n"
 
 

@@ -56,7 +56,7 @@ with style():
     axes.axvline(100 * args.limit, color="#8a8a8a", linewidth=0.8)
     axes.annotate(" limit", (100 * args.limit, 1), va="top", color="#8a8a8a")
     axes.set(yscale="log", ylim=(1 / args.members, 1.1), xlim=(0, None))
-    axes.set(xlabel="peak relative displacement [cm]", ylabel="probability of exceedance [-]")
+    axes.set(xlabel="peak relative displacement [cm]", ylabel="probability of exceedance")
     axes.set_title(f"A block in a {args.event} event; bands: 95 % confidence")
     axes.legend()
 args.out.mkdir(parents=True, exist_ok=True)

@@ -61,6 +61,6 @@ with style():
     ):
         image = ax.imshow(values, extent=extent, origin="lower", cmap="viridis", norm=norm)
         figure.colorbar(image, ax=ax, shrink=0.8)
-        ax.set(title=title, xlabel="km")
+        ax.set(title=title, xlabel="east [km]", ylabel="north [km]")
 args.out.mkdir(parents=True, exist_ok=True)
 print("wrote", save(figure, args.out / "10_map.png"))

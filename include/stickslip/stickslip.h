@@ -69,7 +69,7 @@ enum stickslip_status {
   STICKSLIP_OK = 0,
   STICKSLIP_INVALID_ARGUMENT = 1, /* a number is outside its range, NaN or infinite, or a pointer is null */
   STICKSLIP_OVERFLOW = 2,         /* the motion leaves the range of doubles */
-  STICKSLIP_NO_CONVERGENCE = 3,   /* events follow each other faster than time can be resolved: a spring too stiff */
+  STICKSLIP_NO_CONVERGENCE = 3,   /* over a million steps in 1/100 of the segment: spring or damper too stiff for it */
   STICKSLIP_ERROR = 4             /* any other error */
 };
 

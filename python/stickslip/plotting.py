@@ -1641,7 +1641,7 @@ def _draw_peaks(axes: Axes, ensemble: Ensemble) -> None:
     axes.plot(x, value, color=BLUE)
     axes.set_xlim(0, highest * length)
     for p, q in zip(marks, quantiles):
-        if q.value == 0 or (len(levels) < 120 and q.value > levels[-1]):
+        if q.value in (0, highest) or (len(levels) < 120 and q.value > levels[-1]):
             continue
         axes.plot(q.value * length, 1 - p, "o", color=VERMILION, markersize=5, zorder=4)
         name, at_left = "median" if p == 0.5 else f"{100 * p:g} %", q.value > 0.7 * highest

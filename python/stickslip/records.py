@@ -680,10 +680,18 @@ def changed(motion: GroundMotion, **about: Any) -> GroundMotion:
     )
 
 
+def _orientation_of_channel(code: str) -> str:
+    """The orientation that a SEED channel code states, such as HNZ; empty if it states none."""
+    return {"N": "N", "E": "E", "Z": "up"}.get(code[-1:], "") if len(code) == 3 else ""
+
+
 def _of_trace(trace: Any, units: str) -> Component:
     code = trace.stats.channel
-    orientation = {"N": "N", "E": "E", "Z": "up"}.get(code[-1:], "") if len(code) == 3 else ""
     motion = _core._ground_motion(
-        trace.data, trace.stats.delta, units=units, name=trace.id, orientation=orientation
+        trace.data,
+        trace.stats.delta,
+        units=units,
+        name=trace.id,
+        orientation=_orientation_of_channel(code),
     )
     return Component(motion, code, str(trace.stats.starttime), "")

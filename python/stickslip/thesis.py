@@ -57,7 +57,7 @@ _WORDS = {
     "simulation": "simulation ± 2 s.e.",
 }
 _MARKS = {"simulation": "o", "points": "D"}
-_MOST_LABELS = 8  # if there are more, the legend is beside the panel
+_MOST_LABELS = 8  # if there are more, or they hide a curve, the legend is beside the panel
 
 
 def file_stem(number: str) -> str:
@@ -163,6 +163,7 @@ def plot(figure: ThesisFigure) -> Figure:
         picture.text(0.01, 0.01, "\n".join(caption), fontsize=8, color=plotting.GRAY, va="bottom")
         bottom = (0.16 * len(caption) + 0.1) / (4.3 + 0.16 * len(caption))
         picture.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom))
+        _clear_curves_of_legends(picture, panels)
     return picture
 
 
@@ -206,15 +207,54 @@ def _draw(axes: Axes, panel: ThesisPanel) -> None:
     axes.set(title=panel.title, xlabel=panel.x, ylabel=panel.y)
     axes.grid(color=plotting.PALE, lw=0.6)
     axes.set_axisbelow(True)
+    _put_legend(axes, panel, beside=len(named) > _MOST_LABELS)
+
+
+def _put_legend(axes: Axes, panel: ThesisPanel, beside: bool) -> None:
+    """Put the legend where it hides least, or beside the panel."""
     # Reference lines and regions come last, in whatever order they were drawn.
     reference = {curve.label for curve in panel.curves if curve.kind in ("limit", "region")}
     entries = sorted(
         zip(*axes.get_legend_handles_labels()), key=lambda entry: entry[1] in reference
     )
-    if len(named) > _MOST_LABELS:
-        axes.legend(*zip(*entries), fontsize=6.5, loc="center left", bbox_to_anchor=(1, 0.5))
-    elif entries:
-        axes.legend(*zip(*entries), fontsize=7.5, handlelength=2.6)
+    if not entries:
+        return
+    size = 6.5 if len(entries) > _MOST_LABELS else 7.5
+    where = {"loc": "center left", "bbox_to_anchor": (1, 0.5)} if beside else {}
+    axes.legend(*zip(*entries), fontsize=size, handlelength=2.6, **where)
+
+
+def _clear_curves_of_legends(picture: Figure, panels: list[ThesisPanel]) -> None:
+    """Put legends that hide a curve beside their panels; one, if all panels have the same."""
+    drawn = list(zip(picture.axes, panels))
+    labels = {frozenset(axes.get_legend_handles_labels()[1]) for axes in picture.axes}
+    for _ in drawn:  # a legend beside one panel makes the others narrower
+        picture.draw_without_rendering()
+        hiding = [pair for pair in drawn if _legend_hides_a_curve(pair[0])]
+        if not hiding:
+            return
+        if len(labels) == 1:
+            for axes in picture.axes[:-1]:
+                if (legend := axes.get_legend()) is not None:
+                    legend.remove()
+            hiding = drawn[-1:]
+        for axes, panel in hiding:
+            _put_legend(axes, panel, beside=True)
+
+
+def _legend_hides_a_curve(axes: Axes) -> bool:
+    """Whether the legend of a drawn panel lies on a line or a point."""
+    legend = axes.get_legend()
+    if legend is None:
+        return False
+    box = legend.get_window_extent()
+    for line in axes.get_lines():
+        path = line.get_path().transformed(line.get_transform())
+        if box.count_contains(path.vertices):
+            return True
+        if line.get_linestyle() != "None" and path.intersects_bbox(box, filled=False):
+            return True
+    return False
 
 
 def _colors(panel: ThesisPanel) -> dict[str, object]:

@@ -1299,7 +1299,7 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
   if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < length; });
       n > 0 && (sigma < 0.5 || arrivals.rate > 2))
     remark(moments,
-           std::to_string(n) + " of the times are below " + shortest(length) +
+           std::to_string(n) + " of the times " + (n == 1 ? "is" : "are") + " below " + shortest(length) +
                " s, the length of a pulse: with sigma / slip level below 0.5 or more than two pulses to a step "
                "simulations differ there by up to a factor of 2.4.");
   if (options.stationary_start)

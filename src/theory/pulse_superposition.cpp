@@ -617,7 +617,7 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
            "Pulses overlap much, rate x half_width = " + shortest(overlap) + ": superposition was never right here.");
   const double early = 40 * dt;  // there a straight line from the origin is off by 3 % without friction
   if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < early; }); n > 0)
-    remark(moments, std::to_string(n) + " of the times are below " + shortest(early) +
+    remark(moments, std::to_string(n) + " of the times " + (n == 1 ? "is" : "are") + " below " + shortest(early) +
                         " s, 40 half widths: too short for (5.39), which takes the velocity for stationary and the "
                         "offsets for all there is; from_rest has no such bound under Coulomb friction.");
   return moments;

@@ -138,6 +138,7 @@ def test_vertical_motion_on_the_ground():
         ),
         (ss.VelocityDependent(mu_slow=0.1, mu_fast=0.2, rate=20), "level changes during a slip"),
         (ss.Degrading(distance=[0, 0.5], mu=[0.2, 0.1]), "level changes during a slip"),
+        (ss.Law(resist=lambda x, speed, direction: 1.0), "a law given as functions of numbers"),
         (ss.Caster(mu=0.1, reach=0.5), "level changes during a slip"),
         (
             ss.Slider(BLOCK, stops=ss.Stops(gap=0.1, restitution=0.5)),

@@ -100,7 +100,7 @@ ROWS = {name: (ss.Slider(law, **SPRING), law, QUAKE, "flight") for name, law in 
 
 # Why a cell is not "yes": the letter of its footnote, by what the refusal says.
 REASONS = {
-    "a": r"sensitivity: covers Coulomb friction, also with a static level|law whose level changes",
+    "a": r"covers Coulomb friction, also with a static level|law whose level changes|law given as",
     "b": r"must not leave the ground",
     "c": r"static friction above kinetic: its response jumps",
     "d": r"got stops: near a grazing impact",

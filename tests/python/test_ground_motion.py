@@ -434,12 +434,32 @@ def test_a_trace_becomes_a_motion():
         ss.GroundMotion.from_obspy([1, 2, 3])
 
 
+@pytest.mark.parametrize(
+    "channel, orientation", [("HNZ", "up"), ("HNN", "N"), ("HNE", "E"), ("HN1", ""), ("", "")]
+)
+def test_the_channel_of_a_trace_states_its_orientation(channel, orientation):
+    trace = Trace()
+    trace.stats = Stats()
+    trace.stats.channel = channel
+    motion = ss.GroundMotion.from_obspy(trace)
+    assert motion.orientation == orientation
+    assert motion.vertical is None
+    both = [motion, ss.GroundMotion([0, 1, 0], dt=0.01)]
+    if orientation == "up":  # as is a vertical component from a file
+        with pytest.raises(ValueError, match=r"1 of 2 are known to be vertical"):
+            ss.sweep([ss.Coulomb(mu=0.1)], both)
+    else:
+        ss.sweep([ss.Coulomb(mu=0.1)], both)
+
+
 def test_a_trace_of_obspy_itself_becomes_a_motion():
     obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
     header = {"delta": 0.005, "network": "XX", "station": "STA", "channel": "HNE"}
     trace = obspy.Trace(np.array([0.0, 1.5, -2.0]), header)
     motion = ss.GroundMotion.from_obspy(trace)
-    assert motion == ss.GroundMotion([0.0, 1.5, -2.0], dt=0.005, name="XX.STA..HNE")
+    assert motion == ss.GroundMotion(
+        [0.0, 1.5, -2.0], dt=0.005, name="XX.STA..HNE", orientation="E"
+    )
     offset = obspy.Trace(np.sin(np.arange(400)) + 0.02, header)
     with pytest.warns(ss.PlausibilityWarning, match=r"from_obspy \(XX.STA..HNE\): the mean"):
         ss.GroundMotion.from_obspy(offset)

@@ -171,6 +171,10 @@ def test_the_picture_ends_at_the_first_stop(stops):
     (curve,) = [line for line in axes.get_lines() if len(line.get_xdata()) > 2]
     unit = {"[mm]": 1e3, "[cm]": 1e2, "[m]": 1}[axes.get_xlabel().split()[-1]]
     assert 0.9 * GAP < curve.get_xdata()[-1] / unit <= GAP * (1 + 1e-12)
+    for line in axes.get_lines():  # quantiles lie on the curve; those at the stop are not quantiles
+        if len(line.get_xdata()) == 1:
+            (x,), (y,) = line.get_data()
+            assert np.interp(x, *curve.get_data()) == pytest.approx(y, rel=0.1)
     shown = [text.get_text() for text in axes.texts]
     assert any(f"{100 * e.impact_probability.value:.3g} % hit a stop" in text for text in shown)
 

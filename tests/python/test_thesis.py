@@ -96,10 +96,30 @@ def test_reference_lines_come_last_in_a_legend():
     pytest.importorskip("matplotlib")
     figure = Thesis(members=100).figure("5.7")
     assert [curve.label for curve in figure.panels[0].curves][3] == "ground"  # drawn early
-    for axes in plot(figure).axes:
-        labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    legends = [axes.get_legend() for axes in plot(figure).axes]
+    assert any(legends)  # one of both panels, if it is beside them
+    for legend in filter(None, legends):
+        labels = [text.get_text() for text in legend.get_texts()]
         assert labels[-1] == "ground" and labels.count("ground") == 1
         assert len(labels) == 5
+
+
+@pytest.mark.parametrize("number", ["2.2", "5.4", "5.7"])
+def test_a_legend_hides_no_curve(number):
+    pytest.importorskip("matplotlib")
+    picture = plot(Thesis(members=100).figure(number))
+    picture.draw_without_rendering()
+    assert any(axes.get_legend() for axes in picture.axes)
+    for axes in picture.axes:
+        if (legend := axes.get_legend()) is None:
+            continue
+        box = legend.get_window_extent()
+        for line in axes.get_lines():
+            x, y = (np.asarray(values, float) for values in line.get_data())
+            if line.get_linestyle() != "None" and len(x) > 1:  # also between its points
+                fine = np.linspace(0, len(x) - 1, 20 * len(x))
+                x, y = (np.interp(fine, np.arange(len(v)), v) for v in (x, y))
+            assert not box.count_contains(line.get_transform().transform(np.column_stack([x, y])))
 
 
 def test_the_command_checks(capsys):

@@ -567,8 +567,8 @@ TEST_CASE("PulseChain says where it does not hold", "[pulse_chain]") {
   };
   CHECK(from_rest(1, 1, 0.1).empty());
   CHECK(from_rest(1, 0.4, 2).empty());
-  CHECK_THAT(from_rest(1, 0.4, 1.9), ContainsSubstring("1 of the times are below 2 s, the length of a pulse"));
-  CHECK_THAT(from_rest(3, 1, 1.9), ContainsSubstring("1 of the times are below 2 s, the length of a pulse"));
+  CHECK_THAT(from_rest(1, 0.4, 1.9), ContainsSubstring("1 of the times is below 2 s, the length of a pulse"));
+  CHECK_THAT(from_rest(3, 1, 1.9), ContainsSubstring("1 of the times is below 2 s, the length of a pulse"));
   CHECK_THAT(PulseChain().predict(Slider(Coulomb(1, 2)), PoissonPulses(3, 1, 1, 10), late).remark,
              ContainsSubstring("differ both ways"));
   CHECK(predict(1, 0.2, true).remark.empty());

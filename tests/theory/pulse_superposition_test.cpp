@@ -148,7 +148,7 @@ TEST_CASE("short times are said to be short", "[pulse_superposition]") {
   const PoissonPulses pulses(0.5, 1, 1, 100);
   CHECK(PulseSuperposition().predict(block(1), pulses, late).remark.empty());
   const Moments m = PulseSuperposition().predict(block(1), pulses, std::vector<double>{0, 5, 100});
-  CHECK_THAT(m.remark, ContainsSubstring("1 of the times are below 40 s"));
+  CHECK_THAT(m.remark, ContainsSubstring("1 of the times is below 40 s"));
   CHECK(m.displacement_variance.value[0] == 0);
 }
 

@@ -63,7 +63,9 @@ void require_differentiable_mean(const Slider<Law>& slider) {
     throw std::invalid_argument("ensemble_sensitivity: covers Coulomb friction without stops, got " + reason +
                                 "; take differences of two ensembles with the same seed");
   };
-  if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck>)
+  if constexpr (NumericLaw<Law>)
+    refuse("a law given as functions of numbers, whose derivatives are not known");
+  else if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck>)
     refuse(
         "static friction above kinetic: its response jumps where a decision changes, and the mean of the derivatives "
         "leaves the jumps out");

@@ -214,10 +214,9 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
 ///         velocity that points where the slip level is infinite
 /// @throws std::overflow_error   the motion leaves the range of doubles
 /// @throws ConvergenceError      more than a million steps in closed form, or three million of a series, within a
-/// hundredth
-///         of the segment: events follow each other faster than the time can be resolved, or the spring, the damper or
-///         the slip level is too large for a segment this long; a law has no finite power series where one is needed
-///         (for Caster only under extreme accelerations or stiffness)
+///         hundredth of the segment: events follow each other faster than the time can be resolved, or the spring, the
+///         damper or the slip level is too large for a segment this long; a law has no finite power series where one is
+///         needed (for Caster only under extreme accelerations or stiffness)
 /// On any error `state` is unchanged. Constant friction is exact to round-off (with a damper, or linear in the distance
 /// slid, to 1e-12 of the scale), other laws to near round-off. Cost: 12 to 30 ns without spring and damper, about
 /// 0.2 us with a damper.

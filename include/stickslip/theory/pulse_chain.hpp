@@ -37,10 +37,10 @@ namespace stickslip::theory {
 /// parameters `remark` states an error of up to a factor of 2.4. Later they are within 12 %.
 ///
 /// If the two slip levels differ (also for one-way sliding), or the amplitudes have a mean, the displacement drifts:
-/// the mean velocity is within 8 % for levels that differ by a third or more (12 % for 1.1 times; 26 % if refined,
-/// which `remark` states), the growth rate within 12 % (18 % for one-way sliding at lambda dt = 2) and the velocity
-/// variance within 8 % (13 %), for sigma over the smaller level from 1/3 to 20 and lambda dt up to 2. If sigma exceeds
-/// 3 times the smaller level, the other level may be at most 4 times as large.
+/// the mean velocity is within 8 % for levels that differ by a third or more (12 % for 1.1 times, 20 % for 1.05; if
+/// refined 27 and 39 %, which `remark` states), the growth rate within 12 % (18 % for one-way sliding at lambda dt = 2)
+/// and the velocity variance within 8 % (13 %), for sigma over the smaller level from 1/3 to 20 and lambda dt up to 2.
+/// If sigma exceeds 3 times the smaller level, the other level may be at most 4 times as large.
 ///
 /// Covers Coulomb friction without a spring; pulses of two to four equal steps (two if refined) whose values are
 /// multiples of a common unit and which leave no net velocity; any distribution of amplitudes, but only symmetric ones

@@ -55,8 +55,8 @@ TypeError
 Notes
 -----
 The components of an earthquake are not independent, and the vertical one has more of high frequencies. This model
-leaves the dependence out; the frequencies are those of `vertical`. A member whose normal force is negative in the last
-segment would never land and is an error: let an `Envelope` end the vertical component.
+leaves the dependence out; the frequencies are those of `vertical`. A member of an ensemble that is in flight at the end
+of its motion counts with its state there (`Ensemble.airborne`); with `settle` it lands.
 
 Theories and `compare` do not cover vertical motion.)")
       .def(py::init([](const py::object& horizontal, const py::object& vertical, double ratio) {

@@ -108,9 +108,13 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
     throw py::type_error("GroundMotion: from_obspy needs one obspy Trace, got " +
                          py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>() +
                          "; or a Stream of the traces of one station");
-  GroundMotion motion =
-      make(trace.attr("data"), trace.attr("stats").attr("delta").cast<double>(), std::nullopt, "linear",
-           name ? *name : py::str(trace.attr("id")).cast<std::string>(), units, std::nullopt, std::nullopt, "");
+  const py::object stats = trace.attr("stats");
+  const auto orientation = py::module_::import("stickslip.records")
+                               .attr("_orientation_of_channel")(py::getattr(stats, "channel", py::str("")))
+                               .cast<std::string>();
+  GroundMotion motion = make(trace.attr("data"), stats.attr("delta").cast<double>(), std::nullopt, "linear",
+                             name ? *name : py::str(trace.attr("id")).cast<std::string>(), units, std::nullopt,
+                             std::nullopt, orientation);
   warn_if_implausible(motion, "GroundMotion.from_obspy");
   return motion;
 }
@@ -193,9 +197,9 @@ Parameters
 ----------
 trace : obspy.Trace or obspy.Stream
     One component of acceleration, not in counts: remove the response of the instrument first, as with
-    `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps. A stream of one trace is that
-    trace. A stream of several holds the components of one station, as for `read_station`: the last letter of each
-    channel, N, E or Z, is its orientation; the axis is the first horizontal component.
+    `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps. The last letter of a channel
+    code of three letters is the orientation: N, E, or Z for up. A stream of one trace is that trace. A stream of several
+    holds the components of one station, as for `read_station`; the axis is the first horizontal component.
 units : str, optional
     Unit of the samples, as for the constructor. ObsPy does not state it; `remove_response` returns m/s^2.
 name : str, optional

@@ -119,8 +119,8 @@ ValueError
 OverflowError
     The motion leaves the range of doubles.
 ConvergenceError
-    Events follow each other faster than time can be resolved: the spring, damper, acceleration or slip level is too
-    large for a step this long.
+    More than a million steps in closed form, or three million of a power series, within a hundredth of the step: the
+    spring, damper, acceleration or slip level is too large for a step this long.
 
 Notes
 -----
