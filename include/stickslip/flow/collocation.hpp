@@ -308,7 +308,7 @@ class Collocating : public detail::LawFlows<Law> {
   /// Of a level that changes as the surface cools. The margins are approximated by polynomials on successive parts of
   /// the time, to 1e-9 of the level.
   template <class Load, class Bounds>
-  [[gnu::noinline]] detail::Departure departure(const Load& load, const Bounds& bounds, State& state, double /*net*/,
+  [[gnu::noinline]] detail::Departure departure(const Load& load, const Bounds&, State& state, double /*net*/,
                                                 double /*pull*/, double forward, double backward,
                                                 double left) const requires HeatedLaw<Law> {
     const Nodes& nodes = Nodes::get();

@@ -103,7 +103,7 @@ struct WeighedLoad {
 };
 
 /// A load that is a cosine in time, on level ground without vertical motion.
-struct HarmonicLoad {
+struct CosineLoad {
   double duration, amplitude, omega, phase;  ///< as in HarmonicSegment
 
   double first() const noexcept { return amplitude * std::cos(phase); }
@@ -143,9 +143,7 @@ struct HarmonicLoad {
 
 /// The load of a segment on level ground.
 constexpr LinearLoad load_of(const Segment& s) noexcept { return {s.duration, s.start, s.end}; }
-constexpr HarmonicLoad load_of(const HarmonicSegment& s) noexcept {
-  return {s.duration, s.amplitude, s.omega, s.phase};
-}
+constexpr CosineLoad load_of(const HarmonicSegment& s) noexcept { return {s.duration, s.amplitude, s.omega, s.phase}; }
 constexpr const WeighedLoad& load_of(const WeighedLoad& load) noexcept { return load; }
 
 }  // namespace stickslip::detail
