@@ -1,6 +1,8 @@
 // Methods that are implemented in Python: tables and HTML. Their modules are imported on first use.
 #pragma once
 
+#include <string>
+
 #include "bindings.hpp"
 
 namespace stickslip::python {
@@ -15,6 +17,28 @@ inline auto csv_in(const char* module, const char* function) {
   return [=](const py::object& self, const py::object& path) {
     return py::module_::import(module).attr(function)(self, path);
   };
+}
+
+/// The documentation of such a method: a sentence, and notes if there are any.
+inline std::string csv_doc(const std::string& sentence, const std::string& notes = "") {
+  return sentence + R"(
+
+Parameters
+----------
+path : path-like
+    An existing file is replaced.
+
+Returns
+-------
+Path
+
+Raises
+------
+OSError
+    The folder is missing or cannot be written; the file is read-only or not a regular file.
+TypeError
+    It is not a path.)" +
+         (notes.empty() ? "" : "\n\nNotes\n-----\n" + notes);
 }
 
 }  // namespace stickslip::python

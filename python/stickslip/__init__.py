@@ -77,12 +77,12 @@ TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as a
 if TYPE_CHECKING:
     from ._interfaces import interfaces
     from .comparison import Comparison, compare
-    from .directions import RotD, rotd
     from .ensemble import EnsembleError, Random, ensemble_sensitivity, run_ensemble
-    from .intensity import IntensityMeasures, SuiteSpectra
-    from .records import read_record, read_station, record_formats
-    from .samples import sample_record, sample_records
-    from .suite import Suite
+    from .motions.directions import RotD, rotd
+    from .motions.intensity import IntensityMeasures, SuiteSpectra
+    from .motions.records import read_record, read_station, record_formats
+    from .motions.samples import sample_record, sample_records
+    from .motions.suite import Suite
     from .sweeps import Grid, SweepError, SweepTable, grid, sliding_spectrum, sweep
 
 __all__ = [
@@ -164,45 +164,26 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
+    # Imported on first use: these need NumPy, which takes ten times as long as the rest.
+    _LATER = {
+        "_interfaces": ("interfaces",),
+        "comparison": ("Comparison", "compare"),
+        "ensemble": ("EnsembleError", "Random", "ensemble_sensitivity", "run_ensemble"),
+        "motions.directions": ("RotD", "rotd"),
+        "motions.intensity": ("IntensityMeasures", "SuiteSpectra"),
+        "motions.records": ("read_record", "read_station", "record_formats"),
+        "motions.samples": ("sample_record", "sample_records"),
+        "motions.suite": ("Suite",),
+        "sweeps": ("Grid", "SweepError", "SweepTable", "grid", "sliding_spectrum", "sweep"),
+    }
 
     def __getattr__(name):
-        # Imported on first use: these need NumPy, which takes ten times as long as the rest.
-        if name in ("EnsembleError", "Random", "ensemble_sensitivity", "run_ensemble"):
-            from . import ensemble
+        from importlib import import_module
 
-            return globals().setdefault(name, getattr(ensemble, name))
-        if name == "interfaces":
-            from . import _interfaces
-
-            return globals().setdefault(name, _interfaces.interfaces)
-        if name in ("Comparison", "compare"):
-            from . import comparison
-
-            return globals().setdefault(name, getattr(comparison, name))
-        if name in ("RotD", "rotd"):
-            from . import directions
-
-            return globals().setdefault(name, getattr(directions, name))
-        if name in ("IntensityMeasures", "SuiteSpectra"):
-            from . import intensity
-
-            return globals().setdefault(name, getattr(intensity, name))
-        if name in ("read_record", "read_station", "record_formats"):
-            from . import records
-
-            return globals().setdefault(name, getattr(records, name))
-        if name in ("sample_record", "sample_records"):
-            from . import samples
-
-            return globals().setdefault(name, getattr(samples, name))
-        if name == "Suite":
-            from . import suite
-
-            return globals().setdefault(name, suite.Suite)
-        if name in ("Grid", "SweepError", "SweepTable", "grid", "sliding_spectrum", "sweep"):
-            from . import sweeps
-
-            return globals().setdefault(name, getattr(sweeps, name))
+        for module, names in _LATER.items():
+            if name in names:
+                found = getattr(import_module(f"{__name__}.{module}"), name)
+                return globals().setdefault(name, found)
         raise AttributeError(f"module 'stickslip' has no attribute {name!r}")
 
     def __dir__():

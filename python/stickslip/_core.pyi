@@ -22,8 +22,8 @@ from matplotlib.axes import Axes  # type: ignore[import-not-found, unused-ignore
 from matplotlib.figure import Figure, FigureBase  # type: ignore[import-not-found, unused-ignore]
 from numpy.typing import NDArray
 
-from .intensity import IntensityMeasures, SuiteSpectra
-from .suite import Suite
+from .motions.intensity import IntensityMeasures, SuiteSpectra
+from .motions.suite import Suite
 
 _Number: TypeAlias = SupportsFloat | SupportsIndex
 

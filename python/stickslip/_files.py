@@ -34,7 +34,11 @@ def check_regular(file: str | os.PathLike[str]) -> os.stat_result | None:
     OSError
         The file is not a regular file (the message says what it is), or is a loop of symbolic
         links.
+    TypeError
+        It is not a path; a number would stand for an open file.
     """
+    if not isinstance(file, str | bytes | os.PathLike):
+        raise TypeError(f"a file must be given as a path, got {file!r}")
     try:
         status = os.stat(file)
     except FileNotFoundError:
@@ -55,7 +59,7 @@ def check_writable(file: str | os.PathLike[str]) -> tuple[Path, os.stat_result |
         As `replacing` does before it writes.
     """
     status = check_regular(file)
-    path = Path(os.path.realpath(file))  # a link stays, its target is written
+    path = Path(os.path.realpath(os.fsdecode(file)))  # a link stays, its target is written
     if not path.parent.is_dir():
         raise FileNotFoundError(errno.ENOENT, "no such folder", str(path.parent))
     for place in (path.parent,) if status is None else (path.parent, file):

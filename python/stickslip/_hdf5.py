@@ -12,10 +12,11 @@ import io
 import math
 import os
 import zlib
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from ._files import check_regular, replacing
 from ._optional import optional
 
 __all__ = [
+    "Saved",
     "as_column",
     "creating",
     "opening",
@@ -47,6 +49,74 @@ def as_column(values: Any) -> NDArray[Any]:
     except ValueError:
         pass
     return np.array(["" if _is_nothing(v) else str(v) for v in listed], dtype=str)
+
+
+_Saved = TypeVar("_Saved", bound="Saved")
+
+
+class Saved(ABC):
+    """An object that an HDF5 file can hold."""
+
+    _formats: ClassVar[tuple[str, ...]]  # those that `open` reads; the first is written
+
+    @abstractmethod
+    def _write(self, h5: Any) -> None:
+        """Write the object into an empty HDF5 file."""
+
+    @classmethod
+    @abstractmethod
+    def _read(cls: type[_Saved], h5: Any) -> _Saved:
+        """The object of a file of one of the formats."""
+
+    def save(self, file: str | os.PathLike[str]) -> Path:
+        """Write all to one HDF5 file.
+
+        Parameters
+        ----------
+        file : path-like
+            Replaced whole or not at all.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        ImportError
+            h5py is missing: ``pip install stickslip[suites]``.
+        OSError
+            The file cannot be written.
+        """
+        with creating(file, self._formats[0], f"{type(self).__name__}.save") as h5:
+            self._write(h5)
+        return Path(os.fsdecode(file))
+
+    @classmethod
+    def open(cls: type[_Saved], file: str | os.PathLike[str]) -> _Saved:
+        """Open a file that `save` wrote.
+
+        Parameters
+        ----------
+        file : path-like
+
+        Returns
+        -------
+        Suite or SweepTable
+            Equal to the one that was saved, to the last bit. Files of earlier versions are read,
+            too.
+
+        Raises
+        ------
+        ImportError
+            h5py is missing: ``pip install stickslip[suites]``.
+        OSError
+            The file is missing or cannot be read.
+        ValueError
+            The file holds no such object, or is damaged: a checksum differs, arrays have different
+            lengths, or one is a link.
+        """
+        with opening(file, cls._formats, f"{cls.__name__}.open") as h5:
+            return cls._read(h5)
 
 
 @contextmanager

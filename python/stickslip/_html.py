@@ -12,9 +12,9 @@ from ._core import (
     ResponseSpectrum,
     StrongMotion,
 )
-from ._motion_tables import SPECTRUM_UNITS
 from ._tables import html_table
 from ._text import printable
+from .motions.tables import SPECTRUM_UNITS
 
 __all__ = ["energy_html", "interval_html", "motion_html", "spectrum_html", "strong_motion_html"]
 

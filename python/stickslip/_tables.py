@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = [
+    "Columns",
     "Repeated",
     "ensemble_html",
     "frame_of",
@@ -36,6 +37,7 @@ __all__ = [
     "html_table",
     "impact_probabilities",
     "json_text",
+    "length_of",
     "response_html",
     "to_csv",
     "to_dataframe",
@@ -111,8 +113,7 @@ def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLik
             [_cell(one) for one in column.values.tolist()] if isinstance(column, Repeated) else None
             for column in columns.values()
         ]
-        length = max(map(_length, columns.values()), default=0)
-        for begin in range(0, length, 4096):
+        for begin in range(0, length_of(columns), 4096):
             cells: list[Iterable[str]] = []
             for column, known in zip(columns.values(), texts):
                 if isinstance(column, Repeated):
@@ -126,11 +127,14 @@ def write_csv(columns: Columns, units: Mapping[str, str], file: str | os.PathLik
                 cells.append(map(repr if plain else _cell, part.tolist()))
             rows = map(",".join, zip(*cells))
             stream.write(("\n".join(rows) + "\n").encode())
-    return Path(file)
+    return Path(os.fsdecode(file))
 
 
-def _length(column: NDArray[Any] | Repeated) -> int:
-    return len(column.places if isinstance(column, Repeated) else column)
+def length_of(columns: Columns) -> int:
+    """The number of rows."""
+    return max(
+        (len(c.places if isinstance(c, Repeated) else c) for c in columns.values()), default=0
+    )
 
 
 def _cell(value: Any) -> str:

@@ -12,7 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import build_info
-from ._tables import frame_of, heading, html_table, json_text, write_csv
+from ._tables import (
+    Columns,
+    Repeated,
+    frame_of,
+    heading,
+    html_table,
+    json_text,
+    length_of,
+    write_csv,
+)
 from ._text import printable
 
 __all__ = ["Tabular", "same"]
@@ -24,7 +33,7 @@ class Tabular(ABC):
     """An object with columns of equal length, with names and units as in `docs/conventions.md`."""
 
     @abstractmethod
-    def _table(self) -> tuple[Mapping[str, NDArray[Any]], Mapping[str, str]]:
+    def _table(self) -> tuple[Columns, Mapping[str, str]]:
         """The columns by name, and their units by name."""
 
     def __eq__(self, other: object) -> bool:
@@ -77,18 +86,26 @@ class Tabular(ABC):
         """
         columns, units = self._table()
         named = {name: units[name] for name in columns if units.get(name)}
-        document = {"stickslip": build_info()["version"], "units": named, **columns}
+        listed = {name: _first(column, None) for name, column in columns.items()}
+        document = {"stickslip": build_info()["version"], "units": named, **listed}
         return json_text(document)
 
     def _repr_html_(self) -> str:
         columns, units = self._table()
-        rows = list(zip(*(column[:_MOST_ROWS].tolist() for column in columns.values())))
-        count = len(next(iter(columns.values())))
+        rows = list(zip(*(_first(column, _MOST_ROWS).tolist() for column in columns.values())))
+        count = length_of(columns)
         heads = [heading(name.replace("_", " "), units.get(name, "")) for name in columns]
         title = f"{type(self).__name__}: {count:,} rows" + (
             f", the first {_MOST_ROWS}" if count > _MOST_ROWS else ""
         )
         return html_table(title, heads, ([_shown(cell) for cell in row] for row in rows))
+
+
+def _first(column: NDArray[Any] | Repeated, count: int | None) -> NDArray[Any]:
+    """The values of the first rows, or of all."""
+    if isinstance(column, Repeated):
+        return column.values[column.places[:count]]
+    return column[:count]
 
 
 def same(a: Any, b: Any) -> bool:

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, overload
 
 import numpy as np
@@ -14,7 +12,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Ensemble, GaussianExcitation, Moments, PoissonPulses, build_info
-from ._tables import Repeated, frame_of, html_table, json_text, write_csv
+from ._tables import Columns, Repeated, html_table, json_text
+from ._tabular import Tabular
 from .ensemble import run_ensemble
 from .theory import THEORIES, Coverage
 
@@ -35,10 +34,15 @@ _COLUMNS = 6  # maximum number of times in a printed table
 _FINEST = 512  # minimum number of times of the statistics, for the stationary averages
 
 
-class Comparison:
+class Comparison(Tabular):
     """Result of `compare`: an ensemble, and the predictions of each theory.
 
     Comparisons with equal attributes are equal; they can be copied and pickled, but not hashed.
+
+    Tables have a row for each time of the simulation and of each theory: columns `source`
+    ('simulation' or the name of a theory), `time`, `displacement_variance`, `velocity_variance` and
+    `covariance`, each followed by its standard error, as `displacement_variance_error` (NaN for
+    theories).
 
     Attributes
     ----------
@@ -64,16 +68,6 @@ class Comparison:
         self.theories = theories
         self.refused = refused
         self._at = np.rint(time / ensemble.time[1]).astype(int)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Comparison):
-            return NotImplemented
-        return (
-            np.array_equal(self.time, other.time)
-            and self.ensemble == other.ensemble
-            and self.theories == other.theories
-            and self.refused == other.refused
-        )
 
     def simulated(self, statistic: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """A statistic of the ensemble at `time`, and its standard error.
@@ -141,7 +135,7 @@ class Comparison:
         step = math.ceil(len(self.time) / _COLUMNS)
         return np.arange(len(self.time) - 1, -1, -step)[::-1]
 
-    def _columns(self) -> dict[str, NDArray[Any] | Repeated]:
+    def _table(self) -> tuple[Columns, Mapping[str, str]]:
         names = np.array(["simulation", *self.theories])
         count = len(self.time)
         columns: dict[str, NDArray[Any] | Repeated] = {
@@ -155,44 +149,7 @@ class Comparison:
             columns[f"{statistic}_error"] = np.concatenate(
                 [error, np.full(count * len(self.theories), np.nan)]
             )
-        return columns
-
-    def to_dataframe(self) -> Any:
-        """A pandas DataFrame with a row for each time of the simulation and of each theory.
-
-        Returns
-        -------
-        pandas.DataFrame
-            Columns `source` ('simulation' or the name of a theory; a category), `time`,
-            `displacement_variance`, `velocity_variance` and `covariance`, each followed by its
-            standard error, as `displacement_variance_error` (NaN for theories).
-            ``frame.attrs["units"]`` has the units by name.
-
-        Raises
-        ------
-        ImportError
-            pandas is missing.
-        """
-        return frame_of(self._columns(), _UNITS, "Comparison.to_dataframe")
-
-    def to_csv(self, path: str | os.PathLike[str]) -> Path:
-        """Write the rows of `to_dataframe` to a CSV file.
-
-        Parameters
-        ----------
-        path : path-like
-            Replaced whole or not at all.
-
-        Returns
-        -------
-        Path
-
-        Raises
-        ------
-        OSError
-            The file cannot be written.
-        """
-        return write_csv(self._columns(), _UNITS, path)
+        return columns, _UNITS
 
     def to_json(self) -> str:
         """The comparison as one JSON document.

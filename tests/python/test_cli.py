@@ -17,7 +17,7 @@ import pytest
 import stickslip as ss
 from sources import waiting_for
 from stickslip.cli import main
-from stickslip.records import read_components
+from stickslip.motions.records import read_components
 
 G = ss.STANDARD_GRAVITY
 
@@ -128,6 +128,24 @@ def test_the_table_shows_the_stops_that_were_given_and_the_impacts(capsys, recor
     held = ss.StaticKinetic(mu_static=0.15, mu_kinetic=0.1)
     r = ss.integrate(ss.Slider(held, stops=slider.stops), ss.read_record(record), settle=True)
     assert row.split()[-2:] == [str(len(r.impacts)), f"{abs(r.impacts['velocity']).max():.3g}"]
+
+
+def test_the_options_given_have_their_columns_under_one_record_and_under_a_folder(
+    capsys, record, tmp_path
+):
+    folder = tmp_path / "two"
+    folder.mkdir()
+    for name in ("a", "b"):
+        (folder / name).with_suffix(record.suffix).write_bytes(record.read_bytes())
+    options = ["--mu", 0.1, "--mu-static", 0.15, "--stop-gap", 0.0125, "--restitution", 0.4]
+    given = {"static mu": "0.15", "stop gap [m]": "0.0125", "restitution": "0.4"}
+    for files, count in ((record, 1), (folder, 2)):
+        code, out, err = run(capsys, files, *options)
+        head, *rows = out.splitlines()
+        assert (code, err, len(rows)) == (0, "", count)
+        for word, value in given.items():
+            end = head.index(word) + len(word)
+            assert [row[:end].split()[-1] for row in rows] == [value] * count
 
 
 def test_a_scaled_record_is_the_record_scaled(capsys, record):

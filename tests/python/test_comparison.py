@@ -197,7 +197,7 @@ def test_a_comparison_goes_to_tables(tmp_path):
 
 def test_no_two_theories_look_alike():
     pytest.importorskip("matplotlib")
-    from stickslip.plotting import _theory_style
+    from stickslip.plotting.comparison import _theory_style
     from stickslip.theory import THEORIES
 
     styles = [_theory_style(i) for i in range(len(THEORIES))]

@@ -157,7 +157,7 @@ def test_pictures_say_what_slid(case):
 def test_the_band_of_accelerations_that_friction_resists_ends_where_slips_begin(case):
     """At each breakaway on level ground the drawn bound is the ground acceleration."""
     pytest.importorskip("matplotlib", reason="pictures need matplotlib")
-    from stickslip import plotting
+    from stickslip.plotting import trajectory
 
     slider, _, _ = case
     fading = ss.GroundMotion(RECORD * np.sin(0.04 * M) ** 2, dt=0.1)  # begins and ends at rest
@@ -166,7 +166,7 @@ def test_the_band_of_accelerations_that_friction_resists_ends_where_slips_begin(
     if slider.stops is not None:  # at a stop the load that leaves it is another
         starts = starts[np.abs(starts["displacement"]) < 0.9 * slider.stops.gap]
     n = np.interp(starts["time"], fading.time, fading.acceleration) / G
-    lower, upper = plotting._held(r, starts["time"], starts["displacement"])
+    lower, upper = trajectory.slip_bounds(r, starts["time"], starts["displacement"])
     assert len(starts) > 2
     assert np.minimum(abs(n - lower), abs(n - upper)).max() < 1e-9
 
@@ -187,22 +187,22 @@ FAR = ss.Degrading(distance=[0, 20], mu=[0.1, 0.02], mu_backward=[0.1, 0.05])
 def test_the_area_of_the_drawn_loop_is_the_dissipated_energy(law):
     """Friction that is constant or linear in the distance has a loop of straight lines."""
     pytest.importorskip("matplotlib", reason="pictures need matplotlib")
-    from stickslip import plotting
+    from stickslip.plotting import trajectory
 
     r = ss.integrate(law, QUAKE, settle=True)
     assert 0.5 < r.sliding_distance < 20
-    _, x, force = plotting._force_path(r)
+    _, x, force = trajectory.force_path(r)
     area = ((force[1:] + force[:-1]) / 2 * np.diff(x)).sum()
     assert area == pytest.approx(r.energy.dissipated, rel=1e-10)
 
 
 def test_the_drawn_force_after_an_impact_is_that_of_the_rebound():
     pytest.importorskip("matplotlib", reason="pictures need matplotlib")
-    from stickslip import plotting
+    from stickslip.plotting import trajectory
 
     slider = SLIDERS["stops"][0]
     r = ss.integrate(slider, QUAKE)
-    _, x, force = plotting._force_path(r)
+    _, x, force = trajectory.force_path(r)
     hits = r.impacts[np.abs(r.impacts["velocity"]) > 0.1]
     assert len(hits) > 5
     for hit in hits:

@@ -13,6 +13,7 @@ import stickslip as ss
 
 pytest.importorskip("matplotlib", reason="pictures need matplotlib: pip install stickslip[plot]")
 from stickslip import plotting
+from stickslip.plotting import words
 
 G = ss.STANDARD_GRAVITY
 
@@ -533,15 +534,15 @@ def test_the_peak_and_the_residual_are_marked_where_they_are_in_the_part():
 
 
 def test_a_residual_has_no_more_digits_than_the_peak_gives_it():
-    assert plotting._places(1.7e-5, 0.289, 100) == "0.00"
-    assert plotting._places(-1.7e-5, 0.289, 100) == "0.00"
-    assert plotting._places(-0.0595, 0.182, 100) == "\N{MINUS SIGN}5.95"
-    assert plotting._places(0.182, 0.182, 100) == "18.2"
-    assert plotting._places(0.0, 0.0, 100) == plotting._digits(0.0)
+    assert words.in_places(1.7e-5, 0.289, 100) == "0.00"
+    assert words.in_places(-1.7e-5, 0.289, 100) == "0.00"
+    assert words.in_places(-0.0595, 0.182, 100) == "\N{MINUS SIGN}5.95"
+    assert words.in_places(0.182, 0.182, 100) == "18.2"
+    assert words.in_places(0.0, 0.0, 100) == words.digits(0.0)
     for peak in (0.0012, 0.034, 0.5, 7.0, 30.0):
-        length, _ = plotting._unit(peak)
+        length, _ = words.unit_for(peak)
         for value in np.geomspace(1e-7, 1, 30) * peak:
-            shown = float(plotting._places(value, peak, length)) / length
+            shown = float(words.in_places(value, peak, length)) / length
             assert shown == pytest.approx(value, rel=0.006, abs=6e-4 * peak)
 
 

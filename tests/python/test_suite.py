@@ -8,6 +8,7 @@ import zipfile
 import numpy as np
 import pytest
 import stickslip as ss
+from stickslip.motions.suite import LeftOut
 
 
 def quake(seed: int, samples: int = 400) -> ss.GroundMotion:
@@ -377,7 +378,7 @@ def test_the_files_of_each_station_become_one_motion(stations):
     assert suite[1] == ss.read_station(b)
     assert suite[2] == ss.read_record(stations / "CCC-120.AT2")
     assert suite.alone == (
-        ss.suite.LeftOut(str(stations / "CCC-120.AT2"), "no other component of its station"),
+        LeftOut(str(stations / "CCC-120.AT2"), "no other component of its station"),
     )
     assert pickle.loads(pickle.dumps(suite)).alone == suite.alone
     with pytest.warns(RuntimeWarning):

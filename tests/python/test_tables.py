@@ -146,6 +146,21 @@ def test_a_file_is_written_whole_or_not_at_all(response, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_number_is_no_path_though_it_is_that_of_an_open_file(response, tmp_path):
+    quake = ss.GroundMotion([0, 3, 0], dt=0.1)
+    table = ss.sweep(ss.Coulomb(mu=0.1), [quake])
+    with (tmp_path / "open").open("w+b") as stream:
+        stream.write(b"mine")
+        stream.flush()
+        for thing in (response, quake, table):
+            for number in (stream.fileno(), 0.5, None):
+                with pytest.raises(TypeError, match=f"must be given as a path, got {number}"):
+                    thing.to_csv(number)
+        stream.seek(0)
+        assert stream.read() == b"mine"
+    assert table.to_csv(os.fsencode(tmp_path / "t.csv")) == tmp_path / "t.csv"
+
+
 @pytest.mark.parametrize("library, method", [("pandas", "dataframe"), ("xarray", "xarray")])
 def test_without_the_library_the_message_says_what_to_install(
     response, monkeypatch, library, method
@@ -212,6 +227,18 @@ def test_a_comparison_shows_theory_over_simulation_in_a_notebook():
     assert shown["simulation [m²/s²]"] == [f"{v:.4g} ± {e:.1g}" for v, e in zip(value, error)]
     for name, why in c.refused.items():
         assert shown[name] == [why]
+
+
+def test_a_sweep_shows_its_first_rows_in_a_notebook():
+    quakes = [ss.GroundMotion([0, 3 + i, 0], dt=0.5, name=f"<{i}>") for i in range(6)]
+    table = ss.sweep(ss.grid(ss.Coulomb, mu=[0.1, 0.2]), quakes, settle=True)
+    page = xml.etree.ElementTree.fromstring(table._repr_html_())
+    assert page.findtext("caption") == "SweepTable: 24 rows, the first 20"
+    head, *rows = ([cell.text for cell in row] for row in page.iter("tr"))
+    assert head[:6] == ["slider", "mu", "record", "polarity", "peak [m]", "residual [m]"]
+    assert [row[2] for row in rows[:12:2]] == [f"<{i}>" for i in range(6)]
+    peaks = np.array([row[4] for row in rows], float)
+    assert peaks == pytest.approx(table.peak.ravel()[:20], rel=1e-3)
 
 
 def test_json_has_every_number_and_no_nan(response):

@@ -99,8 +99,9 @@ py::array_t<double> times_of(const GroundMotion& motion) {
 
 GroundMotion from_obspy(const py::object& trace, const std::string& units, const std::optional<std::string>& name) {
   if (py::hasattr(trace, "traces")) {  // a Stream
-    const GroundMotion motion =
-        py::module_::import("stickslip.records").attr("_station_of_stream")(trace, units, name).cast<GroundMotion>();
+    const GroundMotion motion = py::module_::import("stickslip.motions.records")
+                                    .attr("_station_of_stream")(trace, units, name)
+                                    .cast<GroundMotion>();
     if (py::len(trace.attr("traces")) > 1) warn_if_implausible(motion, "GroundMotion.from_obspy");
     return motion;
   }
@@ -109,7 +110,7 @@ GroundMotion from_obspy(const py::object& trace, const std::string& units, const
                          py::str(py::type::handle_of(trace).attr("__name__")).cast<std::string>() +
                          "; or a Stream of the traces of one station");
   const py::object stats = trace.attr("stats");
-  const auto orientation = py::module_::import("stickslip.records")
+  const auto orientation = py::module_::import("stickslip.motions.records")
                                .attr("_orientation_of_channel")(py::getattr(stats, "channel", py::str("")))
                                .cast<std::string>();
   GroundMotion motion = make(trace.attr("data"), stats.attr("delta").cast<double>(), std::nullopt, "linear",
@@ -358,34 +359,18 @@ order : int, optional
 
 Needs matplotlib (`pip install stickslip[plot]`). Draws into `ax=`, a matplotlib Axes, or into a new figure; `title=`
 replaces the name. Returns the axes that were given, otherwise the new Figure.)")
-      .def("to_dataframe", in_python("stickslip._motion_tables", "motion_to_dataframe"),
+      .def("to_dataframe", in_python("stickslip.motions.tables", "motion_to_dataframe"),
            R"(Convert the histories to a pandas DataFrame over the index `time` [s].
 
 The columns are `acceleration`, `transverse` and `vertical` [m/s^2] if the motion has them, `velocity` [m/s] and
 `displacement` [m] of the ground; `df.attrs["units"]` has the units. ImportError without pandas.)")
-      .def("to_csv", csv_in("stickslip._motion_tables", "motion_to_csv"), py::arg("path"),
-           R"(Write times and accelerations to a CSV file that `read_record` reads, whole or not at all.
-
-Parameters
-----------
-path : path-like
-    An existing file is replaced.
-
-Returns
--------
-Path
-
-Raises
-------
-OSError
-    The folder is missing or cannot be written; the file is read-only or not a regular file.
-
-Notes
------
-A line of names with units, then one line per sample: time [s] and the components [m/s^2] that the motion has.
-`read_record` returns the same samples and the same time step or times, one component per motion. The file does not
-contain the name, the orientation or the interpolation: use `pickle` or a `Suite` to keep all.)")
-      .def("to_json", in_python("stickslip._motion_tables", "motion_to_json"),
+      .def("to_csv", csv_in("stickslip.motions.tables", "motion_to_csv"), py::arg("path"),
+           csv_doc("Write times and accelerations to a CSV file that `read_record` reads, whole or not at all.",
+                   R"(A line of names with units, then one line per sample: time [s] and the components [m/s^2] that the
+motion has. `read_record` returns the same samples and the same time step or times, one component per motion. The file
+does not contain the name, the orientation or the interpolation: use `pickle` or a `Suite` to keep all.)")
+               .c_str())
+      .def("to_json", in_python("stickslip.motions.tables", "motion_to_json"),
            R"(The motion as one JSON object (str): name, orientation, interpolation, units, times and components.
 
 Every number reads back as the same double.)")

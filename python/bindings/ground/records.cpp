@@ -87,7 +87,7 @@ py::object format_of(const py::bytes& content) {
 
 }  // namespace
 
-// Functions for `stickslip.records`, which has the documentation.
+// Functions for `stickslip.motions.records`, which has the documentation.
 void bind_records(py::module_& m) {
   m.attr("PlausibilityWarning") = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "stickslip.PlausibilityWarning",

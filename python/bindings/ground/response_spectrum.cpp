@@ -75,32 +75,16 @@ replaces the default. Returns the axes that were given, otherwise the new Figure
                                                                                                    : "m/s^2") +
                     ">";
            })
-      .def("to_dataframe", in_python("stickslip._motion_tables", "spectrum_to_dataframe"),
+      .def("to_dataframe", in_python("stickslip.motions.tables", "spectrum_to_dataframe"),
            R"(Convert the spectrum to a pandas DataFrame, a row for each period and damping ratio.
 
 The columns are `period` [s], `damping` and the kind of the values, such as `pseudo_acceleration`; `df.attrs["units"]`
 has their units. ImportError without pandas.)")
-      .def("to_csv", csv_in("stickslip._motion_tables", "spectrum_to_csv"), py::arg("path"),
-           R"(Write the spectrum to a CSV file, whole or not at all, with the rows of `to_dataframe`.
-
-Parameters
-----------
-path : path-like
-    An existing file is replaced.
-
-Returns
--------
-Path
-
-Raises
-------
-OSError
-    The folder is missing or cannot be written; the file is read-only or not a regular file.
-
-Notes
------
-Every number reads back as the same double.)")
-      .def("to_json", in_python("stickslip._motion_tables", "spectrum_to_json"),
+      .def("to_csv", csv_in("stickslip.motions.tables", "spectrum_to_csv"), py::arg("path"),
+           csv_doc("Write the spectrum to a CSV file, whole or not at all, with the rows of `to_dataframe`.",
+                   "Every number reads back as the same double.")
+               .c_str())
+      .def("to_json", in_python("stickslip.motions.tables", "spectrum_to_json"),
            R"(The spectrum as one JSON object (str): `kind`, `units`, `period`, `damping`, `values`.
 
 The values are nested lists of shape (D, P); every number reads back as the same double.)")
@@ -111,7 +95,7 @@ The values are nested lists of shape (D, P); every number reads back as the same
       [](const py::object& motion, const py::object& periods, const py::object& damping,
          const std::string& kind) -> py::object {
         if (is_suite(motion))
-          return py::module_::import("stickslip.intensity").attr("spectra")(motion, periods, damping, kind);
+          return py::module_::import("stickslip.motions.intensity").attr("spectra")(motion, periods, damping, kind);
         auto all_periods = to_vector_or_number(periods, "response_spectrum: periods", "s");
         auto all_damping = to_vector_or_number(damping, "response_spectrum: damping", "");
         const SpectrumKind which = kind_of(kind);

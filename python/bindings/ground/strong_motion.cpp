@@ -42,27 +42,13 @@ void bind_strong_motion(py::module_& m) {
                     " m/s, Arias intensity " + digits(s.arias_intensity) + " m/s, D5-95 " + digits(s.duration) +
                     " s, center frequency " + digits(s.center_frequency_hz) + " Hz>";
            })
-      .def("to_dataframe", in_python("stickslip._motion_tables", "strong_motion_to_dataframe"),
+      .def("to_dataframe", in_python("stickslip.motions.tables", "strong_motion_to_dataframe"),
            R"(Convert the measures to a pandas DataFrame of one row.
 
 The columns are named after the attributes; `df.attrs["units"]` has their units. ImportError without pandas.)")
-      .def("to_csv", csv_in("stickslip._motion_tables", "strong_motion_to_csv"), py::arg("path"),
-           R"(Write the measures to a CSV file of one row, whole or not at all.
-
-Parameters
-----------
-path : path-like
-    An existing file is replaced.
-
-Returns
--------
-Path
-
-Raises
-------
-OSError
-    The folder is missing or cannot be written; the file is read-only or not a regular file.)")
-      .def("to_json", in_python("stickslip._motion_tables", "strong_motion_to_json"),
+      .def("to_csv", csv_in("stickslip.motions.tables", "strong_motion_to_csv"), py::arg("path"),
+           csv_doc("Write the measures to a CSV file of one row, whole or not at all.").c_str())
+      .def("to_json", in_python("stickslip.motions.tables", "strong_motion_to_json"),
            R"(The measures and their `units` as one JSON object (str); NaN is null.)")
       .def("_repr_html_", in_python("stickslip._html", "strong_motion_html"));
 

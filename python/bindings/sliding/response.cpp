@@ -450,25 +450,9 @@ The index is `time` [s]; the columns are `ground_acceleration`, `displacement`, 
 The variables are those of `to_dataframe`, each with the attributes `units` and `long_name`. Attributes of the
 Dataset: slider, motion (its name), peak [m], residual [m]. ImportError without xarray.)")
       .def("to_csv", csv_in("stickslip._tables", "to_csv"), py::arg("path"),
-           R"(Write the histories to a CSV file, whole or not at all.
-
-Parameters
-----------
-path : path-like
-    An existing file is replaced.
-
-Returns
--------
-Path
-
-Raises
-------
-OSError
-    The folder is missing or cannot be written; the file is read-only or not a regular file.
-
-Notes
------
-A line of names with units, then one line per sample; every number reads back as the same double.)")
+           csv_doc("Write the histories to a CSV file, whole or not at all.",
+                   "A line of names with units, then one line per sample; every number reads back as the same double.")
+               .c_str())
       .def("to_json", in_python("stickslip._tables", "to_json"),
            R"(The results and histories as one JSON document, for instance for a web page.
 

@@ -15,10 +15,10 @@ from .._core import _ground_motion as ground_motion
 from .._core import _warn_if_implausible as warn_if_implausible
 from .._failures import grouped, with_options
 from .._paths import expanded, is_same_file
-from ..metadata import Metadata, orientation_text, readings
-from ..records import Component, Reading, files_in, read_components
-from ..samples import sample_files, sample_record
-from ..stations import Part, stations_of
+from ..motions.metadata import Metadata, orientation_text, readings
+from ..motions.records import Component, Reading, files_in, read_components
+from ..motions.samples import sample_files, sample_record
+from ..motions.stations import Part, stations_of
 from .output import FAILURES, check_outputs, complain, reason_of
 from .parser import text_argument
 

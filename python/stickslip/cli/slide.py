@@ -258,7 +258,8 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     stops = rows[0]["impacts_forward"] is not None
     width = max(len("record"), *map(len, names))
     both = any(row["polarity"] for row in rows)
-    more = "".join(f"  {heading(name):>11}" for name in several)
+    widths = {name: max(11, len(heading(name))) for name in several}
+    more = "".join(f"  {heading(name):>{wide}}" for name, wide in widths.items())
     yield (
         f"{'record':{width}}  PGA [g]     mu{more}{'  polarity' if both else ''}  peak [cm]"
         "  residual [cm]  distance [cm]  sliding [s]  slips"
@@ -268,7 +269,7 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     for name, row in zip(names, rows):
         head = f"{name:{width}}  {column(row['pga_g'], 7, 3)}"
         this = row["file"], row["component"], row["scale"]
-        more = "".join(f"  {row[_KEYS[name]]:11.4g}" for name in several)
+        more = "".join(f"  {row[_KEYS[name]]:{wide}.4g}" for name, wide in widths.items())
         polarity = f"  {row['polarity']:8}" if both else ""
         yield (
             f"{head if this != last else '':{width + 9}}  {row['mu']:5.4g}{more}{polarity}"

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import pickle
-
 from .._core import Ensemble
+from ..runs.error import RunError
 
 
-class EnsembleError(RuntimeError):
+class EnsembleError(RunError[Ensemble]):
     """A part of an ensemble failed in its executor, or its checkpoint could not be written.
 
     `__cause__` is the exception raised there.
@@ -20,16 +19,10 @@ class EnsembleError(RuntimeError):
         The members that are done; also in the checkpoint, unless that could not be written.
     """
 
-    def __init__(self, message: str, members: range, partial: Ensemble) -> None:
-        super().__init__(message)
-        self.members = members
-        self.partial = partial
+    _who, _things = "run_ensemble", "members"
 
-    def __reduce__(self) -> tuple[type[EnsembleError], tuple[str, range, Ensemble]]:
-        return type(self), (str(self), self.members, self.partial)
+    members: range
 
-
-def how_to_pickle(error: BaseException) -> str:
-    """What to do about a law of a lambda or a local function, which no other process can get."""
-    is_of_pickle = isinstance(error, pickle.PicklingError) or "pickle" in str(error)
-    return " (define the functions of laws in a module, not in place)" if is_of_pickle else ""
+    @classmethod
+    def _done(cls, partial: Ensemble) -> int:
+        return partial.members

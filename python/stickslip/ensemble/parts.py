@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from collections.abc import Sequence
+from concurrent.futures import Executor
 from typing import Any
 
 from .. import _core
 from .._core import Ensemble
+from ..runs import parts
 from .checkpoint import Checkpoint
-from .error import EnsembleError, how_to_pickle
-from .progress import Progress
 from .sources import AnyMotions, AnySliders
 
 
@@ -37,7 +37,7 @@ def _run_part(
     return part, time.perf_counter() - began
 
 
-class Parts:
+class Parts(parts.Parts[Ensemble, tuple[Ensemble, float]]):
     """The members of a run, split into parts for an executor, which are merged as they arrive.
 
     A part is 2^k blocks that begin at a multiple of 2^k, which the sums merge to one set. Its size
@@ -58,44 +58,44 @@ class Parts:
         first: int,
         members: int,
         start: Ensemble | None,
+        keeper: Checkpoint,
     ) -> None:
-        self.executor = executor
+        whole = _core.run_nothing(sliders, motions, first_member=first, **options)
+        super().__init__(executor, whole, keeper)
         self.what = (sliders, motions, options)
         self.members = members
-        self.whole = _core.run_nothing(sliders, motions, first_member=first, **options)
-        self.block = self.whole.block
+        self.block = whole.block
         if start is not None:
-            self.whole.merge(start)
+            whole.merge(start)
         self.gaps = self._gaps(first, first + members)
         self.todo = sum(map(len, self.gaps))
-        self.flying: dict[Future[tuple[Ensemble, float]], range] = {}
         self.size = 1  # blocks in the next part
         self.window = 8  # number of submitted parts; grows with each that arrives
-        times = len(self.whole.time)
+        times = len(whole.time)
         sums = 12 + options["velocity_spectrum"] + 4 * options["ground_acceleration"]
         self.bytes_of_part = 8 * times * sums
 
-    def run(self, show: Progress, keeper: Checkpoint) -> Ensemble:
-        try:
-            while self.gaps or self.flying:
-                while self.gaps and len(self.flying) < self.window:
-                    self._submit()
-                finished, _ = wait(self.flying, timeout=0.1, return_when=FIRST_COMPLETED)
-                self._take(finished)
-                show(self.members - self.todo, self.members)
-                keeper.save_if_due(lambda: self.whole)
-        except BaseException:
-            for future in self.flying:
-                future.cancel()
-            keeper.save(self.whole)
-            raise
-        show(self.members, self.members)
-        return self.whole
+    def feed(self) -> None:
+        while self.gaps and len(self.flying) < self.window:
+            self._submit_next()
+
+    def progress(self) -> tuple[int, int]:
+        return self.members - self.todo, self.members
+
+    def take(self, part: Sequence[int], result: tuple[Ensemble, float]) -> None:
+        ensemble, seconds = result
+        self.so_far.merge(ensemble)
+        self.todo -= len(part)
+        blocks = -(-len(part) // self.block)
+        wanted = max(1, int(blocks * self.SECONDS / max(seconds, 1e-3)))
+        self.size = min(4 * self.size, 1 << wanted.bit_length() - 1)
+        room = self.MEMORY // (self.bytes_of_part + 16 * self.size * self.block)
+        self.window = max(4, min(self.window + 1, room, self.MOST))
 
     def _gaps(self, first: int, past: int) -> list[range]:
         """The members that are missing, the last first."""
         gaps, at = [], first
-        for begin, end in self.whole.member_ranges:
+        for begin, end in self.so_far.member_ranges:
             if at < min(begin, past):
                 gaps.append(range(at, min(begin, past)))
             at = max(at, end)
@@ -109,44 +109,12 @@ class Parts:
                 )
         return gaps[::-1]
 
-    def _submit(self) -> None:
+    def _submit_next(self) -> None:
         fair = max(1, sum(map(len, self.gaps)) // self.block // 16)
         gap = self.gaps.pop()
         place = gap.start // self.block
         size = min(self.size, place & -place or self.size, 1 << fair.bit_length() - 1)
         part = gap[: size * self.block]
-        try:
-            future = self.executor.submit(_run_part, *self.what, part.start, len(part))
-        except Exception as error:  # such as from a pool whose processes are gone
-            raise self._failed(part, error) from error
-        self.flying[future] = part
+        self.submit(part, _run_part, *self.what, part.start, len(part))
         if len(part) < len(gap):
             self.gaps.append(gap[len(part) :])
-
-    def _take(self, finished: set[Future[tuple[Ensemble, float]]]) -> None:
-        failed: list[tuple[range, BaseException]] = []
-        for future in finished:
-            members = self.flying.pop(future)
-            try:
-                part, seconds = future.result()
-            except Exception as error:
-                failed.append((members, error))
-                continue
-            self.whole.merge(part)
-            self.todo -= len(members)
-            blocks = -(-len(members) // self.block)
-            wanted = max(1, int(blocks * self.SECONDS / max(seconds, 1e-3)))
-            self.size = min(4 * self.size, 1 << wanted.bit_length() - 1)
-            room = self.MEMORY // (self.bytes_of_part + 16 * self.size * self.block)
-            self.window = max(4, min(self.window + 1, room, self.MOST))
-        for members, error in failed:
-            raise self._failed(members, error) from error
-
-    def _failed(self, members: range, error: BaseException) -> EnsembleError:
-        return EnsembleError(
-            f"run_ensemble: members {members[0]} to {members[-1]} failed in the executor:"
-            f" {type(error).__name__}: {error}{how_to_pickle(error)}; .partial has the"
-            f" {self.whole.members} members that are done",
-            members,
-            self.whole,
-        )

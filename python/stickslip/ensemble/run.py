@@ -12,9 +12,10 @@ from typing import Any, SupportsIndex
 from .. import _core
 from .._core import Ensemble, GroundMotion
 from .._units import warn_of_units
+from ..runs.parts import check_executor
+from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
 from .parts import Parts
-from .progress import Progress, shown
 from .sources import AnyMotions, AnySliders, check_directions
 
 
@@ -142,16 +143,7 @@ def run_ensemble(
     total = whole_number("members", members, 1)
     first = whole_number("first_member", first_member, 0)
     count = 0 if threads is None else whole_number("threads", threads, 1, 2**16)
-    if executor is not None and threads is not None:
-        raise ValueError(
-            f"run_ensemble: give threads or executor, whose parts have one thread, got threads ="
-            f" {count} with {type(executor).__name__}"
-        )
-    if executor is not None and not hasattr(executor, "submit"):
-        raise TypeError(
-            "run_ensemble: executor must be a concurrent.futures.Executor, got"
-            f" {type(executor).__name__}"
-        )
+    check_executor("run_ensemble", executor, None if threads is None else count)
     options = {
         "seed": whole_number("seed", seed, 0),
         "dt": 0.0 if dt is None else _positive("dt", dt),
@@ -172,8 +164,8 @@ def run_ensemble(
                     sliders, motions, options, first, total, count, start, show, keeper
                 )
             else:
-                parts = Parts(executor, sliders, motions, options, first, total, start)
-                whole = parts.run(show, keeper)
+                parts = Parts(executor, sliders, motions, options, first, total, start, keeper)
+                whole = parts.run(show)
         except ValueError as error:
             if start is None:
                 raise

@@ -6,7 +6,7 @@ from typing import SupportsIndex
 
 from .. import _core
 from .._core import EnsembleSensitivity
-from .progress import Progress, shown
+from ..runs.progress import Progress, shown
 from .run import whole_number
 from .sources import AnyMotions, AnySliders
 

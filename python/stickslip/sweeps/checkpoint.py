@@ -5,8 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import time
-import warnings
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -14,16 +12,19 @@ from typing import Any
 import numpy as np
 
 from .._core import GroundMotion
-from .._files import check_writable, replacing
+from .._files import replacing
 from ..ensemble.sources import AnySlider
+from ..runs import checkpoint
 from .error import SweepError
 from .table import SweepFailure, SweepTable
 
 _FORMAT = "stickslip sweep 2"
 
 
-class Checkpoint:
+class Checkpoint(checkpoint.Checkpoint[SweepTable]):
     """The file that saves the progress of a sweep; inactive if no file is given."""
+
+    error = SweepError
 
     def __init__(
         self,
@@ -33,23 +34,16 @@ class Checkpoint:
         motions: list[GroundMotion],
         how: dict[str, Any],
     ) -> None:
-        if not every >= 0:
-            raise ValueError(f"sweep: checkpoint_every must be at least 0, got {every} s")
-        self.file = None if file is None else Path(os.fspath(file))
-        self.every = every
-        self.saved = time.monotonic()
-        self.warned = False
-        self.key = ""
-        if self.file is not None:
-            check_writable(self.file)
-            self.key = _key(sliders, motions, how)
+        super().__init__(file, every)
+        self.key = "" if self.file is None else _key(sliders, motions, how)
 
     def load(self, table: SweepTable) -> None:
         """Fill the table from the file, if it exists."""
-        if self.file is None or not self.file.exists():
+        file = self.found()
+        if file is None:
             return
         try:
-            with self.file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
+            with file.open("rb") as stream, np.load(stream, allow_pickle=False) as kept:
                 if str(kept["format"]) != _FORMAT:
                     raise ValueError(f"is of format '{kept['format']}', not '{_FORMAT}'")
                 if str(kept["key"]) != self.key:
@@ -63,53 +57,21 @@ class Checkpoint:
                 if shapes != {table.peak.shape} or done.shape != table.done.shape:
                     raise ValueError("is damaged: its arrays have other shapes")
         except (KeyError, EOFError, zipfile.BadZipFile, ValueError) as error:
-            raise ValueError(f"sweep: checkpoint '{self.file}' {error}") from error
+            raise ValueError(f"sweep: checkpoint '{file}' {error}") from error
         for name, array in values.items():
             table.arrays()[name][...] = array
         table.done[...] = done
         table.failures = tuple(SweepFailure(*one) for one in failures)
 
-    def save_if_due(self, table: SweepTable) -> None:
-        """Save if `every` seconds have passed; after a failure, warn once and retry later."""
-        if self.file is None or time.monotonic() - self.saved < self.every:
-            return
-        try:
-            self._write(table)
-        except OSError as error:
-            if not self.warned:
-                self.warned = True
-                warnings.warn(
-                    f"sweep: cannot write checkpoint '{self.file}': {error}; the run continues and"
-                    f" retries every {self.every:g} s",
-                    RuntimeWarning,
-                    stacklevel=4,
-                )
-        self.saved = time.monotonic()
-
-    def save(self, table: SweepTable) -> None:
-        """Save the final state; an error carries the table."""
-        if self.file is None:
-            return
-        try:
-            self._write(table)
-        except OSError as error:
-            raise SweepError(
-                f"sweep: cannot write checkpoint '{self.file}': {error}; .partial has the"
-                f" {int(table.done.sum())} records that are done",
-                range(0),
-                table,
-            ) from error
-
-    def _write(self, table: SweepTable) -> None:
-        assert self.file is not None
-        with replacing(self.file) as stream:
+    def write(self, file: Path, results: SweepTable) -> None:
+        with replacing(file) as stream:
             np.savez(
                 stream,
                 format=_FORMAT,
                 key=self.key,
-                done=table.done,
-                failures=json.dumps([list(one) for one in table.failures]),
-                **table.arrays(),
+                done=results.done,
+                failures=json.dumps([list(one) for one in results.failures]),
+                **results.arrays(),
             )
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from ..runs.error import RunError
 from .table import SweepTable
 
 
-class SweepError(RuntimeError):
+class SweepError(RunError[SweepTable]):
     """A part of a sweep failed in its executor, or its checkpoint could not be written.
 
     `__cause__` is the exception raised there.
@@ -18,10 +19,10 @@ class SweepError(RuntimeError):
         The results so far; NaN where there are none.
     """
 
-    def __init__(self, message: str, records: range, partial: SweepTable) -> None:
-        super().__init__(message)
-        self.records = records
-        self.partial = partial
+    _who, _things = "sweep", "records"
 
-    def __reduce__(self) -> tuple[type[SweepError], tuple[str, range, SweepTable]]:
-        return type(self), (str(self), self.records, self.partial)
+    records: range
+
+    @classmethod
+    def _done(cls, partial: SweepTable) -> int:
+        return int(partial.done.sum())

@@ -8,7 +8,7 @@ import os
 import time
 import warnings
 from collections.abc import Iterable, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import Executor
 from typing import Any, Literal, SupportsIndex
 
 from .. import _core
@@ -25,12 +25,11 @@ from .._core import (
     VelocityDependent,
 )
 from .._units import warn_of_units
-from ..ensemble.error import how_to_pickle
-from ..ensemble.progress import Progress, shown
 from ..ensemble.sources import AnySlider, check_directions
-from ..suite import Suite
+from ..motions.suite import Suite
+from ..runs import parts
+from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
-from .error import SweepError
 from .parameter_grid import Grid
 from .table import POLARITIES, SweepTable, parameters_of
 
@@ -142,15 +141,7 @@ def sweep(
     count = 0 if threads is None else operator.index(threads)
     if threads is not None and not 1 <= count <= 2**16:
         raise ValueError(f"sweep: threads must be from 1 to 65536, got {count}")
-    if executor is not None and threads is not None:
-        raise ValueError(
-            "sweep: give threads or executor, whose parts have one thread, got threads ="
-            f" {count} with {type(executor).__name__}"
-        )
-    if executor is not None and not hasattr(executor, "submit"):
-        raise TypeError(
-            f"sweep: executor must be a concurrent.futures.Executor, got {type(executor).__name__}"
-        )
+    parts.check_executor("sweep", executor, None if threads is None else count)
     for kind, given in (("slider", these), ("ground motion", those)):
         if not given:
             raise ValueError(f"sweep: needs at least one {kind}, got an empty list")
@@ -181,7 +172,7 @@ def sweep(
             if executor is None:
                 _run_here(these, those, how, count, table, keeper, show)
             else:
-                _run_on(executor, these, those, how, table, keeper, show)
+                _Parts(executor, these, those, how, table, keeper).run(show)
             keeper.save(table)
     if table.failures:
         first = table.failures[0]
@@ -234,7 +225,7 @@ def _run_here(
             )
             table.put(part, result)
             show(_combinations(table), table.peak.size)
-            keeper.save_if_due(table)
+            keeper.save_if_due(lambda: table)
             if time.monotonic() - began < 0.5:
                 size *= 2
     except BaseException:
@@ -253,51 +244,32 @@ def _run_part(
     return _core.sweep(sliders, motions, threads=1, progress=None, **how)
 
 
-def _run_on(
-    executor: Executor,
-    sliders: list[AnySlider],
-    motions: list[GroundMotion],
-    how: dict[str, Any],
-    table: SweepTable,
-    keeper: Checkpoint,
-    show: Progress,
-) -> None:
-    todo = [i for i in range(len(motions)) if not table.done[i]]
-    size = max(1, math.ceil(len(todo) / _PARTS))
-    flying: dict[Future[dict[str, Any]], list[int]] = {}
+class _Parts(parts.Parts[SweepTable, dict[str, Any]]):
+    """The records of a sweep, in a fixed number of parts."""
 
-    def failed(part: list[int], error: BaseException) -> SweepError:
-        return SweepError(
-            f"sweep: records {part[0]} to {part[-1]} failed in the executor:"
-            f" {type(error).__name__}: {error}{how_to_pickle(error)}; .partial has the"
-            f" {int(table.done.sum())} records that are done",
-            range(part[0], part[-1] + 1),
-            table,
-        )
+    def __init__(
+        self,
+        executor: Executor,
+        sliders: list[AnySlider],
+        motions: list[GroundMotion],
+        how: dict[str, Any],
+        table: SweepTable,
+        keeper: Checkpoint,
+    ) -> None:
+        super().__init__(executor, table, keeper)
+        self.what = (sliders, motions, how)
+        self.todo = [i for i in range(len(motions)) if not table.done[i]]
 
-    try:
+    def feed(self) -> None:
+        sliders, motions, how = self.what
+        todo, self.todo = self.todo, []
+        size = max(1, math.ceil(len(todo) / _PARTS))
         for k in range(0, len(todo), size):
             part = todo[k : k + size]
-            try:
-                future = executor.submit(_run_part, sliders, [motions[i] for i in part], how)
-            except Exception as error:  # such as from a pool whose processes are gone
-                raise failed(part, error) from error
-            flying[future] = part
-        while flying:
-            finished, _ = wait(flying, timeout=0.1, return_when=FIRST_COMPLETED)
-            broken: list[tuple[list[int], Exception]] = []
-            for future in finished:
-                part = flying.pop(future)
-                try:
-                    table.put(part, future.result())
-                except Exception as error:
-                    broken.append((part, error))
-            for part, error in sorted(broken, key=lambda one: one[0]):
-                raise failed(part, error) from error
-            show(_combinations(table), table.peak.size)
-            keeper.save_if_due(table)
-    except BaseException:
-        for future in flying:
-            future.cancel()
-        keeper.save(table)
-        raise
+            self.submit(part, _run_part, sliders, [motions[i] for i in part], how)
+
+    def take(self, part: Sequence[int], result: dict[str, Any]) -> None:
+        self.so_far.put(part, result)
+
+    def progress(self) -> tuple[int, int]:
+        return _combinations(self.so_far), self.so_far.peak.size

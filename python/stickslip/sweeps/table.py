@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import STANDARD_GRAVITY, Coulomb
-from .._hdf5 import as_column, creating, opening, read, read_columns, read_texts, write
+from .._hdf5 import Saved, as_column, read, read_columns, read_texts, write
 from .._optional import optional
-from .._tables import Repeated, frame_of, json_text, write_csv
-from .._tabular import same
+from .._tables import Columns, Repeated, json_text
+from .._tabular import Tabular
 from ..ensemble.sources import AnySlider
 
 if TYPE_CHECKING:
@@ -57,7 +55,7 @@ class SweepFailure(NamedTuple):
     message: str
 
 
-class SweepTable:
+class SweepTable(Tabular, Saved):
     """Responses of many sliders to many ground motions, as `sweep` returns them.
 
     Arrays have the shape (sliders, records, polarities). Values are NaN (`events`: 0) where a
@@ -102,7 +100,18 @@ class SweepTable:
     Notes
     -----
     Objects compare by content; they can be copied and pickled.
+
+    Tables have a row for each combination: columns `slider` and its parameters, `record` and its
+    metadata, `polarity`, `peak`, `residual`, `sliding_distance` [m], `events`; with stops also
+    `impacts_forward`, `impact_speed_forward` [m/s] and the same backward; `airborne` if a slider
+    ends in flight.
+
+    The file of `save` is also of the format netCDF-4: ``xarray.open_dataset(file)`` opens it with
+    the package netCDF4 or h5netcdf, over the dimensions `slider`, `record` and `polarity`. Every
+    array has checksums; `open` rejects a damaged file.
     """
+
+    _formats = (_FORMAT, _FORMER)
 
     def __init__(
         self,
@@ -223,17 +232,6 @@ class SweepTable:
         failures = [SweepFailure(s, places[r], p, text) for s, r, p, text in result["failures"]]
         self.failures = tuple(sorted((*self.failures, *failures)))
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, SweepTable):
-            return NotImplemented
-        mine, theirs = self.__getstate__(), other.__getstate__()
-        return all(same(mine[name], theirs[name]) for name in mine)
-
-    __hash__ = None  # type: ignore[assignment]  # its arrays can change
-
-    def __getstate__(self) -> dict[str, Any]:
-        return dict(self.__dict__)
-
     def __repr__(self) -> str:
         sliders, records, polarities = self.peak.shape
         return f"SweepTable({sliders} sliders, {records} records, {polarities} polarities)"
@@ -266,25 +264,6 @@ class SweepTable:
 
     # ---- other forms
 
-    def to_dataframe(self) -> Any:
-        """A pandas DataFrame with a row for each combination.
-
-        Returns
-        -------
-        pandas.DataFrame
-            Columns `slider` and its parameters, `record` and its metadata, `polarity`, `peak`,
-            `residual`, `sliding_distance` [m], `events`; with stops also `impacts_forward`,
-            `impact_speed_forward` [m/s] and the same backward; `airborne` if a slider ends in
-            flight. Texts are of the type `category`.
-            ``frame.attrs["units"]`` has the units by name.
-
-        Raises
-        ------
-        ImportError
-            pandas is missing.
-        """
-        return frame_of(self._columns(), _UNITS, "SweepTable.to_dataframe")
-
     def _beside(self) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
         """Parameters and metadata under names that nothing else has in a table."""
         taken = {*_AXES, *_ALL}
@@ -299,7 +278,7 @@ class SweepTable:
                 found[-1][free] = column
         return found[0], found[1]
 
-    def _columns(self) -> dict[str, NDArray[Any] | Repeated]:
+    def _table(self) -> tuple[Columns, Mapping[str, str]]:
         s, r, p = (index.ravel() for index in np.indices(self.peak.shape))
         columns: dict[str, NDArray[Any] | Repeated] = {
             "slider": Repeated(np.array(self.sliders), s)
@@ -309,26 +288,7 @@ class SweepTable:
         columns["record"] = Repeated(np.array(self.records), r)
         columns |= {name: Repeated(column, r) for name, column in metadata.items()}
         columns["polarity"] = Repeated(np.array(self.polarity), p)
-        return columns | {name: array.ravel() for name, array in self.arrays(True).items()}
-
-    def to_csv(self, file: str | os.PathLike[str]) -> Path:
-        """Write the rows of `to_dataframe` to a CSV file, whose head has the units, as `peak [m]`.
-
-        Parameters
-        ----------
-        file : path-like
-            Replaced whole or not at all.
-
-        Returns
-        -------
-        Path
-
-        Raises
-        ------
-        OSError
-            The file cannot be written.
-        """
-        return write_csv(self._columns(), _UNITS, file)
+        return columns | {name: a.ravel() for name, a in self.arrays(True).items()}, _UNITS
 
     def to_json(self) -> str:
         """The table as one JSON document, for tools on the web.
@@ -479,106 +439,59 @@ class SweepTable:
                 return names, lengths, np.argsort(flat)
         return ["slider"], [len(self.sliders)], np.arange(len(self.sliders))
 
-    def save(self, file: str | os.PathLike[str]) -> Path:
-        """Write the table to an HDF5 file, which xarray opens too.
-
-        Parameters
-        ----------
-        file : path-like
-            Replaced whole or not at all.
-
-        Returns
-        -------
-        Path
-
-        Raises
-        ------
-        ImportError
-            h5py is missing: ``pip install stickslip[suites]``.
-        OSError
-            The file cannot be written.
-
-        Notes
-        -----
-        The file is also of the format netCDF-4: ``xarray.open_dataset(file)`` opens it with the
-        package netCDF4 or h5netcdf, over the dimensions `slider`, `record` and `polarity`. Every
-        array has checksums; `open` rejects a damaged file.
-        """
-        with creating(file, _FORMAT, "SweepTable.save") as h5:
-            h5.attrs["settle"] = int(self.settle)
-            h5.attrs["contact"] = self.contact
-            h5.attrs["failures"] = json.dumps([list(one) for one in self.failures])
-            for axis, name in _AXES.items():
-                write(h5, axis, getattr(self, name)).make_scale(axis)
-            beside = []
-            kinds = (("slider", "parameters"), ("record", "metadata"))
-            for (axis, kind), columns in zip(kinds, self._beside()):
-                for (key, column), name in zip(columns.items(), getattr(self, kind)):
-                    key = key.replace("/", "\\")  # a slash would create a group
-                    data = write(h5, key, column)
-                    data.attrs.update({"kind": kind, "name": name})
-                    data.dims[0].attach_scale(h5[axis])
-                    beside += [key] if len(key.split()) == 1 else []
-            for name, array in self.arrays().items():
-                data = write(h5, name, array)
-                data.attrs.update({**_attributes(name), "coordinates": " ".join(beside)})
-                for place, axis in enumerate(_AXES):
-                    data.dims[place].attach_scale(h5[axis])
-        return Path(file)
+    def _write(self, h5: Any) -> None:
+        h5.attrs["settle"] = int(self.settle)
+        h5.attrs["contact"] = self.contact
+        h5.attrs["failures"] = json.dumps([list(one) for one in self.failures])
+        for axis, name in _AXES.items():
+            write(h5, axis, getattr(self, name)).make_scale(axis)
+        beside = []
+        kinds = (("slider", "parameters"), ("record", "metadata"))
+        for (axis, kind), columns in zip(kinds, self._beside()):
+            for (key, column), name in zip(columns.items(), getattr(self, kind)):
+                key = key.replace("/", "\\")  # a slash would create a group
+                data = write(h5, key, column)
+                data.attrs.update({"kind": kind, "name": name})
+                data.dims[0].attach_scale(h5[axis])
+                beside += [key] if len(key.split()) == 1 else []
+        for name, array in self.arrays().items():
+            data = write(h5, name, array)
+            data.attrs.update({**_attributes(name), "coordinates": " ".join(beside)})
+            for place, axis in enumerate(_AXES):
+                data.dims[place].attach_scale(h5[axis])
 
     @classmethod
-    def open(cls, file: str | os.PathLike[str]) -> SweepTable:
-        """Open a saved table.
-
-        Parameters
-        ----------
-        file : path-like
-
-        Returns
-        -------
-        SweepTable
-            Equal to the one that was saved.
-
-        Raises
-        ------
-        ImportError
-            h5py is missing: ``pip install stickslip[suites]``.
-        OSError
-            The file is missing or cannot be read.
-        ValueError
-            The file is not a table of a sweep, or is damaged.
-        """
-        with opening(file, (_FORMAT, _FORMER), "SweepTable.open") as h5:
-            about: dict[str, Any] = {
-                "settle": bool(h5.attrs["settle"]),
-                "contact": h5.attrs["contact"],
-                "failures": json.loads(h5.attrs["failures"]),
-            }
-            if h5.attrs["format"] == _FORMER:
-                return cls._of(
-                    True,
-                    **{name: read_texts(h5[name]) for name in ("sliders", "records", "polarity")},
-                    **{name: read_columns(h5, name) for name in ("parameters", "metadata")},
-                    **{name: h5[name][:] for name in QUANTITIES},
-                    **about,
-                )
-            axes = {name: read(h5, axis) for axis, name in _AXES.items()}
-            shape = tuple(len(values) for values in axes.values())
-            columns: dict[str, dict[str, NDArray[Any]]] = {"parameters": {}, "metadata": {}}
-            for key in h5:
-                if "kind" in h5[key].attrs:
-                    kind = h5[key].attrs["kind"]
-                    length = shape[0 if kind == "parameters" else 1]
-                    columns[kind][h5[key].attrs["name"]] = read(h5, key, (length,))
-            impacts = {name: read(h5, name, shape) for name in IMPACTS if "impacts_forward" in h5}
+    def _read(cls, h5: Any) -> SweepTable:
+        about: dict[str, Any] = {
+            "settle": bool(h5.attrs["settle"]),
+            "contact": h5.attrs["contact"],
+            "failures": json.loads(h5.attrs["failures"]),
+        }
+        if h5.attrs["format"] == _FORMER:
             return cls._of(
-                False,
-                **axes,
-                **columns,
-                **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
-                impacts=impacts or None,
+                True,
+                **{name: read_texts(h5[name]) for name in ("sliders", "records", "polarity")},
+                **{name: read_columns(h5, name) for name in ("parameters", "metadata")},
+                **{name: h5[name][:] for name in QUANTITIES},
                 **about,
             )
+        axes = {name: read(h5, axis) for axis, name in _AXES.items()}
+        shape = tuple(len(values) for values in axes.values())
+        columns: dict[str, dict[str, NDArray[Any]]] = {"parameters": {}, "metadata": {}}
+        for key in h5:
+            if "kind" in h5[key].attrs:
+                kind = h5[key].attrs["kind"]
+                length = shape[0 if kind == "parameters" else 1]
+                columns[kind][h5[key].attrs["name"]] = read(h5, key, (length,))
+        impacts = {name: read(h5, name, shape) for name in IMPACTS if "impacts_forward" in h5}
+        return cls._of(
+            False,
+            **axes,
+            **columns,
+            **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
+            impacts=impacts or None,
+            **about,
+        )
 
     @classmethod
     def _of(cls, former: bool, **content: Any) -> SweepTable:

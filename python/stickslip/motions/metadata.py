@@ -10,7 +10,7 @@ from numbers import Real
 from pathlib import Path
 from typing import Any, SupportsFloat
 
-from . import _core
+from .. import _core
 from .records import Reading
 
 __all__ = ["Metadata", "orientation_text", "readings"]

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import GroundMotion, ResponseSpectrum, StrongMotion, build_info
-from ._tables import frame_of, json_text, write_csv
+from .._core import GroundMotion, ResponseSpectrum, StrongMotion, build_info
+from .._tables import frame_of, json_text, write_csv
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -11,9 +11,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._core import GroundMotion, ResponseSpectrum, response_spectrum, strong_motion
-from ._motion_tables import MEASURES, SPECTRUM_UNITS
-from ._tabular import Tabular
+from .._core import GroundMotion, ResponseSpectrum, response_spectrum, strong_motion
+from .._tabular import Tabular
+from .tables import MEASURES, SPECTRUM_UNITS
 
 __all__ = ["IntensityMeasures", "SuiteSpectra", "beside", "spectra"]
 

@@ -10,9 +10,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._core import GroundMotion, response_spectrum
-from ._motion_tables import SPECTRUM_UNITS
-from ._tabular import Tabular
+from .._core import GroundMotion, response_spectrum
+from .._tabular import Tabular
+from .tables import SPECTRUM_UNITS
 
 __all__ = ["RotD", "rotd"]
 

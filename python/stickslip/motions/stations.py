@@ -7,8 +7,8 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple, SupportsFloat
 
-from . import _core
-from ._core import GroundMotion
+from .. import _core
+from .._core import GroundMotion
 from .records import Component, changed, direction
 
 __all__ = ["Part", "Station", "stations_of"]

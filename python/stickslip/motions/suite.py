@@ -7,49 +7,31 @@ import math
 import operator
 import os
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
-from typing import Any, Literal, NamedTuple, overload
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
-from ._core import (
+from .. import _core
+from .._core import (
     STANDARD_GRAVITY,
     GroundMotion,
-    PlausibilityWarning,
     ResponseSpectrum,
     response_spectrum,
 )
-from ._failures import grouped as grouped_reasons
-from ._hdf5 import as_column, creating, opening, read, read_columns, write, write_columns
-from ._paths import expanded, is_same_file
-from ._tabular import Tabular
-from ._text import printable
-from .ensemble.progress import Progress, shown
+from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns
+from .._tabular import Tabular
+from ..runs.progress import Progress
 from .intensity import IntensityMeasures, beside
-from .metadata import Metadata, readings
-from .records import Component, File, Reading, files_in
-from .stations import Part, stations_of
+from .reading import LeftOut, free_names, read_suite
 
 __all__ = ["LeftOut", "Suite"]
 
-_FORMAT = "stickslip suite 1"
-_QUANTITIES = ("pga_g", "duration")  # that a suite computes
 _OTHERS = ("transverse", "vertical")  # components other than that along the axis
-_SHOWN = 10  # maximum number of reasons or records in one message
 
 
-class LeftOut(NamedTuple):
-    """A file that `Suite.read` left out, and why."""
-
-    file: str
-    reason: str
-
-
-class Suite(Tabular, Sequence[GroundMotion]):
+class Suite(Tabular, Saved, Sequence[GroundMotion]):
     """Ground motions with their metadata.
 
     A sequence: ``suite[0]`` is a GroundMotion; ``suite[2:5]``, ``suite[suite.magnitude > 6]`` and
@@ -82,6 +64,13 @@ class Suite(Tabular, Sequence[GroundMotion]):
     -----
     Objects compare by content; they can be hashed, copied and pickled.
 
+    The file of `save` takes 8 bytes per sample. `acceleration` holds the samples of all motions one
+    after the other [m/s^2]; `first` the index at which each motion begins; `dt` the steps [s], or
+    NaN for motions whose times [s] are in `time`; `held` whether values are constant between
+    samples; `name` the names; `orientation` the directions of the axes; `transverse` and `vertical`
+    the other components of the motions for which `has_transverse` and `has_vertical` are true;
+    `metadata` the columns.
+
     Examples
     --------
     >>> import stickslip as ss
@@ -92,6 +81,8 @@ class Suite(Tabular, Sequence[GroundMotion]):
     >>> len(quakes[quakes.magnitude > 6.5])
     1
     """
+
+    _formats = ("stickslip suite 1",)
 
     def __init__(
         self, motions: Iterable[GroundMotion], metadata: Mapping[str, ArrayLike] | Any | None = None
@@ -106,7 +97,7 @@ class Suite(Tabular, Sequence[GroundMotion]):
                 )
         self._metadata: dict[str, NDArray[Any]] = {}
         named = {str(n): v for n, v in dict({} if metadata is None else metadata).items()}
-        columns, renamed = _free_names(type(self), named)
+        columns, renamed = free_names(type(self), named)
         if renamed:
             warnings.warn(f"Suite: {renamed}", RuntimeWarning, stacklevel=2)
         for name, values in columns.items():
@@ -515,226 +506,65 @@ class Suite(Tabular, Sequence[GroundMotion]):
         -----
         Takes about 1 ms per 10,000 samples on each thread.
         """
-        if on_error not in ("raise", "skip"):
-            raise ValueError(f"Suite.read: on_error must be 'raise' or 'skip', got {on_error!r}")
-        if threads is not None and operator.index(threads) < 1:
-            raise ValueError(f"Suite.read: threads must be at least 1, got {threads}")
-        if stations and component is not None:
-            raise ValueError("Suite.read: component and stations must not both be given")
-        if not stations and (along is not None or common_length):
-            given = "along" if along is not None else "common_length"
-            raise ValueError(f"Suite.read: {given} needs stations=True")
-        table = None if metadata is None else Metadata(metadata)
-        reading = readings(
-            "Suite.read: {}", table, units=units, dt=dt, orientation=orientation, gaps=gaps
+        return read_suite(
+            cls,
+            files,
+            units=units,
+            component=component,
+            dt=dt,
+            orientation=orientation,
+            gaps=gaps,
+            stations=stations,
+            along=along,
+            common_length=common_length,
+            on_error=on_error,
+            metadata=metadata,
+            threads=threads,
+            progress=progress,
         )
-        named = table.path if table else None
-        paths = [p for p in _files(files) if named is None or not is_same_file(p, named)]
-        if not paths:
-            raise ValueError(f"Suite.read: no files in {_shown_source(files)}")
 
-        every = stations or component in ("all", "vertical")
-        one = None if every else component
-
-        def read_file(path: Path) -> list[tuple[str, list[Component] | Exception]]:
-            try:
-                return [(file.shown, _tried(file, reading, one, every)) for file in files_in(path)]
-            except (OSError, ValueError) as error:
-                return [(str(path), error)]
-
-        found: list[tuple[str, list[Component] | Exception]] = []
-        pool = ThreadPoolExecutor(threads or os.cpu_count() or 1)
-        try:
-            with shown(progress, "Suite.read", "files") as report:
-                for done, several in enumerate(pool.map(read_file, paths, chunksize=16), 1):
-                    found += several
-                    report(done, len(paths))
-        finally:
-            pool.shutdown(cancel_futures=True)
-        left = [
-            LeftOut(file, _reason(answer, file))
-            for file, answer in found
-            if isinstance(answer, Exception)
-        ]
-        parts = [
-            Part(file, number, part)
-            for file, answer in found
-            if not isinstance(answer, Exception)
-            for number, part in enumerate(answer, 1)
-        ]
-        if left and (on_error == "raise" or not parts):
-            raise ValueError(
-                _failures("Suite.read: ", left, len(found))
-                + ('\non_error="skip" leaves them out' if on_error == "raise" and parts else "")
-            )
-        if table:
-            table.require_rows([part.file for part in parts])
-        vertical: list[LeftOut] = []
-        if not stations and component in (None, "all", "vertical"):
-            wanted = component == "vertical"
-            others = [part for part in parts if part.component.is_vertical != wanted]
-            parts = [part for part in parts if part.component.is_vertical == wanted]
-            if not wanted:
-                vertical = [_vertical(part) for part in others]
-        alone: list[LeftOut] = []
-        columns: dict[str, Any]
-        if stations:
-            every_station = stations_of(parts, along, common_length)
-            vertical = [
-                _vertical(one.parts[0], f": {one.reason}")
-                for one in every_station
-                if one.is_vertical
-            ]
-            grouped = [station for station in every_station if not station.is_vertical]
-            alone = [LeftOut(one.files[0], one.reason) for one in grouped if one.reason]
-            motions = [station.motion for station in grouped]
-            names = [station.files[0] for station in grouped]
-            columns = {
-                "file": names,
-                "files": ["; ".join(station.files) for station in grouped],
-                "components": [len(station.parts) for station in grouped],
-            }
-        else:
-            motions = [part.component.motion for part in parts]
-            names = [part.file for part in parts]
-            columns = {"file": names}
-            if component == "all":
-                columns["component"] = [p.component.name or str(p.number) for p in parts]
-        if not motions:
-            which = "vertical" if component == "vertical" else "horizontal"
-            other = "" if which == "vertical" else '; component="vertical" reads vertical ones'
-            raise ValueError(f"Suite.read: no {which} component in {_shown_source(files)}{other}")
-        for motion in motions:
-            _core._warn_if_implausible(motion, "read_record", 2)
-        if table:
-            joined, renamed = _free_names(cls, table.joined(names), every=True)
-            columns |= joined
-        else:
-            renamed = ""
-        suite = cls(motions, columns)
-        suite.left_out, suite.alone = (*left, *vertical), tuple(alone)
-
-        def say(message: str) -> None:
-            warnings.warn(message, RuntimeWarning, stacklevel=3)
-
-        if renamed:
-            say(f"Suite.read: {renamed}")
-        if left:
-            say(_failures("Suite.read: ", left, len(found), "; they are left out"))
-        if vertical:
-            lines = grouped_reasons((one.file, one.reason) for one in vertical)
-            say(f"Suite.read: left out, because sliders move horizontally:{_listed(lines)}")
-        if alone:
-            lines = grouped_reasons((one.file, one.reason) for one in alone)
-            say(
-                f"Suite.read: {len(alone)} of {len(parts)} components fit no station and stay"
-                f" alone:{_listed(lines)}"
-            )
-        if equal := suite.duplicates:
-            sets = "; ".join(
-                " = ".join(Path(names[i]).name for i in places) for places in equal[:_SHOWN]
-            )
-            warnings.warn(
-                f"Suite.read: records that occur more than once: {len(equal)}: {printable(sets)}",
-                PlausibilityWarning,
-                stacklevel=2,
-            )
-        return suite
-
-    def save(self, file: str | os.PathLike[str]) -> Path:
-        """Write all motions and their metadata to one HDF5 file.
-
-        Parameters
-        ----------
-        file : path-like
-            Replaced whole or not at all.
-
-        Returns
-        -------
-        Path
-
-        Raises
-        ------
-        ImportError
-            h5py is missing: ``pip install stickslip[suites]``.
-        OSError
-            The file cannot be written.
-
-        Notes
-        -----
-        The file takes 8 bytes per sample. `acceleration` holds the samples of all motions one after
-        the other [m/s^2]; `first` the index at which each motion begins; `dt` the steps [s], or NaN
-        for motions whose times [s] are in `time`; `held` whether values are constant between
-        samples; `name` the names; `orientation` the directions of the axes; `transverse` and
-        `vertical` the other components of the motions for which `has_transverse` and
-        `has_vertical` are true; `metadata` the columns.
-        """
-        with creating(file, _FORMAT, "Suite.save") as h5:
-            sizes = [len(m) for m in self._motions]
-            write(h5, "first", np.concatenate([[0], np.cumsum(sizes)]))
-            write(h5, "acceleration", np.concatenate([m.acceleration for m in self._motions]))
-            write(h5, "dt", [math.nan if m.dt is None else m.dt for m in self._motions])
-            uneven = [m.time for m in self._motions if m.dt is None]
-            write(h5, "time", np.concatenate([[], *uneven]))
-            write(h5, "held", [m.interpolation == "constant" for m in self._motions])
-            write(h5, "name", np.array(self.names, object))
-            write(h5, "orientation", np.array([m.orientation for m in self], object))
-            for which in _OTHERS:
-                others = [getattr(m, which) for m in self]
-                write(h5, f"has_{which}", [one is not None for one in others])
-                write(h5, which, np.concatenate([[], *(one for one in others if one is not None)]))
-            write_columns(h5, "metadata", self._metadata)
-        return Path(file)
+    def _write(self, h5: Any) -> None:
+        sizes = [len(m) for m in self._motions]
+        write(h5, "first", np.concatenate([[0], np.cumsum(sizes)]))
+        write(h5, "acceleration", np.concatenate([m.acceleration for m in self._motions]))
+        write(h5, "dt", [math.nan if m.dt is None else m.dt for m in self._motions])
+        uneven = [m.time for m in self._motions if m.dt is None]
+        write(h5, "time", np.concatenate([[], *uneven]))
+        write(h5, "held", [m.interpolation == "constant" for m in self._motions])
+        write(h5, "name", np.array(self.names, object))
+        write(h5, "orientation", np.array([m.orientation for m in self], object))
+        for which in _OTHERS:
+            others = [getattr(m, which) for m in self]
+            write(h5, f"has_{which}", [one is not None for one in others])
+            write(h5, which, np.concatenate([[], *(one for one in others if one is not None)]))
+        write_columns(h5, "metadata", self._metadata)
 
     @classmethod
-    def open(cls, file: str | os.PathLike[str]) -> Suite:
-        """Open a saved suite.
-
-        Parameters
-        ----------
-        file : path-like
-
-        Returns
-        -------
-        Suite
-            Equal to the one that was saved, to the last bit. Older files, without checksums, are
-            read, too.
-
-        Raises
-        ------
-        ImportError
-            h5py is missing: ``pip install stickslip[suites]``.
-        OSError
-            The file is missing or cannot be read.
-        ValueError
-            The file is not a suite, or is damaged: a checksum differs, arrays have different
-            lengths, or one is a link.
-        """
-        with opening(file, (_FORMAT,), "Suite.open") as h5:
-            names = read(h5, "name").tolist()
-            count = (len(names),)
-            first, acceleration = read(h5, "first", (len(names) + 1,)), read(h5, "acceleration")
-            if first[0] != 0 or first[-1] != acceleration.size or (np.diff(first) < 0).any():
-                raise ValueError("'first' must rise from 0 to the number of samples")
-            dt, held = read(h5, "dt", count), read(h5, "held", count)
-            orientations = read(h5, "orientation", count)
-            others = {which: _Taken(which, read(h5, which)) for which in _OTHERS}
-            has = {which: read(h5, f"has_{which}", count) for which in _OTHERS}
-            times = _Taken("time", read(h5, "time"))
-            motions = []
-            for i, name in enumerate(names):
-                n = acceleration[first[i] : first[i + 1]]
-                about: dict[str, Any] = {
-                    "interpolation": "constant" if held[i] else "linear",
-                    "name": name,
-                    "orientation": orientations[i],
-                }
-                about |= {w: others[w].take(n.size) for w in _OTHERS if has[w][i]}
-                about |= {"times": times.take(n.size)} if math.isnan(dt[i]) else {"dt": dt[i]}
-                motions.append(_core._ground_motion(n, **about))
-            for part in (times, *others.values()):
-                part.require_used()
-            return cls(motions, read_columns(h5, "metadata", len(names)))
+    def _read(cls, h5: Any) -> Suite:
+        names = read(h5, "name").tolist()
+        count = (len(names),)
+        first, acceleration = read(h5, "first", (len(names) + 1,)), read(h5, "acceleration")
+        if first[0] != 0 or first[-1] != acceleration.size or (np.diff(first) < 0).any():
+            raise ValueError("'first' must rise from 0 to the number of samples")
+        dt, held = read(h5, "dt", count), read(h5, "held", count)
+        orientations = read(h5, "orientation", count)
+        others = {which: _Taken(which, read(h5, which)) for which in _OTHERS}
+        has = {which: read(h5, f"has_{which}", count) for which in _OTHERS}
+        times = _Taken("time", read(h5, "time"))
+        motions = []
+        for i, name in enumerate(names):
+            n = acceleration[first[i] : first[i + 1]]
+            about: dict[str, Any] = {
+                "interpolation": "constant" if held[i] else "linear",
+                "name": name,
+                "orientation": orientations[i],
+            }
+            about |= {w: others[w].take(n.size) for w in _OTHERS if has[w][i]}
+            about |= {"times": times.take(n.size)} if math.isnan(dt[i]) else {"dt": dt[i]}
+            motions.append(_core._ground_motion(n, **about))
+        for part in (times, *others.values()):
+            part.require_used()
+        return cls(motions, read_columns(h5, "metadata", len(names)))
 
 
 class _Taken:
@@ -750,71 +580,3 @@ class _Taken:
     def require_used(self) -> None:
         if self.used != self.values.size:
             raise ValueError(f"'{self.name}' must have {self.used} samples, has {self.values.size}")
-
-
-def _tried(
-    file: File, reading: Callable[[str], Reading], component: str | int | None, every: bool
-) -> list[Component] | Exception:
-    try:
-        return file.components(reading(file.shown), component, only_one=not every)
-    except (OSError, ValueError) as error:
-        return error
-
-
-def _files(source: Any) -> list[Path]:
-    """The files of a source, each once, sorted by name."""
-    if not isinstance(source, (str, os.PathLike)):
-        return list(dict.fromkeys(path for one in source for path in _files(one)))
-    files = expanded(source)
-    return (
-        [Path(os.fspath(source))] if files is None else files
-    )  # read_record says if it is missing
-
-
-def _shown_source(source: Any) -> str:
-    return f"'{os.fspath(source)}'" if isinstance(source, (str, os.PathLike)) else "the list"
-
-
-def _reason(error: Exception, path: str) -> str:
-    """The reason for an error, without the name of the file."""
-    if isinstance(error, OSError) and error.strerror:
-        return error.strerror
-    return str(error).removeprefix(f"read_record: {path}: ")
-
-
-def _failures(who: str, left: Sequence[LeftOut], total: int, end: str = "") -> str:
-    """A message about all files that could not be read, with a line for each reason."""
-    head = f"{who}cannot read {len(left)} of {total} files{end}:"
-    return head + _listed(grouped_reasons((one.file, one.reason) for one in left))
-
-
-def _listed(lines: Sequence[str]) -> str:
-    """One line, or several lines that follow a colon."""
-    if len(lines) == 1:
-        return f" {lines[0]}"
-    more = [f"and {len(lines) - _SHOWN} more reasons"] if len(lines) > _SHOWN else []
-    return "".join(f"\n  {line}" for line in [*lines[:_SHOWN], *more])
-
-
-def _vertical(part: Part, why: str = '; component="vertical" reads it') -> LeftOut:
-    return LeftOut(part.file, f"a vertical component ({part.component.motion.orientation}){why}")
-
-
-def _free_names(
-    suite: type, columns: Mapping[str, Any], every: bool = False
-) -> tuple[dict[str, Any], str]:
-    """Columns without the names of a suite's own quantities, and a sentence about those renamed.
-
-    With `every`, the names of its methods are replaced, too.
-    """
-    found: dict[str, Any] = {}
-    renamed = []
-    for name, values in columns.items():
-        taken = name in _QUANTITIES or (every and hasattr(suite, name))
-        new = f"{name}_given" if taken and f"{name}_given" not in columns else name
-        if new != name:
-            renamed.append(f"'{name}' to '{new}'")
-        found[new] = values
-    if not renamed:
-        return found, ""
-    return found, f"metadata renamed, because a suite has these names: {', '.join(renamed)}"

@@ -1,0 +1,1 @@
+"""What long runs have in common: parts on an executor, checkpoints, errors, progress."""
