@@ -433,7 +433,8 @@ def test_ctrl_c_ends_the_wait_for_a_large_file(tmp_path):
     file = tmp_path / "large.txt"
     file.write_text("0.001\n" * 1_600_000)
     code = (
-        "import _thread, ctypes, threading, stickslip as ss\nfrom stickslip.motions import records\n"
+        "import _thread, ctypes, threading, stickslip as ss\n"
+        "from stickslip.motions import records\n"
         "def endless(*arguments):\n"
         "    threading.Timer(0.05, _thread.interrupt_main).start()\n"
         "    ctypes.CDLL(None).sleep(600)\n"

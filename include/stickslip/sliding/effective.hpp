@@ -16,6 +16,7 @@
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/detail/load_history.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"

@@ -22,6 +22,7 @@
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/contact.hpp"
+#include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/detail/load_history.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/forces.hpp"

@@ -13,6 +13,7 @@
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
