@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/laws.hpp"
 #include "support/motions.hpp"
+#include "support/size.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -37,7 +38,8 @@ const std::vector<Named>& mountings() {
   return list;
 }
 
-GroundMotion ground(std::uint64_t seed, double vertical, std::size_t samples = 120) {
+GroundMotion ground(std::uint64_t seed, double vertical) {
+  const std::size_t samples = size(120, 30);
   std::vector<double> n = gaussian(seed, samples, 2, true);
   GroundMotion motion(n, 0.05);
   if (vertical == 0) return motion;
@@ -81,7 +83,10 @@ void for_each_slider(Work&& work) {
 
 TEST_CASE("what the ground does on a slider is dissipated, lost in impacts, or still there", "[axioms]") {
   for_each_slider([](const auto& example, const Named&, const auto& slider, const GroundMotion& motion) {
-    for (const bool settle : {false, true}) {
+    const auto far = resist(law_at(example.law, State{}), 1e3, 0.0, Direction::forward);
+    const Mounting& mounting = slider.mounting();
+    const bool rests = far > 0 || mounting.natural_frequency > 0 || mounting.stops;  // others may escape
+    for (const bool settle : {false, rests}) {
       const Response r = integrate(slider, motion, {.settle = settle, .may_end_in_flight = true});
       CHECK(r.peak > 1e-3);
       CHECK(r.energy.dissipated > 0);

@@ -55,7 +55,7 @@ TEST_CASE("a figure is the same on one thread and on three, and whatever was dra
   CHECK(thesis_csv(other.figure("4.5")) == thesis_csv(one.figure("4.5")));
 }
 
-TEST_CASE("the block of figures 4.4 to 4.7 moves as fast as an independent program has it") {
+TEST_CASE("the block of figures 4.4 to 4.7 moves as fast as an independent program has it", "[long]") {
   // 0.59675(21): 40,000 members by another program and generator; at Omega_1 = 20/pi^2, which is the point of x
   // = 2.026.
   Thesis thesis({.members = 20'000, .seed = 11});
@@ -68,7 +68,7 @@ TEST_CASE("the block of figures 4.4 to 4.7 moves as fast as an independent progr
   CHECK(std::abs(curve.y[at] - 0.59675) <= 5 * std::hypot(curve.error[at], 0.00021));
 }
 
-TEST_CASE("a number that is off is found out, and one that is right is let pass") {
+TEST_CASE("a number that is off is found out, and one that is right is let pass", "[long]") {
   Thesis thesis({.members = 2000, .seed = 2});
   for (const char* number : {"2.1", "4.4", "5.6"}) {
     ThesisFigure figure = thesis.figure(number);
@@ -81,7 +81,7 @@ TEST_CASE("a number that is off is found out, and one that is right is let pass"
   }
 }
 
-TEST_CASE("a figure that has lost a curve, a point or a statement does not hold, nor one with more of them") {
+TEST_CASE("a figure that has lost a curve, a point or a statement does not hold, nor one with more of them", "[long]") {
   Thesis thesis({.members = 1000, .seed = 2});
   // 4.6 has curves of 1000 members beside larger ones; 2.4 has folds alone to lose.
   for (const char* number : {"2.1", "2.4", "4.6"}) {
@@ -122,7 +122,7 @@ TEST_CASE("a figure that has lost a curve, a point or a statement does not hold,
   }
 }
 
-TEST_CASE("a number that is halved does not hold, but for those that are counted as loose") {
+TEST_CASE("a number that is halved does not hold, but for those that are counted as loose", "[long]") {
   // Each number is judged alone, so all of a figure can be halved at once. 3.3 has curves over six decades.
   Thesis thesis({.members = 2000, .seed = 2});
   for (const char* number : {"2.1", "2.4", "3.1", "3.2", "3.3", "4.1", "4.5", "5.3", "Table 5.1"}) {
@@ -205,7 +205,7 @@ TEST_CASE("a number that is infinite or none at all does not hold") {
   }
 }
 
-TEST_CASE("an ensemble that is the same size in every run is allowed the same error in every run") {
+TEST_CASE("an ensemble that is the same size in every run is allowed the same error in every run", "[long]") {
   // The first of the ensembles of 4.6 always has 1000 members; the second has the requested number.
   const auto allowed = [](std::uint64_t members, const char* curve) {
     double sum = 0;
@@ -251,7 +251,7 @@ TEST_CASE("an exception from the progress callback ends a figure") {
   CHECK_THROWS_WITH(thesis.figure("5.4"), ContainsSubstring("enough"));
 }
 
-TEST_CASE("the thesis's statements about errors are listed with our results") {
+TEST_CASE("the thesis's statements about errors are listed with our results", "[long]") {
   Thesis thesis({.members = 2000, .seed = 2});
   const auto said = [&](const char* number, const char* where, const char* claim) {
     const ThesisFigure figure = thesis.figure(number);

@@ -107,7 +107,8 @@ TEST_CASE("each member's derivative is that of sensitivity, on any number of thr
   }
 }
 
-TEST_CASE("derivatives of statistics are the limits of differences with the same seed", "[ensemble][sensitivity]") {
+TEST_CASE("derivatives of statistics are the limits of differences with the same seed",
+          "[ensemble][sensitivity][long]") {
   // A difference over 2 h is the mean of the derivative over that interval, which jumps where the order of events
   // changes. The midpoint rule of n panels is off by at most half a panel's variation in each, so by V / 2n of the
   // variation V in all; twice that, because V is taken from the points of the rule alone.

@@ -13,6 +13,7 @@
 #include "support/catch.hpp"
 #include "support/mean.hpp"
 #include "support/motions.hpp"
+#include "support/size.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -183,14 +184,19 @@ TEST_CASE("the acceleration is the sum of the acting pulses, at any time", "[poi
           const Pulses pulses = pulses_of(excitation, 5, member);
           std::vector<double> at;
           for (int i = 0; i < 50; ++i) at.push_back(std::uniform_real_distribution<>(0, 20)(bits));
-          for (std::size_t i = 0; i < motion.segments(); i += 7) at.push_back(motion.time(i));
+          for (std::size_t i = 0; i < motion.segments(); i += size(7, 70)) at.push_back(motion.time(i));
+          double worst = 0;  // error in roundings of the sum of magnitudes
+          bool silent = true;
           for (const double t : at) {
             const double n = motion.acceleration()[segment_at(motion, t)];
             const Direct sum = direct(excitation, pulses, t);
-            // Each product and the sum are rounded once, the errors of the rest are carried along.
-            REQUIRE(std::abs(static_cast<double>(n - sum.sum)) <= 1.01 * epsilon * static_cast<double>(sum.magnitude));
-            if (sum.acting == 0) REQUIRE(n == 0);
+            const double error = std::abs(static_cast<double>(n - sum.sum));
+            if (error > 0) worst = std::max(worst, error / (epsilon * static_cast<double>(sum.magnitude)));
+            if (sum.acting == 0) silent = silent && n == 0;
           }
+          CAPTURE(overlap, stationary, member);
+          CHECK(worst <= 1.01);  // each product and the sum are rounded once, the errors of the rest are carried along
+          CHECK(silent);
         }
       }
 }

@@ -82,7 +82,7 @@ TEST_CASE("margins follow the normal force and the spring", "[margins]") {
 
 TEST_CASE("margins under a harmonic motion are those of its crests", "[margins]") {
   CHECK(margins_of(Coulomb(1), HarmonicMotion(0.75, 3, 100)).load == Approx(0.25).epsilon(1e-13));
-  CHECK(margins_of(Coulomb(1, 0.8), HarmonicMotion(0.75, 3, 1e9, 1e9)).load == Approx(0.0625).epsilon(1e-12));
+  CHECK(margins_of(Coulomb(1, 0.8), HarmonicMotion(0.75, 3, 1e4, 1e4)).load == Approx(0.0625).epsilon(1e-12));
   // The first crest comes at once: it begins to slip with an excess of 0.25.
   CHECK(margins_of(Coulomb(1), HarmonicMotion(1.25, 3, 0.01)).load == Approx(0.25).epsilon(1e-13));
 }

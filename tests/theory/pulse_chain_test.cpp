@@ -251,7 +251,7 @@ TEST_CASE("moments from rest on follow an ensemble's", "[pulse_chain][statistics
   }
 }
 
-TEST_CASE("the displacement variance rises smoothly from rest, at twice the covariance", "[pulse_chain]") {
+TEST_CASE("the displacement variance rises smoothly from rest, at twice the covariance", "[pulse_chain][long]") {
   // A central difference over a kink of c is off by dt / 4 times the change of slope, which is below 2 c to a step.
   const double dt = 0.01;
   std::vector<double> times;
@@ -285,7 +285,8 @@ TEST_CASE("other pulses of equal steps, and other symmetric laws of amplitudes",
   check(PoissonPulses(0.5, 1, 6, 400, {.shape = three}), 10'000, 0.1);
 }
 
-TEST_CASE("levels and amplitudes that differ both ways: the mirror image has the mirrored mean", "[pulse_chain]") {
+TEST_CASE("levels and amplitudes that differ both ways: the mirror image has the mirrored mean",
+          "[pulse_chain][long]") {
   const std::vector<double> times = {0.5, 1.5, 3, 50, 400};
   const auto compare = [&](const Slider<Coulomb>& one, const Slider<Coulomb>& other, const PoissonPulses& pulses,
                            const PoissonPulses& mirrored) {
@@ -410,7 +411,7 @@ TEST_CASE("refined is within 10 % where slips are rarest", "[pulse_chain][statis
   }
 }
 
-TEST_CASE("the peak is that of a walk of slips", "[pulse_chain]") {
+TEST_CASE("the peak is that of a walk of slips", "[pulse_chain][long]") {
   // Rare slips go out farther than they end: a single pulse b = beta a takes the block to beta (beta - 1) / (beta + 1),
   // and back to (beta - 1) / (beta + 1) of that. The gamma-distributed lengths have 5 % of error. Many slips: Brownian
   // motion, to the 3 % that the grid and the way out add.
@@ -555,7 +556,7 @@ TEST_CASE("the distribution by the chain has the quantiles of an ensemble", "[pu
   }
 }
 
-TEST_CASE("PulseChain says where it does not hold", "[pulse_chain]") {
+TEST_CASE("PulseChain says where it does not hold", "[pulse_chain][long]") {
   CHECK(predict(1, 1).remark.empty());
   CHECK_THAT(predict(1, 0.25).remark, ContainsSubstring("below 0.3"));
   CHECK_THAT(predict(3, 0.4).remark, ContainsSubstring("below 0.5"));

@@ -422,7 +422,7 @@ TEST_CASE("casters that escape, and those that do not", "[pulse_superposition][s
     }
 }
 
-TEST_CASE("whether a caster escapes is asked of all the excitation, not of the times", "[pulse_superposition]") {
+TEST_CASE("whether a caster escapes is asked of all the excitation, not of the times", "[pulse_superposition][long]") {
   const Slider caster(Caster(1, 1));
   const PoissonPulses pulses(0.1, 1, 0.7, 3e4);
   for (const std::vector<double>& times :

@@ -100,10 +100,13 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
       const double shorter = found ? horizon_to_stop() : horizon_ / 2;
       if (found && !(shorter < horizon_)) return;
       if (!(shorter > 0x1p-200 * duration && shorter < horizon_)) break;
-      if (no_level_ && stays()) break;
+      if ((no_level_ || no_number_) && stays()) break;
       horizon_ = shorter;
     }
     if (no_level_) std::rethrow_exception(no_level_);
+    if (no_number_)
+      throw ConvergenceError("the resistance is not finite next to x = " + detail::shortest(state.displacement) +
+                             " m and a speed of " + detail::shortest(start.speed) + " m/s");
     throw ConvergenceError("friction changes too fast to be followed at x = " + detail::shortest(state.displacement) +
                            " m and a speed of " + detail::shortest(start.speed) +
                            " m/s: it must be a continuous function of both");
@@ -168,6 +171,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   // Compute the motion over the horizon. Returns false if the horizon must be shortened.
   bool solve() {
     no_level_ = nullptr;
+    no_number_ = false;
     try {
       return iterate();
     } catch (const NoLevel&) {
@@ -218,7 +222,8 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         terms = std::max(terms, std::abs(start_.acceleration) + std::abs(back) + std::abs(drag) + std::abs(force[i]));
         if (i == 0) continue;
         const double net = start_.acceleration + gain_.at(h, nodes.nodes[i]) - back - drag - (force[i] - force[0]);
-        if (!std::isfinite(net) || (sweep == 0 && h * std::abs(net - a[i]) > speed_limit)) return false;
+        no_number_ = !std::isfinite(net);
+        if (no_number_ || (sweep == 0 && h * std::abs(net - a[i]) > speed_limit)) return false;
         change = std::max(change, std::abs(net - a[i]));
         a[i] = net;
       }
@@ -275,6 +280,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   double heating_ = 0, stop_ = never;
   double level_here_ = 0;        // at the start, under the weight there [m/s^2]
   std::exception_ptr no_level_;  // of the last trial
+  bool no_number_ = false;       // whether it met a resistance that is not finite
 };
 
 /// Makes the flows of a slider by collocation.

@@ -88,6 +88,7 @@ struct SwingWork {
     if constexpr (!PositionLaw<Law> && !loaded) work += flow.friction_work(taken);
   }
   void dissipate(double done) requires loaded { work += done; }
+  void lose(double) requires loaded {}  // a stop is not in the loop
   void slide(const Slip& slip) {
     distance += slip.distance;
     if constexpr (PositionLaw<Law> && !loaded) work += friction_work(law, slip.from, slip.distance, slip.direction);

@@ -1,0 +1,15 @@
+// The size of a test: full, or small under sanitizers, which see the same code in less of it.
+#pragma once
+
+namespace test {
+
+template <class Size>
+constexpr Size size([[maybe_unused]] Size full, [[maybe_unused]] Size small) {
+#ifdef __SANITIZE_ADDRESS__
+  return small;
+#else
+  return full;
+#endif
+}
+
+}  // namespace test
