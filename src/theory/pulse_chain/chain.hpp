@@ -47,6 +47,8 @@ struct Passage {
   std::array<double, 2> displacement, square;
 };
 
+/// Its operator is our own: a node goes to four neighbors, by a table that all histories of batches of the same ground
+/// acceleration share, where a sparse matrix would store each transition.
 class Chain {
  public:
   Chain(const Slider<Coulomb>& block, const Steps& steps, const Arrivals& arrivals, int slots, bool drifting);
