@@ -123,7 +123,8 @@ Trial trial(const Densities& s, double half_width) {
 PulseFit fit(const Densities& s, double shortest_half, double longest_half, const std::string& range) {
   const double largest = *std::ranges::max_element(s.value);
   if (!(largest > 0)) throw std::invalid_argument("fit_pulses: the spectrum must not be zero everywhere");
-  // A grid finer than the structure of (5.6), and golden section about its best point.
+  // A grid finer than the structure of (5.6), and golden section about its best point: our own, because these few lines
+  // need neither the callback, the state nor the error codes of gsl_min_fminimizer.
   const int points = static_cast<int>(std::ceil(std::log(longest_half / shortest_half) / 0.04)) + 1;
   const double ratio = std::log(longest_half / shortest_half) / (points - 1);
   const auto gain = [&](double at) { return trial(s, shortest_half * std::exp(ratio * at)).gain(); };

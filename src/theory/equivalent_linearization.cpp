@@ -56,11 +56,9 @@ double growth_rate(const detail::LinearizedLaw& law, double natural_frequency, d
       return growth_rate(Coulomb(wheel->slip_level()), natural_frequency, s0, last, options);
     if (wheel->slip_level() * wheel->reach() * natural_frequency > pi * s0) return 0;
   }
-  if (const auto* const any = std::get_if<std::function<double(double, Direction)>>(&law); any != nullptr && last > 0) {
-    const double far = last * std::sqrt(s0 * last), level = (*any)(10 * far, Direction::forward);
-    if (level > 0 && std::abs((*any)(5 * far, Direction::forward) - level) <= 1e-12 * level)
-      return growth_rate(Coulomb(level), natural_frequency, s0, last, options);
-  }
+  if (std::holds_alternative<std::function<double(double, Direction)>>(law) && last > 0)
+    if (const auto level = detail::far_level(law, last * std::sqrt(s0 * last)); level && *level > 0)
+      return growth_rate(Coulomb(*level), natural_frequency, s0, last, options);
   return nowhere;
 }
 
@@ -220,7 +218,7 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
   const std::vector<detail::ShapedState> states = detail::solve_shaped(problem, times, progress).state;
   Moments moments = moments_of(times, states);
   try {
-    if (!noise.envelope()) moments.growth_rate.value = detail::solve_stationary(problem).growth_rate;
+    if (!noise.envelope()) moments.growth_rate.value = detail::late_growth(problem, times.empty() ? 0 : times.back());
   } catch (const std::invalid_argument&) {  // there is no stationary solution
   }
   double ratio = std::numeric_limits<double>::infinity();

@@ -196,6 +196,17 @@ Expectation expectation(const LinearizedLaw& law, Force force, double farthest) 
   return a21 ? whole : without_a21(whole);
 }
 
+std::optional<double> far_level(const LinearizedLaw& law, double distance) {
+  if (const auto* const wheel = std::get_if<Caster>(&law)) return std::isinf(wheel->reach()) ? wheel->slip_level() : 0;
+  const auto* const any = std::get_if<AnyLaw>(&law);
+  if (any == nullptr) return {};
+  if (const auto* const rolls = any->target<LevelOf<Caster>>())
+    return rolls->law.rolling() + (std::isinf(rolls->law.reach()) ? rolls->law.slip_level() : 0);
+  const double level = (*any)(10 * distance, Direction::forward);
+  if (!(std::abs((*any)(5 * distance, Direction::forward) - level) <= 1e-12 * level)) return {};
+  return level;
+}
+
 namespace {
 
 /// Constant levels under a Gaussian velocity of mean m and standard deviation s.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "stickslip/theory/equivalent_linearization.hpp"
 
@@ -22,6 +23,11 @@ using Expectation = std::function<Friction(double displacement, double c, double
 /// @throws std::invalid_argument if the law is not symmetric in direction, is negative or not finite, or if the force
 /// does not cover it
 Expectation expectation(const LinearizedLaw& law, theory::EquivalentLinearization::Force force, double farthest);
+
+/// The level far from x = 0 [m/s^2], if it is constant there: rolling resistance for a caster, for a law given as a
+/// function the value at 5 and 10 times a distance.
+/// @param distance  that the slider exceeds hardly ever [m]
+std::optional<double> far_level(const LinearizedLaw& law, double distance);
 
 /// Friction F = level(x) sgn(x') about the means of x and x': F = mean - a21 (x - E x) - a22 (x' - E x').
 struct MeanFriction {

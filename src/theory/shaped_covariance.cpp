@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -227,6 +228,11 @@ Course course(const std::optional<Envelope>& envelope) {
   return {{envelope->build_up(), envelope->build_up() + envelope->strong_duration()}, 1};
 }
 
+/// An upper bound of the rms velocity without friction; times the time, of the rms displacement.
+double frictionless_velocity(const System& system, double time) {
+  return std::isinf(system.acceleration_std) ? std::sqrt(system.intensity * time) : system.acceleration_std * time;
+}
+
 }  // namespace
 
 double motion_ratio(const ShapedProblem& problem) {
@@ -251,10 +257,8 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   solution.state.resize(times.size());
   if (last == 0) return solution;
 
-  // Without friction: upper bounds of velocity and displacement.
   const bool white = std::isinf(system.acceleration_std);
-  const double frictionless =
-      white ? std::sqrt(system.intensity * last) * changes.largest : system.acceleration_std * changes.largest * last;
+  const double frictionless = frictionless_velocity(system, last) * changes.largest;
   const AverageFriction friction(problem.law, problem.options.force, 10 * frictionless * last);
 
   // Scales of velocity and displacement, far below which they are negligible.
@@ -450,6 +454,27 @@ StationaryState solve_stationary(const ShapedProblem& problem) {
   if (std::abs(found.state.q12 * a(v, v)) < 1e-9 * q(v, v)) found.growth_rate = found.state.q12 = 0;  // round-off
   found.state.q11 = found.growth_rate > 0 ? infinity : std::numeric_limits<double>::quiet_NaN();
   return found;
+}
+
+double late_growth(const ShapedProblem& problem, double last) {
+  if (problem.natural_frequency > 0 || last == 0 || std::holds_alternative<Coulomb>(problem.law))
+    return solve_stationary(problem).growth_rate;
+  const double far = frictionless_velocity(System(problem), last) * last;
+  const auto level = far_level(problem.law, far);
+  if (!level) return solve_stationary(problem).growth_rate;
+  // Friction is a mean of levels: it holds a slider nowhere if the highest one does not.
+  double highest = *level;
+  if (const auto* const any = std::get_if<std::function<double(double, Direction)>>(&problem.law))
+    for (int i = 0; i < 256; ++i)
+      highest = std::max(highest, (*any)(i == 255 ? 0 : 10 * far * std::exp2(-i / 4.0), Direction::forward));
+  else
+    highest = std::get<Caster>(problem.law).slip_level();
+  const LinearizedLaw last_law = Coulomb(*level), highest_law = Coulomb(highest);
+  const auto with = [&](const LinearizedLaw& law) {
+    return ShapedProblem{law, 0, problem.damping, problem.noise, problem.filter, problem.options};
+  };
+  if (motion_ratio(with(highest_law)) > 1) return solve_stationary(with(last_law)).growth_rate;
+  return motion_ratio(problem) <= 1 ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace stickslip::detail

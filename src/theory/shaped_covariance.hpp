@@ -44,6 +44,12 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
 /// @throws std::invalid_argument where the velocity has no stationary solution, with the reason
 StationaryState solve_stationary(const ShapedProblem& problem);
 
+/// The growth rate of q11 [m^2/s] that a slider from rest approaches, NaN if it is not known: that of
+/// `solve_stationary`, or without a spring that of the level far away, once the slider is there.
+/// @param last  up to which time it is known how far the slider moves [s]
+/// @throws as solve_stationary
+double late_growth(const ShapedProblem& problem, double last);
+
 /// Ratio of the rms ground acceleration, at the maximum of the envelope, to that below which equivalent linearization
 /// predicts no motion; infinite for white noise and without friction.
 double motion_ratio(const ShapedProblem& problem);

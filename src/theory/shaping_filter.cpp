@@ -178,7 +178,8 @@ class Family {
   int sections_, zeros_;
 };
 
-/// Least squares of sqrt(S) by Levenberg and Marquardt, from the point given; the cost found.
+/// Least squares of sqrt(S) by Levenberg and Marquardt, from the point given; the cost found. Our own, because every
+/// step is kept within the bounds of the family and of the band, which GSL's gsl_multifit_nlinear cannot do.
 double improve(const Family& family, const Grid& grid, const Band& band, Vector& p) {
   const auto count = static_cast<Eigen::Index>(grid.size());
   const int n = family.dimension();

@@ -19,8 +19,8 @@ using Complex = std::complex<double>;
 /// f(1) of a Laplace transform that is analytic off the negative real axis: the trapezoidal rule on Weideman's contour,
 /// a cotangent whose parameters are the best for such. Its error falls as exp(-1.36 n), n the nodes of both halves; e^z
 /// is 240 at most, so that round-off stays near 1e-14.
-template <std::size_t figures, class Transform>
-std::array<double, figures> inverted(Transform&& transform) {
+template <std::size_t count, class Transform>
+std::array<double, count> inverted(Transform&& transform) {
   constexpr int nodes = 32;
   struct Node {
     Complex place, weight;
@@ -36,10 +36,10 @@ std::array<double, figures> inverted(Transform&& transform) {
     }
     return all;
   }();
-  std::array<double, figures> sums{};
+  std::array<double, count> sums{};
   for (const Node& node : contour) {
-    const std::array<Complex, figures> values = transform(node.place);
-    for (std::size_t i = 0; i < figures; ++i)
+    const std::array<Complex, count> values = transform(node.place);
+    for (std::size_t i = 0; i < count; ++i)
       sums[i] += node.weight.real() * values[i].real() - node.weight.imag() * values[i].imag();
   }
   return sums;
@@ -73,7 +73,7 @@ struct Units {
   static double level(double a, double s0, double time) { return a / std::sqrt(pi * s0) * std::sqrt(time); }
 };
 
-struct Figures {
+struct FromRest {
   double velocity_mean, velocity_square, displacement_mean, covariance, displacement_variance;
 };
 
@@ -82,7 +82,7 @@ struct Figures {
 //     z p = (sgn(v) a p)' + p'' + delta(v),   z g = (sgn(v) a g)' + g'' + (v - m) p
 // with p and g and their fluxes continuous at v = 0. m is the late drift, so that E[y^2] is not the small difference of
 // two squares; early on it is nothing.
-Figures from_rest(double a, double b) {
+FromRest from_rest(double a, double b) {
   const bool late = a > 1 && b > 1;
   const double drift = late ? 1 / a - 1 / b : 0;
   const auto f = inverted<5>([&](Complex z) {
@@ -187,7 +187,7 @@ double WhiteNoise::absolute_moment(int order, double time) const {
   detail::require(std::isfinite(time) && time >= 0, "WhiteNoise: time must be finite and at least 0", time, "s");
   if (time == 0) return 0;
   const Units units(law_, s0_, time);
-  const double figure = inverted<1>([&](Complex z) {
+  const double relative = inverted<1>([&](Complex z) {
     const Complex up = Side(units.forward, z).length, down = Side(units.backward, z).length;
     Complex p = up, q = down;
     for (int i = 1; i <= order; ++i) {
@@ -196,7 +196,7 @@ double WhiteNoise::absolute_moment(int order, double time) const {
     }
     return std::array<Complex, 1>{(p + q) / (z * (up + down))};
   })[0];
-  const double moment = figure * std::pow(units.velocity, order);
+  const double moment = relative * std::pow(units.velocity, order);
   detail::check_range("WhiteNoise", time, moment);
   return moment;
 }
@@ -207,7 +207,7 @@ Moments WhiteNoise::predict(std::span<const double> times) const {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] == 0) continue;
     const Units units(law_, s0_, times[i]);
-    const Figures f = from_rest(units.forward, units.backward);
+    const FromRest f = from_rest(units.forward, units.backward);
     const double v = units.velocity, x = v * times[i];
     const bool even = law_.forward() == law_.backward();
     moments.velocity_mean.value[i] = even ? 0 : v * f.velocity_mean;
@@ -215,9 +215,9 @@ Moments WhiteNoise::predict(std::span<const double> times) const {
     moments.velocity_variance.value[i] = v * (v * (f.velocity_square - f.velocity_mean * f.velocity_mean));
     moments.covariance.value[i] = x * (v * f.covariance);
     moments.displacement_variance.value[i] = x * (x * f.displacement_variance);
-    for (const Estimates* figure : {&moments.displacement_mean, &moments.displacement_variance, &moments.covariance,
+    for (const Estimates* moment : {&moments.displacement_mean, &moments.displacement_variance, &moments.covariance,
                                     &moments.velocity_mean, &moments.velocity_variance})
-      detail::check_range("WhiteNoise", times[i], figure->value[i]);
+      detail::check_range("WhiteNoise", times[i], moment->value[i]);
   }
   if (law_.forward() > 0 && law_.backward() > 0) moments.growth_rate.value = growth_rate();
   return moments;

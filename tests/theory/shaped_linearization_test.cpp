@@ -34,6 +34,16 @@ double relative(double found, double value) { return std::abs(found / value - 1)
 const EquivalentLinearization by_gauss, by_laplace({.force = Force::laplace}), by_thesis({.force = Force::thesis});
 const Spectrum soil = Spectrum::kanai_tajimi(0.02, 15, 0.6), ground = Spectrum::clough_penzien(0.02, 15, 0.6, 1.5, 0.7);
 
+/// A level with a ridge beside x = 0, symmetric.
+struct Ridge {
+  double level, height;
+  template <class T>
+  auto resist(const T& x, Direction) const {
+    using std::exp;
+    return level + height * (x * x) * exp(-(x * x));
+  }
+};
+
 /// Largest relative distance of the second moments; that of the covariance in units of the two variances.
 double apart(const Moments& a, const Moments& b) {
   double largest = 0;
@@ -288,6 +298,40 @@ TEST_CASE("there is no stationary solution where nothing holds the motion", "[sh
   CHECK(late.growth_rate.value == 0);
   CHECK(std::isnan(late.displacement_variance.value[0]));
   CHECK_THAT(late.remark, ContainsSubstring("without a spring the displacement has no stationary variance"));
+}
+
+TEST_CASE("a caster with rolling resistance grows at last as Coulomb friction of that level",
+          "[shaped_linearization]") {
+  const std::vector<double> times = {2e3, 4e3};
+  const auto found = [&](const auto& slider, const Spectrum& spectrum) {
+    return by_gauss.predict(slider, spectrum, times);
+  };
+  for (const Spectrum& spectrum : {soil, Spectrum::white(0.02)}) {
+    const Moments m = found(Slider(Caster(0.6, 1e-3, 0.3)), spectrum);
+    const double rate = m.growth_rate.value;
+    CAPTURE(spectrum.configuration());
+    CHECK(relative(rate, StationaryLinearization().predict(Slider(Coulomb(0.3)), spectrum).growth_rate) < 1e-8);
+    CHECK(relative((m.displacement_variance.value[1] - m.displacement_variance.value[0]) / 2e3, rate) < 0.02);
+    // The first second suffices to know it.
+    CHECK(by_gauss.predict(Caster(0.6, 1e-3, 0.3), spectrum, std::array<double, 1>{1}).growth_rate.value == rate);
+  }
+  CHECK(by_gauss.predict(Caster(0.6, 300, 0.3), 0.02, std::array<double, 1>{1}).growth_rate.value ==
+        by_gauss.predict(Coulomb(0.3), 0.02, std::array<double, 1>{1}).growth_rate.value);
+  // With a damper, also where no friction is left.
+  for (const double rolling : {0.0, 0.3}) {
+    const Moments m = found(Slider(Caster(0.4, 1e-3, rolling), 0.0, 0.5), soil);
+    const double growth = m.displacement_variance.value[1] - m.displacement_variance.value[0];
+    CAPTURE(rolling);
+    CHECK(relative(growth / 2e3, m.growth_rate.value) < 0.02);
+  }
+  // Held at the start it remains there, although it could roll.
+  const Moments held = found(Slider(Caster(3, 0.1, 0.1)), soil);
+  CHECK(held.growth_rate.value == 0);
+  CHECK(held.displacement_variance.value == std::vector<double>{0, 0});
+  // The same for any law that is constant far away, unless a ridge on the way might hold the slider.
+  const auto far = [&](double ridge) { return found(Slider(Ridge{0.3, ridge}), soil).growth_rate.value; };
+  CHECK(relative(far(0.1), found(Slider(Coulomb(0.3)), soil).growth_rate.value) < 1e-10);
+  CHECK(std::isnan(far(6)));
 }
 
 TEST_CASE("below the threshold of motion nothing moves", "[shaped_linearization]") {

@@ -23,6 +23,13 @@ namespace stickslip::detail {
 /// it has closed forms, or the level of any other law.
 using LinearizedLaw = std::variant<Coulomb, Caster, std::function<double(double, Direction)>>;
 
+/// The level of a law, which keeps its type: the library recognizes a caster with rolling resistance by it.
+template <PositionLaw Law>
+struct LevelOf {
+  Law law;
+  double operator()(double x, Direction direction) const { return law.resist(x, direction); }
+};
+
 template <PositionLaw Law>
 LinearizedLaw linearized_law(const Law& law) {
   if constexpr (std::same_as<Law, Coulomb>) {
@@ -30,7 +37,7 @@ LinearizedLaw linearized_law(const Law& law) {
   } else {
     if constexpr (std::same_as<Law, Caster>)
       if (equal(law.rolling(), 0)) return law;
-    return [law](double x, Direction direction) -> double { return law.resist(x, direction); };
+    return LevelOf<Law>{law};
   }
 }
 
@@ -133,8 +140,10 @@ class EquivalentLinearization {
   /// @param times      [s], finite, at least 0, increasing
   /// @param progress  called every thousand steps; may throw to stop the work; optional
   /// @returns also the growth rate if the velocity becomes stationary: pi^5 S0^3 / (2 a^4) for Coulomb friction under
-  /// white noise, (3.47), and 0 with a spring; NaN if the velocity does not become stationary, under an envelope, and
-  /// for other laws. The remark states the misfit of a filter that is not exact
+  /// white noise, (3.47), and 0 with a spring. Without a spring, a law that is constant far away, such as that of a
+  /// caster with rolling resistance, has the growth rate of Coulomb friction with that level, or 0 if friction holds
+  /// the slider at x = 0. NaN if the velocity does not become stationary, under an envelope, and for other laws. The
+  /// remark states the misfit of a filter that is not exact
   /// @throws std::invalid_argument for times out of range, a law that is not symmetric, a case that the force does not
   /// cover, and a spectrum that no filter of the given order fits, with its misfit
   /// @throws ConvergenceError with the time reached, if the tolerance cannot be met
