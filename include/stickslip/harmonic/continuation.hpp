@@ -301,12 +301,12 @@ OrbitBranch continuation(const Slider<Law>& slider, const Orbit& from, double lo
   OrbitBranch falling = follower.follow(start, -1), rising = follower.follow(start, 1), branch;
   const std::size_t before = falling.orbits.size();
   for (const std::size_t fold : falling.folds) branch.folds.push_back(before - 1 - fold);
-  std::ranges::reverse(branch.folds);
+  std::reverse(branch.folds.begin(), branch.folds.end());
   branch.orbits.assign(std::make_move_iterator(falling.orbits.rbegin()),
                        std::make_move_iterator(falling.orbits.rend()));
   branch.orbits.push_back(start);
   for (const std::size_t fold : rising.folds) branch.folds.push_back(before + 1 + fold);
-  std::ranges::move(rising.orbits, std::back_inserter(branch.orbits));
+  std::move(rising.orbits.begin(), rising.orbits.end(), std::back_inserter(branch.orbits));
   for (Orbit& orbit : branch.orbits) orbit = detail::moved(std::move(orbit), balanced.center);
   return branch;
 }

@@ -169,7 +169,8 @@ class OrbitFinder {
     orbit.dissipated = recorder.dissipated;
     orbit.events = std::move(recorder.events);
     for (Event& e : orbit.events) e.time = cycle_part((begin + e.time) / period) * period;
-    std::ranges::stable_sort(orbit.events, {}, &Event::time);
+    std::stable_sort(orbit.events.begin(), orbit.events.end(),
+                     [](const Event& a, const Event& b) { return a.time < b.time; });
     double low = infinity, high = -infinity, time = 0;
     for (const Event& e : orbit.events) {
       orbit.stops_per_cycle += e.kind == EventKind::arrest;
@@ -224,7 +225,7 @@ class OrbitFinder {
       if (equal(slider_.stiffness(), 0)) return {with_stops()};
     }
     search(found, progress);
-    std::ranges::sort(found, {}, &Orbit::amplitude);
+    std::sort(found.begin(), found.end(), [](const Orbit& a, const Orbit& b) { return a.amplitude < b.amplitude; });
     return found;
   }
 
@@ -433,7 +434,7 @@ class OrbitFinder {
                                     std::abs(other.state.velocity - orbit.state.velocity) / omega_);
       return apart <= 1e-6 * orbit.amplitude;
     };
-    if (orbit.amplitude > 0 && std::ranges::none_of(found, same)) found.push_back(orbit);
+    if (orbit.amplitude > 0 && std::none_of(found.begin(), found.end(), same)) found.push_back(orbit);
   } catch (const ConvergenceError&) {  // Newton's method left the range that can be computed
   }
 
@@ -569,7 +570,7 @@ std::vector<State> states_at(const Slider<Law>& slider, const Orbit& orbit, cons
     const double phase = motion.phase(times[i]);
     phases.emplace_back(phase < 0 ? phase + 2 * std::numbers::pi : phase, i);
   }
-  std::ranges::sort(phases);
+  std::sort(phases.begin(), phases.end());
   detail::with_finder(slider, orbit.load, orbit.omega, [&](const auto& finder) {
     State state = orbit.state;
     double now = 0;
