@@ -1,4 +1,4 @@
-// The size of a test: full, or small under sanitizers, which see the same code in less of it.
+// The size of a test: full, or small under sanitizers, which run the same code on fewer cases.
 #pragma once
 
 namespace test {
