@@ -41,6 +41,13 @@ struct Broken {
   static constexpr bool numeric = true;
   double resist(double, double speed, Direction) const { return speed > 0.05 ? not_a_number : 1; }
 };
+/// Smooth in the displacement and in the speed.
+struct Smooth {
+  static constexpr bool numeric = true;
+  double resist(double x, double speed, Direction) const {
+    return (1 + 0.3 * std::tanh(10 * x)) * (1 - 0.3 * std::tanh(5 * speed));
+  }
+};
 
 const VelocityDependent liner(0.3, 0.6, 50), weakening(0.9, 0.4, 20);
 const Stribeck stribeck(0.8, 0.4, 0.05, 2);
@@ -209,4 +216,19 @@ TEST_CASE("where the motion itself leaves a law by its numbers, its exception is
                   InvalidLevel);
   CHECK(state.displacement == before.displacement);
   CHECK(state.velocity == before.velocity);
+}
+
+TEST_CASE("a step from rest need not grow because its forces are rounded", "[collocation]") {
+  // At breakaway the net acceleration is zero. Over a short step it stays below round-off of the load and the level.
+  const Slider<Smooth> slider{Smooth{}};
+  const detail::BareState state(State::at(0.02, 0));
+  const double level = slider.law().resist(0.02, 0, Direction::forward);
+  for (const double weight_gained : {0.0, 0.3, -0.3})
+    for (double longest = 1e-2; longest > 1e-14; longest /= 4) {
+      CAPTURE(longest, weight_gained);
+      const LoadStart start{{0, 0, 2 - level * weight_gained}, 2, 0.9, weight_gained, level};
+      detail::Cooling cooling;
+      const CollocationFlow<Smooth, LoadStart> flow(slider, Direction::forward, state, start, 0.1, longest, cooling);
+      CHECK(flow.horizon() == longest);
+    }
 }

@@ -59,10 +59,10 @@ class Cooling {
 /// of degree 8 in time that satisfies, at nine Chebyshev points of the step,
 ///     d'' = a + g(t) - wn^2 d - c (d' - u) - [w resist(x0 +- d, d') - w0 resist(x0, u)],   thesis (2.27), (2.50)
 /// with the terms of TaylorFlow. It is found by iteration. The step (the horizon) is shortened until the last
-/// coefficients of the acceleration contribute at most 1e-11 of the speed (1e-8 with temperature), and until the step
-/// ends shortly after a stop. After the stop the speed is negative; there the resistance is continued to be odd about
-/// its value at zero speed. A step that leaves the range of speeds possible in it, or in which the law has no level, is
-/// shortened too.
+/// coefficients of the acceleration contribute at most 1e-11 of the speed (1e-8 with temperature), or are round-off of
+/// the forces, and until the step ends shortly after a stop. After the stop the speed is negative; there the resistance
+/// is continued to be odd about its value at zero speed. A step that leaves the range of speeds possible in it, or in
+/// which the law has no level, is shortened too.
 ///
 /// Frictional heat generated within the step affects the step itself: its half-integral is a matrix times the heat at
 /// the nodes.
@@ -196,7 +196,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
     };
     // No force of this step makes the slider faster; a spring, up to four times as fast over `longest_trial`.
     const double speed_limit = 4 * (start_.speed + gain_of_speed());
-    double fastest = 0, change = 0;
+    double fastest = 0, change = 0, least = 0;  // the round-off of the terms of the acceleration
     for (int sweep = 0;; ++sweep) {
       const double previous = change;
       double terms = 0;
@@ -227,8 +227,9 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
         change = std::max(change, std::abs(net - a[i]));
         a[i] = net;
       }
+      least = 4 * round_off * terms;
       // The next change would be smaller by the ratio of this change to the previous one.
-      if (sweep > 0 && (h * change * change <= convergence * fastest * previous || change <= 4 * round_off * terms))
+      if (sweep > 0 && (h * change * change <= convergence * fastest * previous || change <= least))
         break;
       if (sweep > 3 && change > previous / 2) return false;
       if (sweep == 60) return false;
@@ -239,7 +240,8 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
       return round_off * largest;
     };
     const Values c = nodes.chebyshev(a);
-    if (h * (std::abs(c[n - 1]) + std::abs(c[n - 2])) > tolerance * fastest) return false;
+    const double last = std::abs(c[n - 1]) + std::abs(c[n - 2]);
+    if (h * last > tolerance * fastest && last > least) return false;
     Values coefficients;
     const int degree = Nodes::powers(c, noise(a), coefficients);
     coefficients[0] = start_.acceleration;
