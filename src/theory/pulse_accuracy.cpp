@@ -13,7 +13,8 @@ const PulseAccuracy& pulse_accuracy() {
       .near_levels =
           "Where slip levels differ by less than a third, the refined drift is off by up to 27 % at a difference of a "
           "tenth and 39 % at a twentieth, because the second level is then not a node of the lattice; the plain chain "
-          "is within 12 % and 20 %.",
+          "is within 12 % and 20 %. Smaller differences were not measured: the drift is then a small difference of "
+          "large numbers.",
       .distribution =
           "The error of a probability is below 0.03 for sigma / a from 1/2 to 20 (refined: from 1/3 on), and "
           "below 0.07 at 1/4 and 1/5 if refined, for lambda dt from 0.05 to 2 at 10, 40 and 160 dt; it is "

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/digits.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/numerics/root.hpp"
@@ -20,6 +21,7 @@
 namespace stickslip::theory {
 namespace {
 
+using detail::digits;
 using detail::refuse;
 using detail::require;
 using detail::shortest;
@@ -601,23 +603,23 @@ Moments PulseSuperposition::predict(const detail::PulseSystem& system, const Poi
     moments.growth_rate = {rest.growth, 0};
     if (widest > reach / 2)
       remark(moments, "The displacement is no longer small against the distance over which the slip level halves, " +
-                          shortest(reach) + " m: it is not Gaussian, as is assumed.");
+                          digits(reach) + " m: it is not Gaussian, as is assumed.");
   }
 
   if (rest.velocity_square == 0 && sigma > 0) {
     const double level = std::min(system.level(0, Direction::forward), system.level(0, Direction::backward));
-    remark(moments, "Nothing slips: the slip level, " + shortest(level) +
+    remark(moments, "Nothing slips: the slip level, " + digits(level) +
                         " m/s^2, is never exceeded by a pulse whose chance a double can hold.");
   }
   if (rest.lost > 0)
-    remark(moments, "Left out: pulses that carry the slider off for good, " + shortest(rest.lost / per_composite) +
+    remark(moments, "Left out: pulses that carry the slider off for good, " + digits(rest.lost / per_composite) +
                         " of all or less.");
   if (overlap > 1)
     remark(moments,
-           "Pulses overlap much, rate x half_width = " + shortest(overlap) + ": superposition was never right here.");
+           "Pulses overlap much, rate x half_width = " + digits(overlap) + ": superposition was never right here.");
   const double early = 40 * dt;  // there a straight line from the origin is off by 3 % without friction
   if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < early; }); n > 0)
-    remark(moments, std::to_string(n) + " of the times " + (n == 1 ? "is" : "are") + " below " + shortest(early) +
+    remark(moments, std::to_string(n) + " of the times " + (n == 1 ? "is" : "are") + " below " + digits(early) +
                         " s, 40 half widths: too short for (5.39), which takes the velocity for stationary and the "
                         "offsets for all there is; from_rest has no such bound under Coulomb friction.");
   return moments;

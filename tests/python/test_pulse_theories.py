@@ -252,6 +252,9 @@ def test_remarks_docstrings_and_pages_state_the_same_errors():
     near = ss.Coulomb(slip_level=1, backward=1.1)
     both = ss.PoissonPulses(rate=0.5, half_width=1, sigma=1, duration=100)
     assert chain.predict(near, both, [100]).remark == ""
+    nearer = ss.Coulomb(slip_level=1, backward=1.05)
+    assert quoted(chain.predict(nearer, both, [100]).remark, page)
+    assert "20 %" in chain.distribution(nearer, both, 100).remark
     remark = refined.predict(near, both, [100]).remark
     assert "27 % at a difference of a tenth" in remark
     assert quoted(remark, page)

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "base/digits.hpp"
 #include "stickslip/error.hpp"
 #include "theory/pulse_chain/chain.hpp"
 #include "theory/pulse_chain/growth.hpp"
@@ -19,6 +20,7 @@ namespace stickslip::theory {
 namespace {
 
 using namespace detail::pulse_chain;
+using detail::digits;
 using detail::require;
 using detail::shortest;
 
@@ -26,12 +28,12 @@ void append(std::string& text, const std::string& sentence) { text += (text.empt
 
 void remark(Moments& moments, const std::string& sentence) { append(moments.remark, sentence); }
 
-std::string strength_text(double sigma) { return "sigma / slip level = " + shortest(std::round(sigma * 1e4) / 1e4); }
+std::string strength_text(double sigma) { return "sigma / slip level = " + digits(sigma); }
 
-/// Whether the levels differ by less than a third.
-bool nearly_equal(const Coulomb& law) {
+/// Whether the levels differ by so little that the drift is off: by a third if refined, else by a tenth.
+bool nearly_equal(const Coulomb& law, bool two_slots) {
   const double ratio = std::max(law.forward(), law.backward()) / std::min(law.forward(), law.backward());
-  return ratio > 1 && ratio < 4.0 / 3;
+  return ratio > 1 && ratio < (two_slots ? 4.0 / 3 : 1.1 - 1e-9);
 }
 
 /// Parameters for which no error was measured.
@@ -44,7 +46,7 @@ std::string range_remark(const Problem& problem, const PoissonOptions& options) 
         "Slip levels or amplitudes that differ both ways were tried for sigma / slip level from 1/3 on and up to two "
         "pulses to a step only.");
   if (arrivals.rate > 4)
-    append(text, shortest(arrivals.rate) + " pulses to a step of the pulse: nothing was tried above 4.");
+    append(text, digits(arrivals.rate) + " pulses to a step of the pulse: nothing was tried above 4.");
   if (sigma < 0.125) append(text, strength_text(sigma) + ": nothing was tried below 0.125.");
   if (options.shape.values().size() != 2 || options.quantile)
     append(text, "Errors were measured for the symmetric rectangular pulse and Gaussian amplitudes only.");
@@ -119,7 +121,7 @@ DisplacementDistribution PulseChain::distribution(const Slider<Coulomb>& slider,
     const bool two = two_slots(problem.sigma, refined_);
     if (problem.sigma < (two ? 0.2 : 1.0 / 3) - 1e-9)
       append(text, strength_text(problem.sigma) + ". " + detail::pulse_accuracy().weakest);
-    if (two && nearly_equal(problem.block.law())) append(text, detail::pulse_accuracy().near_levels);
+    if (nearly_equal(problem.block.law(), two)) append(text, detail::pulse_accuracy().near_levels);
   }
   return DisplacementDistribution(slips_of(problem, time, refined_, progress), text);
 }
@@ -140,9 +142,9 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     e->error.assign(count, 0);
   }
   if (sigma < weakest) {
-    remark(moments, "Nothing slips: the slip level is " + shortest(1 / sigma) +
-                        " times sigma, and the chance that the ground's acceleration exceeds it is " +
-                        shortest(chance) + ".");
+    remark(moments, "Nothing slips: the slip level is " + digits(1 / sigma) +
+                        " times sigma, and the chance that the ground's acceleration exceeds it is " + digits(chance) +
+                        ".");
     return moments;
   }
 
@@ -164,12 +166,12 @@ Moments PulseChain::predict(const Slider<Coulomb>& slider, const PoissonPulses& 
     remark(moments, strength_text(sigma) + " is below 0.3. " + detail::pulse_accuracy().weak);
   else if (!two && sigma < 0.5 && arrivals.rate > 2)
     remark(moments, strength_text(sigma) + " is below 0.5, with more than two pulses to a step: refined is needed.");
-  if (two && nearly_equal(block.law())) remark(moments, detail::pulse_accuracy().near_levels);
+  if (nearly_equal(block.law(), two)) remark(moments, detail::pulse_accuracy().near_levels);
   const double length = options.shape.length() * pulses.half_width();
   if (const auto n = std::ranges::count_if(times, [&](double t) { return t > 0 && t < length; });
       n > 0 && (sigma < 0.5 || arrivals.rate > 2))
     remark(moments,
-           std::to_string(n) + " of the times " + (n == 1 ? "is" : "are") + " below " + shortest(length) +
+           std::to_string(n) + " of the times " + (n == 1 ? "is" : "are") + " below " + digits(length) +
                " s, the length of a pulse: with sigma / slip level below 0.5 or more than two pulses to a step "
                "simulations differ there by up to a factor of 2.4.");
   if (options.stationary_start)
