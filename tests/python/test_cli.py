@@ -341,10 +341,18 @@ def test_the_vertical_component_of_a_station_acts(capsys, station):
         r = ss.integrate(ss.Coulomb(mu=0.1), motion, settle=True, contact=contact)
         assert (row["peak_m"], row["residual_m"]) == (r.peak, r.residual)
         assert (row["contact"], row["components"]) == (contact, "axis + vertical")
+        assert row["liftoffs"] == (r.events["kind"] == "liftoff").sum()
+        assert (row["liftoffs"] > 0) == (contact == "flight")
+        main(["slide", str(station), "--station", "--mu", "0.1", "--contact", contact])
+        line = capsys.readouterr().out.splitlines()[-1]
+        leaves = 1 if contact == "flight" else 0
+        assert line == (
+            f"(vertical motion acts in all of 1 rows; the slider leaves the ground in {leaves})"
+        )
         answers.append(row["peak_m"])
     assert answers[0] != answers[1]
     (row,) = results(capsys, station, "--component", "NS", "--mu", 0.1)
-    assert row["components"] == "axis"
+    assert (row["components"], row["liftoffs"]) == ("axis", None)
     (row,) = results(capsys, station, "--station", "--component", 30, "--mu", 0.1)
     r = ss.integrate(ss.Coulomb(mu=0.1), ss.read_station(station, along=30), settle=True)
     assert row["peak_m"] == r.peak

@@ -435,7 +435,18 @@ def test_a_trace_becomes_a_motion():
 
 
 @pytest.mark.parametrize(
-    "channel, orientation", [("HNZ", "up"), ("HNN", "N"), ("HNE", "E"), ("HN1", ""), ("", "")]
+    "channel, orientation",
+    [
+        ("HNZ", "up"),
+        ("HNN", "N"),
+        ("HNE", "E"),
+        ("HN1", ""),
+        ("", ""),
+        ("UD", "up"),
+        ("NS1", "N"),
+        ("EW2", "E"),
+        ("EW3", ""),
+    ],
 )
 def test_the_channel_of_a_trace_states_its_orientation(channel, orientation):
     trace = Trace()

@@ -199,8 +199,9 @@ Parameters
 trace : obspy.Trace or obspy.Stream
     One component of acceleration, not in counts: remove the response of the instrument first, as with
     `trace.remove_response(output="ACC")`. The samples are copied and must have no gaps. The last letter of a channel
-    code of three letters is the orientation: N, E, or Z for up. A stream of one trace is that trace. A stream of several
-    holds the components of one station, as for `read_station`; the axis is the first horizontal component.
+    code of three letters is the orientation: N, E, or Z for up; so are the codes NS, EW and UD. A stream of one trace
+    is that trace. A stream of several holds the components of one station, as for `read_station`; the axis is the first
+    horizontal component.
 units : str, optional
     Unit of the samples, as for the constructor. ObsPy does not state it; `remove_response` returns m/s^2.
 name : str, optional

@@ -193,9 +193,17 @@ def _row(
         "sliding_distance_m": response.sliding_distance,
         "time_sliding_s": response.time_sliding,
         "slips": response.slips,
+        "liftoffs": _liftoffs(response),
         **_impacts(response),
         "at_rest": response.at_rest,
     }
+
+
+def _liftoffs(response: Response) -> int | None:
+    """How often the slider left the ground; None without vertical motion."""
+    if "vertical" not in response.components:  # and no array is made, which would import NumPy
+        return None
+    return int((response.events["kind"] == "liftoff").sum())
 
 
 def _impacts(response: Response) -> dict[str, Any]:
@@ -280,6 +288,12 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
             f"{'' if row['at_rest'] else '  never rests: at end of record'}"
         )
         last = this
+    if acts := [row["liftoffs"] for row in rows if row["liftoffs"] is not None]:
+        which = "all" if len(acts) == len(rows) else f"{len(acts)}"
+        yield (
+            f"(vertical motion acts in {which} of {len(rows)} rows; the slider leaves the ground in"
+            f" {sum(count > 0 for count in acts)})"
+        )
 
 
 def _hits(row: dict[str, Any]) -> str:

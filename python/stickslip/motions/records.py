@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import threading
 from collections.abc import Callable, Iterable, Sequence
 from operator import index
@@ -177,8 +178,8 @@ def read_station(
         One file with all components, or several files, each as for `read_record`. An archive of
         several files represents all of them. Together they hold one or two horizontal components
         and at most one vertical component. The traces of a stream are components of acceleration
-        without gaps, in `units` (default: m/s^2); the last letter of each channel, N, E or Z, is
-        its orientation.
+        without gaps, in `units` (default: m/s^2); the last letter of each channel, N, E or Z, or
+        the channel NS, EW or UD of the Japanese networks, is its orientation.
     along : str or float, optional
         Direction of the axis: the name or orientation of a horizontal component, or any azimuth
         [degrees clockwise from north]. Default: the first horizontal component.
@@ -548,7 +549,10 @@ def changed(motion: GroundMotion, **about: Any) -> GroundMotion:
 
 
 def _orientation_of_channel(code: str) -> str:
-    """The orientation that a SEED channel code states, such as HNZ; empty if it states none."""
+    """The orientation that a channel code states, of SEED (HNZ) or of the Japanese networks (UD1);
+    empty if it states none."""
+    if pair := re.fullmatch("(NS|EW|UD)[12]?", code):
+        return {"NS": "N", "EW": "E", "UD": "up"}[pair[1]]
     return {"N": "N", "E": "E", "Z": "up"}.get(code[-1:], "") if len(code) == 3 else ""
 
 
