@@ -25,6 +25,11 @@ struct Mounting {
   Stops stops{};                 ///< limits of the displacement
   bool pendulum = false;         ///< the spring is a pendulum: its force is wn^2 x N+ / g
 
+  /// wn^2, spring stiffness per unit mass [1/s^2].
+  double stiffness() const noexcept { return natural_frequency * natural_frequency; }
+  /// Slope of the ground [rad].
+  double slope() const noexcept { return slope_degrees * (std::numbers::pi / 180); }
+
   friend bool operator==(const Mounting&, const Mounting&) = default;
 };
 
@@ -124,13 +129,13 @@ class Slider {
   double natural_frequency() const noexcept { return mounting_.natural_frequency; }
 
   /// wn^2, spring stiffness per unit mass [1/s^2].
-  double stiffness() const noexcept { return mounting_.natural_frequency * mounting_.natural_frequency; }
+  double stiffness() const noexcept { return mounting_.stiffness(); }
 
   /// c [1/s].
   double damping() const noexcept { return mounting_.damping; }
 
   /// Slope of the ground [rad].
-  double slope() const noexcept { return mounting_.slope_degrees * (std::numbers::pi / 180); }
+  double slope() const noexcept { return mounting_.slope(); }
 
   /// Whether the slider is on level ground, slides both ways, has no stops, and has a spring that does not depend on
   /// the normal force.

@@ -20,12 +20,6 @@ namespace py = pybind11;
 
 namespace stickslip::python {
 
-/// A slider with any law that has a Python class. Every function that accepts a slider accepts a law added here.
-using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
-                               Slider<Degrading>, Slider<KumarFriction>, Slider<CallableLaw>,
-                               Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
-                               Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
-
 /// The Python class StaticKinetic.
 using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>,
                                       StaticKinetic<Degrading>>;
@@ -33,7 +27,7 @@ using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Cast
 }  // namespace stickslip::python
 
 // These variants are classes in Python, not converted as by pybind11/stl.h.
-PYBIND11_MAKE_OPAQUE(stickslip::python::AnySlider)
+PYBIND11_MAKE_OPAQUE(stickslip::AnySlider)
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnyStaticKinetic)
 
 namespace stickslip::python {
@@ -118,6 +112,7 @@ template <FrictionLaw Law>
 py::object law_object(const StaticKinetic<Law>& law) {
   return py::cast(AnyStaticKinetic(law));
 }
+inline py::object law_object(const FunctionLaw& law) { return py::cast(*law.resist_function().target<CallableLaw>()); }
 
 /// The slider without spring of a law; nullopt if the object is not a law. (Implicit conversions would need the frame
 /// of a bound function, which threads do not have.)
@@ -125,7 +120,11 @@ template <class... Laws>
 std::optional<AnySlider> slider_of_law(const py::handle& object, const std::variant<Slider<Laws>...>*) {
   std::optional<AnySlider> slider;
   const auto take = [&]<class Law>(const Law*) {
-    if (py::isinstance<Law>(object)) slider = Slider<Law>(object.cast<const Law&>());
+    if constexpr (std::same_as<Law, FunctionLaw>) {
+      if (py::isinstance<CallableLaw>(object)) slider = Slider(object.cast<const CallableLaw&>().law());
+    } else {
+      if (py::isinstance<Law>(object)) slider = Slider<Law>(object.cast<const Law&>());
+    }
   };
   (take(static_cast<const Laws*>(nullptr)), ...);
   if (py::isinstance<AnyStaticKinetic>(object))

@@ -56,9 +56,11 @@ AnySlider mounted(const py::object& law, const Mounting& mounting) {
 template <class... Laws>
 void convert_laws(const std::variant<Slider<Laws>...>*) {
   const auto convert = []<class Law>(const Law*) {
-    if constexpr (!requires(const Law& law) { law.sliding(); }) py::implicitly_convertible<Law, AnySlider>();
+    if constexpr (!std::same_as<Law, FunctionLaw> && !requires(const Law& law) { law.sliding(); })
+      py::implicitly_convertible<Law, AnySlider>();
   };
   (convert(static_cast<const Laws*>(nullptr)), ...);
+  py::implicitly_convertible<CallableLaw, AnySlider>();
   py::implicitly_convertible<AnyStaticKinetic, AnySlider>();
 }
 
@@ -78,10 +80,6 @@ State slid_to(const AnySlider& slider, double displacement, double sliding_dista
         slider);
   }
   return state;
-}
-
-const Mounting& mounting_of(const AnySlider& slider) {
-  return std::visit([](const auto& s) -> const Mounting& { return s.mounting(); }, slider);
 }
 
 // The values that differ from the defaults, as arguments.
@@ -126,13 +124,9 @@ py::object law_of(const AnySlider& slider) {
   return std::visit([](const auto& s) { return law_object(s.law()); }, slider);
 }
 
-double natural_frequency_of(const AnySlider& slider) {
-  return std::visit([](const auto& s) { return s.natural_frequency(); }, slider);
-}
+double natural_frequency_of(const AnySlider& slider) { return mounting_of(slider).natural_frequency; }
 
-double damping_of(const AnySlider& slider) {
-  return std::visit([](const auto& s) { return s.damping(); }, slider);
-}
+double damping_of(const AnySlider& slider) { return mounting_of(slider).damping; }
 
 Direction direction_of(bool backward) { return backward ? Direction::backward : Direction::forward; }
 

@@ -40,6 +40,8 @@ std::string parameters(const KumarFriction& law) {
          ", \"diffusivity\": " + json(p.diffusivity) + ", \"conductivity\": " + json(p.conductivity);
 }
 
+std::string parameters(const FunctionLaw& law) { return parameters("FunctionLaw", some_levels(law)); }
+
 std::string parameters_of_static(const std::string& sliding, double forward, double backward) {
   return "\"static\": " + json(std::array{forward, backward}) + ", " + sliding;
 }

@@ -137,4 +137,9 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const G
                                                                excitation, seed, settle);
 }
 
+std::unique_ptr<Simulator> lanes_simulator(const Slider<VelocityDependent>& slider,
+                                           const GaussianExcitation& excitation, std::uint64_t seed, bool settle) {
+  return series_simulator(slider, excitation, seed, settle);
+}
+
 }  // namespace stickslip::detail

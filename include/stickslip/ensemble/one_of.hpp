@@ -33,7 +33,7 @@ std::size_t drawn_place(std::uint64_t seed, std::uint64_t member, bool of_motion
 /// and time step. They are stored once, and members refer to them.
 ///
 /// If a list of sliders and a list of motions of the same length are both used in turn, member i has item i of both.
-/// @tparam T  a slider (which may be a std::variant of several) or GroundMotion
+/// @tparam T  a Slider, an AnySlider, or GroundMotion
 template <class T>
 class OneOf {
  public:

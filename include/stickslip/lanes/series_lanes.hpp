@@ -10,6 +10,7 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/lanes/row.hpp"
 #include "stickslip/lanes/vector.hpp"
 #include "stickslip/series/series.hpp"
@@ -422,6 +423,8 @@ namespace stickslip::detail {
 extern template void advance_lanes(const SeriesLanes<Coulomb>&, std::size_t, const double*, const double*,
                                    const LaneStates&);
 extern template void advance_lanes(const SeriesLanes<Caster>&, std::size_t, const double*, const double*,
+                                   const LaneStates&);
+extern template void advance_lanes(const SeriesLanes<VelocityDependent>&, std::size_t, const double*, const double*,
                                    const LaneStates&);
 }  // namespace stickslip::detail
 #endif

@@ -23,6 +23,7 @@
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
+#include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
 
@@ -45,36 +46,6 @@ struct Loop {
 };
 
 namespace detail {
-
-/// Moves a slider from one time to a later one.
-template <FrictionLaw Law, class Observer>
-void advance_between(const Slider<Law>& slider, const GroundMotion& motion, Contact contact, double from, double to,
-                     State& state, Observer& observer) {
-  const LoadPieces pieces(motion, slider.slope());
-  for (std::size_t i = 0; i < motion.segments() && motion.time(i) < to; ++i) {
-    const double first = motion.time(i), begin = std::max(first, from), end = std::min(motion.time(i + 1), to);
-    if (!(begin < end)) continue;
-    const LoadSegment whole = pieces.segment(i);
-    const LoadSegment part{end - begin, whole.load(begin - first), whole.load(end - first), whole.normal(begin - first),
-                           whole.normal(end - first)};
-    advance(slider, part, state, observer, contact);
-  }
-  const double begin = std::max(motion.time(motion.segments()), from);
-  if (begin < to) advance(slider, load_segment(Segment{to - begin, 0, 0}, slider.slope()), state, observer, contact);
-}
-
-template <FrictionLaw Law, class Observer>
-void advance_between(const Slider<Law>& slider, const HarmonicMotion& motion, Contact, double from, double to,
-                     State& state, Observer& observer) {
-  const double end = std::min(motion.time(motion.segments()), to);
-  for (double begin = from; begin < end;) {
-    const double next = std::min(begin + motion.period(), end);
-    advance(slider, HarmonicSegment{next - begin, motion.amplitude(), motion.omega(), motion.phase(begin)}, state,
-            observer);
-    begin = next;
-  }
-  advance(slider, Segment{to - std::max(end, from), 0, 0}, state, observer);
-}
 
 /// Sums the distance slid, and the work on friction and damper, of a motion from a time on.
 template <FrictionLaw Law, bool loaded>
@@ -148,10 +119,8 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
   std::size_t turn = peak;
   while (turn > 0 && way(turn) >= 0) --turn;
 
-  State state = State::at(response.displacement.front(), response.velocity.front());
-  state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  State state = detail::start_of(slider.law(), motion, response);
   const double begin = motion.time(0), from = events[turn].time, end = events[peak].time;
-  state.heat = detail::heat_at(slider.law(), motion, response, begin);
   NoObserver none;
   detail::advance_between(slider, motion, response.contact, begin, from, state, none);
   detail::SwingWork<Law, std::same_as<M, GroundMotion>> swing{slider.law()};

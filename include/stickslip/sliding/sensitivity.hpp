@@ -459,3 +459,9 @@ Sensitivity sensitivity(const Law& law, const GroundMotion& motion, const Respon
 }
 
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
+namespace stickslip {
+extern template Sensitivity sensitivity(const Slider<Coulomb>&, const GroundMotion&, const Response&, Parameter);
+}  // namespace stickslip
+#endif

@@ -17,6 +17,7 @@
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/impacts.hpp"
 #include "stickslip/sliding/integrate.hpp"
 
@@ -102,6 +103,13 @@ SweepSlider sweep_slider(const Slider<Law>& slider) {
             return stickslip::integrate(slider, motion, options, std::move(storage));
           }};
 }
+inline SweepSlider sweep_slider(const AnySlider& slider) {
+  return {std::visit([](const auto& one) { return level_block(one); }, slider),
+          static_cast<bool>(mounting_of(slider).stops),
+          [&slider](const GroundMotion& motion, const IntegrateOptions& options, Response storage) {
+            return stickslip::integrate(slider, motion, options, std::move(storage));
+          }};
+}
 template <class... Sliders>
 SweepSlider sweep_slider(const std::variant<Sliders...>& slider) {
   return std::visit([](const auto& one) { return sweep_slider(one); }, slider);
@@ -116,7 +124,7 @@ SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMot
 ///     x'' + resist sgn(x') + c x' + wn^2 x = -n(t),                    thesis (4.51) to (4.53), (2.44), (2.50), (4.2)
 /// each combination as by `integrate`.
 ///
-/// @param sliders  Sliders of one law, or std::variants of several
+/// @param sliders  Sliders of one law, or each an AnySlider
 /// @param motions  records, of any lengths and steps
 /// @param options  polarity, whether to continue until the sliders rest, threads
 /// @return peak, residual, sliding distance, number of events and impacts on stops of each. A slider that is in flight

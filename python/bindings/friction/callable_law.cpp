@@ -1,6 +1,5 @@
 #include "friction/callable_law.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -95,13 +94,6 @@ struct CallableLaw::Function {
     }
     return value;
   }
-
-  double checked(double level, double x, double speed) const {
-    if (level >= 0 && std::isfinite(level)) return level;
-    throw InvalidLevel(std::string("Law: ") + name + " must be finite and at least 0, got " + detail::shortest(level) +
-                       " m/s^2 at x = " + detail::shortest(x) + " m and a speed of " + detail::shortest(speed) +
-                       " m/s");
-  }
 };
 struct CallableLaw::Functions {
   Function hold, resist;
@@ -116,14 +108,17 @@ CallableLaw::CallableLaw(py::object hold, py::object resist)
 py::object CallableLaw::hold_function() const { return functions_->hold.object; }
 py::object CallableLaw::resist_function() const { return functions_->resist.object; }
 
-double CallableLaw::resist(double x, double speed, Direction direction) const {
+double CallableLaw::operator()(double x, double speed, Direction direction) const {
   const Function& f = functions_->resist;
-  return f.checked(f.compiled3 ? f.compiled3(x, speed, sign(direction)) : f.call(x, speed, sign(direction)), x, speed);
+  return f.compiled3 ? f.compiled3(x, speed, sign(direction)) : f.call(x, speed, sign(direction));
 }
-double CallableLaw::hold(double x, Direction direction) const {
-  const Function& f = functions_->hold;
-  if (f.missing) return resist(x, 0, direction);
-  return f.checked(f.compiled2 ? f.compiled2(x, sign(direction)) : f.call(x, sign(direction)), x, 0);
+
+FunctionLaw CallableLaw::law() const {
+  if (functions_->hold.missing) return FunctionLaw(*this);
+  return FunctionLaw(*this, [functions = functions_](double x, Direction direction) {
+    const Function& f = functions->hold;
+    return f.compiled2 ? f.compiled2(x, sign(direction)) : f.call(x, sign(direction));
+  });
 }
 
 void bind_callable_law(py::module_& m) {

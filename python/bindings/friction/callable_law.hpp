@@ -5,17 +5,15 @@
 
 #include <pybind11/pybind11.h>
 
-#include "stickslip/friction/law.hpp"
+#include "stickslip/friction/function_law.hpp"
 
 namespace stickslip::python {
 
 namespace py = pybind11;
 
-/// The Python class Law.
+/// The Python class Law: the functions of a FunctionLaw.
 class CallableLaw {
  public:
-  static constexpr bool numeric = true;
-
   /// @param hold    of (x, direction), or None
   /// @param resist  of (x, speed, direction)
   CallableLaw(py::object hold, py::object resist);
@@ -23,9 +21,10 @@ class CallableLaw {
   py::object hold_function() const;
   py::object resist_function() const;
 
-  // Out of line: inlined into the event loop, calls of Python would take a compiler many minutes.
-  double resist(double x, double speed, Direction direction) const;
-  double hold(double x, Direction direction) const;
+  /// The law of these functions; its `resist_function` is a copy of this object.
+  FunctionLaw law() const;
+
+  double operator()(double x, double speed, Direction direction) const;  // `resist`
 
  private:
   struct Function;

@@ -9,16 +9,6 @@
 namespace stickslip::python {
 namespace {
 
-/// Handles Ctrl-C within a long step.
-struct Interruptible {
-  unsigned work = 0;
-
-  void slide(const Slip&) {
-    if (++work % 16384 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
-  void event(EventKind, double, const State&) noexcept {}
-};
-
 State advanced(const py::object& what, State state, double dt, double start, std::optional<double> end,
                double vertical_start, std::optional<double> vertical_end, const std::string& contact) {
   const auto slider = slider_of(what);
@@ -29,14 +19,11 @@ State advanced(const py::object& what, State state, double dt, double start, std
   const Segment horizontal{dt, start, end.value_or(start)};
   const double up = vertical_end.value_or(vertical_start);
   const Contact lost = contact_of(contact, "advance");
-  std::visit(
-      [&](const auto& one) {
-        if (vertical_start == 0 && up == 0)
-          advance(one, horizontal, state, Interruptible{}, lost);
-        else
-          advance(one, detail::load_segment(horizontal, one.slope(), vertical_start, up), state, Interruptible{}, lost);
-      },
-      *slider);
+  if (vertical_start == 0 && up == 0)
+    advance(*slider, horizontal, state, lost, check_for_interrupt);
+  else
+    advance(*slider, detail::load_segment(horizontal, mounting_of(*slider).slope(), vertical_start, up), state, lost,
+            check_for_interrupt);
   return state;
 }
 

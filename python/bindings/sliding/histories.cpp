@@ -12,7 +12,7 @@ py::tuple histories_any(const AnySlider& slider, const py::object& motion) {
   const auto& ground = motion.cast<const GroundMotion&>();
   Histories result = [&] {
     const py::gil_scoped_release released;
-    return std::visit([&](const auto& s) { return histories(s, ground, check_for_interrupt); }, slider);
+    return histories(slider, ground, check_for_interrupt);
   }();
   return py::make_tuple(array_of(std::move(result.displacement)), array_of(std::move(result.velocity)));
 }

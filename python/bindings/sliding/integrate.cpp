@@ -1,6 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <concepts>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,16 +11,13 @@
 namespace stickslip::python {
 namespace {
 
-template <class S, class M>
-ResponseWithInputs integrate_under(const S& slider, const py::object& motion, const IntegrateOptions& options) {
+template <class M>
+ResponseWithInputs integrate_under(const AnySlider& slider, const py::object& motion, const IntegrateOptions& options) {
   const auto& ground = motion.cast<const M&>();
   Response storage = Storage::take();
   Response response = [&] {
     const py::gil_scoped_release released;
-    if constexpr (std::same_as<S, AnySlider>)
-      return std::visit([&](const auto& s) { return integrate(s, ground, options, std::move(storage)); }, slider);
-    else
-      return integrate(slider, ground, options, std::move(storage));
+    return integrate(slider, ground, options, std::move(storage));
   }();
   return {std::move(response), py::cast(slider), motion};
 }
@@ -36,9 +32,8 @@ ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& moti
                                  check_for_interrupt,
                                  sliding_distance,
                                  heat.value_or(SurfaceHeat())};
-  if (py::isinstance<GroundMotion>(motion)) return integrate_under<AnySlider, GroundMotion>(slider, motion, options);
-  if (py::isinstance<HarmonicMotion>(motion))
-    return integrate_under<AnySlider, HarmonicMotion>(slider, motion, options);
+  if (py::isinstance<GroundMotion>(motion)) return integrate_under<GroundMotion>(slider, motion, options);
+  if (py::isinstance<HarmonicMotion>(motion)) return integrate_under<HarmonicMotion>(slider, motion, options);
   throw py::type_error("integrate: motion must be a GroundMotion or a HarmonicMotion, got " +
                        py::type::of(motion).attr("__name__").cast<std::string>());
 }

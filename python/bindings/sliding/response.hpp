@@ -61,15 +61,12 @@ struct ResponseWithInputs {
   ~ResponseWithInputs() { Storage::give_back(std::move(response)); }
 };
 
-/// Calls `work` with the slider and the motion in their static types.
+/// Calls `work` with the slider, and the motion in its static type.
 template <class Work>
 auto with_inputs(const ResponseWithInputs& self, Work&& work) {
-  return std::visit(
-      [&](const auto& slider) {
-        if (py::isinstance<GroundMotion>(self.motion)) return work(slider, self.motion.cast<const GroundMotion&>());
-        return work(slider, self.motion.cast<const HarmonicMotion&>());
-      },
-      self.slider.cast<const AnySlider&>());
+  const auto& slider = self.slider.cast<const AnySlider&>();
+  if (py::isinstance<GroundMotion>(self.motion)) return work(slider, self.motion.cast<const GroundMotion&>());
+  return work(slider, self.motion.cast<const HarmonicMotion&>());
 }
 
 }  // namespace stickslip::python

@@ -12,6 +12,7 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/function_law.hpp"
 #include "stickslip/friction/kumar.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
@@ -29,13 +30,14 @@ std::string parameters(const VelocityDependent& law);
 std::string parameters(const Stribeck& law);
 std::string parameters(const Degrading& law);
 std::string parameters(const KumarFriction& law);
+std::string parameters(const FunctionLaw& law);
 template <FrictionLaw Law>
 std::string parameters(const StaticKinetic<Law>& law);
 std::string parameters_of_static(const std::string& sliding, double forward, double backward);
 /// A user-defined law: its type and a few of its levels.
 std::string parameters(const char* type, std::span<const double> levels);
 template <FrictionLaw Law>
-std::string parameters(const Law& law) {
+std::vector<double> some_levels(const Law& law) {
   std::vector<double> levels;
   const auto add = [&](const auto& now) {
     using Now = std::remove_cvref_t<decltype(now)>;
@@ -50,7 +52,11 @@ std::string parameters(const Law& law) {
   add(law_at(law, State{}));
   if constexpr (MemoryLaw<Law>)
     for (double slid = 1e-6; slid < 20; slid *= 10) add(law.at(State{.sliding_distance = slid}));
-  return parameters(typeid(Law).name(), levels);
+  return levels;
+}
+template <FrictionLaw Law>
+std::string parameters(const Law& law) {
+  return parameters(typeid(Law).name(), some_levels(law));
 }
 
 template <FrictionLaw Law>

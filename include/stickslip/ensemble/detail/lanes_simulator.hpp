@@ -13,6 +13,7 @@
 #include "stickslip/excitation/poisson.hpp"
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/lanes/row.hpp"
 #include "stickslip/lanes/series_lanes.hpp"
 #include "stickslip/lanes/transpose.hpp"
@@ -116,6 +117,8 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
                                            std::uint64_t seed, bool settle);
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle);
+std::unique_ptr<Simulator> lanes_simulator(const Slider<VelocityDependent>& slider,
+                                           const GaussianExcitation& excitation, std::uint64_t seed, bool settle);
 /// Coulomb friction alone under pulses; else null.
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation,
                                            std::uint64_t seed, bool settle);

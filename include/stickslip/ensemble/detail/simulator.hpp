@@ -21,6 +21,7 @@
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/impacts.hpp"
@@ -214,7 +215,11 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
   });
 }
 
-/// The same for any type of slider.
+/// The same for a slider of any law.
+void simulate_member(const AnySlider& slider, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place);
+
+/// The same for a slider of one of several laws.
 template <class... Sliders>
 void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {
@@ -257,5 +262,7 @@ class MemberSimulator final : public Simulator {
 namespace stickslip::detail {
 extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, Contact, const MemberPlace&);
 extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, Contact, const MemberPlace&);
+extern template void simulate_member(const Slider<VelocityDependent>&, const GroundMotion&, bool, Contact,
+                                     const MemberPlace&);
 }  // namespace stickslip::detail
 #endif

@@ -1,0 +1,77 @@
+// A slider whose law is known only when the program runs.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/function_law.hpp"
+#include "stickslip/friction/kumar.hpp"
+#include "stickslip/friction/static_kinetic.hpp"
+#include "stickslip/friction/stribeck.hpp"
+#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/ground/harmonic_motion.hpp"
+#include "stickslip/ground/segment.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/effective.hpp"
+#include "stickslip/sliding/floor_motion.hpp"
+#include "stickslip/sliding/forces.hpp"
+#include "stickslip/sliding/histories.hpp"
+#include "stickslip/sliding/integrate.hpp"
+#include "stickslip/sliding/margins.hpp"
+#include "stickslip/sliding/sensitivity.hpp"
+#include "stickslip/sliding/trajectory.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// A slider of any law of the library; this is the list of its laws. The library contains all computations for it,
+/// compiled: a program that uses this type, such as the Python package, compiles no integrator.
+///
+///     const AnySlider slider = Slider(Stribeck(3, 2, 0.05), 1.5);
+///     const Response response = integrate(slider, motion);
+using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
+                               Slider<Degrading>, Slider<KumarFriction>, Slider<FunctionLaw>,
+                               Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
+                               Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
+
+/// The mounting of a slider of any law.
+inline const Mounting& mounting_of(const AnySlider& slider) {
+  return std::visit([](const auto& one) -> const Mounting& { return one.mounting(); }, slider);
+}
+
+/// As the templates of the same names.
+Response integrate(const AnySlider& slider, const GroundMotion& motion, const IntegrateOptions& options = {},
+                   Response storage = {});
+Response integrate(const AnySlider& slider, const HarmonicMotion& motion, const IntegrateOptions& options = {},
+                   Response storage = {});
+Histories histories(const AnySlider& slider, const GroundMotion& motion, const std::function<void()>& progress = {});
+
+/// As the template of the same name, with a function that is called now and then during a long segment, and may throw.
+void advance(const AnySlider& slider, const Segment& segment, State& state, Contact contact = Contact::flight,
+             const std::function<void()>& progress = {});
+void advance(const AnySlider& slider, const LoadSegment& segment, State& state, Contact contact = Contact::flight,
+             const std::function<void()>& progress = {});
+
+/// As the templates of the same names, of a response to a GroundMotion or a HarmonicMotion.
+template <Motion M>
+Forces forces(const AnySlider& slider, const M& motion, const Response& response);
+template <Motion M>
+std::vector<State> states_at(const AnySlider& slider, const M& motion, const Response& response,
+                             std::span<const double> times);
+template <Motion M>
+Margins margins(const AnySlider& slider, const M& motion, const Response& response);
+template <Motion M>
+Loop largest_loop(const AnySlider& slider, const M& motion, const Response& response);
+template <Motion M>
+FloorMotion floor_motion(const AnySlider& slider, const M& motion, const Response& response, double tolerance = 1e-6);
+
+Sensitivity sensitivity(const AnySlider& slider, const GroundMotion& motion, const Response& response,
+                        Parameter parameter);
+
+}  // namespace stickslip

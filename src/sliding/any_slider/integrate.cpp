@@ -1,0 +1,13 @@
+// The integration of sliders of any law.
+#include <utility>
+
+#include "stickslip/sliding/any_slider.hpp"
+
+namespace stickslip {
+
+Response integrate(const AnySlider& slider, const GroundMotion& motion, const IntegrateOptions& options,
+                   Response storage) {
+  return std::visit([&](const auto& one) { return integrate(one, motion, options, std::move(storage)); }, slider);
+}
+
+}  // namespace stickslip
