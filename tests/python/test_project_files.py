@@ -3,6 +3,7 @@
 import re
 
 import pytest
+import stickslip as ss
 from pages import ROOT
 
 yaml = pytest.importorskip("yaml")
@@ -153,3 +154,38 @@ def test_links_of_the_pages_beside_the_site_name_files():
                 checked += 1
                 assert (page.parent / target.partition("#")[0]).exists(), f"{name}: {target}"
     assert checked > 20
+
+
+def laws():
+    """The laws that the library is compiled for, and their names in Python."""
+    header = (ROOT / "include/stickslip/sliding/any_slider.hpp").read_text(encoding="utf-8")
+    listed = re.search(r"using AnySlider =(.*?);", header, re.DOTALL)[1]
+    names = set(re.findall(r"Slider<(\w+)", listed))
+    assert len(names) == 8
+    return sorted((name, "Law" if name == "FunctionLaw" else name) for name in names)
+
+
+@pytest.mark.parametrize("law, in_python", laws())
+def test_each_law_has_the_files_and_lines_that_contributing_names(law, in_python):
+    def has(text, file):
+        return text in (ROOT / file).read_text(encoding="utf-8")
+
+    folder = ROOT / "include/stickslip/friction"
+    (header,) = [
+        file
+        for file in folder.glob("*.hpp")
+        if re.search(rf"^class {law}\b", file.read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    name = header.stem
+    assert (ROOT / f"tests/friction/{name}_test.cpp").is_file()
+    assert has(f"friction/{name}.hpp", "docs/reference/cpp/laws.rst")
+    bindings = "callable_law" if name == "function_law" else name
+    assert (ROOT / f"python/bindings/friction/{bindings}.cpp").is_file()
+    assert has(f"bind_{bindings}(", "python/bindings/module.cpp")
+    assert in_python in ss.__all__
+    assert has(f"class {in_python}(", "python/stickslip/_core.pyi")
+    values = (ROOT / "python/bindings/parts.hpp").read_text(encoding="utf-8")
+    if law != "StaticKinetic":  # whose parts are those of the law in it, and two levels
+        assert f"parts<{'CallableLaw' if law == 'FunctionLaw' else law}>" in values
+    example = "a law by numbers" if law == "FunctionLaw" else law
+    assert has(f'Example{{"{example}"', "tests/support/laws.hpp")

@@ -131,15 +131,3 @@ TEST_CASE("a long segment of a slider of any law can be broken off", "[any_slide
                   Enough);
   CHECK(state.displacement == before.displacement);
 }
-
-TEST_CASE("a law of functions names what is wrong with a level", "[any_slider]") {
-  CHECK_THROWS_AS(FunctionLaw(FunctionLaw::Resist()), std::invalid_argument);
-  const FunctionLaw negative([](double, double, Direction) { return -1.0; });
-  CHECK_THROWS_WITH(negative.resist(0.5, 2, Direction::forward),
-                    "Law: resist must be finite and at least 0, got -1 m/s^2 at x = 0.5 m and a speed of 2 m/s");
-  const FunctionLaw law([](double x, double speed, Direction) { return 1 + x + speed; },
-                        [](double x, Direction) { return 2 + x; });
-  CHECK(law.resist(1, 2, Direction::forward) == 4);
-  CHECK(law.hold(1, Direction::forward) == 3);
-  CHECK(FunctionLaw(law.resist_function()).hold(1, Direction::forward) == 2);
-}
