@@ -77,7 +77,7 @@ State start_of(const Law& law, const M& motion, const Response& response) {
 
 }  // namespace detail
 
-/// The states of a slider at any times of a response, also between its samples and in the time until it rests.
+/// The states of a slider at any times of a response, also between its samples and after the last sample.
 ///
 /// @param slider    the slider
 /// @param motion    its ground motion
