@@ -229,8 +229,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
       }
       least = 4 * round_off * terms;
       // The next change would be smaller by the ratio of this change to the previous one.
-      if (sweep > 0 && (h * change * change <= convergence * fastest * previous || change <= least))
-        break;
+      if (sweep > 0 && (h * change * change <= convergence * fastest * previous || change <= least)) break;
       if (sweep > 3 && change > previous / 2) return false;
       if (sweep == 60) return false;
     }
