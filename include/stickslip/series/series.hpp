@@ -32,7 +32,7 @@ inline double sech(double x) noexcept {
 /// last + (first - last) exp(x), x <= 0: `first` at 0 and `last` at minus infinity. Both levels are at least 0; there
 /// is no cancellation where either vanishes.
 inline double decaying(double x, double first, double last) noexcept {
-  return first <= last ? first - (last - first) * std::expm1(x) : last + (first - last) * std::exp(x);
+  return first <= last && x > -0.5 ? first - (last - first) * std::expm1(x) : last + (first - last) * std::exp(x);
 }
 
 namespace detail {
