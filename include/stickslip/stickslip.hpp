@@ -24,6 +24,7 @@
 #include "stickslip/harmonic/continuation.hpp"
 #include "stickslip/harmonic/orbit.hpp"
 #include "stickslip/harmonic/orbits.hpp"
+#include "stickslip/identity.hpp"
 #include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/sliding/effective.hpp"
 #include "stickslip/sliding/floor_motion.hpp"

@@ -43,6 +43,7 @@ void bind_callable_law(py::module_& m);
 void bind_static_kinetic(py::module_& m);
 void bind_stops(py::module_& m);
 void bind_slider(py::module_& m);
+void bind_identity(py::module_& m);
 void bind_ground_motion(py::module_& m);
 void bind_harmonic_motion(py::module_& m);
 void bind_harmonic(py::module_& m);

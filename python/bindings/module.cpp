@@ -67,6 +67,7 @@ PYBIND11_MODULE(_core, m) {
   bind_drawn(m);
   bind_ensemble(m);
   bind_ensemble_sensitivity(m);
+  bind_identity(m);
   bind_sweep(m);
   bind_build_info(m);
   in("stickslip.harmonic");

@@ -29,26 +29,10 @@ concept MadeOfParts = !std::same_as<std::remove_cvref_t<decltype(parts<T>)>, std
 
 // All in one place: wherever a class is used, the parts of its members must be known too.
 
-template <>
-inline constexpr auto parts<Coulomb> = std::tuple(&Coulomb::forward, &Coulomb::backward);
-template <>
-inline constexpr auto parts<Caster> = std::tuple(&Caster::slip_level, &Caster::reach, &Caster::rolling);
-template <>
-inline constexpr auto parts<VelocityDependent> = std::tuple(&VelocityDependent::slow, &VelocityDependent::fast,
-                                                            &VelocityDependent::rate);
-template <>
-inline constexpr auto parts<Stribeck> = std::tuple(&Stribeck::static_level, &Stribeck::kinetic_level,
-                                                   &Stribeck::velocity, &Stribeck::exponent);
-template <>
-inline constexpr auto parts<Degrading> = std::tuple(&Degrading::distances, &Degrading::levels, &Degrading::backward);
-template <>
-inline constexpr auto parts<KumarFriction::Parameters> =
-    std::tuple(&KumarFriction::Parameters::mu_ref, &KumarFriction::Parameters::static_pressure,
-               &KumarFriction::Parameters::reference_pressure, &KumarFriction::Parameters::contact_radius,
-               &KumarFriction::Parameters::temperature, &KumarFriction::Parameters::rate,
-               &KumarFriction::Parameters::diffusivity, &KumarFriction::Parameters::conductivity);
-template <>
-inline constexpr auto parts<KumarFriction> = std::tuple(&KumarFriction::parameters);
+/// Friction laws list theirs in the library.
+template <WithParts T>
+inline constexpr auto parts<T> = std::apply([](auto... part) { return std::tuple(part.get...); }, T::parts());
+
 template <>
 inline constexpr auto parts<CallableLaw> = std::tuple(&CallableLaw::hold_function, &CallableLaw::resist_function);
 template <>

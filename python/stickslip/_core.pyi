@@ -2095,6 +2095,10 @@ def run_ensemble(
     progress: Callable[[int, int, Callable[[], Ensemble]], object] | None,
     interrupted: Callable[[Callable[[], Ensemble]], object] | None,
 ) -> Ensemble: ...
+@overload
+def identity(of: Slider | _Law, /) -> str: ...
+@overload
+def identity(of: GroundMotion, /) -> str: ...
 def sweep(
     sliders: Sequence[Any],
     motions: Sequence[GroundMotion],
@@ -2118,7 +2122,6 @@ def ensemble_sensitivity(
     contact: str,
     progress: Callable[[int, int], object],
 ) -> EnsembleSensitivity: ...
-def describe_slider(slider: Slider) -> str: ...
 def run_nothing(
     sliders: Any,
     motions: Any,

@@ -23,4 +23,15 @@ std::size_t drawn_place(std::uint64_t seed, std::uint64_t member, bool of_motion
   return std::min(static_cast<std::size_t>(uniform * static_cast<double>(length)), length - 1);
 }
 
+std::string describe_list(const std::vector<std::string>& sliders, const char* order) {
+  std::string text;
+  for (const std::string& slider : sliders) text += (text.empty() ? "" : ", ") + slider;
+  return "{\"one_of\": [" + text + "], \"order\": \"" + order + "\"}";
+}
+
+std::string describe_list(std::span<const GroundMotion> motions, const char* order) {
+  return "{\"motions\": " + std::to_string(motions.size()) + ", \"digest\": \"" + identity(motions) +
+         "\", \"order\": \"" + order + "\"}";
+}
+
 }  // namespace stickslip::detail

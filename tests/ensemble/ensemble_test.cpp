@@ -895,14 +895,3 @@ TEST_CASE("the moments of an ensemble are its figures by time") {
   REQUIRE(m.growth_rate.value == e.stationary().growth_rate.value);
   REQUIRE(m.remark.empty());
 }
-
-TEST_CASE("laws of the speed that differ are told apart, and dampers too", "[ensemble]") {
-  struct Rate {
-    double scale;
-    double resist(double, double speed, Direction) const { return 2 + std::exp(-speed / scale); }
-  };
-  static_assert(SpeedLaw<Rate>);
-  CHECK(detail::describe(Slider(Rate{0.001})) != detail::describe(Slider(Rate{0.0025})));
-  CHECK(detail::describe(Slider(Coulomb(1), 2, 0.1)) != detail::describe(Slider(Coulomb(1), 2)));
-  CHECK(detail::describe(Slider(Coulomb(1), -0.0, -0.0)) == detail::describe(Slider(Coulomb(1))));
-}

@@ -4,6 +4,8 @@ import csv
 import json
 import math
 import pickle
+import subprocess
+import sys
 import threading
 from concurrent.futures import Future, ProcessPoolExecutor
 
@@ -410,16 +412,50 @@ def test_a_sweep_that_broke_off_resumes_to_the_same_bits(tmp_path):
 def test_a_checkpoint_of_another_sweep_is_refused(tmp_path):
     file = tmp_path / "sweep.npz"
     ss.sweep(ss.Coulomb(mu=0.1), QUAKES, checkpoint=file)
+    with_transverse = [
+        ss.GroundMotion(q.acceleration, dt=q.dt, transverse=q.acceleration / 2) for q in QUAKES
+    ]
     for sliders, motions, options in (
         (ss.Coulomb(mu=0.2), QUAKES, {}),
         (ss.Coulomb(mu=0.1), QUAKES.scaled(2), {}),
         (ss.Coulomb(mu=0.1), QUAKES, {"settle": True}),
+        (ss.Coulomb(mu=0.1), with_transverse, {}),
     ):
         with pytest.raises(ValueError, match="is of another sweep"):
             ss.sweep(sliders, motions, checkpoint=file, **options)
     file.write_bytes(b"PK\x03\x04 and no more")
     with pytest.raises(ValueError, match=r"sweep: checkpoint '.*sweep.npz'"):
         ss.sweep(ss.Coulomb(mu=0.1), QUAKES, checkpoint=file)
+
+
+def test_a_law_of_functions_resumes_in_a_new_process(tmp_path):
+    """Its functions are other objects there."""
+    program = """
+import sys
+import stickslip as ss
+
+def resist(x, speed, direction):
+    if abs(x) > 0.15:
+        raise ValueError("beyond the plate")
+    return 1.0 + 0.1 * speed
+
+table = ss.sweep(
+    ss.Law(resist=resist),
+    [ss.GroundMotion([0.0, 2.0, -2.0, 0.0], dt=0.1)],
+    checkpoint=sys.argv[1],
+    progress=lambda done, total: print(done, total),
+)
+print(table.peak[0, 0, 0])
+"""
+    run = [sys.executable, "-c", program, str(tmp_path / "sweep.npz")]
+    first, second = (
+        subprocess.run(run, check=True, capture_output=True, text=True, timeout=300).stdout.split()
+        for _ in range(2)
+    )
+    *progress, peak = first
+    assert progress == ["2", "2"]
+    assert second == [peak]  # nothing was left to do
+    assert 0 < float(peak) < 0.15
 
 
 def test_failures_survive_a_checkpoint(tmp_path):

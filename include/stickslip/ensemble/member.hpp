@@ -7,11 +7,11 @@
 #include <string>
 
 #include "stickslip/ensemble/configuration.hpp"
-#include "stickslip/ensemble/detail/describe.hpp"
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/excitation/excitation.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/identity.hpp"
 
 namespace stickslip {
 
@@ -86,7 +86,7 @@ class PairedMembers {
       if constexpr (SliderSource<S>)
         return sliders_.configuration();
       else
-        return detail::describe(sliders_);
+        return identity(sliders_);
     };
     return {{"slider", slider()}, {"excitation", motions_.configuration()}};
   }

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/ensemble/detail/describe.hpp"
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/identity.hpp"
 
 namespace stickslip {
 
@@ -27,6 +27,10 @@ namespace detail {
 std::optional<TimeBase> common_time_base(std::span<const GroundMotion> motions);
 /// A position in a list, drawn from a stream of random numbers for this purpose.
 std::size_t drawn_place(std::uint64_t seed, std::uint64_t member, bool of_motions, std::size_t length);
+/// Everything that the members depend on, as JSON.
+/// @param order  "in turn" or "drawn"
+std::string describe_list(const std::vector<std::string>& sliders, const char* order);
+std::string describe_list(std::span<const GroundMotion> motions, const char* order);
 }  // namespace detail
 
 /// A list of sliders or of ground motions, one of which each member of an ensemble uses. Motions may differ in duration
@@ -46,7 +50,7 @@ class OneOf {
       configuration_ = detail::describe_list(items_, name);
     } else {
       std::vector<std::string> each;
-      for (const T& item : items_) each.push_back(detail::describe(item));
+      for (const T& item : items_) each.push_back(identity(item));
       configuration_ = detail::describe_list(each, name);
     }
   }

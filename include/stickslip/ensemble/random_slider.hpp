@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "stickslip/ensemble/detail/describe.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/identity.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/statistics/distribution.hpp"
 
@@ -48,7 +48,7 @@ class RandomSlider {
     for (const double probability : {0.25, 0.5, 0.75}) {
       std::array<double, parameters> values;
       for (std::size_t i = 0; i < parameters; ++i) values[i] = quantile(distributions_[i], probability);
-      sliders.push_back(detail::describe(make_from(values)));
+      sliders.push_back(identity(make_from(values)));
     }
     configuration_ = detail::describe_random(distributions_, sliders);
   }

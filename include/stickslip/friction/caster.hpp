@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/root.hpp"
@@ -73,6 +75,12 @@ class Caster {
   double slip_level() const noexcept { return slip_level_; }
   double reach() const noexcept { return reach_; }
   double rolling() const noexcept { return rolling_; }
+
+  static constexpr const char* class_name = "Caster";
+  static constexpr auto parts() {
+    return std::tuple(Part{"slip_level", &Caster::slip_level}, Part{"reach", &Caster::reach},
+                      Part{"rolling", &Caster::rolling, Listed::unless_zero});
+  }
 
   template <class T>
   auto resist(const T& x, Direction) const {

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/units.hpp"
@@ -43,6 +45,11 @@ class Coulomb {
 
   double forward() const noexcept { return forward_; }
   double backward() const noexcept { return backward_; }
+
+  static constexpr const char* class_name = "Coulomb";
+  static constexpr auto parts() {
+    return std::tuple(Part{"slip_level", &Coulomb::forward}, Part{"backward", &Coulomb::backward});
+  }
 
   template <class T>
   double resist(const T&, Direction direction) const noexcept {

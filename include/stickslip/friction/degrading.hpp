@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/state.hpp"
@@ -79,6 +81,12 @@ class Degrading {
   const std::vector<double>& distances() const noexcept { return distances_; }
   const std::vector<double>& levels() const noexcept { return forward_; }
   const std::vector<double>& backward() const noexcept { return backward_; }
+
+  static constexpr const char* class_name = "Degrading";
+  static constexpr auto parts() {
+    return std::tuple(Part{"distances", &Degrading::distances}, Part{"levels", &Degrading::levels},
+                      Part{"backward", &Degrading::backward});
+  }
 
   /// The law that applies from a state on.
   Piece at(const State& state) const noexcept {

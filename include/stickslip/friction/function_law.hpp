@@ -14,6 +14,7 @@ namespace stickslip {
 class FunctionLaw {
  public:
   static constexpr bool numeric = true;
+  static constexpr const char* class_name = "FunctionLaw";
 
   /// A level [m/s^2] at x [m] and the speed |x'| [m/s].
   using Resist = std::function<double(double x, double speed, Direction)>;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/state.hpp"
@@ -41,6 +43,13 @@ class KumarFriction {
     double diffusivity = 4.44e-6;   ///< D, of the steel [m^2/s], positive and finite
     double conductivity = 18;       ///< k, of the steel [W/(m K)], positive; infinite for a surface that stays cold
 
+    static constexpr auto parts() {
+      return std::tuple(Part{"mu_ref", &Parameters::mu_ref}, Part{"static_pressure", &Parameters::static_pressure},
+                        Part{"reference_pressure", &Parameters::reference_pressure},
+                        Part{"contact_radius", &Parameters::contact_radius},
+                        Part{"temperature", &Parameters::temperature}, Part{"rate", &Parameters::rate},
+                        Part{"diffusivity", &Parameters::diffusivity}, Part{"conductivity", &Parameters::conductivity});
+    }
     friend bool operator==(const Parameters&, const Parameters&) = default;
   };
 
@@ -86,6 +95,9 @@ class KumarFriction {
   }
 
   const Parameters& parameters() const noexcept { return parameters_; }
+
+  static constexpr const char* class_name = "KumarFriction";
+  static constexpr auto parts() { return std::tuple(Part{"parameters", &KumarFriction::parameters}); }
 
   /// Resistance under a normal force of `weight` times g, divided by `weight` [m/s^2]. `half_integral` is H, the
   /// half-integral of the heat [W s^(1/2)/m^2].

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <tuple>
 
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/series/series.hpp"
@@ -42,6 +44,12 @@ class Stribeck {
   double kinetic_level() const noexcept { return kinetic_; }
   double velocity() const noexcept { return velocity_; }
   int exponent() const noexcept { return exponent_; }
+
+  static constexpr const char* class_name = "Stribeck";
+  static constexpr auto parts() {
+    return std::tuple(Part{"static", &Stribeck::static_level}, Part{"kinetic", &Stribeck::kinetic_level},
+                      Part{"velocity", &Stribeck::velocity}, Part{"exponent", &Stribeck::exponent});
+  }
 
   template <class X, class Speed>
   auto resist(const X&, const Speed& speed, Direction) const {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <tuple>
 
+#include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/series/series.hpp"
@@ -36,6 +38,12 @@ class VelocityDependent {
   double slow() const noexcept { return slow_; }
   double fast() const noexcept { return fast_; }
   double rate() const noexcept { return rate_; }
+
+  static constexpr const char* class_name = "VelocityDependent";
+  static constexpr auto parts() {
+    return std::tuple(Part{"slow", &VelocityDependent::slow}, Part{"fast", &VelocityDependent::fast},
+                      Part{"rate", &VelocityDependent::rate});
+  }
 
   template <class X, class Speed>
   auto resist(const X&, const Speed& speed, Direction) const {

@@ -71,10 +71,6 @@ that raised or Ctrl-C was pressed. `so_far()` copies the partial ensemble.)");
         py::arg("seed"), py::arg("dt"), py::arg("settle"), py::arg("contact"), py::arg("velocity_spectrum"),
         py::arg("ground_acceleration"),
         "The ensemble of a run without members; simulates one member to check the arguments.");
-  m.def(
-      "describe_slider",
-      [](const AnySlider& slider) { return std::visit([](const auto& one) { return detail::describe(one); }, slider); },
-      py::arg("slider"), "Everything that a slider depends on, as a JSON object: that of `Ensemble.configuration`.");
 }
 
 }  // namespace stickslip::python

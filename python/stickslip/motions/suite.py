@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 import operator
 import os
@@ -18,6 +17,7 @@ from .._core import (
     STANDARD_GRAVITY,
     GroundMotion,
     ResponseSpectrum,
+    identity,
     response_spectrum,
 )
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns
@@ -236,15 +236,9 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         list of tuple of int
             One tuple for each set of equal motions; empty if all differ.
         """
-        places: dict[bytes, list[int]] = {}
+        places: dict[str, list[int]] = {}
         for i, motion in enumerate(self._motions):
-            digest = hashlib.blake2b(np.ascontiguousarray(motion.acceleration).tobytes())
-            digest.update(repr(motion.dt).encode())
-            for other in (motion.transverse, motion.vertical):
-                digest.update(b"-" if other is None else np.ascontiguousarray(other).tobytes())
-            if motion.dt is None:
-                digest.update(np.ascontiguousarray(motion.time).tobytes())
-            places.setdefault(digest.digest(), []).append(i)
+            places.setdefault(identity(motion), []).append(i)
         return [tuple(equal) for equal in places.values() if len(equal) > 1]
 
     def with_metadata(self, metadata: Mapping[str, ArrayLike] | Any) -> Suite:

@@ -14,7 +14,7 @@ from .._core import STANDARD_GRAVITY, Ensemble, Estimate
 
 def describe(slider: Any) -> str:
     """A short description of a slider, such as 'slip level 0.06 g, period 3 s'."""
-    return ", ".join(in_words(json.loads(_core.describe_slider(slider))))
+    return ", ".join(in_words(json.loads(_core.identity(slider))))
 
 
 def describe_ensemble(ensemble: Ensemble) -> str:
