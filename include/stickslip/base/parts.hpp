@@ -1,6 +1,6 @@
 // The parts of an object, listed once by their names.
 #pragma once
-
+#include "stickslip/base/requirements.hpp"
 namespace stickslip {
 
 enum class Listed { always, unless_zero };
