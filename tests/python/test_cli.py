@@ -388,7 +388,8 @@ def test_orientations_slides_along_all_directions_of_a_station(capsys, station, 
     assert document["percentiles"][1]["rotd50_peak_m"] == t.rotd50.peak
     one = tmp_path / "one.csv"
     one.write_text("Time (s), NS (g)\n0,0\n0.1,1\n0.2,0\n")
-    assert main(["orientations", str(one), "--mu", "0.1"]) == 1
+    with pytest.warns(RuntimeWarning, match="no other component of its station"):
+        assert main(["orientations", str(one), "--mu", "0.1", "--orientation", "N"]) == 1
     assert "needs a transverse component" in capsys.readouterr().err
 
 

@@ -153,7 +153,7 @@ def test_sliders_that_differ_by_direction_have_a_whole_turn_by_default():
         ss.Slider(BLOCK, slope_degrees=2),
         ss.Slider(BLOCK, one_way=True),
         ss.Slider(BLOCK, stops=ss.Stops(gap=0.05, backward=0.02, restitution=0.5)),
-        ss.Law(resist=lambda x, direction: 1.0),
+        ss.Law(resist=lambda x, v, direction: 1.0),
     ):
         t = ss.orientations(slider, STATION)
         assert len(t) == 360

@@ -91,7 +91,7 @@ TEST_CASE("the opposite direction mirrors a slider that is equal both ways, and 
   check(Slider(Coulomb(1.0), Mounting{.slope_degrees = 4}), false);
   check(Slider(Coulomb(1.0), Mounting{.one_way = true}), false);
   check(Slider(Coulomb(1.0), Mounting{.stops = Stops(0.01, 0.002, 0.5)}), false);
-  CHECK_FALSE(mirrors(Slider(FunctionLaw({[](double, Direction) { return 1.0; }}))));
+  CHECK_FALSE(mirrors(Slider(FunctionLaw([](double, double, Direction) { return 1.0; }))));
 }
 
 TEST_CASE("a station that is turned has the same responses in turned directions", "[sweep]") {

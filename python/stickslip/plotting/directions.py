@@ -46,8 +46,9 @@ def plot_orientations(
         names = (("peak", INK), ("residual", BLUE))
         for (name, color), values in zip(names, curves):
             marker = "o" if len(degrees) == 1 else None
-            label = "peak" if name == "peak" else "residual, magnitude"
-            axes.plot(x, 100 * values, color=color, marker=marker, label=label)
+            label = "peak [cm]" if name == "peak" else "residual, magnitude [cm]"
+            width = 1.6 if name == "peak" else 0.9  # both are visible where they are equal
+            axes.plot(x, 100 * values, color=color, marker=marker, linewidth=width, label=label)
         most, middle = table.rotd100, table.rotd50
         if np.isfinite(most.peak):
             around = np.linspace(0, 2 * np.pi, 361) if polar else x[[0, -1]]
@@ -85,10 +86,7 @@ def plot_orientations(
             axes.legend(fontsize=8)
         axes.set_axisbelow(True)
         name = title or printable(table.station) or "station"
-        unit = " [cm]" if polar and not title else ""
-        axes.set_title(
-            wrapped(axes, name + unit), parse_math=bool(title), pad=14 if polar else None
-        )
+        axes.set_title(wrapped(axes, name), parse_math=bool(title), pad=14 if polar else None)
     return figure if ax is None else ax
 
 

@@ -75,7 +75,7 @@ class Orientations(Tabular):
     mirrored : bool
         Whether the opposite direction is known to have the same peak and minus the residual.
     settle : bool
-        Whether each slider was integrated until it rests.
+        Whether the slider was integrated until it comes to rest.
     contact : str
         What the slider does when it loses contact with the ground.
     failures : tuple of (float, str)
@@ -267,14 +267,15 @@ def orientations(
 
     Notes
     -----
-    Each direction costs as much as `integrate`: 180 directions of a record of 10,000 samples take
-    0.05 to 0.1 s on one core for Coulomb friction. Opposite directions of a slider that responds
-    alike in both are integrated once. Releases the interpreter lock.
+    Each direction costs as much as `integrate`, and 2 ns a sample for the rotation: 180 directions
+    of a record of 10,000 samples take 0.04 to 0.1 s on one core for Coulomb friction. Opposite
+    directions of a slider that responds alike in both are integrated once. Releases the interpreter
+    lock.
 
-    Percentiles are those of the directions given. In steps of 1 degree RotD100 of a *response*, as
-    that of `rotd`, misses the largest over all directions by less than 0.004 %; sliding is not
-    linear, so that this bound does not hold here: where sliding begins, peaks grow quickly with the
-    angle. Use smaller steps to see by how much they change.
+    Percentiles are those of the directions given. Sliding is not linear, so that there is no bound
+    on how much the largest value over all directions exceeds that in steps of 1 degree. For Coulomb
+    friction of 0.05, 0.1 and 0.2 under 11 recorded pairs, steps of 0.1 degrees raise RotD100 of the
+    peak by at most 0.23 %, in all cases but one by less than 0.02 %.
 
     References
     ----------
