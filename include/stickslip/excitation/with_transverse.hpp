@@ -79,7 +79,7 @@ bool made_of_pulses(const E& excitation) {
 /// are their rms accelerations without envelopes, sqrt(variance()). The transverse component then has the rms
 /// acceleration ratio s_t, and `coherence` is its correlation with n at equal times, at any time in a stationary motion
 /// and wherever the envelopes of both excitations are equal. For two equal excitations s_t / s_n is exactly 1. If the
-/// excitations differ, the spectral density of the transverse component is the weighted mean of both, with the weights
+/// excitations differ, the spectral density of the transverse component is ratio^2 times the sum of both, weighted by
 /// coherence^2 (s_t / s_n)^2 and 1 - coherence^2. With a coherence of 1 or -1 no t is drawn.
 ///
 /// Pulses: if both excitations are the same PoissonPulses, pulses of both components arrive together, unless `arrivals`
