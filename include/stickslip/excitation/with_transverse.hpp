@@ -127,7 +127,7 @@ class WithTransverse {
           "WithTransverse: common arrivals need the same PoissonPulses for both components; pass arrivals = "
           "independent, or one excitation");
     weights_ = {ratio, coherence, std::sqrt((1 - coherence) * (1 + coherence))};
-    if (!alike && coherence != 0) weights_.horizontal *= relative_rms(axis, transverse_);
+    if (!alike && !detail::equal(coherence, 0)) weights_.horizontal *= relative_rms(axis, transverse_);
   }
 
   /// Both components from one excitation.
