@@ -56,6 +56,7 @@ PYBIND11_MODULE(_core, m) {
   bind_gaussian(m);
   bind_poisson(m);
   bind_with_vertical(m);
+  bind_with_transverse(m);
   bind_moments(m);
   bind_response_spectrum(m);
   bind_strong_motion(m);
@@ -69,6 +70,7 @@ PYBIND11_MODULE(_core, m) {
   bind_ensemble_sensitivity(m);
   bind_identity(m);
   bind_sweep(m);
+  bind_orientations(m);
   bind_build_info(m);
   in("stickslip.harmonic");
   bind_harmonic(m);

@@ -61,6 +61,7 @@ from ._core import (
     VelocityDependent,
     VelocitySpectrum,
     ViscousSlider,
+    WithTransverse,
     WithVertical,
     __version__,
     advance,
@@ -83,7 +84,16 @@ if TYPE_CHECKING:
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
-    from .sweeps import Grid, SweepError, SweepTable, grid, sliding_spectrum, sweep
+    from .sweeps import (
+        Grid,
+        Orientations,
+        SweepError,
+        SweepTable,
+        grid,
+        orientations,
+        sliding_spectrum,
+        sweep,
+    )
 
 __all__ = [
     "STANDARD_GRAVITY",
@@ -111,6 +121,7 @@ __all__ = [
     "Lognormal",
     "Moments",
     "Normal",
+    "Orientations",
     "PlausibilityWarning",
     "PoissonPulses",
     "PulseFit",
@@ -136,6 +147,7 @@ __all__ = [
     "VelocityDependent",
     "VelocitySpectrum",
     "ViscousSlider",
+    "WithTransverse",
     "WithVertical",
     "__version__",
     "advance",
@@ -149,6 +161,7 @@ __all__ = [
     "histories",
     "integrate",
     "interfaces",
+    "orientations",
     "read_record",
     "read_station",
     "record_formats",
@@ -174,7 +187,16 @@ if not TYPE_CHECKING:
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
-        "sweeps": ("Grid", "SweepError", "SweepTable", "grid", "sliding_spectrum", "sweep"),
+        "sweeps": (
+            "Grid",
+            "Orientations",
+            "SweepError",
+            "SweepTable",
+            "grid",
+            "orientations",
+            "sliding_spectrum",
+            "sweep",
+        ),
     }
 
     def __getattr__(name):

@@ -185,8 +185,8 @@ PoissonPulses PoissonPulses::event(std::string_view name, Options options) {
 
 std::span<const std::string_view> PoissonPulses::events() noexcept { return event_names; }
 
-void PoissonPulses::pulses(std::uint64_t seed, std::uint64_t member, std::vector<double>& arrivals,
-                           std::vector<double>& amplitudes) const {
+void PoissonPulses::pulses(std::uint64_t seed, std::uint64_t member, std::uint64_t amplitude_seed,
+                           std::vector<double>& arrivals, std::vector<double>& amplitudes) const {
   const double begin = options_.stationary_start ? -edges_.back() : 0;
   const double mean_gap = 1 / rate_;
   const double expected = rate_ * (duration_ - begin);
@@ -207,7 +207,7 @@ void PoissonPulses::pulses(std::uint64_t seed, std::uint64_t member, std::vector
   arrivals.resize(count);
   amplitudes.resize(count);
   if (count == 0) return;
-  const RandomStream stream{seed, member, amplitude_purpose};
+  const RandomStream stream{amplitude_seed, member, amplitude_purpose};
   if (options_.quantile) {
     uniforms(stream, amplitudes);
     options_.quantile(amplitudes);
@@ -222,8 +222,12 @@ void PoissonPulses::pulses(std::uint64_t seed, std::uint64_t member, std::vector
 }
 
 GroundMotion PoissonPulses::sample(std::uint64_t seed, std::uint64_t member) const {
+  return sample(seed, member, seed);
+}
+
+GroundMotion PoissonPulses::sample(std::uint64_t seed, std::uint64_t member, std::uint64_t amplitude_seed) const {
   std::vector<double> arrivals, amplitudes;
-  pulses(seed, member, arrivals, amplitudes);
+  pulses(seed, member, amplitude_seed, arrivals, amplitudes);
   const std::size_t most = edges_.size() * arrivals.size() + 2;
   arrivals.push_back(infinity);
 

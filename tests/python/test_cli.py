@@ -1,5 +1,6 @@
 """The command `stickslip`: the same numbers as the library, and errors that name what was wrong."""
 
+import csv
 import gc
 import json
 import math
@@ -356,6 +357,40 @@ def test_the_vertical_component_of_a_station_acts(capsys, station):
     (row,) = results(capsys, station, "--station", "--component", 30, "--mu", 0.1)
     r = ss.integrate(ss.Coulomb(mu=0.1), ss.read_station(station, along=30), settle=True)
     assert row["peak_m"] == r.peak
+
+
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")
+@pytest.mark.filterwarnings("ignore:.*no other component of its station:RuntimeWarning")
+def test_orientations_slides_along_all_directions_of_a_station(capsys, station, tmp_path):
+    motion, files = ss.read_station(station), (tmp_path / "t.csv", tmp_path / "t.png")
+    outputs = ["--csv", str(files[0]), "--plot", str(files[1])]
+    main(["orientations", str(station), "--mu", "0.1", *outputs])
+    out = capsys.readouterr().out.splitlines()
+    t = ss.orientations(ss.Coulomb(mu=0.1), motion, settle=True)
+    assert t.from_north
+    assert out[1].split()[:2] == ["station", "mu"]
+    found = [float(cell) for cell in out[2].split()[-8:]]
+    most = t.rotd100
+    assert found[2:4] == [pytest.approx(100 * most.peak, abs=0.006), most.peak_degrees]
+    assert found[5] == pytest.approx(100 * t.rotd50.residual, abs=0.006)
+    assert files[1].stat().st_size > 10_000
+    with files[0].open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert [float(row["degrees"]) for row in rows] == t.degrees.tolist()
+    assert [float(row["peak_m"]) for row in rows] == t.peak.tolist()
+
+    options = ["--mu", "0.1", "0.2", "--slope", "5", "--degrees", "0:90:30", "--json"]
+    main(["orientations", str(station), *options, "--contact", "clipped"])
+    document = json.loads(capsys.readouterr().out)
+    slider = ss.Slider(ss.Coulomb(mu=0.2), slope_degrees=5)
+    t = ss.orientations(slider, motion, [0, 30, 60, 90], settle=True, contact="clipped")
+    rows = document["results"]
+    assert [row["residual_m"] for row in rows[4:]] == t.residual.tolist()
+    assert document["percentiles"][1]["rotd50_peak_m"] == t.rotd50.peak
+    one = tmp_path / "one.csv"
+    one.write_text("Time (s), NS (g)\n0,0\n0.1,1\n0.2,0\n")
+    assert main(["orientations", str(one), "--mu", "0.1", "--orientation", "N"]) == 1
+    assert "needs a transverse component" in capsys.readouterr().err
 
 
 @pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")

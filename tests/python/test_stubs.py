@@ -55,6 +55,14 @@ plotting.save(picture, "spectrum.png")
 table_of_sa, measures = spectrum.to_dataframe(), ss.strong_motion(quake).to_json()
 warned: type[UserWarning] = ss.PlausibilityWarning
 
+pairs = ss.WithTransverse(ss.PoissonPulses.event("great near field"), ratio=0.8, coherence=0.3)
+pairs = ss.WithTransverse(pairs.transverse, None, 1, 0, arrivals="independent")
+table_of_directions = ss.orientations(cart, pairs.sample(seed=1, member=0), range(0, 180, 5))
+largest: float = table_of_directions.rotd100.peak + table_of_directions.percentile(84).residual
+along: NDArray[np.float64] = ss.orientations(block, quake, settle=True, progress=True).peak
+picture = table_of_directions.plot()
+three = ss.WithVertical(pairs, ratio=0.5)
+
 r = ss.integrate(cart, quake, displacement=0.0, velocity=0.0)
 r = ss.integrate(block, quake, settle=True)
 x: NDArray[np.float64] = r.displacement

@@ -187,6 +187,18 @@ EXAMPLES = {
         ss.WithVertical(SHAKING, ratio=0.5),
         ss.WithVertical(PULSES),
     ],
+    ss.WithTransverse: [
+        ss.WithTransverse(SHAKING),
+        ss.WithTransverse(SHAKING, coherence=0.5),
+        ss.WithTransverse(PULSES),
+        ss.WithTransverse(PULSES, arrivals="independent"),
+        ss.WithTransverse(ss.WithVertical(PULSES)),
+    ],
+    ss.Orientations: [
+        ss.orientations(BLOCK, TWO, [0, 45]),
+        ss.orientations(BLOCK, TWO, [0, 46]),
+        ss.orientations(BLOCK, TWO, [0, 45], settle=True),
+    ],
     ss.EnsembleSensitivity: [
         ss.ensemble_sensitivity(BLOCK, SHAKING, name, members=5, seed=1)
         for name in ("mu", "damping", "scale")
@@ -363,7 +375,7 @@ def test_what_differs_compares_different(kind):
 
 def test_what_can_change_has_no_hash_and_all_else_has_one():
     unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
-    tables = {ss.SweepTable, ss.IntensityMeasures, ss.SuiteSpectra, ss.RotD}
+    tables = {ss.SweepTable, ss.IntensityMeasures, ss.SuiteSpectra, ss.RotD, ss.Orientations}
     assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid} | tables
     for kind in EXAMPLES.keys() - unhashable:
         assert len({*EXAMPLES[kind], *EXAMPLES[kind]}) == len(EXAMPLES[kind])

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "stickslip/ensemble/configuration.hpp"
 #include "stickslip/ensemble/times.hpp"
@@ -51,6 +53,33 @@ concept SliderSource = !MotionSource<T> && requires(const T& sliders, std::uint6
   { sliders.configuration() } -> std::convertible_to<std::string>;
 };
 
+/// Whether sliders of a type feel the transverse component of a ground motion. Those on one axis do not, and an
+/// ensemble of them does not generate it.
+template <class S>
+inline constexpr bool feels_transverse = false;
+
+namespace detail {
+
+/// The same of the sliders of a source.
+template <class S>
+constexpr bool members_feel_transverse() {
+  if constexpr (SliderSource<S>)
+    return feels_transverse<std::remove_cvref_t<decltype(std::declval<const S&>().sample(0, 0))>>;
+  else
+    return feels_transverse<S>;
+}
+
+/// The motion of a member, without a component that its slider does not feel.
+template <bool with_transverse, class M>
+decltype(auto) motion_of(const M& motions, std::uint64_t seed, std::uint64_t index) {
+  if constexpr (!with_transverse && requires { motions.sample_along_axis(seed, index); })
+    return motions.sample_along_axis(seed, index);
+  else
+    return motions.sample(seed, index);
+}
+
+}  // namespace detail
+
 /// Members by index: a slider, or the sliders of a source, under the motions of a source.
 /// @tparam S  a Slider for all members, or a SliderSource
 template <class S, MotionSource M>
@@ -63,12 +92,13 @@ class PairedMembers {
   const M& motions() const noexcept { return motions_; }
 
   auto member(std::uint64_t seed, std::uint64_t index) const {
-    using Motion = decltype(motions_.sample(seed, index));
+    constexpr bool pairs = detail::members_feel_transverse<S>();
+    using Motion = decltype(detail::motion_of<pairs>(motions_, seed, index));
     if constexpr (SliderSource<S>)
       return Member<decltype(sliders_.sample(seed, index)), Motion>{sliders_.sample(seed, index),
-                                                                    motions_.sample(seed, index)};
+                                                                    detail::motion_of<pairs>(motions_, seed, index)};
     else
-      return Member<const S&, Motion>{sliders_, motions_.sample(seed, index)};
+      return Member<const S&, Motion>{sliders_, detail::motion_of<pairs>(motions_, seed, index)};
   }
 
   std::optional<TimeBase> time_base() const {

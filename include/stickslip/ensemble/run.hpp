@@ -23,6 +23,15 @@ namespace stickslip {
 
 namespace detail {
 
+/// The excitation of the component along the axis, where another one makes more; held by reference.
+template <class M>
+const auto& along_axis(const M& motions) {
+  if constexpr (requires { motions.along_axis(); })
+    return motions.along_axis();
+  else
+    return motions;
+}
+
 /// The fastest simulator for a source; all of them solve the same equations.
 template <MemberSource Source>
 std::unique_ptr<Simulator> simulator(const Source& source, const EnsembleOptions& options) {
@@ -30,9 +39,10 @@ std::unique_ptr<Simulator> simulator(const Source& source, const EnsembleOptions
 }
 template <class S, MotionSource M>
 std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, const EnsembleOptions& options) {
-  if constexpr (requires { lanes_simulator(source.sliders(), source.motions(), options.seed, options.settle); })
+  const auto& motions = along_axis(source.motions());  // all sliders in lanes are on one axis
+  if constexpr (requires { lanes_simulator(source.sliders(), motions, options.seed, options.settle); })
     if (source.sliders().plain())
-      if (auto lanes = lanes_simulator(source.sliders(), source.motions(), options.seed, options.settle)) return lanes;
+      if (auto lanes = lanes_simulator(source.sliders(), motions, options.seed, options.settle)) return lanes;
   return std::make_unique<MemberSimulator<PairedMembers<S, M>>>(source, options.seed, options.settle, options.contact);
 }
 

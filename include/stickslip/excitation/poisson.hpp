@@ -139,11 +139,17 @@ class PoissonPulses {
   /// Cost: linear in the number of steps, three for each pulse; a shape of K times makes K, with a factor log K.
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const;
 
+  /// The motion whose pulses arrive at the times of (seed, member) and have the amplitudes of (amplitude_seed, member):
+  /// the other component of ground motion from the same source. It has the times of the motion of (seed, member).
+  GroundMotion sample(std::uint64_t seed, std::uint64_t member, std::uint64_t amplitude_seed) const;
+
   /// The pulses of one member: arrival times [s], ascending, below `duration()`, and amplitudes [m/s^2]. The memory of
   /// the vectors is reused. Pulse i uses number i of the member's streams of exponential and normal (or uniform)
   /// numbers.
   void pulses(std::uint64_t seed, std::uint64_t member, std::vector<double>& arrivals,
-              std::vector<double>& amplitudes) const;
+              std::vector<double>& amplitudes) const {
+    pulses(seed, member, seed, arrivals, amplitudes);
+  }
 
   /// Variance of the acceleration [m^2/s^4]: lambda sigma^2 int w^2, thesis (5.19); 2 lambda Dt sigma^2, (5.61).
   double variance() const noexcept;
@@ -176,6 +182,9 @@ class PoissonPulses {
   }
 
  private:
+  void pulses(std::uint64_t seed, std::uint64_t member, std::uint64_t amplitude_seed, std::vector<double>& arrivals,
+              std::vector<double>& amplitudes) const;
+
   double rate_;
   double half_width_;
   double sigma_;

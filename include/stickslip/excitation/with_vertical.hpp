@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "stickslip/error.hpp"
@@ -25,6 +26,13 @@ std::uint64_t vertical_seed(std::uint64_t seed);
 /// @throws std::invalid_argument  different interpolations or durations; a horizontal motion that has a vertical
 ///                                component, or a vertical motion of several
 GroundMotion with_vertical(GroundMotion horizontal, const GroundMotion& vertical, double ratio);
+
+/// An excitation of pairs that names the excitation of its component along the axis, as `WithTransverse` does.
+template <class E>
+concept ExcitationOfPairs = Excitation<E> && requires(const E& pairs, std::uint64_t number) {
+  { pairs.along_axis() } -> Excitation;
+  { pairs.sample_along_axis(number, number) } -> std::same_as<GroundMotion>;
+};
 
 }  // namespace detail
 
@@ -63,6 +71,10 @@ class WithVertical {
   /// @param ratio  vertical over horizontal rms acceleration, V/H, finite and at least 0
   WithVertical(H horizontal, double ratio) requires std::same_as<H, V> : WithVertical(horizontal, horizontal, ratio) {}
 
+  /// All three components of a `WithTransverse`, the vertical one from the excitation of the component along the axis.
+  WithVertical(H horizontal, double ratio) requires detail::ExcitationOfPairs<H>
+      : WithVertical(horizontal, V(horizontal.along_axis()), ratio) {}
+
   const H& horizontal() const noexcept { return horizontal_; }
   const V& vertical() const noexcept { return vertical_; }
   double ratio() const noexcept { return ratio_; }
@@ -73,17 +85,25 @@ class WithVertical {
   double dt() const requires requires(const H& h) { h.dt(); }
   { return horizontal_.dt(); }
 
-  /// One motion with both components.
+  /// One motion with both components; of a `WithTransverse`, with all three.
   GroundMotion sample(std::uint64_t seed, std::uint64_t member) const {
     return detail::with_vertical(horizontal_.sample(seed, member),
                                  vertical_.sample(detail::vertical_seed(seed), member), ratio_);
   }
 
+  /// The same motion without its transverse component.
+  GroundMotion sample_along_axis(std::uint64_t seed, std::uint64_t member) const requires detail::ExcitationOfPairs<H> {
+    return detail::with_vertical(horizontal_.sample_along_axis(seed, member),
+                                 vertical_.sample(detail::vertical_seed(seed), member), ratio_);
+  }
+
   /// Everything that the motions depend on, as JSON.
-  std::string configuration() const {
-    return R"({"excitation": "WithVertical", "horizontal": )" + std::string(horizontal_.configuration()) +
-           R"(, "vertical": )" + std::string(vertical_.configuration()) + R"(, "ratio": )" + detail::shortest(ratio_) +
-           "}";
+  std::string configuration() const { return configuration_of(horizontal_.configuration()); }
+
+  /// The same with another horizontal excitation, given by its configuration.
+  std::string configuration_of(const std::string& horizontal) const {
+    return R"({"excitation": "WithVertical", "horizontal": )" + horizontal + R"(, "vertical": )" +
+           std::string(vertical_.configuration()) + R"(, "ratio": )" + detail::shortest(ratio_) + "}";
   }
 
   friend bool operator==(const WithVertical& a, const WithVertical& b) {
@@ -95,5 +115,8 @@ class WithVertical {
   V vertical_;
   double ratio_;
 };
+
+template <detail::ExcitationOfPairs H>
+WithVertical(H, double) -> WithVertical<H, std::remove_cvref_t<decltype(std::declval<const H&>().along_axis())>>;
 
 }  // namespace stickslip

@@ -13,7 +13,7 @@
 
 #include "bindings.hpp"
 #include "drawn.hpp"
-#include "excitation/with_vertical.hpp"
+#include "excitation/components.hpp"
 #include "stickslip/ensemble/detail/block.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"
@@ -69,8 +69,8 @@ class PythonMotions : public PythonSource {
  public:
   PythonMotions(const py::object& object, const std::atomic<bool>& ended)
       : PythonSource(object, ended,
-                     "motions must be a GaussianExcitation, PoissonPulses, WithVertical, GroundMotion, a list of "
-                     "GroundMotion, or an object with sample(*, seed, member), duration and configuration") {
+                     "motions must be a GaussianExcitation, PoissonPulses, WithTransverse, WithVertical, GroundMotion, "
+                     "a list of GroundMotion, or an object with sample(*, seed, member), duration and configuration") {
     const py::object duration = attribute(object, "duration");
     if (duration.is_none()) return;
     base_ = TimeBase{duration.cast<double>()};
@@ -159,7 +159,7 @@ template <class F>
 auto with_motions(const py::object& motions, const std::atomic<bool>& ended, F&& f) {
   if (py::isinstance<GaussianExcitation>(motions)) return f(motions.cast<const GaussianExcitation&>());
   if (py::isinstance<PoissonPulses>(motions)) return f(motions.cast<const PoissonPulses&>());
-  if (py::isinstance<HeldWithVertical>(motions)) return f(motions.cast<const HeldWithVertical&>().excitation());
+  if (const auto components = components_of(motions)) return components->visit(f);
   if (py::isinstance<GroundMotion>(motions)) return f(OneOf(std::vector{motions.cast<GroundMotion>()}));
   if (const auto list = list_of(motions, "motions")) {
     std::vector<GroundMotion> items;

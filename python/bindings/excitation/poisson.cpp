@@ -253,8 +253,8 @@ Thesis 5.3; A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing (198
             return std::vector<std::string>(names.begin(), names.end());
           },
           "The names that `event` accepts.")
-      .def("sample", &PoissonPulses::sample, py::kw_only(), py::arg("seed"), py::arg("member"),
-           py::call_guard<py::gil_scoped_release>(),
+      .def("sample", py::overload_cast<std::uint64_t, std::uint64_t>(&PoissonPulses::sample, py::const_), py::kw_only(),
+           py::arg("seed"), py::arg("member"), py::call_guard<py::gil_scoped_release>(),
            R"(Generate the motion of a member, from 0 to `duration`: exact, with constant interpolation at uneven times.
 
 Parameters

@@ -2,7 +2,8 @@
 
 ``stickslip slide kobe.AT2 --mu 0.1 0.2 0.3`` prints how far a block slides; ``stickslip slide
 --help`` lists the options. ``stickslip records FOLDER`` prints what files hold, ``stickslip
-spectrum`` their response spectra. ``stickslip ensemble --event "great very near field" --mu 0.2
+spectrum`` their response spectra. ``stickslip orientations`` slides along all directions of a
+station. ``stickslip ensemble --event "great very near field" --mu 0.2
 --members 100000`` prints statistics for random earthquakes, and ``stickslip thesis`` redraws the
 figures of the thesis. ``stickslip completion bash`` prints a script that completes all this in a
 shell. Each subcommand is one file here, with a function that adds its arguments and one that runs
@@ -29,6 +30,7 @@ from .batch import StrictError
 from .completion import add_completion, complete
 from .ensemble import add_ensemble
 from .newmark import add_newmark
+from .orientations import add_orientations
 from .output import FAILURES, complain, reason_of, version, write
 from .parser import Parser
 from .records import add_records
@@ -74,6 +76,7 @@ exit codes:
     for add in (
         add_slide,
         add_newmark,
+        add_orientations,
         add_records,
         add_spectrum,
         add_ensemble,

@@ -49,11 +49,13 @@ def run_ensemble(
         A law alone is a slider without spring and damper. From a list of m sliders, member i takes
         number i modulo m; from `Drawn(list)`, a random one. `Random` has random parameters. For
         your own source see `stickslip.ensemble.SliderSource`.
-    motions : GaussianExcitation, PoissonPulses, WithVertical, GroundMotion or list, Drawn, ...
-        A random source, `WithVertical` also with a vertical component; or records, which may differ
-        in length and time step: from a list of n, member i takes number i modulo n; from
-        `Drawn(list)`, a random one. For your own source see `stickslip.ensemble.Excitation`. If
-        durations differ, there are no statistics by time: `Ensemble.time` is empty.
+    motions : GaussianExcitation, PoissonPulses, WithTransverse, WithVertical, GroundMotion, ...
+        A random source, `WithVertical` also with a vertical component, `WithTransverse` with a
+        second horizontal one, which sliders on one axis do not feel; or a record, a list of records
+        or `Drawn`. Records may differ in length and time step: from a list of n, member i takes
+        number i modulo n; from `Drawn(list)`, a random one. For your own source see
+        `stickslip.ensemble.Excitation`. If durations differ, there are no statistics by time:
+        `Ensemble.time` is empty.
     members : int
         Number of members, at least 1; at least 2 for standard errors.
     seed : int

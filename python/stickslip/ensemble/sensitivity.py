@@ -33,7 +33,7 @@ def ensemble_sensitivity(
     ----------
     sliders : Slider, Coulomb, a list of these, Drawn, Random or SliderSource
         As for `run_ensemble`, with Coulomb friction and any mounting but stops.
-    motions : GaussianExcitation, PoissonPulses, WithVertical, GroundMotion or list of it, ...
+    motions : GaussianExcitation, PoissonPulses, WithTransverse, WithVertical, GroundMotion, ...
         As for `run_ensemble`.
     parameter : str
         'mu' or 'slip_level' [m/s^2]; 'natural_frequency' [rad/s]; 'damping' [1/s]; 'slope_degrees';

@@ -19,6 +19,7 @@ from .._core import (
     StaticKinetic,
     Stribeck,
     VelocityDependent,
+    WithTransverse,
     WithVertical,
     _upward,
 )
@@ -88,4 +89,6 @@ AnySlider: TypeAlias = (
 )
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
-AnyMotions: TypeAlias = "GaussianExcitation | PoissonPulses | WithVertical | Excitation | Records"
+AnyMotions: TypeAlias = (
+    "GaussianExcitation | PoissonPulses | WithTransverse | WithVertical | Excitation | Records"
+)

@@ -18,6 +18,7 @@ except ImportError as error:
     ) from error
 
 from .comparison import plot_comparison
+from .directions import plot_orientations
 from .ensemble import plot_ensemble
 from .figures import check_suffix as check_suffix
 from .figures import new_figure as new_figure
@@ -42,6 +43,7 @@ __all__ = [
     "plot_friction_sweep",
     "plot_ground_motion",
     "plot_hysteresis",
+    "plot_orientations",
     "plot_response",
     "plot_response_spectrum",
     "plot_responses",

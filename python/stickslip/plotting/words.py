@@ -22,7 +22,8 @@ def describe_ensemble(ensemble: Ensemble) -> str:
     configuration, times = ensemble.configuration, ensemble.time
     slider, excitation = configuration["slider"], configuration["excitation"]
     words = [f"{ensemble.members:,} members" + (f" of {times[-1]:.4g} s" if times.size else "")]
-    if isinstance(excitation, dict) and excitation.get("excitation") == "WithVertical":
+    kind = excitation.get("excitation") if isinstance(excitation, dict) else None
+    if kind == "WithVertical":
         words.append("vertical motion")
     if not isinstance(slider, dict):  # the configuration of a user-defined source
         pass

@@ -1,5 +1,6 @@
 """Sweeps: many sliders under many ground motions, in one table."""
 
+from .directions import OrientationPercentile, Orientations, orientations
 from .error import SweepError
 from .parameter_grid import Grid, grid
 from .run import sweep
@@ -8,10 +9,13 @@ from .table import SweepFailure, SweepTable
 
 __all__ = [
     "Grid",
+    "OrientationPercentile",
+    "Orientations",
     "SweepError",
     "SweepFailure",
     "SweepTable",
     "grid",
+    "orientations",
     "sliding_spectrum",
     "sweep",
 ]
