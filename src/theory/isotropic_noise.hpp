@@ -1,5 +1,5 @@
 // Coulomb friction under white noise in d dimensions: transforms in time. Equation numbers are those of
-// docs/white_noise.md.
+// docs/planar_white_noise.md.
 #pragma once
 
 #include <complex>
@@ -21,7 +21,7 @@ struct IsotropicFromRest {
 /// @param dimensions  at least 2
 IsotropicFromRest isotropic_from_rest(double level, int dimensions);
 
-/// E|v|^n from rest in the same units. (W.8)
+/// E|v|^n from rest in the same units. (W.13)
 double isotropic_moment(double level, int order, int dimensions);
 
 /// E[v_i(t) v_i(0)] of the stationary velocity, in units of D / a.

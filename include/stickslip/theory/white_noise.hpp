@@ -29,7 +29,8 @@ namespace stickslip::theory {
 ///
 /// The levels must then be equal. The distribution is the same in all directions, so that coordinates are uncorrelated,
 /// though not independent, and all have the same moments: means, variances, covariances, densities and spectra are
-/// those of each coordinate. In two and more dimensions the velocity never returns to zero (docs/white_noise.md).
+/// those of each coordinate. In two and more dimensions the velocity never returns to zero; see
+/// docs/planar_white_noise.md.
 ///
 /// With a level of 0 there is no stationary velocity in that direction: stationary values are then infinite, transient
 /// ones remain valid. With an infinite backward level the slider never slides backward, as for `Coulomb`. Values at a
@@ -38,7 +39,7 @@ namespace stickslip::theory {
 ///
 /// References: T. K. Caughey, J. K. Dienes, J. Appl. Phys. 32 (1961), 2476-2479; I. Karatzas, S. E. Shreve, Ann.
 /// Probab. 12 (1984), 819-828; transforms by the contour of J. A. C. Weideman, SIAM J. Numer. Anal. 44 (2006),
-/// 2342-2362. In more dimensions: docs/white_noise.md derives the results.
+/// 2342-2362. In more dimensions: docs/planar_white_noise.md derives the results.
 class WhiteNoise {
  public:
   /// In the units of the slip level and the noise: a = 1 m/s^2, S0 = 1 m^2/s^3.
@@ -128,7 +129,7 @@ class WhiteNoise {
 
   /// E|v|^n at `time`, from rest [(m/s)^n], by the transform
   ///     n! (1/k^(n+1) + 1/m^(n+1)) / (s (1/k + 1/m)),   2 D k = a + sqrt(a^2 + 4 D s),   m as k, of b
-  /// In more than one dimension |v| is the speed, and the transform is (W.13) of docs/white_noise.md.
+  /// In more than one dimension |v| is the speed, and the transform is (W.13) of docs/planar_white_noise.md.
   /// @param order  n, from 1 to 8
   /// @param time   [s], finite and at least 0
   /// @throws std::invalid_argument naming the value
@@ -136,7 +137,7 @@ class WhiteNoise {
 
   /// Means and covariances of each coordinate by time, from rest. In one dimension E[x v] and E[x^2] are also computed
   /// by their transforms, 3 / ((k - 1) (2 k - 1) k^4) + 2 / ((k - 1) (2 k - 1)^2 k^3) and 2 / (k (k - 1)) times that if
-  /// the levels are equal, in units of D and a; in more dimensions by (W.13) and (W.14) of docs/white_noise.md.
+  /// the levels are equal, in units of D and a; in more dimensions by (W.13) and (W.14) of docs/planar_white_noise.md.
   /// @param times  [s], finite, at least 0, increasing
   /// @throws std::invalid_argument naming the value; also if a moment exceeds the range of doubles
   Moments predict(std::span<const double> times) const;
