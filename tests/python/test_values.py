@@ -271,7 +271,7 @@ EXAMPLES = {
         theory.WhiteNoise(),
         theory.WhiteNoise(BLOCK, WHITE),
         theory.WhiteNoise(BLOCK, 2),
-        theory.WhiteNoise(BLOCK, 2, dimensions=2),
+        theory.WhiteNoise.coulomb(1, 2, dimensions=2),
     ],
     thesis.ThesisCheck: FIGURES[0].check()[:2],
     thesis.ThesisCurve: [c for figure in FIGURES for panel in figure.panels for c in panel.curves],
