@@ -240,6 +240,7 @@ EXAMPLES = {
         theory.EquivalentLinearization(tolerance=1e-9),
         theory.EquivalentLinearization("laplace", filter_order=6),
         theory.EquivalentLinearization(max_misfit=0.5),
+        theory.EquivalentLinearization(dimensions=2),
     ],
     theory.HarmonicSolution: theory.SlowlyVaryingParameters(CART).response(3, 1.2),
     theory.DisplacementDistribution: [
