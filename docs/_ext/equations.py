@@ -20,7 +20,7 @@ from sphinx.util.nodes import make_refnode
 
 logger = logging.getLogger(__name__)
 TAG = re.compile(r"\\tag\{([^}]*)\}")
-NUMBER = r"(?:[2-5]|A)\.[1-9][0-9]?"
+NUMBER = r"(?:[2-5]|A|W)\.[1-9][0-9]?"
 
 
 def label(number):

@@ -104,7 +104,8 @@ inline constexpr auto parts<PulseFit> = std::tuple(&PulseFit::half_width, &Pulse
 template <>
 inline constexpr auto parts<theory::Coverage> = std::tuple(&theory::Coverage::reason, &theory::Coverage::excitation);
 template <>
-inline constexpr auto parts<theory::WhiteNoise> = std::tuple(&theory::WhiteNoise::law, &theory::WhiteNoise::s0);
+inline constexpr auto parts<theory::WhiteNoise> = std::tuple(&theory::WhiteNoise::law, &theory::WhiteNoise::s0,
+                                                             &theory::WhiteNoise::dimensions);
 template <>
 inline constexpr auto parts<theory::ShapingFilter::Section> = std::tuple(&theory::ShapingFilter::Section::b2,
                                                                          &theory::ShapingFilter::Section::b1,
@@ -121,7 +122,8 @@ inline constexpr auto parts<theory::ShapingFilter::Fit> = std::tuple(&theory::Sh
 template <>
 inline constexpr auto parts<theory::EquivalentLinearization::Options> =
     std::tuple(&theory::EquivalentLinearization::Options::force, &theory::EquivalentLinearization::Options::start,
-               &theory::EquivalentLinearization::Options::tolerance, &theory::EquivalentLinearization::Options::filter);
+               &theory::EquivalentLinearization::Options::tolerance, &theory::EquivalentLinearization::Options::filter,
+               &theory::EquivalentLinearization::Options::dimensions);
 template <>
 inline constexpr auto parts<theory::EquivalentLinearization> = std::tuple(&theory::EquivalentLinearization::options);
 template <>

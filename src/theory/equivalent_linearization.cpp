@@ -31,6 +31,48 @@ const double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 using Options = EquivalentLinearization::Options;
 
+/// Friction a |v| along the velocity vector in d dimensions, with the linear force -c v: c = a E|v| / E|v|^2, relative
+/// to that in one dimension, for each density.
+double level_factor(const Options& options) {
+  const double d = options.dimensions;
+  if (options.dimensions == 1) return 1;
+  if (options.force == EquivalentLinearization::Force::laplace) return std::sqrt(2 / (d + 1));
+  return std::sqrt(pi) * std::tgamma((d + 1) / 2) / (d * std::tgamma(d / 2));
+}
+
+/// The law along one axis whose linear equivalent is that of each coordinate.
+detail::LinearizedLaw along_one_axis(const detail::LinearizedLaw& law, const Options& options) {
+  if (options.dimensions == 1) return law;
+  const auto* const coulomb = std::get_if<Coulomb>(&law);
+  const std::string where = noun + ": in " + std::to_string(options.dimensions) + " dimensions ";
+  if (coulomb == nullptr)
+    throw std::invalid_argument(where +
+                                "covers Coulomb friction, because other laws of position are not the same in "
+                                "all directions");
+  if (coulomb->forward() != coulomb->backward())
+    throw std::invalid_argument(where + "the levels must be equal, because friction opposes the velocity vector, got " +
+                                shortest(coulomb->forward()) + " and " + shortest(coulomb->backward()) + " m/s^2");
+  return Coulomb(level_factor(options) * coulomb->forward());
+}
+
+/// By how much a fraction falls short of 1, in percent.
+std::string low(double fraction) { return shortest(std::round(100 * (1 - fraction))) + " %"; }
+
+/// Errors under white noise in more than one dimension, without a spring: from q22 = (D / a f)^2, f = sqrt(2 / pi)
+/// level_factor, and the growth 2 D^3 / (a f)^4, against (d + 1) D^2 / a^2 and (d + 1) (2 d + 3) D^3 / a^4.
+std::string remark_in_dimensions(const Options& options) {
+  const double d = options.dimensions;
+  const bool laplace = options.force == EquivalentLinearization::Force::laplace;
+  const double factor = level_factor(options) * (laplace ? 1 / std::numbers::sqrt2 : std::sqrt(2 / pi)),
+               square = factor * factor;
+  const std::string growth = low(2 / (square * square * (d + 1) * (2 * d + 3)));
+  return "in " + std::to_string(options.dimensions) +
+         " dimensions under white noise the stationary velocity variance is " +
+         (laplace ? "exact, the growth of the displacement variance " + growth + " low"
+                  : low(1 / (square * (d + 1))) + " low and the growth of the displacement variance " + growth) +
+         ": WhiteNoise has the exact figures";
+}
+
 /// The level of stationary white noise, if two states alone describe the response: equal levels, no damper.
 std::optional<double> two_states(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) {
   const auto* const coulomb = std::get_if<Coulomb>(&law);
@@ -104,6 +146,7 @@ std::string remark(const detail::LinearizedLaw& law, const Options& options, dou
     return "starts from (3.38) to (3.40), whose q11(0) outweighs the displacement up to t = 0.2 S0 / a^2";
   if (std::string loose = caster_remark(law, options, natural_frequency, s0, moments); !loose.empty()) return loose;
   if (natural_frequency > 0) return {};
+  if (options.dimensions > 1) return remark_in_dimensions(options);
   if (options.force == EquivalentLinearization::Force::laplace)
     return detail::laplace_white_range + std::string(": WhiteNoise has the exact figures");
   if (coulomb != nullptr || (wheel != nullptr && std::isinf(wheel->reach())))
@@ -153,7 +196,9 @@ std::string shaped_remark(const detail::ShapedProblem& problem, double ratio, st
     const double low = std::min(coulomb->forward(), coulomb->backward()),
                  high = std::max(coulomb->forward(), coulomb->backward());
     if (problem.noise.white() && problem.damping == 0)
-      add(detail::laplace_white_range + std::string(": WhiteNoise has the exact figures"));
+      add(problem.options.dimensions > 1
+              ? remark_in_dimensions(problem.options)
+              : detail::laplace_white_range + std::string(": WhiteNoise has the exact figures"));
     else if (high > detail::laplace_unequal * low)
       add(detail::laplace_unequal_range);
   }
@@ -168,23 +213,31 @@ std::string shaped_remark(const detail::ShapedProblem& problem, double ratio, st
 EquivalentLinearization::EquivalentLinearization(Options options) : options_(options) {
   require(options.tolerance >= 1e-12 && options.tolerance <= 1e-2, noun + ": tolerance must be from 1e-12 to 1e-2",
           options.tolerance);
+  require(options.dimensions >= 1 && options.dimensions <= 6, noun + ": dimensions must be from 1 to 6",
+          options.dimensions);
+  require(options.dimensions == 1 || (options.force != Force::thesis && options.start != Start::thesis),
+          noun + ": the thesis's force and start are those of one dimension: dimensions must be 1", options.dimensions);
 }
 
 std::string EquivalentLinearization::name() const {
+  const std::string dimensions =
+      options_.dimensions == 1 ? "" : ", " + std::to_string(options_.dimensions) + " dimensions";
   switch (options_.force) {
     case Force::gaussian:
-      return noun;
+      break;
     case Force::gaussian_a22:
-      return noun + ", gaussian_a22";
+      return noun + ", gaussian_a22" + dimensions;
     case Force::laplace:
-      return noun + ", laplace";
+      return noun + ", laplace" + dimensions;
     case Force::thesis:
-      return noun + ", thesis";
+      return noun + ", thesis" + dimensions;
   }
-  return noun;
+  return noun + dimensions;
 }
 
-void EquivalentLinearization::check(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) const {
+void EquivalentLinearization::check(const detail::LinearizedLaw& given, double damping,
+                                    const ShapedNoise& noise) const {
+  const detail::LinearizedLaw law = along_one_axis(given, options_);
   if (const auto s0 = two_states(law, damping, noise)) {
     detail::check_start(law, *s0, options_.start);
     detail::expectation(law, options_.force, 0);
@@ -195,9 +248,10 @@ void EquivalentLinearization::check(const detail::LinearizedLaw& law, double dam
   detail::AverageFriction(law, options_.force, 0);
 }
 
-Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, double natural_frequency, double damping,
+Moments EquivalentLinearization::predict(const detail::LinearizedLaw& given, double natural_frequency, double damping,
                                          const ShapedNoise& noise, std::span<const double> times,
                                          const std::function<void()>& progress) const {
+  const detail::LinearizedLaw law = along_one_axis(given, options_);
   if (const auto s0 = two_states(law, damping, noise)) {
     const auto solution = detail::solve_covariance(law, natural_frequency, *s0, times, options_, progress);
     Moments moments = detail::moments_at(times);
@@ -211,7 +265,7 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
     moments.remark = remark(law, options_, natural_frequency, *s0, moments);
     return moments;
   }
-  check(law, damping, noise);
+  check(given, damping, noise);
   detail::check_times(noun, times);
   const ShapingFilter filter = noise.filter(options_.filter);
   const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
@@ -233,8 +287,9 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& law, doubl
   return moments;
 }
 
-Moments EquivalentLinearization::stationary(const detail::LinearizedLaw& law, double natural_frequency, double damping,
-                                            const ShapedNoise& noise) const {
+Moments EquivalentLinearization::stationary(const detail::LinearizedLaw& given, double natural_frequency,
+                                            double damping, const ShapedNoise& noise) const {
+  const detail::LinearizedLaw law = along_one_axis(given, options_);
   const ShapingFilter filter = noise.filter(options_.filter);
   const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
   const detail::StationaryState found = detail::solve_stationary(problem);
@@ -248,8 +303,9 @@ Moments EquivalentLinearization::stationary(const detail::LinearizedLaw& law, do
   return moments;
 }
 
-LinearFriction EquivalentLinearization::coefficients(const detail::LinearizedLaw& law, double q11, double q12,
+LinearFriction EquivalentLinearization::coefficients(const detail::LinearizedLaw& given, double q11, double q12,
                                                      double q22) const {
+  const detail::LinearizedLaw law = along_one_axis(given, options_);
   require(std::isfinite(q11) && q11 > 0, noun + ": q11 must be positive and finite", q11, "m^2");
   require(std::isfinite(q22) && q22 > 0, noun + ": q22 must be positive and finite", q22, "m^2/s^2");
   const double displacement = std::sqrt(q11), velocity = std::sqrt(q22), c = q12 / displacement / velocity;

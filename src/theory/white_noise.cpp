@@ -1,13 +1,20 @@
 #include "stickslip/theory/white_noise.hpp"
 
+#include <gsl/gsl_sf_bessel.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "stickslip/error.hpp"
+#include "theory/isotropic_noise.hpp"
+#include "theory/laplace_inversion.hpp"
 #include "theory/theory_moments.hpp"
 
 namespace stickslip::theory {
@@ -15,35 +22,6 @@ namespace {
 
 using std::numbers::pi;
 using Complex = std::complex<double>;
-
-/// f(1) of a Laplace transform that is analytic off the negative real axis: the trapezoidal rule on Weideman's contour,
-/// a cotangent whose parameters are the best for such. Its error falls as exp(-1.36 n), n the nodes of both halves; e^z
-/// is 240 at most, so that round-off stays near 1e-14.
-template <std::size_t count, class Transform>
-std::array<double, count> inverted(Transform&& transform) {
-  constexpr int nodes = 32;
-  struct Node {
-    Complex place, weight;
-  };
-  static const auto contour = [] {
-    std::array<Node, nodes / 2> all;
-    for (int i = 0; i < nodes / 2; ++i) {
-      const double angle = (2 * i + 1) * pi / nodes, sine = std::sin(0.6407 * angle),
-                   cotangent = std::cos(0.6407 * angle) / sine;
-      const Complex z = double{nodes} * Complex(0.5017 * angle * cotangent - 0.6122, 0.2645 * angle);
-      const Complex slope(0.5017 * cotangent - 0.5017 * 0.6407 * angle / (sine * sine), 0.2645);
-      all[static_cast<std::size_t>(i)] = {z, std::exp(z) * slope * Complex(0, -2)};
-    }
-    return all;
-  }();
-  std::array<double, count> sums{};
-  for (const Node& node : contour) {
-    const std::array<Complex, count> values = transform(node.place);
-    for (std::size_t i = 0; i < count; ++i)
-      sums[i] += node.weight.real() * values[i].real() - node.weight.imag() * values[i].imag();
-  }
-  return sums;
-}
 
 /// One side of rest, in the units in which D and the time are 1. The transform of the density is B exp(-k |v|).
 struct Side {
@@ -85,7 +63,7 @@ struct FromRest {
 FromRest from_rest(double a, double b) {
   const bool late = a > 1 && b > 1;
   const double drift = late ? 1 / a - 1 / b : 0;
-  const auto f = inverted<5>([&](Complex z) {
+  const auto f = detail::inverted<5>([&](Complex z) {
     const Side up(a, z), down(b, z);
     const Complex B = 1.0 / (z * (up.length + down.length));
     const Complex excess = late ? up.late - down.late : up.inverse_root - down.inverse_root;  // less the drift
@@ -104,6 +82,20 @@ FromRest from_rest(double a, double b) {
   return {f[0], f[1], drift + f[2], f[3] - f[2] * f[0], f[4] - f[2] * f[2]};
 }
 
+FromRest from_rest(const Units& units, int dimensions) {
+  const detail::IsotropicFromRest f = detail::isotropic_from_rest(units.forward, dimensions);
+  return {0, f.velocity_square, 0, f.covariance, f.displacement_variance};
+}
+
+/// Of v / (D / a), v >= 0, in d dimensions: the marginal of exp(-|v|).
+double component_density(double v, int dimensions) {
+  const double order = dimensions / 2.0;
+  const double scale = 1 / (2 * std::sqrt(pi) * std::tgamma(order + 0.5));
+  if (v < 1e-9) return scale * std::tgamma(order);
+  if (v > 1e4) return 0;
+  return scale * 2 * std::pow(v / 2, order) * std::exp(-v) * gsl_sf_bessel_Knu_scaled(order, v);
+}
+
 double equal_level(const Coulomb& law, const std::string& what) {
   if (law.forward() != law.backward())
     throw std::invalid_argument("WhiteNoise: " + what + " is known for equal levels only, got " +
@@ -112,9 +104,25 @@ double equal_level(const Coulomb& law, const std::string& what) {
   return law.forward();
 }
 
+double stationary_level(const Coulomb& law, const std::string& what) {
+  const double a = equal_level(law, what);
+  detail::require(a > 0, "WhiteNoise: a level of 0 leaves no stationary velocity: slip_level must be positive", a,
+                  "m/s^2");
+  return a;
+}
+
 }  // namespace
 
-WhiteNoise::WhiteNoise(const Coulomb& law, WhiteLevel s0) : law_(law), s0_(s0.s0()) {
+WhiteNoise::WhiteNoise(const Coulomb& law, WhiteLevel s0, int dimensions)
+    : law_(law), s0_(s0.s0()), dimensions_(dimensions) {
+  detail::require(dimensions >= 1 && dimensions <= max_dimensions, "WhiteNoise: dimensions must be from 1 to 6",
+                  dimensions);
+  if (dimensions > 1 && law.forward() != law.backward())
+    throw std::invalid_argument("WhiteNoise: in " + std::to_string(dimensions) +
+                                " dimensions the levels must be equal, because friction opposes the velocity vector, "
+                                "got " +
+                                detail::shortest(law.forward()) + " and " + detail::shortest(law.backward()) +
+                                " m/s^2");
   for (const double level : {law.forward(), law.backward()}) {
     const double velocity = pi * s0_ / level;
     if (level > 0 && std::isfinite(level))
@@ -126,21 +134,44 @@ WhiteNoise::WhiteNoise(const Coulomb& law, WhiteLevel s0) : law_(law), s0_(s0.s0
   }
 }
 
-WhiteNoise::WhiteNoise(const Slider<Coulomb>& slider, WhiteLevel s0) : WhiteNoise(slider.law(), s0) {
+WhiteNoise::WhiteNoise(const Slider<Coulomb>& slider, WhiteLevel s0, int dimensions)
+    : WhiteNoise(slider.law(), s0, dimensions) {
   detail::require_plain(slider, "WhiteNoise");
   detail::require(slider.natural_frequency() == 0,
                   "WhiteNoise: nothing exact is known with a spring: natural_frequency must be 0",
                   slider.natural_frequency(), "rad/s");
 }
 
+std::string WhiteNoise::name() const {
+  return dimensions_ == 1 ? "WhiteNoise" : "WhiteNoise, " + std::to_string(dimensions_) + " dimensions";
+}
+
 double WhiteNoise::density(double velocity) const {
+  if (std::isnan(velocity)) return velocity;
+  if (dimensions_ > 1) {
+    const double scale = law_.forward() / (pi * s0_);
+    return scale == 0 ? 0 : scale * component_density(std::abs(velocity) * scale, dimensions_);
+  }
   const double d = pi * s0_, level = velocity < 0 ? law_.backward() : law_.forward();
   if (velocity < 0 && std::isinf(level)) return 0;
   const double peak = 1 / (d / law_.forward() + d / law_.backward());
-  return peak == 0 && !std::isnan(velocity) ? 0 : peak * std::exp(-std::abs(velocity) * (level / d));
+  return peak == 0 ? 0 : peak * std::exp(-std::abs(velocity) * (level / d));
+}
+
+double WhiteNoise::speed_density(double speed) const {
+  if (std::isnan(speed)) return speed;
+  if (speed < 0) return 0;
+  if (dimensions_ == 1) return density(speed) + (speed > 0 ? density(-speed) : density(0));
+  const double scale = law_.forward() / (pi * s0_), u = speed * scale;
+  if (scale == 0 || std::isinf(u)) return 0;
+  double power = scale * std::exp(-u);
+  for (int j = 1; j < dimensions_; ++j) power *= u / j;
+  return power;
 }
 
 double WhiteNoise::transition_density(double velocity, double time, double start) const {
+  detail::require(dimensions_ == 1, "WhiteNoise: the transition density is known in one dimension only: dimensions",
+                  dimensions_);
   equal_level(law_, "the transition density");
   detail::require(std::isfinite(velocity), "WhiteNoise: velocity must be finite", velocity, "m/s");
   detail::require(std::isfinite(time) && time > 0, "WhiteNoise: time must be positive and finite", time, "s");
@@ -160,23 +191,47 @@ double WhiteNoise::mean() const {
   return law_.forward() == law_.backward() ? 0 : pi * s0_ / law_.forward() - pi * s0_ / law_.backward();
 }
 
+double WhiteNoise::mean_speed() const {
+  const double up = pi * s0_ / law_.forward(), down = pi * s0_ / law_.backward();
+  if (dimensions_ > 1) return dimensions_ * up;
+  return std::isinf(up) || std::isinf(down) ? std::numeric_limits<double>::infinity()
+                                            : up * (up / (up + down)) + down * (down / (up + down));
+}
+
 double WhiteNoise::variance() const {
   const double up = pi * s0_ / law_.forward(), down = pi * s0_ / law_.backward();
-  return up * up + down * down;
+  return dimensions_ > 1 ? (dimensions_ + 1) * up * up : up * up + down * down;
 }
 
 double WhiteNoise::growth_rate() const {
   const double d = pi * s0_, up = d / law_.forward(), down = d / law_.backward(), up2 = up * up, down2 = down * down;
+  if (dimensions_ > 1) return (dimensions_ + 1) * (2 * dimensions_ + 3) * up2 * (up2 / d);
   const double both =
       down > 0 ? up * down : 0;  // a block that never slides in one direction has no such term, whatever its velocity
   return 2 * (up2 * (2 * up2 / d) + both * (both / d) + down2 * (2 * down2 / d));
 }
 
+double WhiteNoise::relaxation_rate() const {
+  const double level = std::min(law_.forward(), law_.backward()), n = dimensions_;
+  return n / (n + 1) * (level / (n + 1)) * (level / (pi * s0_));
+}
+
+double WhiteNoise::velocity_autocovariance(double lag) const {
+  const double a = stationary_level(law_, "the velocity's autocovariance"), d = pi * s0_;
+  if (std::isnan(lag)) return lag;
+  const double time = std::abs(lag) * (a / d) * a;
+  if (time == 0) return variance();
+  // Relative to the variance it is exp(-time / 4) or less, which is nothing here
+  if (time > 1e5) return 0;
+  return d / a * (d / a) * detail::isotropic_autocovariance(time, dimensions_);
+}
+
 double WhiteNoise::velocity_spectrum(double omega) const {
-  const double a = equal_level(law_, "the velocity's spectrum"), d = pi * s0_;
-  detail::require(a > 0, "WhiteNoise: a level of 0 leaves no stationary velocity: slip_level must be positive", a,
-                  "m/s^2");
+  const double a = stationary_level(law_, "the velocity's spectrum"), d = pi * s0_;
   const double up = d / a;
+  if (dimensions_ > 1)
+    return std::isnan(omega) ? omega
+                             : up * up * (up / a) * detail::isotropic_spectrum(std::abs(omega) * (up / a), dimensions_);
   const Complex k = (1.0 + std::sqrt(Complex(1, 4 * omega * up / a))) / 2.0, inverse = 1.0 / k;
   const Complex shape = inverse * inverse * (2.0 + inverse * (2.0 + inverse));
   return up * up * (up / a) * (shape.real() / pi);
@@ -187,15 +242,17 @@ double WhiteNoise::absolute_moment(int order, double time) const {
   detail::require(std::isfinite(time) && time >= 0, "WhiteNoise: time must be finite and at least 0", time, "s");
   if (time == 0) return 0;
   const Units units(law_, s0_, time);
-  const double relative = inverted<1>([&](Complex z) {
-    const Complex up = Side(units.forward, z).length, down = Side(units.backward, z).length;
-    Complex p = up, q = down;
-    for (int i = 1; i <= order; ++i) {
-      p *= double(i) * up;
-      q *= double(i) * down;
-    }
-    return std::array<Complex, 1>{(p + q) / (z * (up + down))};
-  })[0];
+  const double relative = dimensions_ > 1 ? detail::isotropic_moment(units.forward, order, dimensions_)
+                                          : detail::inverted<1>([&](Complex z) {
+                                              const Complex up = Side(units.forward, z).length,
+                                                            down = Side(units.backward, z).length;
+                                              Complex p = up, q = down;
+                                              for (int i = 1; i <= order; ++i) {
+                                                p *= double(i) * up;
+                                                q *= double(i) * down;
+                                              }
+                                              return std::array<Complex, 1>{(p + q) / (z * (up + down))};
+                                            })[0];
   const double moment = relative * std::pow(units.velocity, order);
   detail::check_range("WhiteNoise", time, moment);
   return moment;
@@ -207,7 +264,7 @@ Moments WhiteNoise::predict(std::span<const double> times) const {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] == 0) continue;
     const Units units(law_, s0_, times[i]);
-    const FromRest f = from_rest(units.forward, units.backward);
+    const FromRest f = dimensions_ == 1 ? from_rest(units.forward, units.backward) : from_rest(units, dimensions_);
     const double v = units.velocity, x = v * times[i];
     const bool even = law_.forward() == law_.backward();
     moments.velocity_mean.value[i] = even ? 0 : v * f.velocity_mean;

@@ -50,6 +50,8 @@ TAKES = {
     "WhiteNoise.transition_density": lambda a: EXACT.transition_density(a, a, a),
     "WhiteNoise.transition_density, time": lambda a: EXACT.transition_density(1, a),
     "WhiteNoise.transition_density, start": lambda a: EXACT.transition_density(1, 1, a),
+    "WhiteNoise.speed_density": EXACT.speed_density,
+    "WhiteNoise.velocity_autocovariance": EXACT.velocity_autocovariance,
     "WhiteNoise.velocity_spectrum": EXACT.velocity_spectrum,
     "WhiteNoise.absolute_moment": lambda a: EXACT.absolute_moment(2, a),
     "WhiteNoise.predict": lambda a: EXACT.predict(a).velocity_variance,

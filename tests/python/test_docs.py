@@ -18,7 +18,7 @@ ELSEWHERE = {
     "examples.md",
 }  # pages whose code and what it prints have a test of their own
 
-NUMBER = r"(?:[2-5]|A)\.[1-9][0-9]?"
+NUMBER = r"(?:[2-5]|A|W)\.[1-9][0-9]?"
 
 
 # ---- code

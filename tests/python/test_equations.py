@@ -1,5 +1,6 @@
 """The equations of the pages of docs/, with the same numbers, agree with the library."""
 
+import itertools
 from math import asinh, atan, cos, cosh, exp, factorial, pi, sin, sqrt, tanh
 
 import pytest
@@ -68,6 +69,73 @@ def test_white_noise():
     k = (1 + (1 + 4j * 0.9 * d) ** 0.5) / 2
     spectrum = d**3 / pi * ((2 * k**2 + 2 * k + 1) / k**4).real
     assert noise.velocity_spectrum(0.9) == close(spectrum, rel=1e-12)
+
+
+@pytest.mark.parametrize("n", [2, 3, 5])
+def test_white_noise_in_the_plane(n):
+    """The transforms of the page at some s, against quadrature of the library over time."""
+    special = pytest.importorskip("scipy.special")
+    noise = theory.WhiteNoise.coulomb(1.0, 1 / pi, dimensions=n)  # a = D = 1
+    assert noise.variance == close(n + 1, rel=1e-14)  # (W.5)
+    assert noise.growth_rate == close((n + 1) * (2 * n + 3), rel=1e-14)  # (W.7)
+    assert noise.relaxation_rate == close(n / (n + 1) ** 2, rel=1e-14)  # (W.10)
+    y = 0.8
+    margin = (y / 2) ** (n / 2) * special.kv(n / 2, y) / sqrt(pi) / special.gamma((n + 1) / 2)
+    assert noise.density(y) == close(margin, rel=1e-12)  # (W.4)
+    delay = (n + 1) * (47 * n**2 + 151 * n + 126) / 12
+    late = noise.predict([1e4]).displacement_variance[0]
+    assert late == close(noise.growth_rate * 1e4 - delay, rel=1e-11)  # (W.15)
+
+    s = 0.7
+    q = sqrt(1 + 4 * s)
+    k, rho = (1 + q) / 2, (q - 1) / (q + 1)
+    z = (k - 1) / q
+    alpha = (n - 1) * z
+    b = alpha + 1
+
+    def transform(f):
+        return integral(lambda t: exp(-s * t) * f(t), 0, 4) + integral(
+            lambda t: exp(-s * t) * f(t), 4, 60
+        )
+
+    closed = (n + 1) / s - 1 / s**2 + special.hyp2f1(1, b - n, b + 1, rho**2) / (b * k**2 * s**2)
+    terms = [
+        factorial(m + n) / factorial(m) * ((m + n + 1) * rho**m + m * rho ** (m - 1)) ** 2 / (m + b)
+        for m in range(100)
+    ]
+    assert closed == close(q**n / factorial(n) / k ** (2 * n + 4) * sum(terms), rel=1e-12)  # (W.12)
+    assert transform(noise.velocity_autocovariance) == close(closed, rel=1e-9)
+
+    def gauss(order):
+        return special.hyp2f1(alpha, alpha + 2 - n, alpha + order + 2, z)
+
+    square = n * (n + 1) * 6 / ((alpha + 2) * (alpha + 3)) / (s * k**2) * gauss(2) / gauss(0)
+    assert transform(lambda t: noise.absolute_moment(2, t)) == close(square, rel=1e-9)
+
+    def g(m):
+        p = m + alpha + 1
+        return 2 * ((n - 3) * p - 2 * (n - 1) / q) / (p**2 * (p**2 - 1) * (p**2 - 4))
+
+    row, total = [g(m) for m in range(61)], 0.0
+    for j in range(60):
+        row = [x - y for x, y in itertools.pairwise(row)]
+        total += special.binom(j + n + 1, j) * z**j * row[0]
+    product = 3 * (n - 1) * n * (n + 1) / q**6 * total  # (W.14)
+    found = transform(lambda t: n * noise.predict([t]).covariance[0])
+    assert found == close(product, rel=1e-9)
+
+
+@pytest.mark.parametrize(("n", "gaussian"), [(1, 2 / pi), (2, pi / 8), (3, 8 / (9 * pi))])
+def test_linearization_in_the_plane(n, gaussian):
+    exact = theory.WhiteNoise.coulomb(1.0, 1 / pi, dimensions=n)
+    for force, square in (("gaussian", gaussian), ("laplace", 1 / (n + 1))):
+        linear = theory.EquivalentLinearization(force, dimensions=n)
+        block = ss.Coulomb(slip_level=1.0)
+        assert linear.coefficients(block, 1, 0, 1)[1] == close(-sqrt(square), rel=1e-12)  # (W.17)
+        m = linear.stationary(block, 1 / pi)
+        assert m.velocity_variance[0] == close(1 / square, rel=1e-8)  # (W.18)
+        assert m.growth_rate.value == close(2 / square**2, rel=1e-8)
+    assert m.velocity_variance[0] == close(exact.variance, rel=1e-8)
 
 
 def test_equivalent_linearization():

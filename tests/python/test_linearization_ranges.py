@@ -88,6 +88,37 @@ def test_casters_under_white_noise_have_the_errors_shown():
         assert agree(value(rv), q[2], value(v)), (gamma, t)
 
 
+def test_the_plane_has_the_errors_shown():
+    rows = shown("plane")
+    assert len(rows) == sum(len(times) for _, _, times, _ in measured.PLANE)
+    scatter = []
+    for d, spring, t, *cells in rows:
+        slider = ss.Slider(ss.Coulomb(slip_level=1), natural_frequency=float(spring))
+        theories = [ss.theory.WhiteNoise(dimensions=int(d))] if spring == "0" else []
+        theories += [EL(force, dimensions=int(d)) for force in ("gaussian", "laplace")]
+        for name, (simulated, *ratios) in zip(
+            ("displacement_variance", "velocity_variance"), (cells[:4], cells[4:]), strict=True
+        ):
+            found = [getattr(x.predict(slider, 1 / math.pi, [float(t)]), name)[0] for x in theories]
+            shown_ratios = [cell for cell in ratios if cell]
+            assert len(shown_ratios) == len(found)
+            for cell, theory in zip(shown_ratios, found):
+                assert agree(value(cell), theory, value(simulated)), (d, spring, t)
+            if spring == "0":
+                simulated_value, error = value(simulated)
+                scatter.append((found[0] - simulated_value) / error)
+    assert len(scatter) == 18 and max(map(abs, scatter)) < 4
+
+
+def test_a_row_of_the_plane_is_simulated_again():
+    # With another seed: within five standard errors, a false alarm in a million seeds.
+    row = next(row for row in shown("plane") if row[:3] == ["2", "0", "10"])
+    new = measured.sliding_in(2, 0.0, 10.0, 0.1, 10_000, 99)
+    for cell, (fresh, error) in zip((row[3], row[7]), new, strict=True):
+        before, scatter = value(cell)
+        assert abs(fresh - before) < 5 * np.hypot(error, scatter)
+
+
 def test_the_transition_times_are_those_shown():
     for gamma, printed, intercept, thesis, a21, simulated, late in shown("transition"):
         t = ss.theory.transition_time(ss.Caster(slip_level=1, reach=1 / float(gamma)), 1.0)

@@ -187,7 +187,8 @@ SAID = {
     "path": (lambda: ss.read_record(3), "read_record: file must be a string"),
     "overloads": (
         lambda: theory.WhiteNoise(3),
-        "WhiteNoise: takes WhiteNoise() or WhiteNoise(slider, s0), got WhiteNoise(3)",
+        "WhiteNoise: takes WhiteNoise(*, dimensions=...) or "
+        "WhiteNoise(slider, s0, *, dimensions=...), got WhiteNoise(3)",
     ),
     "not made by a call": (
         ss.Response,

@@ -110,6 +110,8 @@ def test_what_takes_laws_of_position_alone_refuses_those_of_the_speed():
     [
         (theory.WhiteNoise(), CART, 1.0, "covers Coulomb friction without a spring"),
         (theory.WhiteNoise(), SPRUNG, 1.0, "natural_frequency must be 0, got 2 rad/s"),
+        (theory.WhiteNoise(dimensions=2), SLOPE, 1.0, "in 2 dimensions the levels must be equal"),
+        (theory.EquivalentLinearization(dimensions=2), CART, 1.0, "covers Coulomb friction"),
         (theory.EquivalentLinearization(), NEWMARK, 1.0, "both slip levels must be finite"),
         (theory.EquivalentLinearization("laplace"), CART, BAND, "density is that of Coulomb"),
         (theory.EquivalentLinearization(start="thesis"), BLOCK, BAND, "stationary white noise"),

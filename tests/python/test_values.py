@@ -252,6 +252,7 @@ EXAMPLES = {
         theory.EquivalentLinearization(tolerance=1e-9),
         theory.EquivalentLinearization("laplace", filter_order=6),
         theory.EquivalentLinearization(max_misfit=0.5),
+        theory.EquivalentLinearization(dimensions=2),
     ],
     theory.HarmonicSolution: theory.SlowlyVaryingParameters(CART).response(3, 1.2),
     theory.DisplacementDistribution: [
@@ -283,6 +284,7 @@ EXAMPLES = {
         theory.WhiteNoise(),
         theory.WhiteNoise(BLOCK, WHITE),
         theory.WhiteNoise(BLOCK, 2),
+        theory.WhiteNoise.coulomb(1, 2, dimensions=2),
     ],
     thesis.ThesisCheck: FIGURES[0].check()[:2],
     thesis.ThesisCurve: [c for figure in FIGURES for panel in figure.panels for c in panel.curves],

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import stickslip as ss
 from scipy.integrate import quad
-from scipy.special import erfc
+from scipy.special import erfc, kv
+from scipy.stats import gamma
 
 NAN, INF = math.nan, math.inf
 WhiteNoise = ss.theory.WhiteNoise
@@ -68,9 +69,50 @@ def test_predictions_come_as_moments():
     )
 
 
+def test_a_block_on_a_plane():
+    noise = WhiteNoise.coulomb(0.7, 0.3, dimensions=2)
+    assert noise == WhiteNoise(ss.Coulomb(slip_level=0.7), 0.3, dimensions=2)
+    assert noise != WhiteNoise.coulomb(0.7, 0.3)
+    assert noise.dimensions == 2
+    assert repr(noise) == "WhiteNoise(Coulomb(slip_level=0.7), s0=0.3, dimensions=2)"
+    d, a = 0.3 * math.pi, 0.7
+    assert noise.variance == pytest.approx(3 * d**2 / a**2, rel=1e-14)
+    assert noise.growth_rate == pytest.approx(21 * d**3 / a**4, rel=1e-14)
+    assert noise.mean_speed == pytest.approx(2 * d / a, rel=1e-14)
+    assert noise.relaxation_rate == pytest.approx(2 / 9 * a**2 / d, rel=1e-14)
+    v = np.linspace(0, 9, 50)
+    assert noise.speed_density(v) == pytest.approx(gamma.pdf(v, 2, scale=d / a), rel=1e-12)
+    y = a / d * v[1:]
+    assert noise.density(v[1:]) == pytest.approx(a / d * y * kv(1, y) / math.pi, rel=1e-12)
+    assert noise.velocity_autocovariance(0) == noise.variance
+    assert noise.velocity_autocovariance([[0.0, 1.0]]).shape == (1, 2)
+    m = noise.predict([0, 1, 500])
+    assert m.velocity_variance[-1] == pytest.approx(noise.variance)
+    assert m.growth_rate.value == noise.growth_rate
+    plane = WhiteNoise(dimensions=2)
+    again = plane.predict(ss.Coulomb(slip_level=0.7), 0.3, [0, 1, 500])
+    assert again.displacement_variance.tolist() == m.displacement_variance.tolist()
+    assert plane.name == "WhiteNoise, 2 dimensions"
+
+
 @pytest.mark.parametrize(
     ("make", "error", "message"),
     [
+        (
+            lambda: WhiteNoise.coulomb(1, 1, dimensions=0),
+            ValueError,
+            "dimensions must be from 1 to 6, got 0",
+        ),
+        (
+            lambda: WhiteNoise(ss.Coulomb(slip_level=1, backward=2), 1, dimensions=2),
+            ValueError,
+            "in 2 dimensions the levels must be equal",
+        ),
+        (
+            lambda: WhiteNoise(dimensions=3).transition_density(0, 1),
+            ValueError,
+            "in one dimension only",
+        ),
         (lambda: WhiteNoise.coulomb(1, 0), ValueError, "s0 must be positive and finite, got 0"),
         (lambda: WhiteNoise.coulomb(1, NAN), ValueError, "s0 must be positive"),
         (lambda: WhiteNoise.coulomb(-1, 1), ValueError, "slip_level must be finite"),

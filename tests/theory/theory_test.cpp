@@ -187,9 +187,9 @@ TEST_CASE("each theory says which sliders and excitations it covers", "[theory]"
 }
 
 TEST_CASE("a theory says in one sentence why it does not cover", "[theory]") {
-  CHECK_THAT(WhiteNoise::covers(cart, 1.0).reason, ContainsSubstring("covers Coulomb friction without a spring"));
-  CHECK_THAT(WhiteNoise::covers(sprung, 1.0).reason, ContainsSubstring("natural_frequency must be 0, got 2 rad/s"));
-  CHECK_THAT(WhiteNoise::covers(block, band).reason, ContainsSubstring("covers white noise only"));
+  CHECK_THAT(WhiteNoise().covers(cart, 1.0).reason, ContainsSubstring("covers Coulomb friction without a spring"));
+  CHECK_THAT(WhiteNoise().covers(sprung, 1.0).reason, ContainsSubstring("natural_frequency must be 0, got 2 rad/s"));
+  CHECK_THAT(WhiteNoise().covers(block, band).reason, ContainsSubstring("covers white noise only"));
   CHECK_THAT(EquivalentLinearization().covers(block, no_mean).reason, ContainsSubstring("zero_frequency must be True"));
   CHECK_THAT(EquivalentLinearization().covers(newmark, 1.0).reason,
              ContainsSubstring("both slip levels must be finite; backward, got inf m/s^2"));
@@ -240,9 +240,9 @@ TEST_CASE("variants of a theory have names of their own", "[theory]") {
 TEST_CASE("a theory answers by its one call as by its own ones, to the last bit", "[theory]") {
   const Spectrum white = Spectrum::white(0.7);
   const Moments exact = WhiteNoise(slope, 0.7).predict(times);
-  CHECK(same(WhiteNoise::predict(slope, 0.7, times), exact));
-  CHECK(same(WhiteNoise::predict(slope, white, times), exact));
-  CHECK(same(WhiteNoise::predict(slope, shaking, times), exact));
+  CHECK(same(WhiteNoise().predict(slope, 0.7, times), exact));
+  CHECK(same(WhiteNoise().predict(slope, white, times), exact));
+  CHECK(same(WhiteNoise().predict(slope, shaking, times), exact));
 
   const Moments linear = EquivalentLinearization().predict(cart, 0.7, times);
   CHECK(same(EquivalentLinearization().predict(cart, white, times), linear));
