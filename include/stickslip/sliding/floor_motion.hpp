@@ -31,22 +31,35 @@ struct FloorMotion {
 
 namespace detail {
 
-/// The absolute acceleration of the mass during an arc [m/s^2].
-inline double floor_acceleration(const Arc& arc, double downhill, double t) {
-  return downhill - arc.load(t).load + arc.acceleration(t);
-}
+/// The absolute acceleration of the mass during an arc or a part of it, at five equally spaced times [m/s^2].
+struct FloorArc {
+  double values[5];
+  double bend = 0;  ///< largest second difference; 0 if it is round-off
 
-/// Reads the largest absolute acceleration at the ends of arcs.
-class LargestAcceleration final : public TrajectoryReader {
- public:
-  explicit LargestAcceleration(double downhill) : downhill_(downhill) {}
-
-  void arc(const Arc& arc) override {
-    for (const double t : {0.0, arc.duration})
-      largest = std::max(largest, std::abs(floor_acceleration(arc, downhill_, t)));
+  static double at(const Arc& arc, double downhill, double t) {
+    return downhill - arc.load(t).load + arc.acceleration(t);
   }
 
-  double largest = 0;
+  FloorArc(const Arc& arc, double downhill, double begin, double end) {
+    for (int k = 0; k < 5; ++k) values[k] = at(arc, downhill, std::lerp(begin, end, k / 4.0));
+    for (int k = 1; k < 4; ++k) bend = std::max(bend, std::abs(values[k - 1] - 2 * values[k] + values[k + 1]));
+    const double largest = std::max(std::abs(arc.load(0).load), std::abs(arc.load(arc.duration).load));
+    if (!(bend > 0x1p-49 * (largest + std::abs(downhill)))) bend = 0;
+  }
+};
+
+/// Reads the largest absolute acceleration at the ends of arcs, and the largest bend.
+class FloorRange final : public TrajectoryReader {
+ public:
+  explicit FloorRange(double downhill) : downhill_(downhill) {}
+
+  void arc(const Arc& arc) override {
+    const FloorArc floor(arc, downhill_, 0, arc.duration);
+    largest = std::max({largest, std::abs(floor.values[0]), std::abs(floor.values[4])});
+    bend = std::max(bend, floor.bend);
+  }
+
+  double largest = 0, bend = 0;
 
  private:
   double downhill_;
@@ -56,13 +69,13 @@ class LargestAcceleration final : public TrajectoryReader {
 class FloorReader final : public TrajectoryReader {
  public:
   /// @param tolerance  maximum error of a chord [m/s^2]
-  FloorReader(double downhill, double tolerance) : downhill_(downhill), tolerance_(tolerance) {}
+  /// @param bend       largest of all arcs [m/s^2]
+  FloorReader(double downhill, double tolerance, double bend)
+      : downhill_(downhill), tolerance_(tolerance), usual_(std::min(chords(bend), max_chords)) {}
 
   void arc(const Arc& arc) override {
     jump_to(arc.start.velocity);
-    const double largest = std::max(std::abs(arc.load(0).load), std::abs(arc.load(arc.duration).load));
-    noise_ = 0x1p-49 * (largest + std::abs(downhill_));
-    add(arc, 0, arc.duration, floor_acceleration(arc, downhill_, 0), floor_acceleration(arc, downhill_, arc.duration));
+    add(arc, 0, arc.duration);
   }
 
   void event(EventKind kind, double, const State& state, const Load&) override {
@@ -79,33 +92,35 @@ class FloorReader final : public TrajectoryReader {
     before_.reset();
   }
 
-  // The second differences of five values show how many equal chords are needed: twice as many have a quarter of the
-  // error. Where many are needed the curvature may vary much, and each half is divided alone. Powers of two, because a
-  // response spectrum costs least over segments of one duration.
-  void add(const Arc& arc, double begin, double end, double first, double last) {
-    const auto at = [&](double part) { return floor_acceleration(arc, downhill_, std::lerp(begin, end, part)); };
-    const double a[] = {first, at(0.25), at(0.5), at(0.75), last};
-    double bend = 0;
-    for (int k = 1; k <= 3; ++k) bend = std::max(bend, std::abs(a[k - 1] - 2 * a[k] + a[k + 1]));
-    if (!(bend > noise_)) bend = 0;
+  static constexpr double max_chords = 8;
+
+  // The number of equal chords, a power of two: twice as many have a quarter of the error.
+  double chords(double bend) const noexcept {
     constexpr double margin = 4.0 / 3;  // the curvature between the five values
     double chords = 1;
-    while (chords * chords * tolerance_ < margin * 2 * bend && chords <= 8) chords *= 2;
-    if (chords > 8 && end - begin > 0x1p-20 * arc.duration) {
+    while (chords * chords * tolerance_ < margin * 2 * bend && chords <= max_chords) chords *= 2;
+    return chords;
+  }
+
+  // Where many chords are needed the curvature may vary much, and each half is divided alone. All other arcs that bend
+  // have as many, because a response spectrum costs least over segments of one duration.
+  void add(const Arc& arc, double begin, double end) {
+    const FloorArc part(arc, downhill_, begin, end);
+    const double needed = chords(part.bend);
+    if (needed > max_chords && end - begin > 0x1p-20 * arc.duration) {
       const double middle = std::midpoint(begin, end);
-      add(arc, begin, middle, first, a[2]);
-      return add(arc, middle, end, a[2], last);
+      add(arc, begin, middle);
+      return add(arc, middle, end);
     }
-    const double duration = (end - begin) / chords;
-    for (double k = 1, start = first; k <= chords; ++k) {
-      const double stop = k < chords ? at(k / chords) : last;
-      floor.segments.push_back({duration, start, stop});
+    const double count = part.bend > 0 ? std::max(needed, usual_) : 1;
+    for (double k = 1, start = part.values[0]; k <= count; ++k) {
+      const double stop = k < count ? FloorArc::at(arc, downhill_, std::lerp(begin, end, k / count)) : part.values[4];
+      floor.segments.push_back({(end - begin) / count, start, stop});
       start = stop;
     }
   }
 
-  double downhill_, tolerance_;
-  double noise_ = 0;              // round-off of the acceleration [m/s^2]
+  double downhill_, tolerance_, usual_;
   std::optional<double> before_;  // velocity before an impact or a landing
 };
 
@@ -141,10 +156,11 @@ inline FloorMotion floor_motion(const Trajectory& trajectory, double tolerance =
     throw std::invalid_argument("floor_motion: the response must be that to the motion of " +
                                 std::to_string(trajectory.samples()) + " samples, got " + std::to_string(samples));
   const double until = trajectory.time(samples - 1), downhill = trajectory.downhill();
-  detail::LargestAcceleration whole(downhill);
+  detail::FloorRange whole(downhill);
   trajectory.read(whole, until);
   // A floor that is not accelerated needs no division.
-  detail::FloorReader reader(downhill, tolerance * std::max(whole.largest, std::numeric_limits<double>::min()));
+  const double largest = std::max(whole.largest, std::numeric_limits<double>::min());
+  detail::FloorReader reader(downhill, tolerance * largest, whole.bend);
   trajectory.read(reader, until);
   return std::move(reader.floor);
 }
