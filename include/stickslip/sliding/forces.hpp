@@ -41,8 +41,7 @@ namespace detail {
 /// Reads the forces at the samples of a response.
 class ForcesReader final : public TrajectoryReader {
  public:
-  explicit ForcesReader(const Trajectory& trajectory)
-      : trajectory_(trajectory), end_of_motion_(trajectory.samples() - 1) {
+  explicit ForcesReader(const Trajectory& trajectory) : trajectory_(trajectory) {
     const std::size_t samples = trajectory.response().displacement.size();
     for (auto* values : {&forces.friction, &forces.damper, &forces.spring, &forces.normal}) values->resize(samples);
     forces.stuck.resize(samples);
@@ -51,10 +50,13 @@ class ForcesReader final : public TrajectoryReader {
 
   /// A sample has the forces of the arc that begins there, the last one of the motion those of the arc that ends there.
   void arc(const Arc& arc) override {
-    const auto ends_here = [&] { return next_ == end_of_motion_ || next_ + 1 == forces.stuck.size(); };
+    const double end_of_motion = trajectory_.time(trajectory_.samples() - 1);
+    const auto ends_here = [&](double time) {
+      return equal(time, arc.end) && (equal(time, end_of_motion) || next_ + 1 == forces.stuck.size());
+    };
     for (double time; next_ < forces.stuck.size(); ++next_) {
       time = trajectory_.time(next_);
-      if (!(time < arc.end || (ends_here() && equal(time, arc.end)))) return;
+      if (!(time < arc.end || ends_here(time))) return;
       keep(arc, time < arc.end ? std::max(time - arc.begin, 0.0) : arc.duration);
     }
   }
@@ -83,7 +85,7 @@ class ForcesReader final : public TrajectoryReader {
   }
 
   const Trajectory& trajectory_;
-  std::size_t end_of_motion_, next_ = 0;
+  std::size_t next_ = 0;
 };
 
 }  // namespace detail
