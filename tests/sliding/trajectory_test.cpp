@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -60,6 +61,70 @@ TEST_CASE("the motion between samples is that of a motion with more samples", "[
       for (std::size_t i = 0; i < times.size(); ++i)
         worst = std::max(worst, std::abs(states[i].displacement - fine.displacement[times.size() - 1 - i]));
       CHECK(worst <= 10 * example.accuracy * std::max(fine.peak, 0.1));
+    }
+  });
+}
+
+namespace {
+
+/// Checks the arcs of a trajectory against each other and against the equation of motion.
+struct Checks final : TrajectoryReader {
+  explicit Checks(const Trajectory& one) : trajectory(one), now(one.begin()) {}
+
+  void arc(const Arc& arc) override {
+    const Mounting& on = trajectory.mounting();
+    gap = std::max(gap, std::abs(arc.begin - now));
+    now = arc.end;
+    duration += arc.duration;
+    const State last = arc.at(arc.duration);
+    if (place) jump = std::max(jump, std::abs(arc.start.displacement - *place));
+    place = last.displacement;
+    if (landed) dissipated += (*landed * *landed - arc.start.velocity * arc.start.velocity) / 2;
+    landed.reset();
+    const auto energy = [&](const State& at) {
+      return (at.velocity * at.velocity + on.stiffness() * at.displacement * at.displacement) / 2;
+    };
+    dissipated += arc.work - (energy(last) - energy(arc.start));
+    if (arc.rests()) return;
+    for (const double part : {0.2, 0.7}) {
+      const double t = part * arc.duration, weight = arc.weight(t);
+      const State at = arc.at(t);
+      const Direction direction = direction_of(at.mode);
+      const double opposes = sign(direction) * weight * trajectory.resist(at, weight, direction) +
+                             on.damping * at.velocity + trajectory.pull(at.displacement, weight);
+      const double p = arc.load(t).load, scale = std::abs(p) + std::abs(opposes);
+      unbalanced = std::max(unbalanced, std::abs(arc.acceleration(t) + opposes - p) / scale);
+    }
+  }
+  void event(EventKind kind, double time, const State& state, const Load&) override {
+    if (kind == EventKind::landing) landed = state.velocity;
+    if (kind == EventKind::end) gap = std::max(gap, std::abs(time - now));
+  }
+
+  const Trajectory& trajectory;
+  double now, gap = 0, duration = 0, jump = 0, unbalanced = 0, dissipated = 0;
+  std::optional<double> place, landed;
+};
+
+}  // namespace
+
+TEST_CASE("the arcs of a trajectory follow each other, and balance forces and energy", "[trajectory]") {
+  const GroundMotion motion = shaken();
+  for_each_law([&](const auto& example) {
+    for (const Mounting& mounting : mountings()) {
+      INFO(example.name << ", natural frequency " << mounting.natural_frequency);
+      const Slider slider(example.law, mounting);
+      const Response r = integrate(slider, motion, {.displacement = 0.01, .velocity = 0.1, .may_end_in_flight = true});
+      const auto one = trajectory(slider, motion, r);
+      Checks found(*one);
+      one->read(found, one->end());
+      CHECK(found.gap <= 1e-14);
+      CHECK(found.duration == Approx(one->end() - one->begin()).epsilon(1e-12));
+      CHECK(found.jump <= 10 * example.accuracy * std::max(r.peak, 0.1));
+      // The accuracy is that of x over its scale: the acceleration, its second derivative, has fewer digits.
+      CHECK(found.unbalanced <= 1e4 * example.accuracy);
+      const double input = r.energy.dissipated + r.energy.damped;
+      CHECK(std::abs(found.dissipated - input) <= 100 * example.accuracy * (input + r.energy.initial + 1));
     }
   });
 }

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <span>
+#include <memory>
 #include <variant>
-#include <vector>
 
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
@@ -18,17 +17,14 @@
 #include "stickslip/ground/harmonic_motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/effective.hpp"
-#include "stickslip/sliding/floor_motion.hpp"
-#include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/histories.hpp"
 #include "stickslip/sliding/integrate.hpp"
-#include "stickslip/sliding/margins.hpp"
 #include "stickslip/sliding/sensitivity.hpp"
-#include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
+
+class Trajectory;
 
 /// A slider of any law of the library; this is the list of its laws. The library contains all computations for it,
 /// compiled: a program that uses this type, such as the Python package, compiles no integrator.
@@ -58,18 +54,10 @@ void advance(const AnySlider& slider, const Segment& segment, State& state, Cont
 void advance(const AnySlider& slider, const LoadSegment& segment, State& state, Contact contact = Contact::flight,
              const std::function<void()>& progress = {});
 
-/// As the templates of the same names, of a response to a GroundMotion or a HarmonicMotion.
+/// As the template of the same name, under a GroundMotion or a HarmonicMotion. Forces, margins, floor motions, loops
+/// and states at any time read it.
 template <Motion M>
-Forces forces(const AnySlider& slider, const M& motion, const Response& response);
-template <Motion M>
-std::vector<State> states_at(const AnySlider& slider, const M& motion, const Response& response,
-                             std::span<const double> times);
-template <Motion M>
-Margins margins(const AnySlider& slider, const M& motion, const Response& response);
-template <Motion M>
-Loop largest_loop(const AnySlider& slider, const M& motion, const Response& response);
-template <Motion M>
-FloorMotion floor_motion(const AnySlider& slider, const M& motion, const Response& response, double tolerance = 1e-6);
+std::unique_ptr<const Trajectory> trajectory(const AnySlider& slider, const M& motion, const Response& response);
 
 Sensitivity sensitivity(const AnySlider& slider, const GroundMotion& motion, const Response& response,
                         Parameter parameter);

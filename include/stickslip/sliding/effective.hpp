@@ -2,26 +2,18 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/friction/law.hpp"
 #include "stickslip/ground/motion.hpp"
-#include "stickslip/ground/segment.hpp"
-#include "stickslip/slider.hpp"
-#include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/detail/load.hpp"
-#include "stickslip/sliding/detail/load_history.hpp"
-#include "stickslip/sliding/detail/recorder.hpp"
-#include "stickslip/sliding/detail/run.hpp"
-#include "stickslip/sliding/forces.hpp"
-#include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
@@ -47,24 +39,36 @@ struct Loop {
 
 namespace detail {
 
-/// Sums the distance slid, and the work on friction and damper, of a motion from a time on.
-template <FrictionLaw Law, bool loaded>
-struct SwingWork {
-  const Law& law;
-  double distance = 0, work = 0;
+/// Sums the distance slid, and the work on friction and damper, between two times.
+class SwingReader final : public TrajectoryReader {
+ public:
+  SwingReader(double stiffness, double from, double to) : stiffness_(stiffness), from_(from), to_(to) {}
 
-  template <class Flow>
-  void follow(const Flow& flow, double taken) {
-    if constexpr (FlowWithDamper<Flow>) work += flow.damped_work(taken);
-    if constexpr (!PositionLaw<Law> && !loaded) work += flow.friction_work(taken);
+  void arc(const Arc& arc) override {
+    const double middle = std::midpoint(arc.begin, arc.end);
+    if (!(middle > from_ && middle < to_)) return;
+    if (landed_) work += (*landed_ * *landed_ - arc.start.velocity * arc.start.velocity) / 2;
+    landed_.reset();
+    last = arc.at(arc.duration);
+    weight = arc.weight(arc.duration);
+    distance += arc.distance;
+    work += arc.work - (energy(last) - energy(arc.start));
   }
-  void dissipate(double done) requires loaded { work += done; }
-  void lose(double) requires loaded {}  // a stop is not in the loop
-  void slide(const Slip& slip) {
-    distance += slip.distance;
-    if constexpr (PositionLaw<Law> && !loaded) work += friction_work(law, slip.from, slip.distance, slip.direction);
+  void event(EventKind kind, double, const State& state, const Load&) override {
+    if (kind == EventKind::landing) landed_ = state.velocity;
   }
-  void event(EventKind, double, const State&) const noexcept {}
+
+  double distance = 0, work = 0;
+  State last;         // at the end
+  double weight = 0;  // N+/g there
+
+ private:
+  double energy(const State& at) const noexcept {
+    return (at.velocity * at.velocity + stiffness_ * at.displacement * at.displacement) / 2;
+  }
+
+  double stiffness_, from_, to_;
+  std::optional<double> landed_;  // velocity before a landing
 };
 
 }  // namespace detail
@@ -80,24 +84,20 @@ struct SwingWork {
 /// counts from the position where the spring balances the weight. Stops do not count: where |x| is largest at one, F is
 /// the force of spring and friction on arrival, and the energy that the stop takes is not in the area.
 ///
-/// @param slider    the slider, on a spring
-/// @param motion    its ground motion
-/// @param response  the result of `integrate` for them
+/// @param trajectory  of the response of a slider on a spring
 /// @throws std::invalid_argument  no spring; it never slips; |x| is largest at the start, or at the end of the motion
 ///                                during a slip, or in flight without a force
-/// Accuracy: that of `integrate`; for a law that depends on the temperature, with a surface that is heated as by the
-/// response alone. Cost: one pass over the events, and the integration up to the peak.
-template <FrictionLaw Law, Motion M>
-Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& response) {
-  if (!(slider.stiffness() > 0))
+/// Accuracy: that of `integrate`. Cost: one pass over the events, and the integration up to the peak.
+inline Loop largest_loop(const Trajectory& trajectory) {
+  const Mounting& mounting = trajectory.mounting();
+  const Response& response = trajectory.response();
+  if (!(mounting.stiffness() > 0))
     throw std::invalid_argument(
         "effective period and damping: needs a slider on a spring (natural_frequency, period or radius): without one "
-        "no "
-        "force draws the mass back");
+        "no force draws the mass back");
   if (!(response.time_sliding > 0)) throw std::invalid_argument("effective period and damping: the slider never slips");
-  const bool pendulum = slider.mounting().pendulum;
-  const double downhill = slider.slope() > 0 ? standard_gravity * std::sin(slider.slope()) : 0;
-  const double center = downhill / (slider.stiffness() * (pendulum ? std::cos(slider.slope()) : 1));
+  const double downhill = trajectory.downhill();
+  const double center = downhill / (mounting.stiffness() * (mounting.pendulum ? std::cos(mounting.slope()) : 1));
   const std::vector<Event>& events = response.events;
   const auto x_of = [&](const Event& e) { return e.displacement - center; };
   double largest = std::abs(response.displacement.front() - center);
@@ -119,25 +119,26 @@ Loop largest_loop(const Slider<Law>& slider, const M& motion, const Response& re
   std::size_t turn = peak;
   while (turn > 0 && way(turn) >= 0) --turn;
 
-  State state = detail::start_of(slider.law(), motion, response);
-  const double begin = motion.time(0), from = events[turn].time, end = events[peak].time;
-  NoObserver none;
-  detail::advance_between(slider, motion, response.contact, begin, from, state, none);
-  detail::SwingWork<Law, std::same_as<M, GroundMotion>> swing{slider.law()};
-  detail::advance_between(slider, motion, response.contact, from, end, state, swing);
+  const double end = events[peak].time;
+  detail::SwingReader swing(mounting.stiffness(), events[turn].time, end);
+  trajectory.read(swing, end);
 
-  const Event& e = events[peak];
-  const double normal = std::max(detail::load_history(motion, slider.slope()).after(end).normal, 0.0);
-  const double weight = state.in_flight ? 0 : normal / standard_gravity;
-  const double pull = slider.stiffness() * (pendulum ? weight : 1) * e.displacement;
-  const double friction =
-      detail::weigh(weight, resist(law_at(slider.law(), state, weight), e.displacement, std::abs(e.velocity),
-                                   s < 0 ? Direction::backward : Direction::forward));
-  const double force = s * (pull - downhill) + friction;
+  State state = swing.last;
+  state.displacement = events[peak].displacement;
+  state.velocity = events[peak].velocity;
+  const double friction = detail::weigh(
+      swing.weight, trajectory.resist(state, swing.weight, s < 0 ? Direction::backward : Direction::forward));
+  const double force = s * (trajectory.pull(state.displacement, swing.weight) - downhill) + friction;
   if (!(force > 0))
     throw std::invalid_argument(
         "effective period and damping: no force draws the slider back where |x| is largest; it is off the ground");
   return {largest, force, 4 * largest * swing.work / swing.distance};
+}
+
+/// The same of a slider, or a law alone, under a ground motion.
+template <class Slider, Motion M>
+Loop largest_loop(const Slider& slider, const M& motion, const Response& response) {
+  return largest_loop(*trajectory(slider, motion, response));
 }
 
 }  // namespace stickslip

@@ -1,20 +1,19 @@
 // Margins of the decisions in a response: stick or slip, impact or not.
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
-#include "stickslip/friction/law.hpp"
+#include "stickslip/flow/closed_form.hpp"
 #include "stickslip/ground/motion.hpp"
-#include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/bounds.hpp"
-#include "stickslip/sliding/detail/load_history.hpp"
-#include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/response.hpp"
+#include "stickslip/sliding/trajectory.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
 
@@ -44,54 +43,77 @@ struct Margins {
 
 namespace detail {
 
-/// Collects the margins of a response.
-template <FrictionLaw Law, class History>
-class MarginFinder {
+/// Reads the margins of a response.
+class MarginReader final : public TrajectoryReader {
  public:
-  MarginFinder(const Slider<Law>& slider, const History& history)
-      : slider_(slider), history_(history), bounds_{slider.mounting().stops, slider.mounting().one_way} {}
+  explicit MarginReader(const Trajectory& trajectory)
+      : trajectory_(trajectory),
+        bounds_{trajectory.mounting().stops, trajectory.mounting().one_way},
+        from_(trajectory.response().displacement.front()) {}
 
-  /// @param heat  heat(time), at the surface
-  template <class Heat>
-  Margins find(const std::vector<Event>& events, SlidAlong slid, double begin, double from, const Heat& heat) {
-    bool sticks = true, flies = false;
-    double since = begin, x = from;
-    const Event* before = nullptr;
-    for (std::size_t k = 0; k < events.size(); ++k) {
-      const Event& e = events[k];
-      const bool at_once = before != nullptr && equal(before->time, e.time);
-      at_ = slid.to(e.displacement);
-      at_.heat = heat(e.time);
-      switch (e.kind) {
-        case EventKind::breakaway:
-          if (equal(e.velocity, 0) && !flies) broke_away(since, e);
-          sticks = false;
-          break;
-        case EventKind::reversal:
-        case EventKind::arrest:
-          if (!flies) ended(e, x, at_once && before->kind != EventKind::reversal);
-          sticks = e.kind == EventKind::arrest;
-          since = e.time;
-          break;
-        case EventKind::impact:
-          hit(e, x);
-          break;
-        case EventKind::end:
-          if (sticks && since < e.time) rested(since, e.time, e.displacement);
-          break;
-        case EventKind::liftoff:
-        case EventKind::landing:
-          flies = e.kind == EventKind::liftoff;
-          break;
-      }
-      x = e.displacement;
-      before = &e;
+  void arc(const Arc& arc) override {
+    for (const double t : {0.0, arc.duration}) {
+      const Load load = arc.load(t);
+      std::erase_if(departures_, [&](Departed& one) { return passes(one, load); });
+      if (!arc.rests()) continue;
+      const State at = arc.at(t);
+      for (Approach& one : approaches_) approach(one, at, load);
     }
-    return margins_;
+    rested_ = arc.rests();
   }
+
+  void event(EventKind kind, double time, const State& at, const Load& load) override {
+    const bool at_once = last_ && equal(last_->time, time);
+    switch (kind) {
+      case EventKind::breakaway:
+        if (equal(at.velocity, 0) && !at.in_flight) broke_away(at, load);
+        break;
+      case EventKind::reversal:
+      case EventKind::arrest:
+        if (!at.in_flight) ended(at, load, at_once && last_->kind != EventKind::reversal);
+        break;
+      case EventKind::impact:
+        hit(at, load);
+        break;
+      case EventKind::end:
+        for (Departed& one : departures_)
+          if (!passes(one, still())) count(one.least);
+        if (rested_) leave(Mode::stuck);
+        break;
+      case EventKind::liftoff:
+      case EventKind::landing:
+        break;
+    }
+    if (kind != EventKind::liftoff && kind != EventKind::landing) {
+      approaches_ = none();
+      rested_ = false;
+    }
+    from_ = at.displacement;
+    last_ = {time, at.displacement, at.velocity, kind};
+  }
+
+  Margins margins;
 
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  /// The unused part of the level, relative to it, in a direction during a rest.
+  struct Approach {
+    Direction direction;
+    double last;
+    bool falls;
+  };
+
+  static constexpr std::array<Approach, 2> none() noexcept {
+    return {{{Direction::forward, infinite, true}, {Direction::backward, infinite, true}}};
+  }
+
+  /// A slider that broke away, as if it still rested.
+  struct Departed {
+    State state;
+    Direction direction;
+    double least = infinite;  // unused part of the level
+  };
 
   /// The load without friction, and the factor on a level.
   struct Net {
@@ -99,7 +121,7 @@ class MarginFinder {
   };
   Net net(const Load& now, double x) const noexcept {
     const double weight = std::max(now.normal, 0.0) / standard_gravity;
-    return {now.load - slider_.stiffness() * (slider_.mounting().pendulum ? weight : 1) * x, weight};
+    return {now.load - trajectory_.pull(x, weight), weight};
   }
   /// The unused part of a level under a load in the given direction, relative to the level; infinite if it decides
   /// nothing.
@@ -107,105 +129,100 @@ class MarginFinder {
     const double weighed = level < infinite ? level * net.weight : infinite;
     return weighed > 0 && weighed < infinite ? 1 - sign(direction) * net.load / weighed : infinite;
   }
-  double held(Direction direction, double x, const Net& net) const {
-    return left_of(bounds_.bound(direction, x, hold(law_at(slider_.law(), at_, net.weight), x, direction)), direction,
-                   net);
+  double held(Direction direction, const State& at, const Net& net) const {
+    const double holds = trajectory_.hold(at, net.weight, direction);
+    return left_of(bounds_.bound(direction, at.displacement, holds), direction, net);
   }
 
-  void count(double left) noexcept { margins_.load = std::min(margins_.load, std::abs(left)); }
+  /// After the ground motion.
+  Load still() const noexcept {
+    return {trajectory_.downhill(), standard_gravity * std::cos(trajectory_.mounting().slope())};
+  }
+
+  void count(double left) noexcept { margins.load = std::min(margins.load, std::abs(left)); }
   void count_impact(double way, Direction direction) noexcept {
     const double distance = std::abs(bounds_.wall(direction));
-    if (distance < infinite) margins_.impact = std::min(margins_.impact, std::abs(way) / distance);
+    if (distance < infinite) margins.impact = std::min(margins.impact, std::abs(way) / distance);
   }
 
   /// A slip ended, in a reversal or a stop.
-  /// @param x       start of the slip [m]
   /// @param forced  whether a stop or a landing brought the velocity to zero
-  void ended(const Event& e, double x, bool forced) {
-    const Net now = net(history_.after(e.time), e.displacement);
-    for (const Direction direction : {Direction::forward, Direction::backward})
-      count(held(direction, e.displacement, now));
-    if (forced || equal(e.displacement, x)) return;
-    const Direction direction = e.displacement > x ? Direction::forward : Direction::backward;
-    count(left_of(resist(law_at(slider_.law(), at_, now.weight), e.displacement, 0.0, direction), direction, now));
-    count_impact(bounds_.room(direction, e.displacement), direction);
+  void ended(const State& at, const Load& load, bool forced) {
+    const double x = at.displacement;
+    const Net now = net(load, x);
+    for (const Direction direction : {Direction::forward, Direction::backward}) count(held(direction, at, now));
+    if (forced || equal(x, from_)) return;
+    const Direction direction = x > from_ ? Direction::forward : Direction::backward;
+    count(left_of(trajectory_.resist(at, now.weight, direction), direction, now));
+    count_impact(bounds_.room(direction, x), direction);
   }
 
-  /// The maxima of load / level in both directions between two times, without the final one in the direction of the
-  /// breakaway that follows, if any.
-  void rested(double from, double to, double x, Mode leaves = Mode::stuck) {
-    for (const Direction direction : {Direction::forward, Direction::backward}) {
-      double last = infinite;
-      bool falls = true;
-      history_.nodes(from, to, [&](const Load& load) {
-        const double left = held(direction, x, net(load, x));
-        if (left > last && falls) count(last);
-        if (!equal(left, last)) falls = left < last;
-        last = left;
-        return true;
-      });
-      if (falls && leaves != mode_of(direction)) count(last);
+  /// During a rest: the maxima of load / level.
+  void approach(Approach& one, const State& at, const Load& load) {
+    const double left = held(one.direction, at, net(load, at.displacement));
+    if (left > one.last && one.falls) count(one.last);
+    if (!equal(left, one.last)) one.falls = left < one.last;
+    one.last = left;
+  }
+  /// The rest ends: the final approach counts, but not that to the breakaway.
+  void leave(Mode mode) {
+    for (const Approach& one : approaches_)
+      if (one.falls && mode != mode_of(one.direction)) count(one.last);
+  }
+
+  void broke_away(const State& at, const Load& load) {
+    const Direction direction = net(load, at.displacement).load > 0 ? Direction::forward : Direction::backward;
+    if (rested_) leave(mode_of(direction));
+    departures_.push_back({at, direction});
+  }
+  /// Whether the load of a slider that broke away passes its maximum.
+  bool passes(Departed& one, const Load& load) {
+    const Net now = net(load, one.state.displacement);
+    // Where the normal force vanishes, the load exceeds the level by infinitely many times the level.
+    const bool light = !(now.weight > 0) && sign(one.direction) * now.load > 0;
+    const double left = light ? -infinite : held(one.direction, one.state, now);
+    if (left <= one.least) {
+      one.least = left;
+      return false;
     }
+    count(one.least);
+    return true;
   }
 
-  /// The slider broke away, after a rest since a given time.
-  void broke_away(double since, const Event& e) {
-    const double x = e.displacement;
-    const Net now = net(history_.after(e.time), x);
-    const Direction direction = now.load > 0 ? Direction::forward : Direction::backward;
-    if (since < e.time) rested(since, e.time, x, mode_of(direction));
-    double least = infinite;  // unused part of the level
-    history_.nodes(e.time, infinite, [&](const Load& load) {
-      const Net then = net(load, x);
-      // Where the normal force vanishes, the load exceeds the level by infinitely many times the level.
-      const bool light = !(then.weight > 0) && sign(direction) * then.load > 0;
-      const double left = light ? -infinite : held(direction, x, then);
-      if (!(left <= least)) return false;
-      least = left;
-      return true;
-    });
-    count(least);
+  void hit(const State& at, const Load& load) {
+    const Direction direction = !equal(at.velocity, 0) ? (at.velocity > 0 ? Direction::forward : Direction::backward)
+                                : at.displacement >= from_ ? Direction::forward
+                                                           : Direction::backward;
+    const Net now = net(load, at.displacement);
+    const double slows = trajectory_.resist(at, now.weight, direction) * now.weight - sign(direction) * now.load;
+    if (slows > 0) count_impact(at.velocity * at.velocity / (2 * slows), direction);
   }
 
-  /// @param x  start of the slip [m]
-  void hit(const Event& e, double x) {
-    const Direction direction = !equal(e.velocity, 0) ? (e.velocity > 0 ? Direction::forward : Direction::backward)
-                                : e.displacement >= x ? Direction::forward
-                                                      : Direction::backward;
-    const Net now = net(history_.after(e.time), e.displacement);
-    const double speed = std::abs(e.velocity);
-    const double slows = resist(law_at(slider_.law(), at_, now.weight), e.displacement, speed, direction) * now.weight -
-                         sign(direction) * now.load;
-    if (slows > 0) count_impact(speed * speed / (2 * slows), direction);
-  }
-
-  const Slider<Law>& slider_;
-  const History& history_;
+  const Trajectory& trajectory_;
   Bounds bounds_;
-  State at_;  // at the event
-  Margins margins_;
+  std::array<Approach, 2> approaches_ = none();
+  bool rested_ = false;               // during the last arc
+  std::vector<Departed> departures_;  // whose loads still grow
+  double from_;                       // x at the last event [m]
+  std::optional<Event> last_;
 };
 
 }  // namespace detail
 
 /// The margins of the closest decisions of a response.
-/// @param slider    the slider
-/// @param motion    its ground motion
-/// @param response  the result of `integrate` for them
-/// If the level depends on a temperature, the temperature is linear between samples, and constant during a rest, as at
-/// its end. A velocity that almost reaches zero without an event does not count, nor does a landing. Cost: one pass
-/// over events and samples.
-template <FrictionLaw Law, Motion M>
-Margins margins(const Slider<Law>& slider, const M& motion, const Response& response) {
-  const auto history = detail::load_history(motion, slider.slope());
-  return detail::MarginFinder(slider, history)
-      .find(response.events, detail::SlidAlong(response), motion.time(0), response.displacement.front(),
-            [&](double time) { return detail::heat_at(slider.law(), motion, response, time); });
+/// @param trajectory  of the response
+/// A velocity that almost reaches zero without an event does not count, nor does a landing. Cost: about that of
+/// `integrate`.
+inline Margins margins(const Trajectory& trajectory) {
+  detail::MarginReader reader(trajectory);
+  trajectory.read(reader, trajectory.end());
+  return reader.margins;
 }
 
-template <FrictionLaw Law, Motion M>
-Margins margins(const Law& law, const M& motion, const Response& response) {
-  return margins(Slider<Law>(law), motion, response);
+/// The same of a slider, or a law alone, under a ground motion.
+template <class Slider, Motion M>
+Margins margins(const Slider& slider, const M& motion, const Response& response) {
+  return margins(*trajectory(slider, motion, response));
 }
 
 }  // namespace stickslip

@@ -1,6 +1,7 @@
 #include "sliding/response.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "in_python.hpp"
@@ -188,6 +189,67 @@ py::object at_times(const ResponseWithInputs& self, const py::object& times) {
   auto* row = static_cast<Row*>(rows.mutable_data());
   for (std::size_t i = 0; i < found.size(); ++i)
     *row++ = {t[i], found[i].displacement, found[i].velocity, found[i].gap, found[i].mode == Mode::stuck};
+  return rows;
+}
+
+// Points of a motion that straight lines between them draw: both ends of each arc, and more within long arcs.
+class CurveReader final : public TrajectoryReader {
+ public:
+  // One point, with the layout of the NumPy type below.
+  struct Point {
+    double time, displacement, velocity, force, normal, gravity, hold, hold_backward;
+  };
+
+  // Within an arc, points are at most `step` apart, or 32 in number.
+  CurveReader(const Trajectory& trajectory, double step) : trajectory_(trajectory), step_(step) {}
+
+  void arc(const Arc& arc) override {
+    const double slope = trajectory_.mounting().slope();
+    const double parts = std::clamp(std::ceil(arc.duration / step_ * (1 - 1e-9)), 1.0, 32.0);
+    for (double k = 0; k <= parts; ++k) {
+      const double t = k < parts ? k / parts * arc.duration : arc.duration, weight = arc.weight(t);
+      const State at = arc.at(t);
+      const Load load = arc.load(t);
+      const Point next{k < parts ? arc.begin + t : arc.end,
+                       at.displacement,
+                       at.velocity,
+                       load.load - arc.acceleration(t),
+                       weight * standard_gravity,
+                       std::max(load.load * std::sin(slope) + load.normal * std::cos(slope), 0.0),
+                       trajectory_.hold(at, weight, Direction::forward),
+                       trajectory_.hold(at, weight, Direction::backward)};
+      if (k > 0 || points.empty() || jumps(points.back(), next)) points.push_back(next);
+    }
+  }
+
+  std::vector<Point> points;
+
+ private:
+  static bool jumps(const Point& one, const Point& other) {
+    const auto differ = [](double a, double b) {
+      return std::abs(a - b) > 1e-12 * (std::abs(a) + std::abs(b)) + 1e-15;
+    };
+    return differ(one.velocity, other.velocity) || differ(one.force, other.force) || differ(one.normal, other.normal);
+  }
+
+  const Trajectory& trajectory_;
+  double step_;
+};
+
+py::array curve_of(const ResponseWithInputs& self) {
+  using Point = CurveReader::Point;
+  const std::vector<Point> points = with_inputs(self, [&](const auto& slider, const auto& motion) {
+    const auto one = trajectory(slider, motion, self.response);
+    CurveReader reader(*one, motion.last_step());
+    one->read(reader, std::max(one->end(), one->time(self.response.displacement.size() - 1)));
+    return std::move(reader.points);
+  });
+  py::dict layout;
+  layout["names"] =
+      py::make_tuple("time", "displacement", "velocity", "force", "normal", "gravity", "hold", "hold_backward");
+  layout["formats"] = py::make_tuple("f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8");
+  py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(points.size()));
+  std::copy(points.begin(), points.end(), static_cast<Point*>(rows.mutable_data()));
   return rows;
 }
 
@@ -390,6 +452,13 @@ Notes
 Accurate nearly to round-off. With static friction above kinetic friction, the response jumps where a decision changes;
 the derivative is that between the jumps, and `margin` states how near one is. Takes 3 to 17 times as long as
 `integrate`.)")
+      .def("_curve", &curve_of,
+           R"(Points that draw the motion with straight lines between them, for `stickslip.plotting`.
+
+A structured array with the fields time [s], displacement [m], velocity [m/s], force (of friction, spring and damper),
+normal (force), gravity (g and the upward acceleration of the ground, at least 0), and hold and hold_backward, the
+largest friction at rest against sliding forward and backward under a normal force of g; forces are per unit mass
+[m/s^2]. Where one of them jumps there are two points.)")
       .def("at", &at_times, py::arg("times"),
            R"(The motion at any times, also between the samples and in the time until the slider rests.
 
@@ -412,8 +481,7 @@ ValueError
 
 Notes
 -----
-As exact as `integrate`: the motion is integrated again, and a step ends at each time. It takes about as long as
-`integrate`, and 0.1 us for each time. For laws that depend on the temperature of the surface, heat from before the
+As exact as `integrate`: the motion is integrated again. It takes about as long as `integrate`, and 0.1 us for each time. For laws that depend on the temperature of the surface, heat from before the
 start counts as if it were old.
 
 Examples

@@ -12,17 +12,21 @@ namespace stickslip::python {
 template <FrictionLaw Law>
 bool begins_to_slip(const Slider<Law>& slider, const GroundMotion& motion, double x) {
   const detail::Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
-  const detail::GroundLoad loads(motion, slider.slope());
-  bool slips = false;
-  loads.nodes(motion.time(0), motion.time(motion.segments()), [&](const detail::Load& load) {  // monotonic between them
-    const double weight = std::max(load.normal, 0.0) / standard_gravity;
-    const double net = load.load - slider.stiffness() * (slider.mounting().pendulum ? weight : 1) * x;
+  const detail::LoadPieces loads(motion, slider.slope());
+  const auto slips = [&](double load, double normal) {
+    const double weight = std::max(normal, 0.0) / standard_gravity, net = load - detail::pull(slider, x, weight);
     const Direction direction = net < 0 ? Direction::backward : Direction::forward;
     const double level = bounds.bound(direction, x, hold(law_at(slider.law(), State::at(x, 0), weight), x, direction));
-    slips = std::abs(net) > detail::weigh(weight, level);
-    return !slips;
-  });
-  return slips;
+    return std::abs(net) > detail::weigh(weight, level);
+  };
+  for (std::size_t i = 0; i < motion.segments(); ++i) {
+    const LoadSegment s = loads.segment(i);
+    if (!(s.duration > 0)) continue;
+    if (slips(s.load_start, s.normal_start) || slips(s.load_end, s.normal_end)) return true;
+    const double part = s.normal_start / (s.normal_start - s.normal_end);  // where N crosses zero
+    if (s.normal_start * s.normal_end < 0 && slips(std::lerp(s.load_start, s.load_end, part), 0)) return true;
+  }
+  return false;
 }
 
 /// The remark on a slider that did not slip; empty if it would not slip either if the accelerations were in g. Records

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, FigureBase
 from .._core import STANDARD_GRAVITY, Response
 from .figures import Place, one_panel
 from .styles import BLUE, GRAY, VERMILION, put_title, style
-from .trajectory import force_path, window
+from .trajectory import window
 from .words import describe, digits, unit_for
 
 
@@ -83,9 +83,9 @@ def plot_hysteresis(
     begin, end = window("plot_hysteresis", response, time)
     with style():
         figure, axes = one_panel("plot_hysteresis", figure, ax, 6, 4.5)
-        times, x, force = force_path(response)
-        inside = (times >= begin) & (times <= end)
-        x, force = x[inside], force[inside]
+        curve = response._curve()
+        curve = curve[(curve["time"] >= begin) & (curve["time"] <= end)]
+        x, force = curve["displacement"], curve["force"]
         length, unit = unit_for(response.peak)
         axes.plot(x * length, force / STANDARD_GRAVITY, color=BLUE, linewidth=0.9)
         axes.axhline(0, color=GRAY, linewidth=0.6, zorder=0)

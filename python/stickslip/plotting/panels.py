@@ -7,15 +7,7 @@ from matplotlib.axes import Axes
 
 from .._core import STANDARD_GRAVITY, Response
 from .styles import AT_RIGHT, BLUE, GRAY, INK, VERMILION, dot_at_right
-from .trajectory import (
-    has_friction,
-    normal_force,
-    slid_at,
-    slip_bounds,
-    temperature_at,
-    within,
-    without_contact,
-)
+from .trajectory import has_friction, slip_bounds, within, without_contact
 from .words import digits, in_places, unit_for, unit_of
 
 
@@ -36,18 +28,15 @@ def draw_ground(axes: Axes, response: Response, begin: float, end: float) -> Non
 
 def note_levels(axes: Axes, response: Response) -> None:
     """Label the slip levels at the right edge, at the height where they end."""
-    slider, x = response.slider, response.residual
+    slider, last = response.slider, response._curve()[-1:]
     if not has_friction(slider):
         return
-    end = response.events["time"][-1:]
-    (lower,), (upper,) = slip_bounds(response, end, np.array([x]))
-    (slid,) = slid_at(response, end).tolist()
-    (warm,) = temperature_at(response, end)
-    ahead, back = (
-        slider.hold(x, backward=b, sliding_distance=slid, temperature=warm) / STANDARD_GRAVITY
-        for b in (False, True)
-    )
-    kinetic = slider.resist(x, sliding_distance=slid, temperature=warm) / STANDARD_GRAVITY
+    (lower,), (upper,) = slip_bounds(slider, last)
+    ahead, back = (float(last[name][0]) / STANDARD_GRAVITY for name in ("hold", "hold_backward"))
+    warm = None if response.temperature is None else float(response.temperature[-1])
+    slid = response.state.sliding_distance
+    kinetic = slider.resist(response.residual, sliding_distance=slid, temperature=warm)
+    kinetic /= STANDARD_GRAVITY
     name = "static level" if ahead > kinetic else "slip level"
     if ahead == back:
         notes = [(name, ahead, (lower + upper) / 2, "center")]
@@ -146,19 +135,10 @@ def draw_stops(axes: Axes, response: Response, length: float, largest: float) ->
         )
 
 
-def draw_normal_force(axes: Axes, response: Response, begin: float, end: float) -> None:
-    edges = without_contact(response).ravel()
-    t = np.concatenate([response.time, edges, np.nextafter(edges, -np.inf)])  # a landing is a jump
-    t = np.sort(t[t >= response.time[0]])
-    t = t[within(t, begin, end)]
-    held = response.motion.interpolation == "constant"
-    axes.plot(
-        t,
-        normal_force(response, t) / STANDARD_GRAVITY,
-        color=INK,
-        linewidth=0.6,
-        drawstyle="steps-post" if held else "default",
-    )
+def draw_normal_force(
+    axes: Axes, response: Response, curve: np.ndarray, begin: float, end: float
+) -> None:
+    axes.plot(curve["time"], curve["normal"] / STANDARD_GRAVITY, color=INK, linewidth=0.6)
     _shade_without_contact(axes, response, begin, end)
     axes.set_ylim(bottom=0)
     axes.set_ylabel("normal force\n[g]")

@@ -32,7 +32,7 @@ from .styles import (
     style,
     wrap,
 )
-from .trajectory import has_friction, normal_force, path_of, slip_bounds, sticks, window, within
+from .trajectory import has_friction, slip_bounds, sticks, window, within
 from .words import describe, digits, in_places, unit_for
 
 _LIFTED = 1e-4  # [m]; smaller gaps have no panel
@@ -102,16 +102,18 @@ def plot_response(
         ground, speed, way, *below = figure.subplots(
             3 + more, sharex=True, height_ratios=(1, 1, 1.25, 0.8, 0.8)[: 3 + more]
         )
-        path = path_of(response)
-        t, x, v = (history[within(path[0], begin, end)] for history in path)
+        curve = response._curve()
+        peak = np.abs(curve["displacement"]).max()
+        curve = curve[within(curve["time"], begin, end)]
+        t, x, v = (curve[name] for name in ("time", "displacement", "velocity"))
         length, unit = unit_for(np.abs(x).max())
         fast, fast_unit = unit_for(np.abs(v).max())
 
         put_title(ground, response.motion, title, describe(response.slider))
         draw_ground(ground, response, begin, end)
-        lower, upper = slip_bounds(response, t, x)
+        lower, upper = slip_bounds(response.slider, curve)
         if "liftoff" in response.events["kind"]:  # nothing holds a slider in flight
-            flies = normal_force(response, t) == 0
+            flies = curve["normal"] == 0
             lower, upper = np.where(flies, np.nan, lower), np.where(flies, np.nan, upper)
         if not (np.isinf(lower).any() or np.isinf(upper).any()):
             ground.fill_between(t, lower, upper, color=BLUE, alpha=0.12, linewidth=0, zorder=0)
@@ -141,11 +143,11 @@ def plot_response(
         way.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         way.set_ylabel(f"relative displacement\n[{unit}]")
         way.set_xlim(begin, end)
-        mark_peak(way, t, x * length, unit, np.abs(path[1]).max() * length)
+        mark_peak(way, t, x * length, unit, peak * length)
         mark_end(way, response, t, x, length, unit, end)
         draw_stops(way, response, length, np.abs(x).max())
         if below:
-            draw_normal_force(below[0], response, begin, end)
+            draw_normal_force(below[0], response, curve, begin, end)
         if lifted:
             draw_gap(below[1], response, begin, end)
         figure.axes[-1].set_xlabel("time [s]")
@@ -212,8 +214,9 @@ def plot_responses(
         for i, (response, label) in enumerate(zip(responses, labels)):
             color = COLORS[i % len(COLORS)]
             dashes = ("-", "--", ":")[i // len(COLORS) % 3]
-            t, x, _ = path_of(response)
-            for bound in slip_bounds(response, t, x):
+            curve = response._curve()
+            t, x = curve["time"], curve["displacement"]
+            for bound in slip_bounds(response.slider, curve):
                 if np.isfinite(bound).all():
                     ground.plot(t, bound, color=color, linestyle=dashes, linewidth=0.8)
             way.plot(

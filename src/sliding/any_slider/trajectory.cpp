@@ -1,15 +1,17 @@
-// The motion of sliders of any law between samples.
+// The continuous motion of sliders of any law.
+#include "stickslip/sliding/trajectory.hpp"
+
+#include <memory>
+
 #include "stickslip/sliding/any_slider.hpp"
 
 namespace stickslip {
 
 template <Motion M>
-std::vector<State> states_at(const AnySlider& slider, const M& motion, const Response& response,
-                             std::span<const double> times) {
-  return std::visit([&](const auto& one) { return states_at(one, motion, response, times); }, slider);
+std::unique_ptr<const Trajectory> trajectory(const AnySlider& slider, const M& motion, const Response& response) {
+  return std::visit([&](const auto& one) { return trajectory(one, motion, response); }, slider);
 }
-template std::vector<State> states_at(const AnySlider&, const GroundMotion&, const Response&, std::span<const double>);
-template std::vector<State> states_at(const AnySlider&, const HarmonicMotion&, const Response&,
-                                      std::span<const double>);
+template std::unique_ptr<const Trajectory> trajectory(const AnySlider&, const GroundMotion&, const Response&);
+template std::unique_ptr<const Trajectory> trajectory(const AnySlider&, const HarmonicMotion&, const Response&);
 
 }  // namespace stickslip
