@@ -68,12 +68,11 @@ class WithVertical {
   }
 
   /// Both components from one excitation, independently of each other.
+  /// The vertical component from the same excitation; with all three components of a `WithTransverse`, from that of the
+  /// component along the axis.
   /// @param ratio  vertical over horizontal rms acceleration, V/H, finite and at least 0
-  WithVertical(H horizontal, double ratio) requires std::same_as<H, V> : WithVertical(horizontal, horizontal, ratio) {}
-
-  /// All three components of a `WithTransverse`, the vertical one from the excitation of the component along the axis.
-  WithVertical(H horizontal, double ratio) requires detail::ExcitationOfPairs<H>
-      : WithVertical(horizontal, V(horizontal.along_axis()), ratio) {}
+  WithVertical(H horizontal, double ratio) requires(std::same_as<H, V> || detail::ExcitationOfPairs<H>)
+      : WithVertical(horizontal, alike(horizontal), ratio) {}
 
   const H& horizontal() const noexcept { return horizontal_; }
   const V& vertical() const noexcept { return vertical_; }
@@ -111,6 +110,13 @@ class WithVertical {
   }
 
  private:
+  static V alike(const H& horizontal) {
+    if constexpr (std::same_as<H, V>)
+      return horizontal;
+    else
+      return V(horizontal.along_axis());
+  }
+
   H horizontal_;
   V vertical_;
   double ratio_;

@@ -45,6 +45,8 @@ class Coulomb {
 
   double forward() const noexcept { return forward_; }
   double backward() const noexcept { return backward_; }
+  /// Whether the levels are equal.
+  bool isotropic() const noexcept { return detail::equal(forward_, backward_); }
 
   static constexpr const char* class_name = "Coulomb";
   static constexpr auto parts() {

@@ -82,6 +82,9 @@ class Degrading {
   const std::vector<double>& levels() const noexcept { return forward_; }
   const std::vector<double>& backward() const noexcept { return backward_; }
 
+  /// Whether the levels are equal in both directions.
+  bool isotropic() const noexcept { return forward_ == backward_; }
+
   static constexpr const char* class_name = "Degrading";
   static constexpr auto parts() {
     return std::tuple(Part{"distances", &Degrading::distances}, Part{"levels", &Degrading::levels},

@@ -11,6 +11,7 @@
 #include "stickslip/base/parts.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/series/series.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
 
@@ -96,16 +97,28 @@ class KumarFriction {
 
   const Parameters& parameters() const noexcept { return parameters_; }
 
+  static constexpr bool isotropic() noexcept { return true; }
+
   static constexpr const char* class_name = "KumarFriction";
   static constexpr auto parts() { return std::tuple(Part{"parameters", &KumarFriction::parameters}); }
 
   /// Resistance under a normal force of `weight` times g, divided by `weight` [m/s^2]. `half_integral` is H, the
   /// half-integral of the heat [W s^(1/2)/m^2].
   double level(double speed, double weight, double half_integral) const noexcept {
-    const double celsius = parameters_.temperature + warming_ * half_integral;
-    return (detail::equal(weight, 1) ? static_scale_ : scale(weight)) *
-           (1 - 0.5 * std::exp(-parameters_.rate * speed)) * (power_of_seven_tenths(0.02 * celsius) + 0.40);
+    return level_at_high_speed(weight, half_integral) * (1 - 0.5 * std::exp(-parameters_.rate * speed));
   }
+
+  /// The factors of `level`: that of the speed, for numbers and series, and those of normal force and heat [m/s^2].
+  template <class Speed>
+  auto speed_factor(const Speed& speed) const {
+    return decaying(-parameters_.rate * speed, 0.5, 1.0);
+  }
+  double level_at_high_speed(double weight, double half_integral) const noexcept {
+    const double celsius = parameters_.temperature + warming_ * half_integral;
+    return (detail::equal(weight, 1) ? static_scale_ : scale(weight)) * (power_of_seven_tenths(0.02 * celsius) + 0.40);
+  }
+  /// Largest |r| at which a slider in the plane covers the middle of the surface [m].
+  double edge() const noexcept { return edge_; }
 
   /// Temperature T of the surface [degrees Celsius].
   double temperature(const State& state) const noexcept {

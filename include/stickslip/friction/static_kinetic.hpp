@@ -52,6 +52,9 @@ class StaticKinetic {
   const Law& sliding() const noexcept { return sliding_; }
   double static_forward() const noexcept { return forward_; }
   double static_backward() const noexcept { return backward_; }
+  /// Whether the static and the sliding levels are equal in both directions.
+  bool isotropic() const noexcept requires requires(const Law& law) { law.isotropic(); }
+  { return sliding_.isotropic() && detail::equal(forward_, backward_); }
 
   template <class X>
   auto resist(const X& x, Direction direction) const requires PositionLaw<Law> {

@@ -45,6 +45,8 @@ class Stribeck {
   double velocity() const noexcept { return velocity_; }
   int exponent() const noexcept { return exponent_; }
 
+  static constexpr bool isotropic() noexcept { return true; }
+
   static constexpr const char* class_name = "Stribeck";
   static constexpr auto parts() {
     return std::tuple(Part{"static", &Stribeck::static_level}, Part{"kinetic", &Stribeck::kinetic_level},

@@ -39,6 +39,8 @@ class VelocityDependent {
   double fast() const noexcept { return fast_; }
   double rate() const noexcept { return rate_; }
 
+  static constexpr bool isotropic() noexcept { return true; }
+
   static constexpr const char* class_name = "VelocityDependent";
   static constexpr auto parts() {
     return std::tuple(Part{"slow", &VelocityDependent::slow}, Part{"fast", &VelocityDependent::fast},

@@ -1,7 +1,6 @@
 // One slider along all horizontal directions of a station.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -11,8 +10,6 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/function.hpp"
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/friction/degrading.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
@@ -46,14 +43,13 @@ struct Orientations {
 
 namespace detail {
 
-inline bool resists_alike(const Coulomb& law) { return equal(law.forward(), law.backward()); }
-inline bool resists_alike(const Degrading& law) {
-  return std::equal(law.levels().begin(), law.levels().end(), law.backward().begin(), law.backward().end(),
-                    [](double a, double b) { return equal(a, b); });
-}
+/// Whether a law resists equally in both directions, as far as is known.
 template <FrictionLaw Law>
-bool resists_alike(const Law&) {
-  return SymmetricLaw<Law>;
+bool resists_alike(const Law& law) {
+  if constexpr (requires { law.isotropic(); })
+    return law.isotropic();
+  else
+    return SymmetricLaw<Law>;
 }
 template <class Law>
 bool resists_alike(const StaticKinetic<Law>& law) {

@@ -67,15 +67,17 @@ double after_impulse(const Law& law, double displacement, Direction direction, d
 }
 
 /// Remove and return the first `time` [s] of a segment; the normal force at its end is given.
-inline LoadSegment take(LoadSegment& segment, double time, double normal) noexcept {
-  const double load = segment.load(time);
-  const LoadSegment taken{time, segment.load_start, load, segment.normal_start, normal};
+template <class AnyLoadSegment>
+AnyLoadSegment take(AnyLoadSegment& segment, double time, double normal) noexcept {
+  const auto load = segment.load(time);
+  const AnyLoadSegment taken{time, segment.load_start, load, segment.normal_start, normal};
   segment = {segment.duration - time, load, segment.load_end, normal, segment.normal_end};
   return taken;
 }
 
 /// Time at which a slider in flight lands within a segment [s]; `never` if it does not land.
-inline double landing(const LoadSegment& s, double gap, double gap_velocity) noexcept {
+template <class AnyLoadSegment>
+double landing(const AnyLoadSegment& s, double gap, double gap_velocity) noexcept {
   const double square = s.duration * s.duration;
   const double w[] = {gap, gap_velocity * s.duration, -s.normal_start * square / 2,
                       -(s.normal_end - s.normal_start) * square / 6};
@@ -86,22 +88,18 @@ inline double landing(const LoadSegment& s, double gap, double gap_velocity) noe
   return root < never ? root * s.duration : never;
 }
 
-/// The event loop over a segment in which the slider can reach a stop, leave the ground, and land.
-template <FlowMaker Flows, class Place, MotionObserver Observer>
-[[gnu::noinline]] void advance_with_contact(const Flows& flows, LoadSegment segment, const Bounds& bounds,
-                                            Contact contact, Place& state, Observer& observer) {
+/// Move a system through a segment in which it can leave the ground and land, on one axis or in the plane.
+/// @param move  `move(part, begin, touching)` moves it through a part of the segment that begins at a time [s]
+/// @param land  `land(impulse)` applies the normal impulse of a landing [m/s] to the sliding velocity
+/// @param tell  `tell(kind, time)` reports an event [s]
+template <class AnyLoadSegment, class Place, class Move, class Land, class Tell>
+void advance_in_contact(AnyLoadSegment segment, Contact contact, Place& state, Move&& move, Land&& land, Tell&& tell) {
   const double duration = segment.duration;
-  const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
-  // Integrates over the first `time` of the rest of the segment.
   const auto go = [&](double time, double normal, bool touching) {
     const double begin = duration - segment.duration;
-    const LoadSegment piece = time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {});
-    const WeighedLoad weighed{piece.duration, piece.load_start, piece.load_end, weight_of(piece.normal_start, touching),
-                              weight_of(piece.normal_end, touching)};
-    WithinSegment<Observer> within{observer, begin};
-    advance(flows, weighed, state, within, bounds);
+    move(time < segment.duration ? take(segment, time, normal) : std::exchange(segment, {}), begin, touching);
   };
-  const auto tell = [&](EventKind kind) { observer.event(kind, duration - segment.duration, State(state)); };
+  const auto report = [&](EventKind kind) { tell(kind, duration - segment.duration); };
   while (segment.duration > 0) {
     const double first = segment.normal_start, last = segment.normal_end;
     const auto crossing = [&] { return segment.duration * (first / (first - last)); };  // of N and zero
@@ -114,23 +112,15 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
       state.gap = std::max(gap, 0.0);
       state.gap_velocity = gap_velocity;
       if (equal(lands, never)) continue;
-      tell(EventKind::landing);
+      report(EventKind::landing);
       state.in_flight = false;
       const double impulse = std::max(-std::exchange(state.gap_velocity, 0.0), 0.0);
       state.gap = 0;
-      if (state.mode == Mode::stuck) continue;
-      const Direction direction = direction_of(state.mode);
-      const double before = std::abs(state.velocity);
-      const double after = after_impulse(flows.law_now(state, 1), state.displacement, direction, before, impulse);
-      if constexpr (EnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
-      state.velocity = sign(direction) * after;
-      if (after > 0) continue;
-      state.mode = Mode::stuck;
-      tell(EventKind::arrest);
+      if (land(impulse)) report(EventKind::arrest);
     } else if (first < 0 || (equal(first, 0) && last < 0)) {
       if (contact == Contact::flight) {
         state.in_flight = true;
-        tell(EventKind::liftoff);
+        report(EventKind::liftoff);
       } else {
         go(last > 0 ? crossing() : segment.duration, 0, false);
       }
@@ -138,6 +128,32 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
       go(last < 0 ? crossing() : segment.duration, 0, true);
     }
   }
+}
+
+/// The event loop over a segment in which the slider can reach a stop, leave the ground, and land.
+template <FlowMaker Flows, class Place, MotionObserver Observer>
+[[gnu::noinline]] void advance_with_contact(const Flows& flows, const LoadSegment& segment, const Bounds& bounds,
+                                            Contact contact, Place& state, Observer& observer) {
+  const auto weight_of = [](double normal, bool touching) { return touching ? normal / standard_gravity : 0.0; };
+  const auto move = [&](const LoadSegment& part, double begin, bool touching) {
+    const WeighedLoad weighed{part.duration, part.load_start, part.load_end, weight_of(part.normal_start, touching),
+                              weight_of(part.normal_end, touching)};
+    WithinSegment<Observer> within{observer, begin};
+    advance(flows, weighed, state, within, bounds);
+  };
+  const auto land = [&](double impulse) {
+    if (state.mode == Mode::stuck) return false;
+    const Direction direction = direction_of(state.mode);
+    const double before = std::abs(state.velocity);
+    const double after = after_impulse(flows.law_now(state, 1), state.displacement, direction, before, impulse);
+    if constexpr (EnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
+    state.velocity = sign(direction) * after;
+    if (after > 0) return false;
+    state.mode = Mode::stuck;
+    return true;
+  };
+  advance_in_contact(segment, contact, state, move, land,
+                     [&](EventKind kind, double time) { observer.event(kind, time, State(state)); });
 }
 
 /// The event loop over any segment. If the slider stays on the ground and cannot reach a stop, it checks for neither.

@@ -6,7 +6,7 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/sliding/detail/system.hpp"
-#include "stickslip/sliding/observer.hpp"
+#include "stickslip/sliding/response.hpp"
 
 namespace stickslip::detail {
 
@@ -39,7 +39,7 @@ class Standstill<0> {
 };
 
 /// Move a system through a segment, from event to event.
-template <SlidingSystem System, MotionObserver Observer>
+template <SlidingSystem System, class Observer>
 [[gnu::always_inline]] inline void advance(System& system, Observer& observer) {
   Standstill<System::most_steps> standstill(system.left());
   for (;;) {
@@ -61,11 +61,11 @@ template <SlidingSystem System, MotionObserver Observer>
       system.show(slide, passage.leg, observer);
       if (!system.pass(slide, passage, observer)) return;
     } else if (equal(slide.stop, never)) {  // kept apart from a stop: together they take 5 to 10 % longer
-      const Leg leg = slide.whole();
+      const auto leg = slide.whole();
       system.show(slide, leg, observer);
       if (!system.proceed(slide, leg)) return;
     } else {
-      const Leg leg = slide.until(slide.stop);
+      const auto leg = slide.until(slide.stop);
       system.show(slide, leg, observer);
       system.stop(slide, leg);
     }

@@ -30,7 +30,7 @@ enum class Resumption { from_rest, onward, reversed };
 ///     most_steps               // that a hundredth of a segment can take; 0 if it cannot take many
 ///     stall()                  // throws, because it takes more
 template <class System>
-concept SlidingSystem = requires(System& system, const System& now, const NoObserver& observer) {
+concept SlidingSystem = requires(System& system, const System& now) {
   { now.left() } -> std::convertible_to<double>;
   { now.elapsed() } -> std::convertible_to<double>;
   { now.at_rest() } -> std::convertible_to<bool>;

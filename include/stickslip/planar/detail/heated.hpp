@@ -1,0 +1,214 @@
+// Friction in the plane that depends on the temperature of a surface that it heats.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/flow/collocation.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/planar/flow.hpp"
+#include "stickslip/planar/state.hpp"
+
+namespace stickslip {
+
+/// A heated law whose level is a factor of normal force and heat times one of the speed:
+///
+///     level_at_high_speed(weight, H)   // [m/s^2]
+///     speed_factor(speed)              // for numbers and series
+///     edge()                           // largest |r| at which the temperature is that of a covered surface [m]
+template <class Law>
+concept SeparableHeatedLaw = HeatedLaw<Law> && requires(const Law& law, double value) {
+  { law.level_at_high_speed(value, value) } -> std::convertible_to<double>;
+  { law.speed_factor(value) } -> std::convertible_to<double>;
+  { law.edge() } -> std::convertible_to<double>;
+};
+
+namespace detail {
+
+/// The law during a step: the factor of normal force and heat is a polynomial in time.
+template <SeparableHeatedLaw Law>
+class HeatedStep {
+ public:
+  HeatedStep(const Law& law, const Nodes::Values& levels, double step) : law_(&law), step_(step) {
+    double largest = 0;
+    for (const double level : levels) largest = std::max(largest, std::abs(level));
+    Nodes::powers(Nodes::get().chebyshev(levels), 0x1p-54 * largest, powers_);
+  }
+
+  template <class Time, class Speed>
+  auto resist_at(const Time& time, const Speed& speed) const {
+    return law_->speed_factor(speed) * polynomial<Nodes::points - 1>(time * (1 / step_));
+  }
+
+ private:
+  // Horner's rule, for numbers and series.
+  template <std::size_t k, class Part>
+  auto polynomial(const Part& part) const {
+    if constexpr (k == 1)
+      return part * powers_[1] + powers_[0];
+    else
+      return part * lower<k, 1>(part) + powers_[0];
+  }
+  template <std::size_t k, std::size_t i, class Part>
+  auto lower(const Part& part) const {
+    if constexpr (i + 1 == k)
+      return part * powers_[k] + powers_[i];
+    else
+      return part * lower<k, i + 1>(part) + powers_[i];
+  }
+
+  const Law* law_;
+  double step_;
+  Nodes::Values powers_{};
+};
+
+/// Makes the slips of a heated law: the heat generated in a step acts back on the level in it, which is found by
+/// iteration, to 1e-9 of the level. A step is shortened until what the last terms of the polynomial contribute to the
+/// speed is below 1e-8 of it, as on one axis.
+template <SeparableHeatedLaw Law>
+class Heating {
+ public:
+  explicit Heating(const Law& law) : law_(law) {}
+
+  /// @param make    `make(law, step)` computes the slip over a step, a PlanarSlide
+  /// @param weight  `weight(time)` is N+/g at a time from now [s]
+  /// @param covers  whether friction heats the surface
+  template <class Slide, class Make, class Weight>
+  Slide slide(const PlanarState& state, double left, bool covers, Make&& make, Weight&& weight) {
+    const Nodes& nodes = Nodes::get();
+    constexpr std::size_t n = Nodes::points;
+    const double heating = covers ? law_.heating(State{}, Direction::forward) : 0;
+    std::optional<Slide> slip;
+    double step = std::min(left, 16 * last_step_);
+    for (int shortened = 0;; ++shortened) {
+      const Nodes::Values before = cooling_.half_integrals(state.heat, step);
+      Nodes::Values levels, q{};
+      // At first as if it went on with the present heat flux.
+      const double speed_now = norm(state.velocity), level_now = law_.level_at_high_speed(weight(0), before[0]);
+      q.fill(heating * weight(0) * level_now * law_.speed_factor(speed_now) * speed_now);
+      const auto level_at = [&](std::size_t i) {
+        double half = 0;
+        for (std::size_t k = 0; k < n; ++k) half += nodes.half_integral[i][k] * q[k];
+        return law_.level_at_high_speed(weight(nodes.nodes[i] * step),
+                                        std::max(before[i] + std::sqrt(step) * half, 0.0));
+      };
+      for (std::size_t i = 0; i < n; ++i) levels[i] = level_at(i);
+      bool settled = false;
+      double fastest = 0;  // [m/s]
+      for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
+        slip.emplace(make(HeatedStep<Law>(law_, levels, step), step));
+        const auto& flow = slip->flow;
+        if (!flow.is_series()) {  // so close to a stop that no heat matters
+          heats_ = false;
+          return *slip;
+        }
+        if (!covers_whole(flow, step)) break;
+        double change = 0;
+        fastest = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+          const double time = nodes.nodes[i] * step, speed = norm(flow.at(time).velocity);
+          fastest = std::max(fastest, speed);
+          q[i] = heating * weight(time) * levels[i] * law_.speed_factor(speed) * speed;
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+          const double level = level_at(i);
+          change = std::max(change, std::abs(level - levels[i]) / level);
+          levels[i] = level;
+        }
+        settled = change <= 1e-9;
+      }
+      const Nodes::Values c = nodes.chebyshev(levels);
+      const bool resolved = settled && step * (std::abs(c[n - 1]) + std::abs(c[n - 2])) <= 1e-8 * fastest;
+      const double reached = slip->flow.horizon();
+      const bool whole = covers_whole(slip->flow, step);
+      if ((resolved && whole) || shortened > 60) {
+        double largest = 0;
+        for (const double value : q) largest = std::max(largest, value);
+        Nodes::powers(nodes.chebyshev(q), 0x1p-54 * largest, heat_);
+        step_ = step;
+        heats_ = heating > 0;
+        last_step_ = step < left ? step : std::max(step, last_step_);
+        return *slip;
+      }
+      if (whole)
+        step /= 2;
+      else
+        step = (slip->flow.stop() < never || slip->flow.leaves() ? 1.02 : 0.98) *
+               reached;  // where it stops, no heat follows
+    }
+  }
+
+  /// Update the surface with the heat of the last slip up to a time.
+  void heat(double time, SurfaceHeat& surface) {
+    if (heats_ && time > 0)
+      cooling_.heat(surface, heat_, step_, std::min(time / step_, 1.0));
+    else
+      surface.rest(time);
+  }
+
+  /// When the level falls below a load at rest: `excess(time, level)` is the square of the load minus that of the
+  /// level, which is positive after the departure. The margin is approximated by polynomials on successive parts of the
+  /// time, to 1e-9 of its terms. The surface cools until then.
+  /// @return the time [s]; `never` if it is held
+  template <class Weight, class Excess>
+  double departure(SurfaceHeat& surface, double left, Weight&& weight, Excess&& excess) {
+    const Nodes& nodes = Nodes::get();
+    for (double passed = 0, step = left;;) {
+      const Nodes::Values half = cooling_.half_integrals(surface, step);
+      Nodes::Values margin, powers;
+      double scale = 0;
+      for (std::size_t i = 0; i < margin.size(); ++i) {
+        const double then = passed + nodes.nodes[i] * step, w = weight(then), level = w * law_.level(0, w, half[i]);
+        margin[i] = -excess(then, level);
+        scale = std::max(scale, std::abs(margin[i]) + level * level);
+      }
+      if (margin[0] < 0 && !(passed > 0)) return 0;  // the load already exceeds the level, as after a stop
+      const Nodes::Values c = nodes.chebyshev(margin);
+      if (std::abs(c[c.size() - 1]) + std::abs(c[c.size() - 2]) > 1e-9 * scale && step > 0x1p-40 * left) {
+        step /= 2;
+        continue;
+      }
+      int degree = Nodes::powers(c, 1e-15 * scale, powers);
+      const double* from = powers.data();
+      if (!(margin[0] > 0))  // a load equal to the level is held
+        for (++from, --degree; degree >= 0 && equal(*from, 0);) ++from, --degree;
+      const double part = degree < 0 ? never : *from > 0 ? FirstRoot(from, degree).find() : 0;
+      if (part <= 1) {
+        surface.rest(part * step);
+        return passed + part * step;
+      }
+      surface.rest(step);
+      passed += step;
+      if (!(passed < left)) return never;
+      step = std::min(2 * step, left - passed);
+    }
+  }
+
+ private:
+  // Whether a slip lasts for a step, or stops, or leaves a stop, shortly before its end.
+  template <class Flow>
+  static bool covers_whole(const Flow& flow, double step) noexcept {
+    return flow.horizon() >= step * (flow.stop() < never || flow.leaves() ? 0.9 : 1 - 1e-9);
+  }
+
+  const Law& law_;
+  Cooling cooling_;
+  Nodes::Values heat_{};  // of the last slip, in powers of time per step
+  double step_ = 0, last_step_ = never;
+  bool heats_ = false;
+};
+
+/// The heating of a law; of one that does not depend on it, nothing.
+template <class Law>
+struct HeatingOf {
+  explicit HeatingOf(const Law&) {}
+};
+template <HeatedLaw Law>
+struct HeatingOf<Law> : Heating<Law> {
+  using Heating<Law>::Heating;
+};
+
+}  // namespace detail
+}  // namespace stickslip

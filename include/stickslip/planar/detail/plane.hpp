@@ -1,0 +1,360 @@
+// A slider in the plane, as a sliding system.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/planar/detail/departure.hpp"
+#include "stickslip/planar/detail/heated.hpp"
+#include "stickslip/planar/flow.hpp"
+#include "stickslip/planar/observer.hpp"
+#include "stickslip/planar/segment.hpp"
+#include "stickslip/planar/slider.hpp"
+#include "stickslip/planar/state.hpp"
+#include "stickslip/sliding/detail/loop.hpp"
+#include "stickslip/sliding/detail/system.hpp"
+#include "stickslip/sliding/observer.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip::detail {
+
+/// The part of a planar flow up to a parameter.
+struct PlanarLeg {
+  double last;  ///< parameter of the flow
+  PlanarProgress end;
+};
+
+/// A slip in the plane, and the law from which it was computed.
+template <class Law>
+struct PlanarSlide {
+  Law law;
+  PlanarFlow<Law> flow;
+  double stop;
+
+  template <class... Arguments>
+  PlanarSlide(const Law& now, const Mounting& mounting, Arguments&&... arguments)
+      : law(now), flow(mounting, law, std::forward<Arguments>(arguments)...), stop(flow.stop()) {}
+  PlanarLeg whole() const noexcept { return {flow.last(), flow.at_horizon()}; }
+  PlanarLeg until(double) const noexcept { return whole(); }
+};
+
+/// Where a slip meets the stop or a change of its law.
+struct PlanarPassage {
+  bool passes = false;
+  bool changes_law = false;
+  PlanarLeg leg{};
+};
+
+/// When and how a slider at rest begins to slip.
+struct PlanarDeparture {
+  PlanarMode mode = PlanarMode::stuck;
+  double delay = 0;       ///< from now [s]
+  bool at_level = false;  ///< whether the load then equals the level
+
+  bool departs() const noexcept { return mode != PlanarMode::stuck; }
+};
+
+/// A slider in the plane during one segment (a SlidingSystem).
+template <IsotropicLaw Law>
+class Plane {
+ public:
+  static constexpr int most_steps = 3'000'000;
+  static constexpr bool heated = HeatedLaw<Law>;
+
+  /// @param touching  whether the ground carries it: otherwise there is no friction
+  Plane(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, bool touching, PlanarState& state)
+      : slider_(slider),
+        segment_(segment),
+        weight_start_(touching ? segment.normal_start / standard_gravity : 0),
+        weight_end_(touching ? segment.normal_end / standard_gravity : 0),
+        gap_(slider.mounting().stops.forward()),
+        state_(state),
+        left_(segment.duration) {}
+
+  double left() const noexcept { return left_; }
+  double elapsed() const noexcept { return segment_.duration - left_; }
+  const PlanarState& state() const noexcept { return state_; }
+  const PlanarState& resting_state() const noexcept { return state_; }
+  bool at_rest() const noexcept { return state_.mode == PlanarMode::stuck; }
+  bool has_stopped() const noexcept { return stopped_; }
+
+  PlanarDeparture departure() {
+    const PlanarLoad load = load_now();
+    if constexpr (heated) return heated_departure(load);
+    const double holds = stickslip::hold(law_now(), 0.0, Direction::forward);
+    const double level = load.weight * holds, level_rate = load.weight_rate * holds;
+    const Vector2 q = load.start - pull(load.weight), rate = load.rate - pull(load.weight_rate, pendulum());
+    if (!at_stop()) return slips(exceeds(q, rate, level, level_rate, left_), q, rate, level, PlanarMode::sliding);
+    // Pressed against the stop, only the load along it has to be held.
+    const Vector2 outward = (1 / norm(state_.displacement)) * state_.displacement, sideways = turned(outward);
+    const double presses = dot(q, outward), presses_at_end = presses + left_ * dot(rate, outward);
+    const Vector2 aside{dot(q, sideways), 0}, aside_rate{dot(rate, sideways), 0};
+    const double turns = (presses > 0) != (presses_at_end > 0) ? left_ * (presses / (presses - presses_at_end)) : left_;
+    const auto within = [&](bool pressed, double from, double until) {
+      const Vector2 load_then = (pressed ? aside : q) + from * (pressed ? aside_rate : rate);
+      return from +
+             exceeds(load_then, pressed ? aside_rate : rate, level + from * level_rate, level_rate, until - from);
+    };
+    bool pressed = presses > 0 || (equal(presses, 0) && presses_at_end > 0);
+    double delay = within(pressed, 0, turns);
+    if (!(delay < never) && turns < left_) {
+      pressed = !pressed;
+      delay = within(pressed, turns, left_);
+    }
+    return pressed ? slips(delay, aside, aside_rate, level, PlanarMode::along_stop)
+                   : slips(delay, q, rate, level, PlanarMode::sliding);
+  }
+
+  Resumption depart(const PlanarDeparture& departure) noexcept {
+    state_.mode = departure.mode;
+    left_ -= departure.delay;
+    start_ = departure.mode == PlanarMode::along_stop ? PlanarStart::along_stop
+             : departure.at_level                     ? PlanarStart::at_level
+                                                      : PlanarStart::above_level;
+    if (!std::exchange(stopped_, false)) return Resumption::from_rest;
+    const PlanarLoad load = load_now();
+    return dot(load.start - pull(load.weight), arrived_) > 0 ? Resumption::onward : Resumption::reversed;
+  }
+
+  auto slide() {
+    if (state_.mode == PlanarMode::along_stop && !presses()) {
+      state_.mode = PlanarMode::sliding;
+      if (start_ == PlanarStart::along_stop) start_ = PlanarStart::above_level;
+    }
+    if (norm(state_.velocity) > 0)
+      start_ = state_.mode == PlanarMode::along_stop ? PlanarStart::along_stop : PlanarStart::moving;
+    const PlanarLoad load = load_now();
+    const auto over = [&]<class Now>(const Now& law, double duration) {
+      return PlanarSlide<Now>(law, slider_.mounting(), state_.displacement, state_.velocity, start_, load, duration,
+                              patience_);
+    };
+    if constexpr (heated) {
+      const auto weight = [&](double time) { return std::max(load.weight + load.weight_rate * time, 0.0); };
+      return heating_.template slide<PlanarSlide<HeatedStep<Law>>>(state_, left_, covers(), over, weight);
+    } else {
+      return over(std::remove_cvref_t<decltype(law_now())>(law_now()), left_);
+    }
+  }
+
+  template <class Slide>
+  PlanarPassage passage(const Slide& slide) const {
+    const auto& flow = slide.flow;
+    PlanarPassage passage{false, false, slide.whole()};
+    const auto shorten = [&](double parameter, bool changes_law) {
+      if (!(parameter < never) || parameter > passage.leg.last) return;
+      passage = {true, changes_law, {parameter, flow.at_parameter(parameter)}};
+    };
+    if constexpr (heated) {
+      const double edge = slider_.law().edge();
+      if (edge < never) shorten(flow.parameter_at_radius(edge, covers()), true);
+    } else if constexpr (MemoryLaw<Law>) {
+      const double ahead = slider_.law().ahead(along_path(), Direction::forward);
+      if (ahead < flow.at_horizon().distance) shorten(flow.parameter_at_distance(ahead, flow.last()), true);
+    }
+    if (gap_ < never && state_.mode != PlanarMode::along_stop) shorten(flow.parameter_at_radius(gap_, true), false);
+    return passage;
+  }
+
+  template <class Slide, class Observer>
+  void show(const Slide& slide, const PlanarLeg& leg, Observer& observer) const {
+    if constexpr (requires { observer.follow(slide.flow, leg.last, elapsed()); })
+      observer.follow(slide.flow, leg.last, elapsed());
+  }
+
+  /// To the place of a passage. @return whether the segment goes on
+  template <class Slide, class Observer>
+  bool pass(const Slide& slide, const PlanarPassage& passage, Observer& observer) {
+    const double before = state_.sliding_distance;
+    go(passage.leg);
+    if constexpr (heated) {
+      if (passage.changes_law) {
+        state_.displacement = (slider_.law().edge() / norm(state_.displacement)) * state_.displacement;
+        return left_ > 0;
+      }
+    } else if constexpr (MemoryLaw<Law>) {
+      if (passage.changes_law) {
+        State there = along_path();
+        there.sliding_distance = before;
+        slider_.law().pass(there, Direction::forward);
+        state_.sliding_distance = there.sliding_distance;
+        return left_ > 0;
+      }
+    }
+    return strike(slide, observer);
+  }
+
+  /// To the end of a flow that does not stop. @return whether the segment goes on
+  template <class Slide>
+  bool proceed(const Slide& slide, const PlanarLeg& leg) {
+    const bool ends = !(leg.end.time < left_);
+    go(leg);
+    if (state_.mode == PlanarMode::along_stop) {
+      state_.displacement = (gap_ / norm(state_.displacement)) * state_.displacement;
+      if (slide.flow.leaves()) state_.mode = PlanarMode::sliding;
+    }
+    // A slip too slow for doubles would never end.
+    if (!(norm(state_.velocity) > std::numeric_limits<double>::min())) {
+      arrived_ = leg.end.way;
+      rest();
+      return left_ > 0;
+    }
+    return !ends;
+  }
+
+  template <class Slide>
+  void stop(const Slide& slide, const PlanarLeg& leg) {
+    arrived_ = state_.velocity;
+    go(leg);
+    if (state_.mode == PlanarMode::along_stop) {
+      state_.displacement = (gap_ / norm(state_.displacement)) * state_.displacement;
+      arrived_ = slide.flow.at_parameter(leg.last / 2).velocity;
+    }
+    rest();
+  }
+
+  [[noreturn, gnu::noinline]] void stall() const {
+    throw ConvergenceError(
+        "advance: in a segment of " + shortest(segment_.duration) +
+        " s the motion changes faster than its time can be resolved, at r = (" + shortest(state_.displacement.axis) +
+        ", " + shortest(state_.displacement.transverse) + ") m, |r'| = " + shortest(norm(state_.velocity)) + " m/s, " +
+        shortest(left_) +
+        " s before its end: the spring or damper is too stiff, or the acceleration or the slip level too large, for a "
+        "segment this long");
+  }
+
+ private:
+  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
+  Vector2 pull(double weight) const noexcept {
+    return (slider_.stiffness() * (pendulum() ? weight : 1)) * state_.displacement;
+  }
+  Vector2 pull(double weight_rate, bool changes) const noexcept {
+    return (changes ? slider_.stiffness() * weight_rate : 0.0) * state_.displacement;
+  }
+  // An isotropic law is a function of the path: a state at its beginning.
+  State along_path() const noexcept {
+    State state{.sliding_distance = state_.sliding_distance};
+    if constexpr (HeatedLaw<Law>) state.heat = state_.heat;
+    return state;
+  }
+  decltype(auto) law_now() const { return law_at(slider_.law(), along_path(), load_now().weight); }
+
+  PlanarLoad load_now() const noexcept {
+    const double by = 1 / segment_.duration, part = left_ * by;
+    const Vector2 change = segment_.load_end - segment_.load_start;
+    const double gained = weight_end_ - weight_start_;
+    if (equal(left_, segment_.duration)) return {segment_.load_start, by * change, weight_start_, gained * by};
+    return {segment_.load_end - part * change, by * change, std::max(weight_end_ - part * gained, 0.0), gained * by};
+  }
+
+  PlanarDeparture slips(double delay, Vector2 q, Vector2 rate, double level, PlanarMode mode) const {
+    if (!(delay < never)) return {};
+    const bool at_level = delay > 0 || !(norm(q + delay * rate) > level);
+    if constexpr (LawWithHold<Law>) {
+      const double resists = stickslip::resist(law_now(), 0.0, 0.0, Direction::forward);
+      return {mode, delay, at_level && equal(resists, stickslip::hold(law_now(), 0.0, Direction::forward))};
+    } else {
+      return {mode, delay, at_level};
+    }
+  }
+
+  bool at_stop() const noexcept { return gap_ < never && norm(state_.displacement) >= gap_ * (1 - 0x1p-48); }
+
+  // Whether the load and the curvature of the path press the slider against the stop.
+  bool presses() const noexcept {
+    const PlanarLoad load = load_now();
+    const Vector2 outward = (1 / norm(state_.displacement)) * state_.displacement;
+    const double speed = norm(state_.velocity);
+    const double force = dot(load.start - pull(load.weight), outward), curve = speed * speed / gap_;
+    return force + curve >= -0x1p-42 * (norm(load.start) + norm(pull(load.weight)) + curve);
+  }
+
+  void go(const PlanarLeg& leg) noexcept {
+    state_.displacement += leg.end.way;
+    state_.velocity = leg.end.velocity;
+    state_.sliding_distance += leg.end.distance;
+    left_ = leg.end.time < left_ ? left_ - leg.end.time : 0;
+    if constexpr (heated) heating_.heat(leg.end.time, state_.heat);
+  }
+  void rest() noexcept {
+    state_.velocity = {};
+    state_.mode = PlanarMode::stuck;
+    stopped_ = true;
+  }
+
+  // The radial velocity is reversed. Infinitely many bounces are skipped if they stay within round-off of the stop: the
+  // slider then slides along it.
+  template <class Slide, class Observer>
+  bool strike(const Slide& slide, Observer& observer) {
+    const Vector2 outward = (1 / norm(state_.displacement)) * state_.displacement;
+    state_.displacement = gap_ * outward;
+    const double radial = std::max(dot(state_.velocity, outward), 0.0), aside = dot(state_.velocity, turned(outward));
+    if (!(radial > 0x1p-40 * std::abs(aside))) {  // it comes in along the stop
+      state_.velocity = aside * turned(outward);
+      state_.mode = presses() ? PlanarMode::along_stop : PlanarMode::sliding;
+      return left_ > 0;
+    }
+    observer.event(EventKind::impact, elapsed(), state_);
+    double back = slider_.mounting().stops.restitution() * radial;
+    const PlanarLoad load = load_now();
+    const double speed = std::hypot(back, aside);
+    const double resists =
+        load.weight * (speed > 0 ? level_along(slide.law, 0.0, speed, 0.0) : 0.0) * (speed > 0 ? back / speed : 0);
+    const double outward_push = dot(load.start - pull(load.weight), outward) + aside * aside / gap_;
+    bool pressed = false;
+    if (outward_push > resists && back * back <= 0x1p-60 * gap_ * (outward_push - resists)) {
+      back = 0;
+      pressed = true;
+    }
+    if constexpr (PlanarEnergyObserver<Observer>) observer.lose((radial * radial - back * back) / 2);
+    state_.velocity = aside * turned(outward) - back * outward;
+    arrived_ = radial * outward;
+    if (norm(state_.velocity) > 0) {
+      state_.mode = pressed ? PlanarMode::along_stop : PlanarMode::sliding;
+    } else {
+      rest();
+    }
+    return left_ > 0 || at_rest();
+  }
+
+  // Whether the slider covers the middle of the surface, whose temperature matters. At the edge, the velocity decides.
+  bool covers() const noexcept requires heated {
+    const double edge = slider_.law().edge(), place = norm(state_.displacement);
+    if (!(std::abs(place - edge) <= 0x1p-40 * edge)) return place < edge;
+    return dot(state_.displacement, state_.velocity) < 0;
+  }
+
+  // The level rises as the surface cools.
+  PlanarDeparture heated_departure(const PlanarLoad& load) requires heated {
+    const auto weight = [&](double time) { return std::max(load.weight + load.weight_rate * time, 0.0); };
+    const Vector2 outward = at_stop() ? (1 / norm(state_.displacement)) * state_.displacement : Vector2{};
+    const auto net = [&](double time) { return load.start + time * load.rate - pull(weight(time)); };
+    const auto excess = [&](double time, double level) {
+      const Vector2 q = net(time);
+      const double pressed = std::max(dot(q, outward), 0.0);
+      return dot(q, q) - pressed * pressed - level * level;
+    };
+    const double delay = heating_.departure(state_.heat, left_, weight, excess);
+    if (!(delay < never)) return {};
+    const bool pressed = dot(net(delay), outward) > 0;
+    return {pressed ? PlanarMode::along_stop : PlanarMode::sliding, delay, delay > 0};
+  }
+
+  const PlanarSlider<Law>& slider_;
+  const PlanarLoadSegment& segment_;
+  double weight_start_, weight_end_, gap_;
+  PlanarState& state_;
+  double left_;                              // time to the end of the segment [s]
+  PlanarStart start_ = PlanarStart::moving;  // of the next flow
+  bool stopped_ = false;                     // whether a slip has just stopped,
+  [[no_unique_address]] HeatingOf<Law> heating_{slider_.law()};
+  int patience_ = 0;   // of PlanarFlow
+  Vector2 arrived_{};  // and its last velocity [m/s]
+};
+
+}  // namespace stickslip::detail

@@ -1,0 +1,107 @@
+// The motion of a slider in the plane between the samples of its response.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/response.hpp"
+#include "stickslip/planar/slider.hpp"
+#include "stickslip/planar/state.hpp"
+#include "stickslip/sliding/trajectory.hpp"
+
+namespace stickslip {
+namespace detail {
+
+/// The last segment of a motion that begins at or before a time.
+inline std::size_t segment_at(const GroundMotion& motion, double time) {
+  std::size_t first = 0, last = motion.segments();
+  while (last - first > 1) {
+    const std::size_t middle = first + (last - first) / 2;
+    (motion.time(middle) <= time ? first : last) = middle;
+  }
+  return first;
+}
+
+/// The state at the start of a response.
+inline PlanarState start_of(const PlanarResponse& response) {
+  PlanarState state = PlanarState::at(response.displacement.front(), response.velocity.front());
+  state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  return state;
+}
+
+/// Call `go(begin, segment)` for each part of a ground motion from one time to a later one, with the time at which the
+/// part begins [s]. After the motion the ground acceleration is zero.
+template <class Go>
+void between(const PlanarPieces& pieces, const GroundMotion& motion, double slope, double from, double to, Go&& go) {
+  for (std::size_t i = segment_at(motion, from); i < motion.segments() && motion.time(i) < to; ++i) {
+    const double first = motion.time(i), last = motion.time(i + 1);
+    const double begin = std::max(first, from), end = std::min(last, to);
+    if (!(begin < end)) continue;
+    const PlanarLoadSegment whole = pieces.segment(i);
+    if (equal(begin, first) && equal(end, last))
+      go(begin, whole);
+    else
+      go(begin, PlanarLoadSegment{end - begin, whole.load(begin - first), whole.load(end - first),
+                                  whole.normal(begin - first), whole.normal(end - first)});
+  }
+  const double begin = std::max(motion.time(motion.segments()), from);
+  if (begin < to) go(begin, load_segment(PlanarSegment{to - begin, {}, {}}, Slope(slope)));
+}
+
+/// @param move  moves a state over a segment
+template <class Move>
+std::vector<PlanarState> planar_states(const GroundMotion& motion, double slope, const PlanarResponse& response,
+                                       std::span<const double> times, Move&& move) {
+  const double begin = motion.time(0), end = response.events.back().time;
+  for (const double time : times)
+    require(time >= begin && time <= end,
+            "states at times: must be from " + shortest(begin) + " to " + shortest(end) +
+                " s, the start and the end of the response",
+            time, "s");
+  std::vector<std::size_t> order(times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) { return times[i] < times[k]; });
+  const PlanarPieces pieces(motion, slope);
+  std::vector<PlanarState> states(times.size());
+  PlanarState state = start_of(response);
+  double now = begin;
+  for (const std::size_t i : order) {
+    if (now < times[i])
+      between(pieces, motion, slope, now, times[i],
+              [&](double, const PlanarLoadSegment& segment) { move(segment, state); });
+    now = times[i];
+    states[i] = now < end ? state : response.state;
+  }
+  return states;
+}
+
+}  // namespace detail
+
+/// The states of a slider in the plane at any times of a response, also between its samples and after the last sample.
+///
+/// @param slider    the slider
+/// @param motion    its ground motion
+/// @param response  the result of `integrate` for them
+/// @param times     in any order, from the start of the motion to the end of the response (its last event) [s]
+/// @return a state for each time, in their order; at an impact or a landing, that after it
+/// @throws std::invalid_argument  a time before the start or after the end
+/// As exact as `integrate`: the motion is integrated again, and ends a step at each time. Cost: about that of
+/// `integrate`, and 1 us for each time.
+template <IsotropicLaw Law>
+std::vector<PlanarState> states_at(const PlanarSlider<Law>& slider, const GroundMotion& motion,
+                                   const PlanarResponse& response, std::span<const double> times) {
+  return detail::planar_states(motion, slider.slope(), response, times,
+                               [&](const PlanarLoadSegment& segment, PlanarState& state) {
+                                 advance(slider, segment, state, NoPlanarObserver{}, response.contact);
+                               });
+}
+
+}  // namespace stickslip

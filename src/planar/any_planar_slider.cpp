@@ -1,0 +1,67 @@
+// Sliders on one axis in the plane, and back.
+#include "stickslip/planar/any_planar_slider.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace stickslip {
+namespace {
+
+template <class Law>
+std::string name_of_law(const Law&) {
+  if constexpr (requires { Law::class_name; })
+    return Law::class_name;
+  else
+    return "a law from functions";
+}
+template <class Law>
+std::string name_of_law(const StaticKinetic<Law>& law) {
+  return "StaticKinetic(" + name_of_law(law.sliding()) + ")";
+}
+
+// The laws of a list of sliders, for messages.
+template <class First, class... Laws>
+std::string laws_of(const std::variant<PlanarSlider<First>, PlanarSlider<Laws>...>*) {
+  std::string names;
+  const auto add = [&]<class Law>(const Law*) {
+    if constexpr (requires { Law::class_name; }) names += std::string(", ") + Law::class_name;
+  };
+  (add(static_cast<const Laws*>(nullptr)), ...);
+  return First::class_name + std::string(" with equal levels") + names + ", and StaticKinetic of these";
+}
+
+template <class Law, class... Laws>
+constexpr bool can_be_planar(const std::variant<PlanarSlider<Laws>...>*) {
+  return (std::same_as<Law, Laws> || ...);
+}
+
+}  // namespace
+
+AnyPlanarSlider planar(const AnySlider& slider) {
+  constexpr const AnyPlanarSlider* list = nullptr;
+  const auto refuse = [](const std::string& why) {
+    throw std::invalid_argument("PlanarSlider: " + why + "; laws for the plane are " + laws_of(list));
+  };
+  return std::visit(
+      [&]<class Law>(const Slider<Law>& one) -> AnyPlanarSlider {
+        const std::string name = name_of_law(one.law());
+        if constexpr (can_be_planar<Law>(list)) {
+          if (!one.law().isotropic())
+            refuse(name + " must have equal levels forward and backward to be the same in all directions");
+          return PlanarSlider<Law>(one);
+        } else {
+          refuse(name + " cannot be used, because its friction is not defined in all directions" +
+                 (name.find(Caster::class_name) == std::string::npos
+                      ? std::string()
+                      : std::string(": every wheel of a caster would have its own angle")));
+          throw;  // not reached
+        }
+      },
+      slider);
+}
+
+AnySlider along_axis(const AnyPlanarSlider& slider) {
+  return std::visit([](const auto& one) -> AnySlider { return one.along_axis(); }, slider);
+}
+
+}  // namespace stickslip
