@@ -33,13 +33,15 @@ struct Block::Spectrum {
 };
 
 Block::Block(const EnsembleTimes& times, bool velocity_spectrum, bool ground_acceleration,
-             const std::atomic<bool>& stopped)
+             const std::atomic<bool>& stopped, bool in_plane)
     : times_(times),
       ground_acceleration_(ground_acceleration),
+      in_plane_(in_plane),
       width_(Ensemble::block(times.count)),
       stopped_(stopped),
       peak_(width_),
       residual_(width_),
+      residual_transverse_(in_plane ? width_ : 0),
       central_(4 * width_),
       first_half_(width_),
       marks_(3 * width_) {
@@ -57,7 +59,7 @@ void Block::begin(std::size_t members) {
   impacts_.clear();
   gaps_ = {};
   airborne_ = 0;
-  tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0, ground_acceleration_);
+  tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0, ground_acceleration_, in_plane_);
   tally_.count = members;
   std::fill(central_.begin(), central_.end(), 0.0);
 }
@@ -76,10 +78,20 @@ void Block::row(std::size_t time, const double* displacement, const double* velo
     if (time == marks[i]) std::copy_n(displacement, width_, marks_.data() + i * width_);
 }
 
-void Block::impacts(std::size_t member, const Stops& stops, const Impacts& impacts) {
+void Block::row(std::size_t time, const Motions& along_axis, const Motions& transverse) {
+  const auto sum = [&](Tally::Pair pair, const double* one, const double* other) {
+    row_moments(one, other, members_, tally_.moment(Tally::x, pair).data() + time, times_.count, nullptr);
+  };
+  sum(Tally::along_axis, along_axis.displacement, along_axis.velocity);
+  sum(Tally::transverse, transverse.displacement, transverse.velocity);
+  sum(Tally::displacements, along_axis.displacement, transverse.displacement);
+  sum(Tally::velocities, along_axis.velocity, transverse.velocity);
+}
+
+void Block::impacts(std::size_t member, const SmallestGaps& gaps, const Impacts& impacts) {
   impacts_.resize(width_);
   impacts_[member] = impacts;
-  gaps_.include(gaps_of(stops));
+  gaps_.include(gaps);
 }
 
 void Block::ground(std::span<const double> acceleration) {
@@ -97,7 +109,7 @@ void Block::ground(std::span<const double> acceleration) {
 }
 
 Tally Block::finish() {
-  if (times_.count == 0) return std::move(tally_);
+  if (times_.count == 0 || in_plane_) return std::move(tally_);
   const auto n = static_cast<double>(members_);
   const auto length = static_cast<double>(times_.central());
   const double* const sums = central_.data();

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdio>
 #include <initializer_list>
 #include <limits>
@@ -94,6 +95,12 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
   });
   expect(says == parts_.ground_acceleration,
          "the configuration must say whether there are statistics of the ground acceleration");
+  const bool plane = std::ranges::any_of(parts_.configuration, [](const auto& entry) {
+    return entry == std::pair<std::string, std::string>("plane", "true");
+  });
+  expect(plane == parts_.in_plane, "the configuration must say whether the sliders are in the plane");
+  expect(!parts_.in_plane || !(parts_.velocity_spectrum || parts_.ground_acceleration),
+         "sliders in the plane have neither velocity spectrum nor ground acceleration");
 
   const std::uint64_t size = block(times.count);
   const auto members_in = [&](std::uint64_t number) {
@@ -112,6 +119,7 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
                " frequencies");
     expect(tally.ground_acceleration() == parts_.ground_acceleration,
            "all parts must have statistics of the ground acceleration, or none");
+    expect(tally.in_plane() == parts_.in_plane, "all parts must have moments of sliders in the plane, or none");
     const std::uint64_t begin = place.number << place.level, end = (place.number + 1) << place.level;
     std::uint64_t members = size << place.level;
     for (auto cut = parts_.cut.lower_bound(begin); cut != parts_.cut.end() && cut->first < end; ++cut, ++cuts) {
@@ -133,6 +141,10 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
                values.residual.size() == members_in(number),
            "block " + std::to_string(number) + " has " + std::to_string(values.peak.size()) + " peaks and " +
                std::to_string(values.residual.size()) + " residuals, which do not belong to its members");
+    expect(values.residual_transverse.size() == (parts_.in_plane ? values.residual.size() : 0),
+           "sliders in the plane, and only they, must have transverse residuals");
+    for (const double residual : values.residual_transverse)
+      detail::require(std::isfinite(residual), "Ensemble: a residual must be finite", residual, "m");
     for (std::size_t i = 0; i < values.peak.size(); ++i) {
       detail::require(std::isfinite(values.peak[i]) && values.peak[i] >= 0,
                       "Ensemble: a peak must be finite and at least 0", values.peak[i], "m");
@@ -213,12 +225,17 @@ namespace {
 
 // Value and standard error by time, from the number of members and the moments at one time.
 template <class F>
-Estimates by_time(const detail::TallyTree& tallies, F&& figure) {
+Estimates by_time(const detail::TallyTree& tallies, F&& figure, Tally::Pair pair = Tally::along_axis) {
   const Tally total = tallies.total();
   Estimates result{std::vector<double>(total.times()), std::vector<double>(total.times())};
   const auto n = static_cast<double>(total.count);
   for (std::size_t i = 0; i < total.times(); ++i) {
-    const auto moment = [&](auto m) { return total.moment(m)[i]; };
+    const auto moment = [&]<class M>(M m) {
+      if constexpr (std::same_as<M, Tally::Moment>)
+        return total.moment(m, pair)[i];
+      else
+        return total.moment(m)[i];
+    };
     const auto [value, variance] = figure(n, moment);
     result.value[i] = value;
     result.error[i] = std::sqrt(std::max(0.0, variance));
@@ -252,40 +269,64 @@ void Ensemble::need_times() const {
   need_two(members());
 }
 
+void Ensemble::need_one_axis(const char* what) const {
+  if (parts_.in_plane)
+    throw std::domain_error(std::string("Ensemble: ") + what +
+                            " not available for sliders in the plane; take the variances and covariances by time");
+}
+
+void Ensemble::need_plane() const {
+  if (!parts_.in_plane)
+    throw std::domain_error("Ensemble: sliders on one axis have no transverse displacement; run a PlanarSlider");
+}
+
+Tally::Pair Ensemble::pair_of(Component component) const {
+  if (component == Component::axis) return Tally::along_axis;
+  need_plane();
+  if (component == Component::vertical)
+    throw std::domain_error("Ensemble: sliders have no vertical displacement; component must be axis or transverse");
+  return Tally::transverse;
+}
+
 void Ensemble::need_ground_acceleration() const {
+  need_one_axis("the ground acceleration is");
   need_times();
   if (!parts_.ground_acceleration)
     throw std::domain_error("Ensemble: the ground acceleration was not asked for; run with ground_acceleration = true");
 }
 
-Estimates Ensemble::displacement_mean() const {
+Estimates Ensemble::displacement_mean(Component component) const {
   need_times();
-  return by_time(parts_.tallies, [](double n, auto moment) {
+  const auto figure = [](double n, auto moment) {
     return ValueAndVariance{moment(Tally::x), moment(Tally::xx) / (n - 1) / n};
-  });
+  };
+  return by_time(parts_.tallies, figure, pair_of(component));
 }
 
-Estimates Ensemble::velocity_mean() const {
+Estimates Ensemble::velocity_mean(Component component) const {
   need_times();
-  return by_time(parts_.tallies, [](double n, auto moment) {
+  const auto figure = [](double n, auto moment) {
     return ValueAndVariance{moment(Tally::v), moment(Tally::vv) / (n - 1) / n};
-  });
+  };
+  return by_time(parts_.tallies, figure, pair_of(component));
 }
 
-Estimates Ensemble::displacement_variance() const {
+Estimates Ensemble::displacement_variance(Component component) const {
   need_times();
-  return by_time(parts_.tallies, [](double n, auto moment) {
+  const auto figure = [](double n, auto moment) {
     const double xx = moment(Tally::xx);
     return covariance_of(n, xx, xx, xx, moment(Tally::xxxx));
-  });
+  };
+  return by_time(parts_.tallies, figure, pair_of(component));
 }
 
-Estimates Ensemble::velocity_variance() const {
+Estimates Ensemble::velocity_variance(Component component) const {
   need_times();
-  return by_time(parts_.tallies, [](double n, auto moment) {
+  const auto figure = [](double n, auto moment) {
     const double vv = moment(Tally::vv);
     return covariance_of(n, vv, vv, vv, moment(Tally::vvvv));
-  });
+  };
+  return by_time(parts_.tallies, figure, pair_of(component));
 }
 
 Estimates Ensemble::ground_acceleration_mean() const {
@@ -303,11 +344,33 @@ Estimates Ensemble::ground_acceleration_variance() const {
   });
 }
 
-Estimates Ensemble::covariance() const {
-  need_times();
-  return by_time(parts_.tallies, [](double n, auto moment) {
+namespace {
+
+// The covariance of the quantities of a pair.
+Estimates covariance_by_time(const detail::TallyTree& tallies, Tally::Pair pair) {
+  const auto figure = [](double n, auto moment) {
     return covariance_of(n, moment(Tally::xv), moment(Tally::xx), moment(Tally::vv), moment(Tally::xxvv));
-  });
+  };
+  return by_time(tallies, figure, pair);
+}
+
+}  // namespace
+
+Estimates Ensemble::covariance(Component component) const {
+  need_times();
+  return covariance_by_time(parts_.tallies, pair_of(component));
+}
+
+Estimates Ensemble::displacement_covariance() const {
+  need_times();
+  need_plane();
+  return covariance_by_time(parts_.tallies, Tally::displacements);
+}
+
+Estimates Ensemble::velocity_covariance() const {
+  need_times();
+  need_plane();
+  return covariance_by_time(parts_.tallies, Tally::velocities);
 }
 
 Moments Ensemble::moments() const {
@@ -347,6 +410,7 @@ std::string remark_on(const Stationary& averages, std::uint64_t members, std::si
 }  // namespace
 
 Stationary Ensemble::stationary() const {
+  need_one_axis("stationary averages are");
   need_times();
   const Tally total = parts_.tallies.total();
   const auto n = static_cast<double>(total.count);
@@ -401,6 +465,7 @@ Stationary Ensemble::stationary() const {
 }
 
 VelocitySpectrum Ensemble::velocity_spectrum() const {
+  need_one_axis("the spectrum of the velocity is");
   need_times();
   if (!parts_.velocity_spectrum)
     throw std::domain_error("Ensemble: the velocity's spectrum was not asked for; run with velocity_spectrum = true");
@@ -484,7 +549,9 @@ Interval Ensemble::impact_probability(Direction side, double confidence) const {
 }
 
 std::vector<double> Ensemble::peak() const { return gathered(parts_, &Kept::peak); }
-std::vector<double> Ensemble::residual() const { return gathered(parts_, &Kept::residual); }
+std::vector<double> Ensemble::residual(Component component) const {
+  return gathered(parts_, pair_of(component) == Tally::transverse ? &Kept::residual_transverse : &Kept::residual);
+}
 
 Interval Ensemble::quantile(double probability, double confidence) const {
   check_probability("Ensemble: probability must lie between 0 and 1", probability);

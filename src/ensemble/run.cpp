@@ -42,7 +42,7 @@ void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleT
 }  // namespace
 
 Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& times, const EnsembleOptions& options,
-                      const Ensemble* start, const MakeSimulator& make_simulator) {
+                      bool in_plane, const Ensemble* start, const MakeSimulator& make_simulator) {
   const std::size_t block_size = Ensemble::block(times.count);
   check(options, block_size);
   Ensemble::Parts empty;
@@ -50,6 +50,7 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
   empty.times = times;
   empty.velocity_spectrum = options.velocity_spectrum;
   empty.ground_acceleration = options.ground_acceleration;
+  empty.in_plane = in_plane;
   Ensemble ensemble(std::move(empty));
   if (start) ensemble.merge(*start);
 
@@ -71,7 +72,7 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
 
   const auto work = [&] {
     const std::unique_ptr<Simulator> simulator = make_simulator();
-    Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped);
+    Block block(times, options.velocity_spectrum, options.ground_acceleration, stopped, in_plane);
     for (;;) {
       std::uint64_t number = 0;
       {
@@ -88,6 +89,9 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
       Ensemble::Kept kept;
       kept.peak.assign(block.peak().begin(), block.peak().begin() + static_cast<std::ptrdiff_t>(members));
       kept.residual.assign(block.residual().begin(), block.residual().begin() + static_cast<std::ptrdiff_t>(members));
+      const auto across = block.residual_transverse();
+      if (in_plane)
+        kept.residual_transverse.assign(across.begin(), across.begin() + static_cast<std::ptrdiff_t>(members));
       if (const auto impacts = block.impacts(); !impacts.empty())
         kept.impacts.assign(impacts.begin(), impacts.begin() + static_cast<std::ptrdiff_t>(members));
       check_range(kept, tally, times, number * block_size);

@@ -18,10 +18,14 @@ void Tally::merge(const Tally& right) {
     *this = right;
     return;
   }
-  assert(times_ == right.times_ && frequencies_ == right.frequencies_ && ground_times_ == right.ground_times_);
+  assert(times_ == right.times_ && frequencies_ == right.frequencies_ && ground_times_ == right.ground_times_ &&
+         pairs_ == right.pairs_);
   const auto members_left = static_cast<double>(count), members_right = static_cast<double>(right.count),
              members = members_left + members_right;
-  merge_moments(members_left, members_right, sums_.data(), right.sums_.data(), times_);
+  for (std::size_t pair = 0; pair < pairs_; ++pair) {
+    const std::size_t from = pair * moments * times_;
+    merge_moments(members_left, members_right, sums_.data() + from, right.sums_.data() + from, times_);
+  }
 
   const double share = members_right / members, weight = members_left * share;
   const std::span<double> mean_density = density_mean(), scatter_density = density_scatter();
@@ -62,9 +66,12 @@ bool is_bounded(double mean, double squares, double members, double largest) {
 std::optional<std::size_t> Tally::out_of_range() const {
   const auto members = static_cast<double>(count);
   for (std::size_t i = 0; i < times_; ++i)
-    if (!is_bounded(moment(x)[i], moment(xx)[i], members, max_motion) ||
-        !is_bounded(moment(v)[i], moment(vv)[i], members, max_motion))
-      return i;
+    for (std::size_t p = 0; p < pairs_; ++p) {
+      const auto pair = static_cast<Pair>(p);
+      if (!is_bounded(moment(x, pair)[i], moment(xx, pair)[i], members, max_motion) ||
+          !is_bounded(moment(v, pair)[i], moment(vv, pair)[i], members, max_motion))
+        return i;
+    }
   for (std::size_t i = 0; i < ground_times_; ++i)
     if (!is_bounded(moment(Tally::n)[i], moment(nn)[i], members, max_motion)) return i;
   for (std::size_t k = 0; k < frequencies_; ++k)
@@ -84,8 +91,9 @@ bool Tally::is_possible() const {
     // Merged fourth powers can round to less than 0 where they underflow.
     return std::ranges::all_of(values, [](double value) { return value >= -std::numeric_limits<double>::min(); });
   };
-  for (std::size_t m = x; m < moments; ++m) {
-    const std::span<const double> values = moment(static_cast<Moment>(m));
+  for (std::size_t one = 0; one < pairs_ * moments; ++one) {
+    const std::size_t m = one % moments;
+    const std::span<const double> values = moment(static_cast<Moment>(m), static_cast<Pair>(one / moments));
     const double largest = m <= v    ? slack * max_motion
                            : m <= vv ? slack * slack * max_motion * max_motion * members
                                      : max_feature * members;

@@ -157,8 +157,8 @@ TEST_CASE("from rest, displacement and velocity spread as the exact transients s
   const auto at = [](const Estimates& all, std::size_t i) { return Estimate{all.value[i], all.error[i]}; };
   for (const reference::WhiteTransient& exact : reference::white_transients) {
     const auto i = static_cast<std::size_t>(std::lround(exact.time / 0.04));
-    const auto limit = [&](Estimates (Ensemble::*figure)() const) {
-      return extrapolated(at((coarse.*figure)(), i), at((fine.*figure)(), 2 * i));
+    const auto limit = [&](Estimates (Ensemble::*quantity)(Component) const) {
+      return extrapolated(at((coarse.*quantity)(Component::axis), i), at((fine.*quantity)(Component::axis), 2 * i));
     };
     const Estimate x = limit(&Ensemble::displacement_variance), xv = limit(&Ensemble::covariance),
                    v = limit(&Ensemble::velocity_variance);

@@ -15,6 +15,7 @@
 #include "stickslip/ensemble/stationary.hpp"
 #include "stickslip/ensemble/times.hpp"
 #include "stickslip/ensemble/velocity_spectrum.hpp"
+#include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/sliding/impacts.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/statistics/tally.hpp"
@@ -28,7 +29,7 @@ namespace detail {
 class Simulator;
 using MakeSimulator = std::function<std::unique_ptr<Simulator>()>;
 Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& times, const EnsembleOptions& options,
-                      const Ensemble* start, const MakeSimulator& make_simulator);
+                      bool in_plane, const Ensemble* start, const MakeSimulator& make_simulator);
 }  // namespace detail
 
 /// Statistics over the members of an ensemble, each with its standard error, from the scatter between members.
@@ -36,6 +37,11 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
 /// All sums are computed in one pass, about means, and merged in pairs in an order that depends only on the numbers of
 /// the members: the same members give the same bits for any number of threads and any division into parts of whole
 /// blocks.
+///
+/// Sliders in the plane (PlanarSlider) have a displacement vector r = (x, y): statistics of its components along the
+/// axis and along the transverse direction, by a Component, and their covariances. Their peak is the largest |r|, and
+/// they have neither stationary averages nor a spectrum of the velocity. Their impacts on the circular stop count as
+/// impacts forward.
 ///
 /// Statistics by time, stationary averages and the spectrum of the velocity exist only if all ground motions have the
 /// same duration; otherwise these functions throw std::domain_error. Peaks, residuals, quantiles and exceedances always
@@ -47,8 +53,9 @@ class Ensemble {
 
   /// Results of each member of a block.
   struct Kept {
-    std::vector<double> peak, residual;  ///< [m]
-    std::vector<Impacts> impacts{};      ///< empty if no slider of the block has stops
+    std::vector<double> peak, residual;         ///< [m]
+    std::vector<Impacts> impacts{};             ///< empty if no slider of the block has stops
+    std::vector<double> residual_transverse{};  ///< [m]; empty on one axis
     friend bool operator==(const Kept&, const Kept&) = default;
   };
 
@@ -73,6 +80,7 @@ class Ensemble {
     SmallestGaps gaps{};      ///< of the sliders of all members
     bool has_impacts = true;  ///< false if sliders with stops come from a file written before impacts were kept
     std::uint64_t airborne = 0;
+    bool in_plane = false;  ///< whether the sliders are in the plane
     friend bool operator==(const Parts&, const Parts&) = default;
   };
 
@@ -100,14 +108,24 @@ class Ensemble {
   /// Times of the statistics [s]; empty if the ground motions differ in duration.
   std::vector<double> time() const;
 
-  Estimates displacement_mean() const;  ///< of x [m], by time
+  bool in_plane() const noexcept { return parts_.in_plane; }
+
+  /// Mean of x [m], by time.
+  /// @param component  in the plane also Component::transverse, for y
+  /// @throws std::domain_error  a component that the sliders do not have; the following functions also do
+  Estimates displacement_mean(Component component = Component::axis) const;
   /// Variance of x, with the divisor members - 1 [m^2], by time.
   /// @throws std::domain_error with fewer than two members, or without times; the following functions, up to the
   ///         spectrum, also do
-  Estimates displacement_variance() const;
-  Estimates covariance() const;         ///< of x and x' [m^2/s], by time
-  Estimates velocity_mean() const;      ///< of x' [m/s], by time
-  Estimates velocity_variance() const;  ///< of x' [m^2/s^2], by time
+  Estimates displacement_variance(Component component = Component::axis) const;
+  Estimates covariance(Component component = Component::axis) const;         ///< of x and x' [m^2/s], by time
+  Estimates velocity_mean(Component component = Component::axis) const;      ///< of x' [m/s], by time
+  Estimates velocity_variance(Component component = Component::axis) const;  ///< of x' [m^2/s^2], by time
+
+  /// Covariances of the components of sliders in the plane, with the divisor members - 1, by time.
+  /// @throws std::domain_error also for sliders on one axis
+  Estimates displacement_covariance() const;  ///< of x and y [m^2]
+  Estimates velocity_covariance() const;      ///< of x' and y' [m^2/s^2]
 
   /// Mean of the ground acceleration n [m/s^2], by time; at a jump, of the value after it.
   /// @throws std::domain_error if it was not requested, or without times
@@ -116,18 +134,19 @@ class Ensemble {
   /// @throws std::domain_error also with fewer than two members
   Estimates ground_acceleration_variance() const;
 
-  /// All of these and the stationary growth rate, in the form that theories return.
+  /// Means, variances and covariance by time and the stationary growth rate, in the form that theories return.
+  /// @throws std::domain_error also for sliders in the plane; the following two also do
   Moments moments() const;
 
   Stationary stationary() const;
   /// @throws std::domain_error also if it was not requested
   VelocitySpectrum velocity_spectrum() const;
 
-  /// Largest |x| of each member over all time [m], in the order of the members.
+  /// Largest |x|, in the plane |r|, of each member over all time [m], in the order of the members.
   /// @throws std::domain_error for more than `max_kept` members
   std::vector<double> peak() const;
-  /// Last x of each member [m].
-  std::vector<double> residual() const;
+  /// Last x of each member [m]; in the plane also Component::transverse, for y.
+  std::vector<double> residual(Component component = Component::axis) const;
 
   /// The impacts of each member on its stops, in the order of the members.
   /// @throws std::domain_error if no member has stops; for more than `max_kept` members; if members come from a file
@@ -162,12 +181,15 @@ class Ensemble {
   void merge(const Ensemble& other);
 
  private:
-  friend Ensemble detail::run_ensemble(Configuration, const EnsembleTimes&, const EnsembleOptions&, const Ensemble*,
-                                       const detail::MakeSimulator&);
+  friend Ensemble detail::run_ensemble(Configuration, const EnsembleTimes&, const EnsembleOptions&, bool,
+                                       const Ensemble*, const detail::MakeSimulator&);
   void insert(std::uint64_t block, detail::Tally tally, Kept kept, const SmallestGaps& gaps, std::size_t airborne);
   void bound_memory();
   void need_times() const;
   void need_ground_acceleration() const;
+  void need_one_axis(const char* what) const;
+  void need_plane() const;
+  detail::Tally::Pair pair_of(Component component) const;
   void need_impacts(double gap, const char* side) const;
   Interval fraction(std::uint64_t count, double confidence) const;
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "stickslip/ensemble/configuration.hpp"
 #include "stickslip/ensemble/times.hpp"
@@ -14,6 +15,8 @@
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/identity.hpp"
+#include "stickslip/planar/identity.hpp"
+#include "stickslip/planar/slider.hpp"
 
 namespace stickslip {
 
@@ -57,6 +60,10 @@ concept SliderSource = !MotionSource<T> && requires(const T& sliders, std::uint6
 /// ensemble of them does not generate it.
 template <class S>
 inline constexpr bool feels_transverse = false;
+template <IsotropicLaw Law>
+inline constexpr bool feels_transverse<PlanarSlider<Law>> = true;
+template <IsotropicLaw... Laws>
+inline constexpr bool feels_transverse<std::variant<PlanarSlider<Laws>...>> = true;
 
 namespace detail {
 

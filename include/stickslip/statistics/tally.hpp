@@ -49,7 +49,8 @@ enum Feature : std::size_t {
 
 /// The sums over a set of members: for each time the joint moments of displacement and velocity about their means,
 /// for each frequency the mean and scatter of the velocity periodogram, mean and scatter of the features, and, if
-/// requested, for each time the moments of the ground acceleration.
+/// requested, for each time the moments of the ground acceleration. Of members in the plane, the joint moments are
+/// those of several pairs of quantities.
 ///
 /// Two sets merge into their union: each is shifted to the common mean and the sums are added (Pebay 2008,
 /// SAND2008-6212).
@@ -58,38 +59,54 @@ class Tally {
   /// The order of the moments at one time: sums of (x - mean)^p (x' - mean)^q, after the two means.
   enum Moment : std::size_t { x, v, xx, xv, vv, xxx, xxv, xvv, vvv, xxxx, xxvv, vvvv, moments };
 
+  /// The pairs of quantities whose joint moments are kept, in place of x and x' above. On one axis only the first.
+  enum Pair : std::size_t {
+    along_axis,     ///< displacement and velocity along the axis
+    transverse,     ///< the same along the transverse direction
+    displacements,  ///< displacements along the axis and the transverse direction
+    velocities,     ///< velocities along the axis and the transverse direction
+    pairs_in_plane,
+    pairs_on_axis = 1
+  };
+
   /// The moments of the ground acceleration n at one time: its mean, and sums of (n - mean)^p.
   enum GroundMoment : std::size_t { n, nn, nnn, nnnn, ground_moments };
 
   Tally() = default;
-  Tally(std::size_t times, std::size_t frequencies, bool ground_acceleration = false)
+  Tally(std::size_t times, std::size_t frequencies, bool ground_acceleration = false, bool in_plane = false)
       : times_(times),
         frequencies_(frequencies),
         ground_times_(ground_acceleration ? times : 0),
-        sums_(size(times, frequencies, ground_acceleration)) {}
+        pairs_(pairs(in_plane)),
+        sums_(size(times, frequencies, ground_acceleration, in_plane)) {}
 
   /// Number of sums.
-  static constexpr std::size_t size(std::size_t times, std::size_t frequencies,
-                                    bool ground_acceleration = false) noexcept {
-    return moments * times + 2 * frequencies + features * (features + 1) +
+  static constexpr std::size_t size(std::size_t times, std::size_t frequencies, bool ground_acceleration = false,
+                                    bool in_plane = false) noexcept {
+    return pairs(in_plane) * moments * times + 2 * frequencies + features * (features + 1) +
            (ground_acceleration ? ground_moments * times : 0);
   }
 
   std::size_t times() const noexcept { return times_; }
   std::size_t frequencies() const noexcept { return frequencies_; }
   bool ground_acceleration() const noexcept { return ground_times_ > 0; }
+  bool in_plane() const noexcept { return pairs_ == pairs_in_plane; }
 
   /// Number of members.
   std::uint64_t count = 0;
 
-  /// One moment at all times.
-  std::span<double> moment(Moment m) noexcept { return {sums_.data() + m * times_, times_}; }
-  std::span<const double> moment(Moment m) const noexcept { return {sums_.data() + m * times_, times_}; }
+  /// One moment of a pair at all times.
+  std::span<double> moment(Moment m, Pair pair = along_axis) noexcept {
+    return {sums_.data() + place(m, pair) * times_, times_};
+  }
+  std::span<const double> moment(Moment m, Pair pair = along_axis) const noexcept {
+    return {sums_.data() + place(m, pair) * times_, times_};
+  }
 
   /// Mean of the periodogram, and sum of the squared deviations from it.
-  std::span<double> density_mean() noexcept { return {sums_.data() + moments * times_, frequencies_}; }
+  std::span<double> density_mean() noexcept { return {after_moments(), frequencies_}; }
   std::span<double> density_scatter() noexcept { return {density_mean().data() + frequencies_, frequencies_}; }
-  std::span<const double> density_mean() const noexcept { return {sums_.data() + moments * times_, frequencies_}; }
+  std::span<const double> density_mean() const noexcept { return {after_moments(), frequencies_}; }
   std::span<const double> density_scatter() const noexcept {
     return {density_mean().data() + frequencies_, frequencies_};
   }
@@ -127,8 +144,14 @@ class Tally {
   friend bool operator==(const Tally&, const Tally&) = default;
 
  private:
-  double* tail() noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
-  const double* tail() const noexcept { return sums_.data() + moments * times_ + 2 * frequencies_; }
+  static constexpr std::size_t pairs(bool in_plane) noexcept { return in_plane ? pairs_in_plane : pairs_on_axis; }
+  static constexpr std::size_t place(std::size_t moment, std::size_t pair) noexcept { return pair * moments + moment; }
+
+  double* after_moments() noexcept { return sums_.data() + pairs_ * moments * times_; }
+  const double* after_moments() const noexcept { return sums_.data() + pairs_ * moments * times_; }
+
+  double* tail() noexcept { return after_moments() + 2 * frequencies_; }
+  const double* tail() const noexcept { return after_moments() + 2 * frequencies_; }
 
   double* ground() noexcept { return tail() + features * (features + 1); }
   const double* ground() const noexcept { return tail() + features * (features + 1); }
@@ -136,6 +159,7 @@ class Tally {
   std::size_t times_ = 0;
   std::size_t frequencies_ = 0;
   std::size_t ground_times_ = 0;  // 0 or times_
+  std::size_t pairs_ = pairs_on_axis;
   std::vector<double> sums_;
 };
 

@@ -17,7 +17,8 @@ namespace stickslip::detail {
 /// Collects the motion of the members of one block, row by row, while they are simulated.
 class Block {
  public:
-  Block(const EnsembleTimes& times, bool velocity_spectrum, bool ground_acceleration, const std::atomic<bool>& stopped);
+  Block(const EnsembleTimes& times, bool velocity_spectrum, bool ground_acceleration, const std::atomic<bool>& stopped,
+        bool in_plane = false);
   ~Block();
   Block(const Block&) = delete;
   Block& operator=(const Block&) = delete;
@@ -30,15 +31,24 @@ class Block {
   /// @param displacement, velocity  `width()` values each; values past the last member are ignored
   void row(std::size_t time, const double* displacement, const double* velocity);
 
+  /// Displacements and velocities of all members in one direction.
+  struct Motions {
+    const double *displacement, *velocity;
+  };
+  /// The same for members in the plane.
+  void row(std::size_t time, const Motions& along_axis, const Motions& transverse);
+
   /// Add the ground acceleration of one member at all times, if requested; call it for each member in order.
   void ground(std::span<const double> acceleration);
 
   /// Peak and residual per member; written by the simulator.
   std::span<double> peak() noexcept { return {peak_.data(), width_}; }
   std::span<double> residual() noexcept { return {residual_.data(), width_}; }
+  /// The transverse component of the residual; empty on one axis.
+  std::span<double> residual_transverse() noexcept { return residual_transverse_; }
 
   /// Enter the impacts of a member whose slider has stops.
-  void impacts(std::size_t member, const Stops& stops, const Impacts& impacts);
+  void impacts(std::size_t member, const SmallestGaps& gaps, const Impacts& impacts);
   /// Count a member that ends in flight.
   void ends_airborne() noexcept { ++airborne_; }
 
@@ -60,11 +70,11 @@ class Block {
  private:
   struct Spectrum;
   EnsembleTimes times_;
-  bool ground_acceleration_;
+  bool ground_acceleration_, in_plane_;
   std::size_t members_ = 0, grounds_ = 0;
   std::size_t width_;
   const std::atomic<bool>& stopped_;
-  std::vector<double> peak_, residual_;
+  std::vector<double> peak_, residual_, residual_transverse_;
   std::vector<Impacts> impacts_;
   SmallestGaps gaps_;
   std::size_t airborne_ = 0;

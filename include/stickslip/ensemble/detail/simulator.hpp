@@ -74,8 +74,9 @@ inline Segment cut(Segment& segment, double time, double rest) noexcept {
   segment = {rest, middle, segment.end};
   return taken;
 }
-inline LoadSegment cut(LoadSegment& segment, double time, double rest) noexcept {
-  const LoadSegment taken = take(segment, time, segment.normal(time));
+template <class AnyLoadSegment>
+AnyLoadSegment cut(AnyLoadSegment& segment, double time, double rest) noexcept {
+  const AnyLoadSegment taken = take(segment, time, segment.normal(time));
   segment.duration = rest;
   return taken;
 }
@@ -210,7 +211,7 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
     else if (settle)
       settle_member(slider, flows, state, observer, block);
     place.end(observer.peak(), state.displacement);
-    if (const Stops& stops = slider.mounting().stops) block.impacts(place.index, stops, observer.impacts());
+    if (const Stops& stops = slider.mounting().stops) block.impacts(place.index, gaps_of(stops), observer.impacts());
     if (state.in_flight) block.ends_airborne();
   });
 }
