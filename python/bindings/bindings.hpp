@@ -28,6 +28,7 @@ using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Cast
 
 // These variants are classes in Python, not converted as by pybind11/stl.h.
 PYBIND11_MAKE_OPAQUE(stickslip::AnySlider)
+PYBIND11_MAKE_OPAQUE(stickslip::AnyPlanarSlider)
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnyStaticKinetic)
 
 namespace stickslip::python {
@@ -52,6 +53,10 @@ void bind_records(py::module_& m);
 void bind_response(py::module_& m);
 void bind_advance(py::module_& m);
 void bind_integrate(py::module_& m);
+void bind_planar_slider(py::module_& m);
+void bind_planar_advance(py::module_& m);
+void bind_planar_response(py::module_& m);
+void bind_planar_integrate(py::module_& m);
 void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
 void bind_response_spectrum(py::module_& m);
@@ -144,6 +149,11 @@ inline std::optional<AnySlider> slider_of(const py::handle& object) {
   return slider_of_law(object);
 }
 
+/// The slider of the arguments of `Slider`.
+AnySlider slider_from(const py::object& law, std::optional<double> natural_frequency, std::optional<double> damping,
+                      std::optional<double> period, std::optional<double> damping_ratio, const py::object& slope,
+                      bool one_way, const Stops* stops, bool pendulum);
+
 inline const char* name_of(Contact contact) { return contact == Contact::flight ? "flight" : "clipped"; }
 inline Contact contact_of(const std::string& name, const std::string& owner) {
   if (name == "flight") return Contact::flight;
@@ -176,6 +186,24 @@ inline void check_for_interrupt() {
 /// A read-only array over `values`, which `owner` keeps alive.
 inline py::array_t<double> view(std::span<const double> values, py::handle owner) {
   py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data(), owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// The same over vectors in the plane, of shape (N, 2).
+inline py::array_t<double> view(std::span<const Vector2> values, py::handle owner) {
+  static_assert(sizeof(Vector2) == 2 * sizeof(double));
+  py::array_t<double> array({static_cast<py::ssize_t>(values.size()), py::ssize_t{2}},
+                            values.empty() ? nullptr : &values.front().axis, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// A vector in the plane as a read-only array of shape (2,).
+inline py::array_t<double> array_of(Vector2 v) {
+  py::array_t<double> array(2);
+  array.mutable_at(0) = v.axis;
+  array.mutable_at(1) = v.transverse;
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }
@@ -288,6 +316,16 @@ inline double to_number(const py::object& value, const std::string& name, const 
   if (numbers.ndim() != 0)
     throw std::invalid_argument(name + " must be one number, got " + std::to_string(numbers.size()));
   return *numbers.data();
+}
+
+/// A vector in the plane: its components along the axis and along the transverse direction.
+inline Vector2 to_vector2(const py::object& value, const std::string& name, const char* unit = nullptr) {
+  const Numbers numbers = to_numbers(value, name, unit);
+  if (numbers.ndim() != 1 || numbers.size() != 2)
+    throw std::invalid_argument(
+        name + " must be two numbers, along the axis and along the transverse direction, got " +
+        (numbers.ndim() == 0 ? "one" : "an array of shape " + py::str(numbers.attr("shape")).cast<std::string>()));
+  return {numbers.at(0), numbers.at(1)};
 }
 
 /// A plot of `stickslip.plotting` as a method with the options `where`= ("ax" or "figure") and title=.

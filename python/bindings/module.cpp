@@ -50,6 +50,10 @@ PYBIND11_MODULE(_core, m) {
   bind_advance(m);
   bind_response(m);
   bind_integrate(m);
+  bind_planar_slider(m);
+  bind_planar_advance(m);
+  bind_planar_response(m);
+  bind_planar_integrate(m);
   bind_histories(m);
   bind_envelope(m);
   bind_spectrum(m);

@@ -9,6 +9,7 @@
 #include <complex>
 #include <concepts>
 #include <cstddef>
+#include <cstring>
 #include <functional>
 #include <ranges>
 #include <tuple>
@@ -61,6 +62,22 @@ inline constexpr auto parts<Response> = std::tuple(&Response::displacement, &Res
                                                    &Response::time_sliding, &Response::energy, &Response::gap,
                                                    &Response::truncated, &Response::contact, &Response::components,
                                                    &Response::state, &Response::temperature);
+template <>
+inline constexpr auto parts<Vector2> = std::tuple(&Vector2::axis, &Vector2::transverse);
+template <>
+inline constexpr auto parts<PlanarState> = std::tuple(&PlanarState::displacement, &PlanarState::velocity,
+                                                      &PlanarState::mode, &PlanarState::in_flight, &PlanarState::gap,
+                                                      &PlanarState::gap_velocity, &PlanarState::sliding_distance,
+                                                      &PlanarState::heat);
+template <>
+inline constexpr auto parts<PlanarEvent> = std::tuple(&PlanarEvent::time, &PlanarEvent::displacement,
+                                                      &PlanarEvent::velocity, &PlanarEvent::kind);
+template <>
+inline constexpr auto parts<PlanarResponse> = std::tuple(
+    &PlanarResponse::displacement, &PlanarResponse::velocity, &PlanarResponse::events, &PlanarResponse::peak,
+    &PlanarResponse::peak_time, &PlanarResponse::peak_displacement, &PlanarResponse::residual,
+    &PlanarResponse::sliding_distance, &PlanarResponse::time_sliding, &PlanarResponse::energy, &PlanarResponse::gap,
+    &PlanarResponse::truncated, &PlanarResponse::contact, &PlanarResponse::components, &PlanarResponse::state);
 template <>
 inline constexpr auto parts<Orbit> = std::tuple(&Orbit::load, &Orbit::omega, &Orbit::amplitude, &Orbit::phase,
                                                 &Orbit::stops_per_cycle, &Orbit::reversals_per_cycle,
@@ -185,6 +202,10 @@ py::object pack(const T& value) {
     return py::int_(static_cast<int>(value));
   } else if constexpr (std::same_as<T, std::vector<double>>) {
     return to_array(value);
+  } else if constexpr (std::same_as<T, std::vector<Vector2>>) {
+    py::array_t<double> array({static_cast<py::ssize_t>(value.size()), py::ssize_t{2}});
+    std::memcpy(array.mutable_data(), value.data(), value.size() * sizeof(Vector2));
+    return array;
   } else if constexpr (Sequence<T>) {
     py::list list;
     for (const auto& element : value) list.append(pack(element));
@@ -217,6 +238,14 @@ T unpack(const py::object& packed) {
     return static_cast<T>(packed.cast<int>());
   } else if constexpr (std::same_as<T, std::vector<double>>) {
     return to_vector(packed, "unpickling: values");
+  } else if constexpr (std::same_as<T, std::vector<Vector2>>) {
+    const Numbers numbers = to_numbers(packed, "unpickling: values");
+    if (numbers.ndim() != 2 || numbers.shape(1) != 2)
+      throw std::invalid_argument("unpickling: values must have the shape (N, 2)");
+    std::vector<Vector2> vectors;
+    vectors.reserve(static_cast<std::size_t>(numbers.shape(0)));
+    for (py::ssize_t i = 0; i < numbers.shape(0); ++i) vectors.push_back({*numbers.data(i, 0), *numbers.data(i, 1)});
+    return vectors;
   } else if constexpr (Sequence<T> && requires(T list) { list.reserve(0); }) {
     T list;
     for (const py::handle element : packed)

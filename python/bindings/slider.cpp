@@ -132,6 +132,18 @@ Direction direction_of(bool backward) { return backward ? Direction::backward : 
 
 }  // namespace
 
+AnySlider slider_from(const py::object& law, std::optional<double> natural_frequency, std::optional<double> damping,
+                      std::optional<double> period, std::optional<double> damping_ratio, const py::object& slope,
+                      bool one_way, const Stops* stops, bool pendulum) {
+  const double wn = natural_frequency_from(natural_frequency, period);
+  // A quantity in degrees would count as a number of radians. A plain float does not need NumPy.
+  const double degrees = PyFloat_CheckExact(slope.ptr()) ? PyFloat_AsDouble(slope.ptr())
+                                                         : to_number(slope, "Slider: slope_degrees", "degree");
+  if (PyNumber_Check(slope.ptr()) != 0 && !py::hasattr(slope, "to")) check_slope(degrees);  // no quantity
+  return mounted(law,
+                 {wn, damping_from(damping, damping_ratio, wn), degrees, one_way, stops ? *stops : Stops(), pendulum});
+}
+
 void bind_slider(py::module_& m) {
   py::class_<AnySlider> slider(
       m, "Slider",
@@ -179,21 +191,10 @@ PlausibilityWarning
 Notes
 -----
 Functions that take a slider also take a law: a slider on level ground without spring and damper.)");
-  slider.def(py::init([](const py::object& law, std::optional<double> natural_frequency, std::optional<double> damping,
-                         std::optional<double> period, std::optional<double> damping_ratio, const py::object& slope,
-                         bool one_way, const Stops* stops, bool pendulum) {
-               const double wn = natural_frequency_from(natural_frequency, period);
-               // A quantity in degrees would count as a number of radians. A plain float does not need NumPy.
-               const double degrees = PyFloat_CheckExact(slope.ptr())
-                                          ? PyFloat_AsDouble(slope.ptr())
-                                          : to_number(slope, "Slider: slope_degrees", "degree");
-               if (PyNumber_Check(slope.ptr()) != 0 && !py::hasattr(slope, "to")) check_slope(degrees);  // no quantity
-               return mounted(law, {wn, damping_from(damping, damping_ratio, wn), degrees, one_way,
-                                    stops ? *stops : Stops(), pendulum});
-             }),
-             py::arg("law"), py::arg("natural_frequency") = py::none(), py::arg("damping") = py::none(), py::kw_only(),
-             py::arg("period") = py::none(), py::arg("damping_ratio") = py::none(), py::arg("slope_degrees") = 0.0,
-             py::arg("one_way") = false, py::arg("stops") = py::none(), py::arg("pendulum") = false);
+  slider.def(py::init(&slider_from), py::arg("law"), py::arg("natural_frequency") = py::none(),
+             py::arg("damping") = py::none(), py::kw_only(), py::arg("period") = py::none(),
+             py::arg("damping_ratio") = py::none(), py::arg("slope_degrees") = 0.0, py::arg("one_way") = false,
+             py::arg("stops") = py::none(), py::arg("pendulum") = false);
   convert_laws(static_cast<const AnySlider*>(nullptr));
   slider
       .def_static(

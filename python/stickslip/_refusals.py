@@ -11,7 +11,7 @@ import os
 import reprlib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 __all__ = ["explain"]
 
@@ -58,8 +58,9 @@ def explain(function: str, given: Sequence[Any], named: Mapping[str, Any]) -> st
     for form in forms:
         values = list(given[1:] if form.bound else given)
         reasons.append(form.refusal(values, dict(named)))
-    of_kinds = [reason for reason in reasons if " must be " in reason]
-    said = list(dict.fromkeys(of_kinds or filter(None, reasons)))
+    misfits = [reason for reason in reasons if isinstance(reason, _Misfit)]
+    texts = [reason for reason in reasons if isinstance(reason, str) and reason]
+    said = list(dict.fromkeys(_merged(misfits) or texts))
     if len(said) == 1:
         return f"{who}: {said[0]}"
     wanted = " or ".join(dict.fromkeys(f"{who}({form.names})" for form in forms))
@@ -68,6 +69,25 @@ def explain(function: str, given: Sequence[Any], named: Mapping[str, Any]) -> st
     takes = f"takes {wanted}, " if wanted else ""
     units = next(filter(None, map(_of_unit, [*values, *named.values()])), "")
     return f"{who}: {takes}got {who}({got}){units}"
+
+
+class _Misfit(NamedTuple):
+    """An argument that does not fit a signature."""
+
+    place: int  # among the arguments given
+    name: str
+    words: list[str]  # what would be right
+    got: str
+
+
+def _merged(misfits: list[_Misfit]) -> list[str]:
+    """What to say of them: of the forms that fit furthest, all kinds that one argument may have."""
+    furthest = max((one.place for one in misfits), default=0)
+    words: dict[tuple[str, str], dict[str, None]] = {}
+    for one in misfits:
+        if one.place == furthest:
+            words.setdefault((one.name, one.got), {}).update(dict.fromkeys(one.words))
+    return [f"{name} must be {_or(list(kinds))}, got {got}" for (name, got), kinds in words.items()]
 
 
 class _Form:
@@ -92,7 +112,7 @@ class _Form:
             for name in [*self.places, *star, *self.only_by_name]
         )
 
-    def refusal(self, values: list[Any], named: dict[str, Any]) -> str:
+    def refusal(self, values: list[Any], named: dict[str, Any]) -> str | _Misfit:
         """Why this form rejects the arguments; empty if the stubs do not tell."""
         if len(values) > len(self.places):
             extra = _shown(values[len(self.places)])
@@ -111,10 +131,10 @@ class _Form:
         missing = [n for n in self.kinds if n not in all_given and n not in self.optional]
         if missing:
             return f"needs {' and '.join(missing)}, got none"
-        for name, value in all_given.items():
-            words = list(dict.fromkeys(_words(self.kinds[name])))
+        for place, (name, value) in enumerate(all_given.items()):
             if not _fits(value, self.kinds[name]):
-                return f"{name} must be {_or(words)}, got {_shown(value)}{_of_unit(value)}"
+                words = list(dict.fromkeys(_words(self.kinds[name])))
+                return _Misfit(place, name, words, f"{_shown(value)}{_of_unit(value)}")
         return ""
 
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ._core import Ensemble, Estimate, Interval, Response, build_info
+from ._core import Ensemble, Estimate, Interval, PlanarResponse, Response, build_info
 from ._files import replacing
 from ._optional import optional
 from ._text import printable
@@ -168,31 +168,48 @@ _LIFTING = (
     ("gap", "m", "gap between slider and ground"),
     ("normal_force", "m/s^2", "normal force per unit mass"),
 )
+# Histories that have two components in the plane.
+_VECTORS = (
+    *("ground_acceleration", "displacement", "velocity", "acceleration"),
+    *("friction", "spring", "damper", "force"),
+)
+_COMPONENTS = ("axis", "transverse")
+
 # Beside these where friction depends on it.
 _HEATED = (("temperature", "degC", "temperature of the sliding surface"),)
 
 
-def _histories(response: Response) -> tuple[tuple[str, str, str], ...]:
+def _histories(response: Response | PlanarResponse) -> tuple[tuple[str, str, str], ...]:
     """Name, unit and description of the histories of a response."""
     vertical = "vertical" in response.components
     first = 0 if vertical else 2 if response.slider.slope_degrees > 0 else 3
+    if isinstance(response, PlanarResponse):
+        vectors = [
+            (f"{name}_{component}", unit, f"{what}, {component} component")
+            for name, unit, what in _HISTORIES
+            if name in _VECTORS
+            for component in _COMPONENTS
+        ]
+        return (*vectors, *_LIFTING[first:], _HISTORIES[-1])
     heated = () if response.temperature is None else _HEATED
     return (*_HISTORIES[:-1], *_LIFTING[first:], *heated, _HISTORIES[-1])
 
 
-def _columns(response: Response) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
+def _columns(
+    response: Response | PlanarResponse,
+) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
     """The time and the histories of a response, and their units."""
     histories = _histories(response)
     columns = {name: _history(response, name) for name, _, _ in histories}
     return {"time": response.time, **columns}, {"time": "s"} | {n: u for n, u, _ in histories}
 
 
-def to_dataframe(response: Response) -> Any:
+def to_dataframe(response: Response | PlanarResponse) -> Any:
     """The histories of a response as a pandas DataFrame; see `Response.to_dataframe`."""
     return frame_of(*_columns(response), "Response.to_dataframe", index="time")
 
 
-def to_xarray(response: Response) -> Any:
+def to_xarray(response: Response | PlanarResponse) -> Any:
     """The histories of a response as an xarray Dataset; see `Response.to_xarray`."""
     xarray = optional("xarray", "tables", "Response.to_xarray")
     variables = {
@@ -217,12 +234,12 @@ def to_xarray(response: Response) -> Any:
     )
 
 
-def to_csv(response: Response, path: str | os.PathLike[str]) -> Path:
+def to_csv(response: Response | PlanarResponse, path: str | os.PathLike[str]) -> Path:
     """Write the histories of a response to a file; see `Response.to_csv`."""
     return write_csv(*_columns(response), path)
 
 
-def to_json(response: Response) -> str:
+def to_json(response: Response | PlanarResponse) -> str:
     """The results and histories of a response as JSON; see `Response.to_json`."""
     events, histories = response.events, _histories(response)
     document = {
@@ -231,8 +248,7 @@ def to_json(response: Response) -> str:
         "motion": response.motion.name,
         "components": response.components,
         "contact": response.contact,
-        "peak": response.peak,
-        "residual": response.residual,
+        **_results(response),
         "sliding_distance": response.sliding_distance,
         "at_rest": response.at_rest,
         "units": {"time": "s"} | {name: unit for name, unit, _ in histories if unit},
@@ -241,6 +257,17 @@ def to_json(response: Response) -> str:
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
     }
     return json_text(document)
+
+
+def _results(response: Response | PlanarResponse) -> dict[str, Any]:
+    """The peak and the residual of a response, by name; in the plane also the place of the peak."""
+    peak = {"peak": response.peak}
+    if isinstance(response, PlanarResponse):
+        peak |= {
+            name: getattr(response, name)
+            for name in ("peak_time", "peak_displacement", "peak_azimuth")
+        }
+    return {**peak, "residual": response.residual}
 
 
 def json_text(document: Any) -> str:
@@ -260,16 +287,16 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def response_html(response: Response) -> str:
+def response_html(response: Response | PlanarResponse) -> str:
     """A table of the main results of a response."""
     energy = response.energy
     rows = [
         ("slider", repr(response.slider)),
         ("ground motion", printable(response.motion.name) or repr(response.motion)),
-        ("peak displacement", f"{response.peak:.4g} m"),
+        ("peak displacement", _peak_text(response)),
         (
             "residual displacement" if response.at_rest else "displacement at the end, sliding",
-            f"{response.residual:.4g} m",
+            _meters(response.residual),
         ),
         ("sliding distance", f"{response.sliding_distance:.4g} m"),
         ("slips", f"{response.slips:,}"),
@@ -287,14 +314,31 @@ def response_html(response: Response) -> str:
     if "vertical" in response.components:
         flights = (response.events["kind"] == "liftoff").sum()
         rows.append(("contact with the ground", f"{response.contact}, {flights:,} flights"))
-    try:
-        rows.append(("effective period", f"{response.effective_period:.4g} s"))
-        rows.append(("effective damping", f"{100 * response.effective_damping:.3g} %"))
-    except ValueError:
-        pass  # no loop
+    if isinstance(response, Response):
+        try:
+            rows.append(("effective period", f"{response.effective_period:.4g} s"))
+            rows.append(("effective damping", f"{100 * response.effective_damping:.3g} %"))
+        except ValueError:
+            pass  # no loop
     if response.remark:
         rows.append(("remark", response.remark))
-    return html_table("Response", [], rows)
+    return html_table(
+        "Response in the plane" if isinstance(response, PlanarResponse) else "Response", [], rows
+    )
+
+
+def _meters(displacement: float | NDArray[np.float64]) -> str:
+    """A displacement, or both components of one."""
+    if isinstance(displacement, float):
+        return f"{displacement:.4g} m"
+    return f"({displacement[0]:.4g}, {displacement[1]:.4g}) m"
+
+
+def _peak_text(response: Response | PlanarResponse) -> str:
+    text = _meters(response.peak)
+    if isinstance(response, PlanarResponse) and response.peak_azimuth is not None:
+        text += f", toward azimuth {response.peak_azimuth:.0f}\N{DEGREE SIGN}"
+    return text
 
 
 def impact_probabilities(ensemble: Ensemble) -> dict[str, Interval]:
@@ -320,7 +364,7 @@ def ensemble_html(ensemble: Ensemble) -> str:
             rows.append((f"probability of an impact{side}", _of_interval(interval, "")))
         if ensemble.airborne:
             rows.append(("members in flight at the end", f"{ensemble.airborne:,}"))
-        if ensemble.time.size:
+        if ensemble.time.size and not ensemble.in_plane:
             s = ensemble.stationary
             rows.append(("variance of x'", _of_estimate(s.velocity_variance, "m²/s²")))
             rows.append(("growth of the variance of x", _of_estimate(s.growth_rate, "m²/s")))
@@ -345,14 +389,17 @@ def html_table(title: str, heading: Sequence[str], rows: Iterable[Sequence[str]]
     return f"<table><caption>{html.escape(title)}</caption>{head}<tbody>{body}</tbody></table>"
 
 
-def _history(response: Response, name: str) -> NDArray[Any]:
+def _history(response: Response | PlanarResponse, name: str) -> NDArray[Any]:
     """A writable copy of a history."""
-    if name.endswith("ground_acceleration"):
+    if "ground_acceleration" in name:
         n = np.zeros(response.time.size)
-        vertical = name.startswith("vertical")
         motion = response.motion
-        n[: len(motion)] = motion.vertical if vertical else motion.acceleration
+        which = next((c for c in ("vertical", "transverse") if c in name), "acceleration")
+        n[: len(motion)] = getattr(motion, which)
         return n
+    vector, _, component = name.rpartition("_")
+    if vector in _VECTORS:
+        return np.array(getattr(response, vector)[:, _COMPONENTS.index(component)])
     return np.array(getattr(response, name))
 
 

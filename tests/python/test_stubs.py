@@ -94,6 +94,10 @@ scaled: ss.GroundMotion = r.motion.scaled(2)
 blocks_of = ss.grid(ss.Coulomb, mu=[0.1, 0.2, 0.3])
 swept = ss.sweep(ss.grid(ss.Slider, law=blocks_of, period=[2.0, 3.0]), [quake])
 swept.plot("residual", title="mine").savefig("sweep.png")
+planes = ss.grid(ss.PlanarSlider, law=blocks_of, period=[2.0, 3.0])
+across: NDArray[np.float64] = ss.sweep(planes, [quake]).residual_transverse
+one_plane: ss.PlanarSlider = planes[0]
+hits: NDArray[np.int64] = ss.sweep([one_plane], quake).impacts
 panels.append(swept.plot(ax=axes))
 for interface in ss.interfaces():
     low: float = interface["mu_low"]
@@ -199,8 +203,8 @@ ss.GroundMotion([1, 2], dt=0.01, interpolation="cubic")  # type: ignore[call-ove
 ss.GroundMotion(["1", "2"], dt=0.01)  # type: ignore[list-item]
 ss.GroundMotion([1j, 2], dt=0.01)  # type: ignore[list-item]
 ss.GroundMotion([[1, 2], [3, 4]], dt=0.01)  # type: ignore[list-item]
-ss.integrate(block, [1, 2])  # type: ignore[arg-type]
-ss.integrate(block, quake, 0.0)  # type: ignore[call-arg]
+ss.integrate(block, [1, 2])  # type: ignore[call-overload]
+ss.integrate(block, quake, 0.0)  # type: ignore[call-overload]
 ss.Spectrum.white(1.0)  # type: ignore[call-arg]
 ss.Spectrum.from_function(3.0)  # type: ignore[arg-type]
 ss.GaussianExcitation(soil, 0.01, 40.5)  # type: ignore[arg-type]

@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 import threading
+import warnings
 from concurrent.futures import Future, ProcessPoolExecutor
 
 import numpy as np
@@ -100,7 +101,9 @@ def test_nothing_to_sweep_is_refused(arguments, error):
 
 def test_what_is_no_slider_motion_or_option_is_refused_by_name():
     one = ss.Coulomb(mu=0.1)
-    with pytest.raises(TypeError, match=r"sliders\[1\] must be a Slider or friction law, got int"):
+    with pytest.raises(
+        TypeError, match=r"sliders\[1\] must be a Slider, friction law or PlanarSlider, got int"
+    ):
         ss.sweep([one, 3], QUAKES)
     with pytest.raises(TypeError, match=r"motions\[0\] must be a GroundMotion, got str"):
         ss.sweep(one, "kobe.AT2")
@@ -502,3 +505,168 @@ def test_the_command_tells_mean_median_and_deviation_and_what_it_left_out(capsys
     assert found["sd"] == pytest.approx(np.std(values, ddof=1), rel=1e-12)
     assert main(["newmark", "sample:Kobe", "--ky", "-1"]) == 2
     assert "--ky must be positive and finite, got -1 g" in capsys.readouterr().err
+
+
+# ---- in the plane
+
+
+def station(seed: int, up: float = 0.0) -> ss.GroundMotion:
+    n, t, z = (quake(100 * seed + i, 500).acceleration for i in range(3))
+    return ss.GroundMotion(
+        n, dt=0.02, transverse=t, vertical=up * z if up else None, name=f"station {seed}"
+    )
+
+
+STATIONS = ss.Suite([station(i) for i in range(4)], {"magnitude": [5, 6, 6.5, 7]})
+PLANAR = [
+    ss.PlanarSlider(ss.Coulomb(mu=0.1)),
+    ss.PlanarSlider(ss.Coulomb(mu=0.05), period=2, stops=ss.Stops(gap=0.05, restitution=0.6)),
+    ss.PlanarSlider(ss.FrictionPendulum(radius=2, mu_slow=0.03, mu_fast=0.06, rate=50)),
+    ss.PlanarSlider(ss.Coulomb(mu=0.3), slope_degrees=10),
+]
+
+
+def test_in_the_plane_each_combination_is_what_integrate_says():
+    motions = [*STATIONS, station(7, up=0.5)]
+    table = ss.sweep(PLANAR, motions, settle=True)
+    assert table.planar
+    assert table.peak.shape == (4, 5, 2)
+    for s, slider in enumerate(PLANAR):
+        for r, motion in enumerate(motions):
+            one = ss.integrate(slider, motion, settle=True)
+            place = s, r, 0
+            assert table.peak[place] == one.peak
+            assert (table.residual_axis[place], table.residual_transverse[place]) == tuple(
+                one.residual
+            )
+            assert table.residual[place] == pytest.approx(math.hypot(*one.residual), rel=1e-15)
+            assert table.sliding_distance[place] == one.sliding_distance
+            assert table.events[place] == len(one.events) - 1
+            hits = one.events[one.events["kind"] == "impact"]
+            assert table.impacts[place] == len(hits)
+            if len(hits):
+                radial = (hits["velocity"] * hits["displacement"]).sum(axis=1)
+                radial /= np.hypot(*hits["displacement"].T)
+                assert table.impact_speed[place] == pytest.approx(radial.max(), rel=1e-12)
+    # Reversing both components mirrors the response on level ground; downhill remains downhill.
+    level, slope = slice(3), 3
+    assert np.array_equal(table.peak[level, :, 0], table.peak[level, :, 1])
+    for residual in (table.residual_axis, table.residual_transverse):
+        assert np.array_equal(residual[level, :, 0], -residual[level, :, 1])
+    other = ss.integrate(PLANAR[slope], -motions[1], settle=True)
+    assert table.peak[slope, 1, 1] == other.peak != table.peak[slope, 1, 0]
+    assert table.impact_fraction[1] == 1
+    assert (table.impact_fraction[[0, 2, 3]] == 0).all()
+    for polarity, p in (("recorded", 0), ("reversed", 1)):
+        alone = ss.sweep(PLANAR, motions, settle=True, polarity=polarity, threads=1)
+        assert np.array_equal(alone.residual_axis[:, :, 0], table.residual_axis[:, :, p])
+
+
+def test_a_motion_without_a_transverse_component_fails_alone():
+    with pytest.warns(RuntimeWarning, match="2 of 6 combinations failed.*transverse component"):
+        table = ss.sweep(PLANAR[0], [STATIONS[0], QUAKES[0], STATIONS[1]], settle=True)
+    assert np.isnan(table.peak[0, 1]).all()
+    assert np.isnan(table.residual_axis[0, 1]).all()
+    assert np.isfinite(table.peak[0, [0, 2]]).all()
+    assert {one.record for one in table.failures} == {1}
+
+
+def test_sliders_on_one_axis_and_in_the_plane_are_not_mixed():
+    with pytest.raises(TypeError, match=r"sliders\[0\] is a PlanarSlider, sliders\[1\] a Coulomb"):
+        ss.sweep([PLANAR[0], ss.Coulomb(mu=0.1)], STATIONS)
+    with pytest.raises(TypeError, match=r"sliders\[0\] is a Slider, sliders\[2\] a PlanarSlider"):
+        ss.sweep([ss.Slider(ss.Coulomb(mu=0.1)), ss.Coulomb(mu=0.1), PLANAR[0]], STATIONS)
+
+
+def test_tables_of_the_plane_go_to_frames_files_and_back(tmp_path):
+    floors = ss.grid(ss.PlanarSlider, law=ss.grid(ss.Coulomb, mu=MU), period=[2.0, 3.0])
+    assert isinstance(floors[0], ss.PlanarSlider)
+    table = ss.sweep(floors, STATIONS, settle=True)
+    assert ss.SweepTable.open(table.save(tmp_path / "t.h5")) == table
+    assert ss.SweepTable.from_json(table.to_json()) == table
+    assert pickle.loads(pickle.dumps(table)) == table
+    frame = table.to_dataframe()
+    assert frame.attrs["units"]["residual_transverse"] == "m"
+    row = frame[(frame.mu == 0.1) & (frame.period == 3) & (frame.magnitude == 6)]
+    assert row.residual.tolist() == pytest.approx(
+        np.hypot(row.residual_axis, row.residual_transverse).tolist(), rel=1e-15
+    )
+    assert "impacts" not in frame
+    with_stops = ss.sweep(PLANAR, STATIONS)
+    assert ss.SweepTable.open(with_stops.save(tmp_path / "s.h5")) == with_stops
+    assert ss.SweepTable.from_json(with_stops.to_json()) == with_stops
+    assert {"impacts", "impact_speed"} <= set(with_stops.to_dataframe())
+    assert with_stops.to_xarray().impact_speed.attrs["units"] == "m/s"
+    assert (table.quantile(0.5, "residual_axis") <= table.quantile(0.5, "residual")).all()
+    one_axis = ss.sweep(ss.Coulomb(mu=0.1), STATIONS)
+    with pytest.raises(ValueError, match="residual_axis is known of sliders in the plane"):
+        _ = one_axis.residual_axis
+    with pytest.raises(ValueError, match="quantity must be one of peak, residual, sliding_dist"):
+        one_axis.quantile(0.5, "residual_axis")
+    with pytest.raises(ValueError, match="in the plane; see impacts and impact_speed"):
+        _ = with_stops.impacts_forward
+    with pytest.raises(ValueError, match="no slider has stops"):
+        _ = table.impacts
+
+
+def test_a_table_of_the_plane_is_drawn():
+    pytest.importorskip("matplotlib")
+    table = ss.sweep(
+        ss.grid(ss.PlanarSlider, law=ss.grid(ss.Coulomb, mu=MU)), STATIONS, settle=True
+    )
+    for quantity in ("peak", "residual", "residual_axis"):
+        (axes,) = table.plot(quantity).axes
+        line = axes.get_lines()[-1].get_ydata()
+        assert line == pytest.approx(100 * table.quantile(0.5, quantity), rel=1e-12)
+
+
+def test_in_the_plane_executors_and_checkpoints_find_the_same_bits(tmp_path):
+    whole = ss.sweep(PLANAR, STATIONS)
+    with ProcessPoolExecutor(2) as pool:
+        assert ss.sweep(PLANAR, STATIONS, executor=pool) == whole
+    file = tmp_path / "sweep.npz"
+    with pytest.raises(ss.SweepError, match="the node is gone"):
+        ss.sweep(PLANAR, STATIONS, executor=Refusing(2), checkpoint=file)
+    assert ss.sweep(PLANAR, STATIONS, checkpoint=file) == whole
+    ss.sweep(PLANAR[0], STATIONS, checkpoint=tmp_path / "one.npz")
+    turned = [
+        ss.GroundMotion(s.acceleration, dt=s.dt, transverse=-s.transverse, name=s.name)
+        for s in STATIONS
+    ]
+    for sliders, motions in (
+        (ss.Slider(ss.Coulomb(mu=0.1)), STATIONS),
+        (ss.PlanarSlider(ss.Coulomb(mu=0.1), period=2), STATIONS),
+        (PLANAR[0], turned),
+    ):
+        with pytest.raises(ValueError, match="is of another sweep"):
+            ss.sweep(sliders, motions, checkpoint=tmp_path / "one.npz")
+
+
+def test_units_of_pairs_that_move_nothing_are_doubted():
+    with pytest.warns(ss.PlausibilityWarning, match="sweep: nothing slips: .* in g"):
+        ss.sweep(PLANAR[0], STATIONS.scaled(0.05))
+
+
+def test_a_suite_of_recorded_pairs_in_the_plane(agency_files):
+    """The peaks of blocks against the larger of those on one axis, as docs/sweeps.md states."""
+    pairs = agency_files / "usgs_pairs"
+    if not pairs.exists():
+        pytest.skip("no usgs_pairs among the agency files")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # offsets, and the column pga_g
+        suite = ss.Suite.read(
+            pairs, stations=True, metadata=pairs / "pairs.csv", units="g", dt="dt_s"
+        )
+    assert len(suite) == 11
+    levels = [0.05, 0.1, 0.2]
+    blocks = ss.grid(ss.PlanarSlider, law=ss.grid(ss.Coulomb, mu=levels))
+    table = ss.sweep(blocks, suite, settle=True)
+    assert not table.failures
+    assert np.array_equal(table.peak[..., 0], table.peak[..., 1])
+    axis, across = (
+        ss.sweep(ss.grid(ss.Coulomb, mu=levels), motions, settle=True, polarity="recorded")
+        for motions in (suite, [motion.component("transverse") for motion in suite])
+    )
+    ratio = (table.peak / np.maximum(axis.peak, across.peak))[..., 0]
+    assert [ratio.min(), ratio.max()] == pytest.approx([0.79, 4.37], abs=0.005)
+    assert np.median(ratio, axis=1) == pytest.approx([1.17, 1.19, 1.57], abs=0.005)

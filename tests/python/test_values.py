@@ -17,6 +17,8 @@ from stickslip import harmonic, theory, thesis
 ROLLING = ss.Caster(slip_level=1.0, reach=0.5, rolling=0.1)
 BLOCK, WHEEL = ss.Coulomb(slip_level=1.0, backward=1.6), ss.Caster(slip_level=1.0, reach=0.5)
 CART, DAMPER = ss.Slider(WHEEL, 1.3), ss.ViscousSlider(0.5, 2.0)
+ROUND = ss.Coulomb(slip_level=1.0)  # the same in all directions
+PAIR = ss.GroundMotion([0, 5.0, -3.0, 0], dt=0.1, transverse=[0, -2.0, 4.0, 0])
 EVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, name="M\u00e9xico")
 UNEVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], times=[0, 0.1, 0.1, 7], interpolation="constant")
 WHITE, BAND = ss.Spectrum.white(s0=1 / 3), ss.Spectrum.band_pass(s0=1.0, low=2.0, high=12.0)
@@ -101,6 +103,21 @@ EXAMPLES = {
         ss.State(1.0, 0.5, 2.0),
         ss.State(1.0, 0.5, heat=ss.SurfaceHeat(range(42))),
         ss.advance(BLOCK, ss.State(), 0.1, 9, vertical_start=-20),
+    ],
+    ss.PlanarSlider: [
+        ss.PlanarSlider(ROUND),
+        ss.PlanarSlider(ROUND, 1.3),
+        ss.PlanarSlider(ROUND, 1.3, pendulum=True),
+        ss.PlanarSlider(ROUND, stops=ss.Stops(gap=0.2, restitution=0.5)),
+    ],
+    ss.PlanarState: [
+        ss.PlanarState(),
+        ss.PlanarState((1.0, 0.5)),
+        ss.PlanarState((1.0, 0.5), (0.0, 2.0)),
+    ],
+    ss.PlanarResponse: [
+        ss.integrate(ss.PlanarSlider(ROUND), PAIR, settle=True),
+        ss.integrate(ss.PlanarSlider(ROUND, 1.3), PAIR, settle=True),
     ],
     ss.Slider: [
         CART,

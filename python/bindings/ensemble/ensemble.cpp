@@ -17,6 +17,25 @@ py::array_t<double> statistic_by_time(const Ensemble& ensemble) {
   return array_of(std::move((ensemble.*figure)().*part));
 }
 
+/// Both components of values in the plane, as an array of shape (N, 2).
+py::array_t<double> both_components(const std::vector<double>& along_axis, const std::vector<double>& transverse) {
+  py::array_t<double> both({along_axis.size(), std::size_t{2}});
+  auto values = both.mutable_unchecked<2>();
+  for (py::ssize_t i = 0; i < both.shape(0); ++i) {
+    values(i, 0) = along_axis[static_cast<std::size_t>(i)];
+    values(i, 1) = transverse[static_cast<std::size_t>(i)];
+  }
+  both.attr("setflags")(py::arg("write") = false);
+  return both;
+}
+
+template <Estimates (Ensemble::*statistic)(Component) const, std::vector<double> Estimates::*part>
+py::array_t<double> components_by_time(const Ensemble& ensemble) {
+  auto along_axis = std::move((ensemble.*statistic)(Component::axis).*part);
+  if (!ensemble.in_plane()) return array_of(std::move(along_axis));
+  return both_components(along_axis, (ensemble.*statistic)(Component::transverse).*part);
+}
+
 template <SideImpacts Impacts::*side, auto value>
 py::object impacts_of(const Ensemble& ensemble) {
   const std::vector<Impacts> impacts = ensemble.impacts();
@@ -70,7 +89,8 @@ std::string repr_of_ensemble(const Ensemble& ensemble) {
   for (const auto& [name, text] : ensemble.configuration())
     if (name == "seed") seed = ", seed " + text;
   const EnsembleTimes& times = ensemble.parts().times;
-  const std::string members = "<Ensemble: " + std::to_string(ensemble.members()) + " members" + seed + ", ";
+  const std::string members = "<Ensemble: " + std::to_string(ensemble.members()) + " members" +
+                              (ensemble.in_plane() ? " in the plane" : "") + seed + ", ";
   if (times.count == 0) return members + "motions of different durations>";
   return members + std::to_string(times.count) + " times to " +
          digits(static_cast<double>(times.count - 1) * times.dt) + " s>";
@@ -88,10 +108,14 @@ number of threads and in any parts that end on block boundaries.
 If ground motions differ in duration, `time` is empty, and statistics by time, stationary averages and the velocity
 spectrum raise ValueError; peaks, residuals, quantiles and exceedances are always available.
 
-Statistics by time have shape (T,), those by member shape (members,). Arrays are read-only and computed on access.
+Statistics by time have shape (T,), those by member shape (members,). Sliders in the plane (`in_plane`) have a
+displacement vector r, with components along the axis of the ground motion and along its transverse direction: x is then
+each of the two, with the shapes (T, 2) and (members, 2). Their peak is the largest |r|, their impacts on the circular
+stop count as impacts forward, and they have no stationary averages, no velocity spectrum and no moments. Arrays are read-only and computed on access.
 Ensembles with the same members and statistics are equal; they can be copied and pickled, but not hashed, because
 `merge` changes them.)")
       .def_property_readonly("members", &Ensemble::members, "Number of members.")
+      .def_property_readonly("in_plane", &Ensemble::in_plane, "Whether the sliders are in the plane.")
       .def_property_readonly("member_ranges", &ranges_of,
                              "The members: (first, one past the last) of each contiguous range.")
       .def_property_readonly(
@@ -103,28 +127,45 @@ Ensembles with the same members and statistics are equal; they can be copied and
       .def_property_readonly(
           "time", [](const Ensemble& e) { return array_of(e.time()); },
           "Times of the statistics [s], from 0; empty if ground motions differ in duration.")
-      .def_property_readonly("displacement_mean", &statistic_by_time<&Ensemble::displacement_mean, &Estimates::value>,
+      .def_property_readonly("displacement_mean", &components_by_time<&Ensemble::displacement_mean, &Estimates::value>,
                              "Mean of x by time [m].")
       .def_property_readonly("displacement_mean_error",
-                             &statistic_by_time<&Ensemble::displacement_mean, &Estimates::error>, "Standard error [m].")
+                             &components_by_time<&Ensemble::displacement_mean, &Estimates::error>,
+                             "Standard error [m].")
       .def_property_readonly("displacement_variance",
-                             &statistic_by_time<&Ensemble::displacement_variance, &Estimates::value>,
+                             &components_by_time<&Ensemble::displacement_variance, &Estimates::value>,
                              "Variance of x about its mean by time, with the divisor members - 1 [m^2].")
       .def_property_readonly("displacement_variance_error",
-                             &statistic_by_time<&Ensemble::displacement_variance, &Estimates::error>,
+                             &components_by_time<&Ensemble::displacement_variance, &Estimates::error>,
                              "Standard error [m^2], from the fourth moment.")
-      .def_property_readonly("covariance", &statistic_by_time<&Ensemble::covariance, &Estimates::value>,
+      .def_property_readonly("covariance", &components_by_time<&Ensemble::covariance, &Estimates::value>,
                              "Covariance of x and x' by time, with the divisor members - 1 [m^2/s].")
-      .def_property_readonly("covariance_error", &statistic_by_time<&Ensemble::covariance, &Estimates::error>,
+      .def_property_readonly("covariance_error", &components_by_time<&Ensemble::covariance, &Estimates::error>,
                              "Standard error [m^2/s], from the fourth moments.")
-      .def_property_readonly("velocity_mean", &statistic_by_time<&Ensemble::velocity_mean, &Estimates::value>,
+      .def_property_readonly(
+          "displacement_covariance", &statistic_by_time<&Ensemble::displacement_covariance, &Estimates::value>,
+          R"(Covariance of the two components of r by time, with the divisor members - 1 [m^2], shape (T,).
+
+ValueError for sliders on one axis.)")
+      .def_property_readonly("displacement_covariance_error",
+                             &statistic_by_time<&Ensemble::displacement_covariance, &Estimates::error>,
+                             "Standard error [m^2], from the fourth moments.")
+      .def_property_readonly(
+          "velocity_covariance", &statistic_by_time<&Ensemble::velocity_covariance, &Estimates::value>,
+          R"(Covariance of the two components of r' by time, with the divisor members - 1 [m^2/s^2], shape (T,).
+
+ValueError for sliders on one axis.)")
+      .def_property_readonly("velocity_covariance_error",
+                             &statistic_by_time<&Ensemble::velocity_covariance, &Estimates::error>,
+                             "Standard error [m^2/s^2], from the fourth moments.")
+      .def_property_readonly("velocity_mean", &components_by_time<&Ensemble::velocity_mean, &Estimates::value>,
                              "Mean of x' by time [m/s].")
-      .def_property_readonly("velocity_mean_error", &statistic_by_time<&Ensemble::velocity_mean, &Estimates::error>,
+      .def_property_readonly("velocity_mean_error", &components_by_time<&Ensemble::velocity_mean, &Estimates::error>,
                              "Standard error [m/s].")
-      .def_property_readonly("velocity_variance", &statistic_by_time<&Ensemble::velocity_variance, &Estimates::value>,
+      .def_property_readonly("velocity_variance", &components_by_time<&Ensemble::velocity_variance, &Estimates::value>,
                              "Variance of x' about its mean by time, with the divisor members - 1 [m^2/s^2].")
       .def_property_readonly("velocity_variance_error",
-                             &statistic_by_time<&Ensemble::velocity_variance, &Estimates::error>,
+                             &components_by_time<&Ensemble::velocity_variance, &Estimates::error>,
                              "Standard error [m^2/s^2], from the fourth moment.")
       .def_property_readonly(
           "ground_acceleration_mean", &statistic_by_time<&Ensemble::ground_acceleration_mean, &Estimates::value>,
@@ -143,13 +184,17 @@ Where the acceleration jumps, the variance after the jump. ValueError if the run
                              "Standard error [m^2/s^4], from the fourth moment.")
       .def_property_readonly(
           "peak", [](const Ensemble& e) { return array_of(e.peak()); },
-          R"(Largest |x| of each member, also between samples, ordered by member [m].
+          R"(Largest |x|, in the plane |r|, of each member, also between samples, ordered by member [m].
 
 ValueError above 2^24 = 16,777,216 members: their peaks are counted in bins 0.1 % wide, which `quantile` and
 `exceedance` use.)")
       .def_property_readonly(
-          "residual", [](const Ensemble& e) { return array_of(e.residual()); },
-          "Last x of each member [m]; ValueError as for `peak`.")
+          "residual",
+          [](const Ensemble& e) {
+            return e.in_plane() ? both_components(e.residual(), e.residual(Component::transverse))
+                                : array_of(e.residual());
+          },
+          "Last x of each member [m]; in the plane both components, shape (members, 2). ValueError as for `peak`.")
       .def_property_readonly(
           "moments", &Ensemble::moments,
           "Means, variances and covariance by time and the growth rate, as Moments, like those of theories.")

@@ -35,11 +35,15 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
       throw;
     }
   };
+  FirstSample first;
+  const bool planar = are_in_plane(sliders, seed, first_member, first);
   return with_motions(motions, ended, [&](const auto& these) {
-    return with_sliders(sliders, ended, [&](const auto& those) {
+    const auto run_those = [&](const auto& those) {
       const py::gil_scoped_release released;
       return run_ensemble(those, these, options, start);
-    });
+    };
+    return planar ? with_planar_sliders(sliders, ended, run_those, first)
+                  : with_sliders(sliders, ended, run_those, first);
   });
 }
 
@@ -52,8 +56,13 @@ Ensemble run_nothing(const py::object& sliders, const py::object& motions, std::
       run(sliders, motions, 1, first_member, seed, 1, dt, settle, contact, velocity_spectrum, ground_acceleration,
           nullptr, nobody, nobody);
   const auto& parts = one.parts();
-  return Ensemble(Ensemble::Parts{
-      parts.configuration, parts.times, parts.velocity_spectrum, parts.ground_acceleration, {}, {}, {}, {}});
+  Ensemble::Parts none;
+  none.configuration = parts.configuration;
+  none.times = parts.times;
+  none.velocity_spectrum = parts.velocity_spectrum;
+  none.ground_acceleration = parts.ground_acceleration;
+  none.in_plane = parts.in_plane;
+  return Ensemble(std::move(none));
 }
 
 }  // namespace

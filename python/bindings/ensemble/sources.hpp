@@ -17,6 +17,7 @@
 #include "stickslip/ensemble/detail/block.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"
+#include "stickslip/planar/any_planar_slider.hpp"
 
 namespace stickslip::python {
 
@@ -24,13 +25,19 @@ inline std::string type_of(const py::handle& object) {
   return py::type::of(object).attr("__name__").cast<std::string>();
 }
 
+/// A sample that a source in Python was asked for to learn its kind. The run does not ask for it again.
+struct FirstSample {
+  std::uint64_t seed = 0, member = 0;
+  py::object made{};  // null for other objects
+};
+
 /// A source written in Python. Threads without the interpreter lock call it, one at a time; after the run has `ended`
 /// nobody calls it.
 class PythonSource {
  public:
   /// @param expected  the expected type, for the message if it has no `sample` or `configuration`
-  PythonSource(const py::object& object, const std::atomic<bool>& ended, std::string expected)
-      : expected_(std::move(expected)), sample_(attribute(object, "sample")), ended_(ended) {
+  PythonSource(const py::object& object, const std::atomic<bool>& ended, std::string expected, FirstSample first = {})
+      : expected_(std::move(expected)), sample_(attribute(object, "sample")), first_(std::move(first)), ended_(ended) {
     const py::object configuration = attribute(object, "configuration");
     configuration_ =
         py::isinstance<py::str>(configuration)
@@ -53,12 +60,15 @@ class PythonSource {
     const std::scoped_lock turn(one_at_a_time_);  // before the interpreter lock, which the holder may release
     if (ended_) throw detail::Block::Stopped{};
     const py::gil_scoped_acquire held;
+    if (first_.made && seed == first_.seed && member == first_.member)
+      return take(std::exchange(first_.made, py::object()));
     return take(sample_(py::arg("seed") = seed, py::arg("member") = member));
   }
 
  private:
   std::string expected_;
   py::object sample_;
+  mutable FirstSample first_;
   const std::atomic<bool>& ended_;
   mutable std::mutex one_at_a_time_;
   std::string configuration_;
@@ -101,15 +111,31 @@ class PythonMotions : public PythonSource {
 /// Sliders from Python.
 class PythonSliders : public PythonSource {
  public:
-  PythonSliders(const py::object& object, const std::atomic<bool>& ended)
+  PythonSliders(const py::object& object, const std::atomic<bool>& ended, FirstSample first = {})
       : PythonSource(object, ended,
                      "sliders must be a Slider, a friction law, a list of these, or an object with "
-                     "sample(*, seed, member) and configuration, such as Random") {}
+                     "sample(*, seed, member) and configuration, such as Random",
+                     std::move(first)) {}
 
   AnySlider sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
       if (auto slider = slider_of(made)) return *std::move(slider);
       throw py::type_error("ensemble: a sample of sliders must be a Slider or a friction law; that of member " +
+                           std::to_string(member) + " is of type " + type_of(made));
+    });
+  }
+};
+
+/// Sliders in the plane from Python.
+class PythonPlanarSliders : public PythonSource {
+ public:
+  PythonPlanarSliders(const py::object& object, const std::atomic<bool>& ended, FirstSample first)
+      : PythonSource(object, ended, "sliders must have sample(*, seed, member) and configuration", std::move(first)) {}
+
+  AnyPlanarSlider sample(std::uint64_t seed, std::uint64_t member) const {
+    return ask(seed, member, [&](const py::object& made) {
+      if (py::isinstance<AnyPlanarSlider>(made)) return made.cast<AnyPlanarSlider>();
+      throw py::type_error("ensemble: a sample of sliders in the plane must be a PlanarSlider; that of member " +
                            std::to_string(member) + " is of type " + type_of(made));
     });
   }
@@ -130,9 +156,37 @@ inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& o
                        ", got " + type_of(item));
 }
 
+/// Whether sliders are in the plane: those of a list if its first one is, those of a source if that of the first member
+/// is.
+/// @param first  receives this sample
+inline bool are_in_plane(const py::object& sliders, std::uint64_t seed, std::uint64_t first_member,
+                         FirstSample& first) {
+  if (py::isinstance<AnyPlanarSlider>(sliders)) return true;
+  if (const auto list = list_of(sliders, "sliders")) return py::isinstance<AnyPlanarSlider>(list->first[0]);
+  if (!py::hasattr(sliders, "sample")) return false;
+  first = {seed, first_member, sliders.attr("sample")(py::arg("seed") = seed, py::arg("member") = first_member)};
+  return py::isinstance<AnyPlanarSlider>(first.made);
+}
+
+/// Calls `f` with sliders in the plane.
+template <class F>
+auto with_planar_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f, FirstSample first = {}) {
+  if (py::isinstance<AnyPlanarSlider>(sliders)) return f(sliders.cast<const AnyPlanarSlider&>());
+  if (const auto list = list_of(sliders, "sliders")) {
+    std::vector<AnyPlanarSlider> items;
+    for (const py::handle item : list->first) {
+      if (!py::isinstance<AnyPlanarSlider>(item))
+        refuse_item("sliders", items.size(), "PlanarSlider, as the first one", item);
+      items.push_back(item.cast<AnyPlanarSlider>());
+    }
+    return f(OneOf(std::move(items), list->second));
+  }
+  return f(PythonPlanarSliders(sliders, ended, std::move(first)));
+}
+
 /// Calls `f` with the sliders in their static type.
 template <class F>
-auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f) {
+auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f, FirstSample first = {}) {
   if (const auto one = slider_of(sliders))  // the laws with vector lanes, in their static types
     return std::visit(
         [&]<class Law>(const Slider<Law>& slider) {
@@ -151,7 +205,7 @@ auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&&
     }
     return f(OneOf(std::move(items), list->second));
   }
-  return f(PythonSliders(sliders, ended));
+  return f(PythonSliders(sliders, ended, std::move(first)));
 }
 
 /// Calls `f` with the ground motions in their static type.

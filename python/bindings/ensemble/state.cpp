@@ -50,13 +50,15 @@ py::dict state_of(const Ensemble& ensemble) {
     cut_block.push_back(block);
     cut_size.push_back(size);
   }
-  std::vector<double> peak, residual, speed_forward, speed_backward;
+  std::vector<double> peak, residual, residual_transverse, speed_forward, speed_backward;
   std::vector<std::uint64_t> impact_block, impacts_forward, impacts_backward;
   for (const auto& [block, kept] : parts.kept) {
     kept_block.push_back(block);
     kept_size.push_back(kept.peak.size());
     peak.insert(peak.end(), kept.peak.begin(), kept.peak.end());
     residual.insert(residual.end(), kept.residual.begin(), kept.residual.end());
+    residual_transverse.insert(residual_transverse.end(), kept.residual_transverse.begin(),
+                               kept.residual_transverse.end());
     if (!kept.impacts.empty()) impact_block.push_back(block);
     for (const Impacts& one : kept.impacts) {
       impacts_forward.push_back(one.forward.count);
@@ -76,6 +78,7 @@ py::dict state_of(const Ensemble& ensemble) {
   state["times"] = parts.times.count;
   state["velocity_spectrum"] = parts.velocity_spectrum;
   state["ground_acceleration"] = parts.ground_acceleration;
+  state["in_plane"] = parts.in_plane;
   state["level"] = array_of(std::move(level));
   state["number"] = array_of(std::move(number));
   state["count"] = array_of(std::move(count));
@@ -86,6 +89,7 @@ py::dict state_of(const Ensemble& ensemble) {
   state["kept_size"] = array_of(std::move(kept_size));
   state["peak"] = array_of(std::move(peak));
   state["residual"] = array_of(std::move(residual));
+  state["residual_transverse"] = array_of(std::move(residual_transverse));
   state["bin"] = array_of(std::move(bin));
   state["bin_count"] = array_of(std::move(bin_count));
   state["has_impacts"] = parts.has_impacts;
@@ -106,6 +110,7 @@ Ensemble ensemble_of(const py::dict& state) {
   parts.times = {state["dt"].cast<double>(), state["times"].cast<std::size_t>()};
   parts.velocity_spectrum = state["velocity_spectrum"].cast<bool>();
   parts.ground_acceleration = state["ground_acceleration"].cast<bool>();
+  parts.in_plane = state["in_plane"].cast<bool>();
   expect(parts.times.count <= Ensemble::max_times, "there are too many times");
 
   const auto level = column<std::uint64_t>(state, "level"), number = column<std::uint64_t>(state, "number"),
@@ -116,13 +121,14 @@ Ensemble ensemble_of(const py::dict& state) {
   expect(level.size() == rows && number.size() == rows && count.size() == rows,
          "level, number, count and sums must go together");
   // Checked before memory is allocated.
-  expect(rows == 0 || width == detail::Tally::size(parts.times.count, frequencies, parts.ground_acceleration),
+  expect(rows == 0 ||
+             width == detail::Tally::size(parts.times.count, frequencies, parts.ground_acceleration, parts.in_plane),
          "sums must have one column for each sum");
   for (std::size_t i = 0; i < rows; ++i) {
     constexpr unsigned most = 61;  // a block has at least eight members
     expect(level[i] < most && number[i] < (std::uint64_t{1} << (most - level[i])), "invalid position of a part");
     const detail::TallyTree::Place place{static_cast<unsigned>(level[i]), number[i]};
-    detail::Tally tally(parts.times.count, frequencies, parts.ground_acceleration);
+    detail::Tally tally(parts.times.count, frequencies, parts.ground_acceleration, parts.in_plane);
     expect(!parts.tallies.overlaps(place), "two parts hold the same members");
     tally.count = count[i];
     std::copy_n(sums.data() + i * width, width, tally.sums().data());
@@ -137,16 +143,20 @@ Ensemble ensemble_of(const py::dict& state) {
 
   const auto kept_block = column<std::uint64_t>(state, "kept_block"),
              kept_size = column<std::uint64_t>(state, "kept_size");
-  const auto peak = column<double>(state, "peak"), residual = column<double>(state, "residual");
+  const auto peak = column<double>(state, "peak"), residual = column<double>(state, "residual"),
+             residual_transverse = column<double>(state, "residual_transverse");
   expect(kept_block.size() == kept_size.size() && peak.size() == residual.size(),
          "kept_block and kept_size, peak and residual must go together");
+  expect(residual_transverse.size() == (parts.in_plane ? residual.size() : 0),
+         "sliders in the plane, and only they, must have transverse residuals");
   std::size_t from = 0;
   for (std::size_t i = 0; i < kept_block.size(); ++i) {
     expect(kept_size[i] <= peak.size() - from, "a block has more members than peaks");
     const auto begin = static_cast<std::ptrdiff_t>(from), end = static_cast<std::ptrdiff_t>(from += kept_size[i]);
-    parts.kept.emplace_hint(
-        parts.kept.end(), kept_block[i],
-        Ensemble::Kept{{peak.begin() + begin, peak.begin() + end}, {residual.begin() + begin, residual.begin() + end}});
+    Ensemble::Kept kept{{peak.begin() + begin, peak.begin() + end}, {residual.begin() + begin, residual.begin() + end}};
+    if (parts.in_plane)
+      kept.residual_transverse.assign(residual_transverse.begin() + begin, residual_transverse.begin() + end);
+    parts.kept.emplace_hint(parts.kept.end(), kept_block[i], std::move(kept));
   }
   expect(from == peak.size(), "there are more peaks than members");
 

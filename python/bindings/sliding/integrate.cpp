@@ -38,20 +38,32 @@ ResponseWithInputs integrate_any(const AnySlider& slider, const py::object& moti
                        py::type::of(motion).attr("__name__").cast<std::string>());
 }
 
+template <class Slider, class Place>
+std::string first_remark(const std::vector<Slider>& sliders, const std::vector<const GroundMotion*>& motions,
+                         Place place) {
+  const py::gil_scoped_release released;
+  for (const GroundMotion* const motion : motions)
+    for (const Slider& slider : sliders)
+      if (std::string remark = units_remark(slider, *motion, place); !remark.empty()) return remark;
+  return {};
+}
+
 }  // namespace
 
 void bind_integrate(py::module_& m) {
   m.def(
       "_units_remark",
       [](const std::vector<AnySlider>& sliders, const std::vector<const GroundMotion*>& motions) {
-        const py::gil_scoped_release released;
-        for (const GroundMotion* const motion : motions)
-          for (const AnySlider& slider : sliders)
-            if (std::string remark = units_remark(slider, *motion); !remark.empty()) return remark;
-        return std::string();
+        return first_remark(sliders, motions, 0.0);
       },
       py::arg("sliders"), py::arg("motions"),
       "The remark on the first of some combinations, none of which slips, that would slip if accelerations were in g.");
+  m.def(
+      "_units_remark",
+      [](const std::vector<AnyPlanarSlider>& sliders, const std::vector<const GroundMotion*>& motions) {
+        return first_remark(sliders, motions, Vector2{});
+      },
+      py::arg("sliders"), py::arg("motions"));
   m.def("integrate", &integrate_any, py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0,
         py::arg("velocity") = 0.0, py::arg("settle") = false, py::arg("contact") = "flight",
         py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(),

@@ -18,26 +18,6 @@ struct EventRow {
   char32_t kind[10];
 };
 
-constexpr const char32_t* name_of(EventKind kind) {
-  switch (kind) {
-    case EventKind::breakaway:
-      return U"breakaway";
-    case EventKind::reversal:
-      return U"reversal";
-    case EventKind::arrest:
-      return U"arrest";
-    case EventKind::end:
-      return U"end";
-    case EventKind::impact:
-      return U"impact";
-    case EventKind::liftoff:
-      return U"liftoff";
-    case EventKind::landing:
-      return U"landing";
-  }
-  return U"";
-}
-
 }  // namespace
 
 py::array events_array(const std::vector<Event>& events) {
@@ -60,31 +40,15 @@ py::array events_array(const std::vector<Event>& events) {
 
 namespace {
 
-// The array in `kept`, made by `make` on first access.
-template <class Make>
-py::object keep(py::object& kept, Make&& make) {
-  if (!kept) {
-    kept = make();
-    kept.attr("setflags")(py::arg("write") = false);
-  }
-  return kept;
-}
-
 py::object events_of(ResponseWithInputs& self) {
   return keep(self.events, [&] { return events_array(self.response.events); });
 }
 
 py::object time_of(ResponseWithInputs& self) {
-  return keep(self.time, [&]() -> py::object {
-    const std::size_t samples = self.response.displacement.size();
-    if (py::len(self.motion.attr("time")) == samples) return self.motion.attr("time");
-    const auto times = [&](const auto& motion) {
-      std::vector<double> time(samples);
-      for (std::size_t i = 0; i < samples; ++i) time[i] = motion.time(i);
-      return to_array(time);
-    };
-    if (py::isinstance<GroundMotion>(self.motion)) return times(self.motion.cast<const GroundMotion&>());
-    return times(self.motion.cast<const HarmonicMotion&>());
+  return keep(self.time, [&] {
+    return with_inputs(self, [&](const auto&, const auto& motion) {
+      return times_of(self.motion, motion, self.response.displacement.size());
+    });
   });
 }
 
@@ -123,22 +87,14 @@ py::object temperature_of(const py::object& self) {
 }
 
 py::array impacts_of(const ResponseWithInputs& self) {
-  std::vector<Event> impacts;
-  std::ranges::copy_if(self.response.events, std::back_inserter(impacts),
-                       [](const Event& e) { return e.kind == EventKind::impact; });
-  return events_array(impacts);
+  return events_array(events_of_kind(self.response.events, EventKind::impact));
 }
 
 std::string remark_of(const ResponseWithInputs& self) {
-  constexpr double most = 0.2;
   const auto& any = self.slider.cast<const AnySlider&>();
   if (self.response.time_sliding == 0 && py::isinstance<GroundMotion>(self.motion))
     return units_remark(any, self.motion.cast<const GroundMotion&>(), self.response.displacement.front());
-  const Mounting& mounting = mounting_of(any);
-  const double radius = standard_gravity / mounting.stiffness();
-  if (!mounting.pendulum || self.response.peak <= most * radius) return "";
-  return "the displacement reaches " + digits(self.response.peak) + " m, beyond 0.2 of the radius of " +
-         digits(radius) + " m up to which a pendulum is linear to 2 %";
+  return pendulum_remark(mounting_of(any), self.response.peak);
 }
 
 Loop loop_of(const ResponseWithInputs& self) {
@@ -512,12 +468,7 @@ an impact is that before it; a rebound from a stop is not a reversal.)")
       .def_property_readonly("sliding_distance", number<&Response::sliding_distance>(),
                              "Total sliding distance (path length) [m].")
       .def_property_readonly(
-          "slips",
-          [](const ResponseWithInputs& r) {
-            return std::ranges::count_if(r.response.events, [](const Event& e) {
-              return e.kind == EventKind::breakaway || e.kind == EventKind::reversal;
-            });
-          },
+          "slips", [](const ResponseWithInputs& r) { return slips(r.response.events); },
           "Number of slips; a reversal ends one and begins another.")
       .def_property_readonly("time_sliding", number<&Response::time_sliding>(), "Time spent sliding [s].")
       .def_property_readonly("energy", number<&Response::energy>(), "Energy balance, per unit mass [m^2/s^2].")

@@ -1,7 +1,9 @@
 // A response together with its slider and ground motion.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +49,70 @@ UnitParameter parameter_of(const std::string& name, const std::string& who);
 
 /// Events as a structured array, that of `Response.events`.
 py::array events_array(const std::vector<Event>& events);
+
+/// The name of a kind of event, for structured arrays: at most ten characters.
+constexpr const char32_t* name_of(EventKind kind) {
+  switch (kind) {
+    case EventKind::breakaway:
+      return U"breakaway";
+    case EventKind::reversal:
+      return U"reversal";
+    case EventKind::arrest:
+      return U"arrest";
+    case EventKind::end:
+      return U"end";
+    case EventKind::impact:
+      return U"impact";
+    case EventKind::liftoff:
+      return U"liftoff";
+    case EventKind::landing:
+      return U"landing";
+  }
+  return U"";
+}
+
+/// The events of one kind.
+template <class AnyEvent>
+std::vector<AnyEvent> events_of_kind(const std::vector<AnyEvent>& events, EventKind kind) {
+  std::vector<AnyEvent> found;
+  std::ranges::copy_if(events, std::back_inserter(found), [&](const AnyEvent& e) { return e.kind == kind; });
+  return found;
+}
+
+/// How often a slip begins.
+template <class AnyEvent>
+std::ptrdiff_t slips(const std::vector<AnyEvent>& events) {
+  return std::ranges::count_if(
+      events, [](const AnyEvent& e) { return e.kind == EventKind::breakaway || e.kind == EventKind::reversal; });
+}
+
+/// The array in `kept`, made by `make` on first access.
+template <class Make>
+py::object keep(py::object& kept, Make&& make) {
+  if (!kept) {
+    kept = make();
+    kept.attr("setflags")(py::arg("write") = false);
+  }
+  return kept;
+}
+
+/// The times of the samples of a response, those of its motion as far as it goes.
+template <Motion M>
+py::object times_of(const py::object& motion, const M& ground, std::size_t samples) {
+  if (py::len(motion.attr("time")) == samples) return motion.attr("time");
+  std::vector<double> time(samples);
+  for (std::size_t i = 0; i < samples; ++i) time[i] = ground.time(i);
+  return to_array(time);
+}
+
+/// The remark on a pendulum that leaves its linear range; empty for others.
+inline std::string pendulum_remark(const Mounting& mounting, double peak) {
+  constexpr double most = 0.2;
+  const double radius = standard_gravity / mounting.stiffness();
+  if (!mounting.pendulum || peak <= most * radius) return "";
+  return "the displacement reaches " + digits(peak) + " m, beyond 0.2 of the radius of " + digits(radius) +
+         " m up to which a pendulum is linear to 2 %";
+}
 
 struct ResponseWithInputs {
   Response response;

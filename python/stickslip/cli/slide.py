@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import argparse
+import math
 import statistics
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Literal
 
-from .. import STANDARD_GRAVITY, ConvergenceError, GroundMotion, Response, Slider, integrate
+from .. import (
+    STANDARD_GRAVITY,
+    ConvergenceError,
+    GroundMotion,
+    PlanarResponse,
+    PlanarSlider,
+    Response,
+    Slider,
+    integrate,
+)
 from .._text import printable
 from .batch import Batch, add_files, add_vertical
 from .output import column, complain, json_text, write_csv
@@ -48,6 +58,15 @@ _COLUMNS = (
     "impact_speed_backward_m_s",
     "at_rest",
 )
+# With --planar; the others of impacts are then empty.
+_PLANAR_COLUMNS = (
+    "residual_axis_m",
+    "residual_transverse_m",
+    "peak_time_s",
+    "peak_azimuth_degrees",
+    "impacts",
+    "impact_speed_m_s",
+)
 
 
 def add_slide(commands: argparse._SubParsersAction) -> None:
@@ -57,7 +76,8 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         description="Slides blocks under strong-motion records and continues after the end of"
         " each record until they come to rest. Prints peak, residual and path length of the"
         " displacement relative to the ground [cm], the time spent sliding [s] and the number of"
-        " slips (a reversal ends one slip and begins another). Ground acceleration is given in g ="
+        " slips (a reversal ends one slip and begins another). With --planar, peak and residual are"
+        " distances from the start. Ground acceleration is given in g ="
         " 9.80665 m/s^2.",
         epilog="--mu, --mu-static, --reach, --slope, --period, --damping-ratio, --stop-gap,"
         " --restitution and --scale take a number or a range START:STOP:STEP, which includes STOP,"
@@ -81,6 +101,12 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     add_slider(parser, ranges=True)
     add_vertical(parser)
     add_contact(parser)
+    add(
+        "--planar",
+        action="store_true",
+        help="slide in both horizontal directions at once: friction opposes the velocity vector;"
+        " implies --station, and prints the largest and the last distance from the start",
+    )
     add("--scale", type=ratios, default=1.0, help="factor on the ground acceleration (default 1)")
     sense = parser.add_mutually_exclusive_group().add_argument
     sense(
@@ -98,7 +124,9 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
 
 def _slide(args: argparse.Namespace) -> str:
     cases, several = variations(args)
-    sliders = [(case, slider_of(case)) for case in cases]
+    if args.planar:
+        _check_planar(args, len(cases))
+    sliders = [(case, _slider_of(case)) for case in cases]
     batch = Batch(args)
     rows: list[dict[str, Any]] = []
     written: list[str] = []
@@ -128,7 +156,7 @@ def _slide(args: argparse.Namespace) -> str:
                 _draw(responses, picture)
                 written.append(str(picture))
     if args.csv:
-        write_csv(args.csv, _COLUMNS, rows)
+        write_csv(args.csv, (*_COLUMNS, *(_PLANAR_COLUMNS if args.planar else ())), rows)
     if args.units and remark and not slips:
         complain("warning: " + remark.replace('units="g"', "--units g"))
     said = batch.finish()
@@ -139,19 +167,42 @@ def _slide(args: argparse.Namespace) -> str:
     return "\n".join([*table, *(f"wrote {printable(name)}" for name in written)])
 
 
-def _draw(responses: dict[str, Response], file: Path) -> None:
+def _check_planar(args: argparse.Namespace, sliders: int) -> None:
+    """Refuse options that --planar excludes; it reads both components of each station."""
+    if args.law != "coulomb":
+        raise ValueError(f"--planar goes with --law coulomb, got --law {args.law}")
+    if args.polarity:
+        raise ValueError(
+            "--planar has no --polarity: reversing both components mirrors the response, got"
+            f" {args.polarity}"
+        )
+    if args.vertical is not None:
+        raise ValueError("--planar takes the vertical component from the station, got --vertical")
+    if args.plot and sliders > 1:
+        raise ValueError(f"--plot draws one slider with --planar, got {sliders}")
+    args.station = True
+
+
+def _slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
+    slider = slider_of(args)
+    return PlanarSlider(slider) if args.planar else slider
+
+
+def _draw(responses: dict[str, Response | PlanarResponse], file: Path) -> None:
     from .. import plotting
 
     if len(responses) == 1:
-        figure = plotting.plot_response(*responses.values())
+        figure = next(iter(responses.values())).plot()
     else:
-        figure = plotting.plot_responses(list(responses.values()), list(responses))
+        figure = plotting.plot_responses(
+            [one for one in responses.values() if isinstance(one, Response)], list(responses)
+        )
     plotting.save(figure, file)
 
 
 def _settle(
-    slider: Slider, motion: GroundMotion, contact: Literal["flight", "clipped"]
-) -> Response:
+    slider: Slider | PlanarSlider, motion: GroundMotion, contact: Literal["flight", "clipped"]
+) -> Response | PlanarResponse:
     try:
         return integrate(slider, motion, settle=True, contact=contact)
     except ConvergenceError:
@@ -162,18 +213,22 @@ def _row(
     args: argparse.Namespace,
     file: Path,
     component: int | None,
-    slider: Slider,
-    response: Response,
+    slider: Slider | PlanarSlider,
+    response: Response | PlanarResponse,
     polarity: str | None,
 ) -> dict[str, Any]:
     """The row of one response; keys include units."""
-    forward, backward = (slider.resist(backward=back) for back in (False, True))
+    planar = isinstance(response, PlanarResponse)
+    if isinstance(slider, PlanarSlider):
+        forward = backward = slider.resist()
+    else:
+        forward, backward = (slider.resist(backward=back) for back in (False, True))
     return {
         "file": str(file),
         "record": response.motion.name,
         "component": component,
         "scale": args.scale,
-        "pga_g": response.motion.peak_acceleration / STANDARD_GRAVITY,
+        "pga_g": _pga(response) / STANDARD_GRAVITY,
         "law": args.law,
         "mu": args.mu,
         "mu_static": args.mu_static,
@@ -189,27 +244,56 @@ def _row(
         "components": response.components,
         "polarity": polarity,
         "peak_m": response.peak,
-        "residual_m": response.residual,
+        "residual_m": math.hypot(*response.residual) if planar else response.residual,
         "sliding_distance_m": response.sliding_distance,
         "time_sliding_s": response.time_sliding,
         "slips": response.slips,
         "liftoffs": _liftoffs(response),
         **_impacts(response),
         "at_rest": response.at_rest,
+        **(_in_plane(response) if isinstance(response, PlanarResponse) else {}),
     }
 
 
-def _liftoffs(response: Response) -> int | None:
+def _pga(response: Response | PlanarResponse) -> float:
+    """The peak ground acceleration [m/s^2]; in the plane, of the resultant."""
+    motion = response.motion
+    if isinstance(response, Response) or motion.transverse is None:
+        return float(motion.peak_acceleration)
+    return max(map(math.hypot, motion.acceleration.tolist(), motion.transverse.tolist()))
+
+
+def _in_plane(response: PlanarResponse) -> dict[str, Any]:
+    """What a row has besides in the plane."""
+    axis, transverse = response.residual.tolist()
+    found = {
+        "residual_axis_m": axis,
+        "residual_transverse_m": transverse,
+        "peak_time_s": response.peak_time,
+        "peak_azimuth_degrees": response.peak_azimuth,
+        "impacts": None,
+        "impact_speed_m_s": None,
+    }
+    if response.slider.stops is not None:
+        speeds = [math.hypot(*velocity) for velocity in response.impacts["velocity"].tolist()]
+        found |= {"impacts": len(speeds), "impact_speed_m_s": max(speeds, default=0.0)}
+    return found
+
+
+def _liftoffs(response: Response | PlanarResponse) -> int | None:
     """How often the slider left the ground; None without vertical motion."""
     if "vertical" not in response.components:  # and no array is made, which would import NumPy
         return None
     return int((response.events["kind"] == "liftoff").sum())
 
 
-def _impacts(response: Response) -> dict[str, Any]:
-    """The number of impacts on each stop and the largest speed before one; None without stops."""
+def _impacts(response: Response | PlanarResponse) -> dict[str, Any]:
+    """The number of impacts on each stop and the largest speed before one; None without stops, or
+    with a circular one."""
     names = ("impacts_{}", "impact_speed_{}_m_s")
-    if response.slider.stops is None:  # and no array is made, which would import NumPy
+    if (
+        isinstance(response, PlanarResponse) or response.slider.stops is None
+    ):  # and no array is made, which would import NumPy
         return {name.format(side): None for side in ("forward", "backward") for name in names}
     hits = response.impacts
     found: dict[str, Any] = {}
@@ -263,7 +347,8 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
         if rows[0][_KEYS[name]] is not None
     ]
     several = [*(name for name in given if name not in several), *several]
-    stops = rows[0]["impacts_forward"] is not None
+    planar = "impacts" in rows[0]
+    stops = rows[0]["impacts" if planar else "impacts_forward"] is not None
     width = max(len("record"), *map(len, names))
     both = any(row["polarity"] for row in rows)
     widths = {name: max(11, len(heading(name))) for name in several}
@@ -272,6 +357,7 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
         f"{'record':{width}}  PGA [g]     mu{more}{'  polarity' if both else ''}  peak [cm]"
         "  residual [cm]  distance [cm]  sliding [s]  slips"
         f"{'  impacts  at most [m/s]' if stops else ''}"
+        f"{'  azimuth of peak' if planar else ''}"
     )
     last: object = None
     for name, row in zip(names, rows):
@@ -285,6 +371,7 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
             f"  {column(row['sliding_distance_m'] * 100, 13)}"
             f"  {column(row['time_sliding_s'], 11)}"
             f"  {row['slips']:5g}{_hits(row) if stops else ''}"
+            f"{_azimuth(row) if planar else ''}"
             f"{'' if row['at_rest'] else '  never rests: at end of record'}"
         )
         last = this
@@ -298,9 +385,17 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
 
 def _hits(row: dict[str, Any]) -> str:
     """The columns of impacts: those on both stops together."""
+    if "impacts" in row:
+        return f"  {row['impacts']:7g}  {row['impact_speed_m_s']:14.3g}"
     count = row["impacts_forward"] + row["impacts_backward"]
     speed = max(row["impact_speed_forward_m_s"], row["impact_speed_backward_m_s"])
     return f"  {count:7g}  {speed:14.3g}"
+
+
+def _azimuth(row: dict[str, Any]) -> str:
+    """The column of the direction of the peak, empty where it is not known."""
+    azimuth = row["peak_azimuth_degrees"]
+    return f"  {'' if azimuth is None else f'{azimuth:.0f}':>15}"
 
 
 def _name(row: dict[str, Any]) -> str:

@@ -15,7 +15,7 @@ from .. import _core
 from .._core import Ensemble
 from .._files import check_regular, replacing
 
-_FORMAT = "stickslip ensemble 4"
+_FORMAT = "stickslip ensemble 5"
 # What earlier formats did not hold, and what then stands for it.
 _IMPACTS = {
     "airborne": 0,
@@ -25,16 +25,18 @@ _IMPACTS = {
     "impacts_backward": np.zeros(0, np.uint64),
     **{f"impact_speed_{side}": np.zeros(0) for side in ("forward", "backward")},
 }
+_PLANE = {"in_plane": False, "residual_transverse": np.zeros(0)}
 _FORMER: dict[str, dict[str, Any]] = {
-    "stickslip ensemble 3": _IMPACTS,
-    "stickslip ensemble 2": _IMPACTS | {"ground_acceleration": False},
+    "stickslip ensemble 4": _PLANE,
+    "stickslip ensemble 3": _PLANE | _IMPACTS,
+    "stickslip ensemble 2": _PLANE | _IMPACTS | {"ground_acceleration": False},
 }
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
     *("configuration", "dt", "times", "velocity_spectrum", "ground_acceleration"),
     *("level", "number", "count", "sums", "cut_block", "cut_size"),
     *("kept_block", "kept_size", "peak", "residual", "bin", "bin_count"),
-    *("has_impacts", *_IMPACTS),
+    *("has_impacts", *_IMPACTS, *_PLANE),
 }
 
 
@@ -77,7 +79,8 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
                 f" stickslip {_core.__version__}, which reads '{_FORMAT}' and"
                 f" {' and '.join(map(repr, _FORMER))}"
             )
-        names = _NAMES - missing.keys() - ({"has_impacts"} if missing else set())
+        knows_impacts = not missing.keys() & _IMPACTS.keys()
+        names = _NAMES - missing.keys() - (set() if knows_impacts else {"has_impacts"})
         if entries.keys() != names:
             odd = ", ".join(sorted(entries.keys() ^ names))
             raise refuse(f"does not hold what an ensemble does: missing or unknown {odd}")

@@ -73,6 +73,8 @@ class Parts(parts.Parts[Ensemble, tuple[Ensemble, float]]):
         self.window = 8  # number of submitted parts; grows with each that arrives
         times = len(whole.time)
         sums = 12 + options["velocity_spectrum"] + 4 * options["ground_acceleration"]
+        if whole.in_plane:
+            sums = 48
         self.bytes_of_part = 8 * times * sums
 
     def feed(self) -> None:

@@ -23,7 +23,7 @@ class Random:
     Parameters
     ----------
     kind : callable
-        Makes the slider or the law: a law such as `Coulomb`, `Slider`, `ViscousSlider`, one of
+        Makes the slider or the law: a law such as `Coulomb`, `Slider`, `PlanarSlider`, one of
         their constructors, such as `Caster.from_geometry`, or a function. For other processes it
         must pickle, as classes and module functions do.
     **parameters

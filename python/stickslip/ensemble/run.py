@@ -45,10 +45,12 @@ def run_ensemble(
 
     Parameters
     ----------
-    sliders : Slider, friction law, a list of these, Drawn, Random or SliderSource
+    sliders : Slider, PlanarSlider, friction law, a list of these, Drawn, Random or SliderSource
         A law alone is a slider without spring and damper. From a list of m sliders, member i takes
         number i modulo m; from `Drawn(list)`, a random one. `Random` has random parameters. For
-        your own source see `stickslip.ensemble.SliderSource`.
+        your own source see `stickslip.ensemble.SliderSource`. With `PlanarSlider` all members slide
+        in the plane, under ground motions with a transverse component, and statistics are those of
+        vectors (see `Ensemble`).
     motions : GaussianExcitation, PoissonPulses, WithTransverse, WithVertical, GroundMotion, ...
         A random source, `WithVertical` also with a vertical component, `WithTransverse` with a
         second horizontal one, which sliders on one axis do not feel; or a record, a list of records
@@ -75,10 +77,10 @@ def run_ensemble(
         What sliders do when they lose contact with the ground; see `integrate`.
     velocity_spectrum : bool, optional
         Also estimate the spectral density of the velocity, if durations are equal: one FFT for each
-        member.
+        member. Ignored for sliders in the plane.
     ground_acceleration : bool, optional
         Also compute mean and variance of the ground acceleration by time, if durations are equal;
-        this makes each motion a second time.
+        this makes each motion a second time. Not with sliders in the plane.
     progress : bool or callable, optional
         True: a bar on stderr (a line for each tenth if that is not a terminal). A callable gets the
         numbers of members done and in total, about ten times a second.
@@ -104,8 +106,9 @@ def run_ensemble(
     ValueError
         A value out of range; parameters of `Random` that the law rejects (names the member and the
         value); an empty list; ground motions of which some, but not all, are known to point up or
-        down; a checkpoint that is damaged, of another configuration (names the difference), or with
-        members outside the run.
+        down; sliders in the plane with `ground_acceleration`, or under a ground motion without a
+        transverse component (names the member); a checkpoint that is damaged, of another
+        configuration (names the difference), or with members outside the run.
     TypeError
         An argument of the wrong type.
     OverflowError
@@ -133,9 +136,10 @@ def run_ensemble(
     excitation: 6 to 7 ns per sample for Coulomb friction without a spring, 9 for spring and damper
     without friction, 70 for casters. Under pulses: 10 ns per step for Coulomb friction. The
     velocity spectrum: 2 ns per sample. Other sliders, lists, random sliders and vertical motion: as
-    for `integrate`, plus some 10 ns. Memory: 16 bytes per member, and 1 kB per thread and time of
-    the statistics; above 2^24 members, peaks are counted in bins. A call takes 0.1 ms and copies a
-    list of records; so does each part on an executor.
+    for `integrate`, plus some 10 ns; in the plane 1 to 2 us per sample of sliding. Memory: 16 bytes
+    per member, and 1 kB per thread and time of the statistics; above 2^24 members, peaks are
+    counted in bins. A call takes 0.1 ms and copies a list of records; so does each part on an
+    executor.
 
     References
     ----------

@@ -90,6 +90,11 @@ def ensemble_sensitivity(
     def checked(name: str, value: SupportsIndex, least: int, most: int = 2**64 - 1) -> int:
         return whole_number(name, value, least, most, who="ensemble_sensitivity")
 
+    if isinstance(sliders, _core.PlanarSlider):
+        raise TypeError(
+            "ensemble_sensitivity: covers sliders on one axis, got a PlanarSlider; take"
+            " differences of two ensembles with the same seed"
+        )
     with shown(progress, who="ensemble_sensitivity") as show:
         return _core.ensemble_sensitivity(
             sliders,

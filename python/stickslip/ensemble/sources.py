@@ -14,6 +14,7 @@ from .._core import (
     GroundMotion,
     KumarFriction,
     Law,
+    PlanarSlider,
     PoissonPulses,
     Slider,
     StaticKinetic,
@@ -73,7 +74,10 @@ class SliderSource(Protocol):
         """Everything that determines the sliders, as JSON types; must be equal to merge."""
 
     def sample(self, *, seed: int, member: int) -> AnySlider:
-        """The slider of a member: the same for equal arguments, always."""
+        """The slider of a member: the same for equal arguments, always.
+
+        Those of all members are in the plane (PlanarSlider), or none.
+        """
 
 
 AnySlider: TypeAlias = (
@@ -86,6 +90,7 @@ AnySlider: TypeAlias = (
     | KumarFriction
     | Law
     | StaticKinetic
+    | PlanarSlider
 )
 AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"

@@ -25,6 +25,12 @@ _IMPACTS = (
     ("impacts_backward", "", "number of impacts on the stop backward"),
     ("impact_speed_backward", "m/s", "largest speed just before an impact backward"),
 )
+# Of sliders in the plane alone.
+_COVARIANCES = (
+    ("displacement_covariance", "m^2", "covariance of the components of r"),
+    ("velocity_covariance", "m^2/s^2", "covariance of the components of r'"),
+)
+_COMPONENTS = ("axis", "transverse")
 _BY_TIME = (
     ("displacement_mean", "m", "mean of x"),
     ("displacement_variance", "m^2", "variance of x"),
@@ -43,12 +49,18 @@ _ABOUT = {
         *_IMPACTS,
         *(
             one
-            for name, unit, what in (*_BY_TIME, *_GROUND)
+            for name, unit, what in (*_BY_TIME, *_COVARIANCES, *_GROUND)
             for one in ((name, unit, what), (f"{name}_error", unit, f"standard error, {what}"))
         ),
         ("time", "s", "time"),
         ("member", "", "number of the member"),
     )
+}
+_ABOUT |= {
+    f"{name}_{component}": (unit, f"{what}, {component} component")
+    for name, (unit, what) in _ABOUT.items()
+    for component in _COMPONENTS
+    if name.removesuffix("_error") in ("residual", *(name for name, _, _ in _BY_TIME))
 }
 _UNITS = {name: unit for name, (unit, _) in _ABOUT.items() if unit}
 _PROBABILITIES = (0.05, 0.16, 0.5, 0.84, 0.95, 0.99)
@@ -119,11 +131,18 @@ def _columns(ensemble: Ensemble, by: str) -> dict[str, NDArray[Any]]:
     elif by == "time":
         columns = {"time": ensemble.time}
         with_ground = ensemble.configuration.get("ground_acceleration", False)
-        statistics = (*_BY_TIME, *(_GROUND if with_ground else ()))
+        covariances = _COVARIANCES if ensemble.in_plane else ()
+        statistics = (*_BY_TIME, *covariances, *(_GROUND if with_ground else ()))
         names = [n for name, _, _ in statistics for n in (name, f"{name}_error")]
     else:
         raise ValueError(f"Ensemble: by must be 'member' or 'time', got {by!r}")
-    return columns | {name: np.array(getattr(ensemble, name)) for name in names}
+    for name in names:
+        values = np.array(getattr(ensemble, name))
+        if values.ndim == 1:
+            columns[name] = values
+        else:  # in the plane
+            columns |= {f"{name}_{one}": values[:, i] for i, one in enumerate(_COMPONENTS)}
+    return columns
 
 
 def _attributes(name: str) -> dict[str, str]:

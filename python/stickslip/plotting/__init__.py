@@ -25,6 +25,7 @@ from .figures import new_figure as new_figure
 from .figures import save
 from .ground import plot_ground_motion, plot_response_spectrum
 from .hysteresis import plot_hysteresis
+from .planar import plot_planar_response
 from .response import plot_response, plot_responses
 from .styles import BLUE as BLUE
 from .styles import COLORS as COLORS
@@ -44,6 +45,7 @@ __all__ = [
     "plot_ground_motion",
     "plot_hysteresis",
     "plot_orientations",
+    "plot_planar_response",
     "plot_response",
     "plot_response_spectrum",
     "plot_responses",

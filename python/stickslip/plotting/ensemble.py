@@ -40,7 +40,8 @@ def plot_ensemble(
     -------
     matplotlib Figure or SubFigure
         With axes for the variance of x, the probability of exceedance of the peak, the variance of
-        x', and the spectral density of x' if the ensemble has it.
+        x', and the spectral density of x' if the ensemble has it. Of sliders in the plane: for the
+        variances of both components of r, their covariance, and the probability of exceedance.
 
     Raises
     ------
@@ -48,6 +49,8 @@ def plot_ensemble(
         Fewer than two members.
     """
     e, t = ensemble, ensemble.time
+    if e.in_plane and t.size:
+        return _plot_in_plane(e, figure, title)
     if t.size == 0:
         with style():
             figure = figure or new_figure(6, 4)
@@ -93,6 +96,28 @@ def plot_ensemble(
         if has_spectrum:
             _draw_spectrum(axes["spectrum"], e, fast, fast_unit)
         figure.align_ylabels()
+    return figure
+
+
+def _plot_in_plane(e: Ensemble, figure: FigureBase | None, title: str | None) -> FigureBase:
+    """Plot the variances and the covariance of the displacement vector, and the peaks."""
+    t = e.time
+    with style():
+        figure = figure or new_figure(9, 4)
+        put_figure_title(figure, title or describe_ensemble(e))
+        variances, peaks = figure.subplots(1, 2)
+        length, unit = unit_for(np.sqrt(e.displacement_variance.max()))
+        for i, (name, color) in enumerate((("axis", BLUE), ("transverse", VERMILION))):
+            value, error = e.displacement_variance[:, i], e.displacement_variance_error[:, i]
+            draw_band(variances, t, value * length**2, error * length**2, color)
+            variances.lines[-1].set_label(name)
+        value, error = e.displacement_covariance, e.displacement_covariance_error
+        draw_band(variances, t, value * length**2, error * length**2, GRAY)
+        variances.lines[-1].set_label("covariance")
+        variances.legend()
+        variances.set_ylabel(f"variance of displacement\n[{unit}\N{SUPERSCRIPT TWO}]")
+        variances.set(xlim=(t[0], t[-1]), xlabel="time [s]")
+        _draw_peaks(peaks, e)
     return figure
 
 

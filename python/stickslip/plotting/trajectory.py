@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from .._core import STANDARD_GRAVITY, Response
+from .._core import STANDARD_GRAVITY, PlanarResponse, Response
 
 
-def sticks(response: Response) -> np.ndarray:
+def sticks(response: Response | PlanarResponse) -> np.ndarray:
     """The intervals in which the slider stuck.
 
     Parameters
     ----------
-    response : Response
+    response : Response or PlanarResponse
 
     Returns
     -------
@@ -84,7 +84,9 @@ def slip_bounds(slider: Any, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return lower / STANDARD_GRAVITY, upper / STANDARD_GRAVITY
 
 
-def window(who: str, response: Response, time: tuple[float, float] | None) -> tuple[float, float]:
+def window(
+    who: str, response: Response | PlanarResponse, time: tuple[float, float] | None
+) -> tuple[float, float]:
     """The begin and end of the part of a response to draw [s]."""
     first, last = (
         float(response.time[0]),

@@ -13,9 +13,9 @@ import numpy as np
 
 from .._core import GroundMotion, identity
 from .._files import replacing
-from ..ensemble.sources import AnySlider
 from ..runs import checkpoint
 from .error import SweepError
+from .parameter_grid import AnySwept
 from .table import SweepFailure, SweepTable
 
 _FORMAT = "stickslip sweep 3"
@@ -30,7 +30,7 @@ class Checkpoint(checkpoint.Checkpoint[SweepTable]):
         self,
         file: str | os.PathLike[str] | None,
         every: float,
-        sliders: list[AnySlider],
+        sliders: list[AnySwept],
         motions: list[GroundMotion],
         how: dict[str, Any],
     ) -> None:
@@ -75,7 +75,7 @@ class Checkpoint(checkpoint.Checkpoint[SweepTable]):
             )
 
 
-def _key(sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, Any]) -> str:
+def _key(sliders: list[AnySwept], motions: list[GroundMotion], how: dict[str, Any]) -> str:
     """A digest that identifies a sweep."""
     each = [list(map(identity, sliders)), list(map(identity, motions)), how]
     return hashlib.blake2b(json.dumps(each).encode()).hexdigest()

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 
+from .._core import PlanarSlider
 from ..ensemble.sources import AnySlider
 
+AnySwept: TypeAlias = "AnySlider | PlanarSlider"
+S = TypeVar("S", bound=AnySwept)
 
-class Grid(list[AnySlider]):
+
+class Grid(list[S]):
     """A list of sliders that knows the parameters of each.
 
     Attributes
@@ -21,7 +25,7 @@ class Grid(list[AnySlider]):
     """
 
     def __init__(
-        self, sliders: Iterable[AnySlider], parameters: Mapping[str, list[Any]] | None = None
+        self, sliders: Iterable[S], parameters: Mapping[str, list[Any]] | None = None
     ) -> None:
         super().__init__(sliders)
         self.parameters = {name: list(values) for name, values in (parameters or {}).items()}
@@ -30,14 +34,14 @@ class Grid(list[AnySlider]):
         return Grid, (list(self), self.parameters)
 
 
-def grid(kind: Callable[..., AnySlider], /, **parameters: Any) -> Grid:
+def grid(kind: Callable[..., S], /, **parameters: Any) -> Grid[S]:
     """Make sliders with every combination of parameters.
 
     Parameters
     ----------
     kind : callable
-        Makes a slider or a law from keyword arguments: `Coulomb`, `Slider`, or your own
-        function.
+        Makes a slider or a law from keyword arguments: `Coulomb`, `Slider`,
+        `PlanarSlider`, or your own function.
     **parameters
         A list, tuple, range or array varies; any other value is the same for all sliders. A `Grid`
         of laws varies too, and adds its own parameters. The last parameter varies fastest.

@@ -19,23 +19,25 @@ from .._core import (
     GroundMotion,
     KumarFriction,
     Law,
+    PlanarSlider,
     Slider,
     StaticKinetic,
     Stribeck,
     VelocityDependent,
 )
 from .._units import warn_of_units
-from ..ensemble.sources import AnySlider, check_directions
+from ..ensemble.sources import check_directions
 from ..motions.suite import Suite
 from ..runs import parts
 from ..runs.progress import Progress, shown
 from .checkpoint import Checkpoint
-from .parameter_grid import Grid
+from .parameter_grid import AnySwept, Grid
 from .table import POLARITIES, SweepTable, parameters_of
 
 Polarity = Literal["both", "recorded", "reversed"]
 
 _SLIDERS = (
+    PlanarSlider,
     Slider,
     Coulomb,
     Caster,
@@ -50,7 +52,7 @@ _PARTS = 64  # number of parts of the records for an executor
 
 
 def sweep(
-    sliders: AnySlider | Sequence[AnySlider],
+    sliders: AnySwept | Sequence[AnySwept],
     motions: GroundMotion | Sequence[GroundMotion],
     *,
     polarity: Polarity = "both",
@@ -65,16 +67,18 @@ def sweep(
     """Integrate many sliders under many ground motions, from rest at x = 0.
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2);
-    each combination is solved as by `integrate`.
+    each combination is solved as by `integrate`. Sliders in the plane start from rest at r = 0.
 
     Parameters
     ----------
-    sliders : Slider, friction law or list of these
-        Sliders with any laws; `grid` makes lists.
+    sliders : Slider, friction law, PlanarSlider or list of these
+        Sliders with any laws, all on one axis or all in the plane; `grid` makes lists.
     motions : GroundMotion, Suite or list of GroundMotion
-        Records, which may differ in length and time step.
+        Records, which may differ in length and time step. In the plane they need a transverse
+        component, as `read_station` and ``Suite.read(..., stations=True)`` give them.
     polarity : {'both', 'recorded', 'reversed'}
-        Both n(t) and -n(t), n(t) only, or -n(t) only.
+        Both n(t) and -n(t), n(t) only, or -n(t) only. In the plane -n(t) reverses both horizontal
+        components; on level ground the response is then the mirror image, computed once.
     settle : bool, optional
         Continue under zero ground acceleration after each record until the slider rests, so that
         residuals are final.
@@ -106,7 +110,7 @@ def sweep(
         An empty list; ground motions of which some, but not all, are known to point up or down; a
         value out of range; a checkpoint that is damaged or of another sweep.
     TypeError
-        An argument of the wrong type.
+        An argument of the wrong type; sliders on one axis together with sliders in the plane.
     SweepError
         A part failed in the executor; or the checkpoint could not be written at the end. `partial`
         has the results so far.
@@ -119,7 +123,8 @@ def sweep(
     -----
     RuntimeWarning
         Combinations failed: a slider that does not come to rest, a motion beyond the range of
-        doubles. They are NaN, and `SweepTable.failures` says why. Other combinations continue.
+        doubles, a slider in the plane under a motion without a transverse component. They are NaN,
+        and `SweepTable.failures` says why. Other combinations continue.
     PlausibilityWarning
         No combination slips, but some would if the accelerations were in g.
 
@@ -130,7 +135,7 @@ def sweep(
     round-off, 1e-13 of the scale of x; this takes 0.05 to 0.3 ns per sample and slider, where
     `integrate` takes 12 to 40. Slopes and vertical motion take half as long again. All other
     combinations use `integrate`, one by one on all threads, as do those in which the normal force
-    reaches zero. Releases the interpreter lock.
+    reaches zero, and sliders in the plane. Releases the interpreter lock.
     """
     these = _sliders(sliders)
     those = [motions] if isinstance(motions, GroundMotion) else list(motions)
@@ -160,6 +165,7 @@ def sweep(
         settle=settle,
         contact=contact,
         has_stops=any(getattr(s, "stops", None) is not None for s in these),
+        planar=isinstance(these[0], PlanarSlider),
     )
     how = {"polarity": polarity, "settle": settle, "contact": contact}
     with shown(progress, who="sweep", things="combinations") as show:
@@ -188,24 +194,34 @@ def sweep(
     return table
 
 
-def _sliders(given: Any) -> list[AnySlider]:
+def _sliders(given: Any) -> list[AnySwept]:
     if isinstance(given, _SLIDERS):
         return [given]
     if not isinstance(given, Iterable):
         raise TypeError(
-            f"sweep: sliders must be a Slider, a friction law or a list, got {type(given).__name__}"
+            "sweep: sliders must be a Slider, a friction law, a PlanarSlider or a list, got"
+            f" {type(given).__name__}"
         )
     these = list(given)
     for i, one in enumerate(these):
         if not isinstance(one, _SLIDERS):
             raise TypeError(
-                f"sweep: sliders[{i}] must be a Slider or friction law, got {type(one).__name__}"
+                f"sweep: sliders[{i}] must be a Slider, friction law or PlanarSlider, got"
+                f" {type(one).__name__}"
             )
+    planar = [isinstance(one, PlanarSlider) for one in these]
+    if any(planar) and not all(planar):
+        odd = planar.index(not planar[0])
+        raise TypeError(
+            "sweep: sliders must all move on one axis or all in the plane; sliders[0] is a"
+            f" {type(these[0]).__name__}, sliders[{odd}] a {type(these[odd]).__name__}; run two"
+            " sweeps"
+        )
     return Grid(these) if isinstance(given, Grid) else these
 
 
 def _run_here(
-    sliders: list[AnySlider],
+    sliders: list[AnySwept],
     motions: list[GroundMotion],
     how: dict[str, Any],
     threads: int,
@@ -238,7 +254,7 @@ def _combinations(table: SweepTable) -> int:
 
 
 def _run_part(
-    sliders: list[AnySlider], motions: list[GroundMotion], how: dict[str, Any]
+    sliders: list[AnySwept], motions: list[GroundMotion], how: dict[str, Any]
 ) -> dict[str, Any]:
     """Run a part. A module function, so that it pickles."""
     return _core.sweep(sliders, motions, threads=1, progress=None, **how)
@@ -250,7 +266,7 @@ class _Parts(parts.Parts[SweepTable, dict[str, Any]]):
     def __init__(
         self,
         executor: Executor,
-        sliders: list[AnySlider],
+        sliders: list[AnySwept],
         motions: list[GroundMotion],
         how: dict[str, Any],
         table: SweepTable,

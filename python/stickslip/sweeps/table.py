@@ -15,7 +15,7 @@ from .._hdf5 import Saved, as_column, read, read_columns, read_texts, write
 from .._optional import optional
 from .._tables import Columns, Repeated, json_text
 from .._tabular import Tabular
-from ..ensemble.sources import AnySlider
+from .parameter_grid import AnySwept
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,6 +34,15 @@ QUANTITIES = {
     "sliding_distance": ("sliding distance", "m", "length of the path slid"),
     "events": ("events", "", "breakaways, reversals and arrests"),
 }
+# These exist only for sliders in the plane, whose `residual` is the length of the vector.
+COMPONENTS = {
+    "residual_axis": ("residual along the axis", "m", "displacement along the axis at the end"),
+    "residual_transverse": (
+        "transverse residual",
+        "m",
+        "displacement along the transverse direction at the end",
+    ),
+}
 # These exist only if a slider has stops.
 IMPACTS = {
     "impacts_forward": ("impacts forward", "", "number of impacts on the stop forward"),
@@ -41,8 +50,12 @@ IMPACTS = {
     "impacts_backward": ("impacts backward", "", "number of impacts on the stop backward"),
     "impact_speed_backward": ("speed", "m/s", "largest speed just before an impact backward"),
 }
+PLANAR_IMPACTS = {
+    "impacts": ("impacts", "", "number of impacts on the circular stop"),
+    "impact_speed": ("speed", "m/s", "largest radial speed just before an impact"),
+}
 _AIRBORNE = {"airborne": ("airborne", "", "whether the slider is in flight at the end")}
-_ALL = QUANTITIES | IMPACTS | _AIRBORNE
+_ALL = QUANTITIES | COMPONENTS | IMPACTS | PLANAR_IMPACTS | _AIRBORNE
 _UNITS = {name: unit for name, (_, unit, _) in _ALL.items() if unit}
 
 
@@ -64,13 +77,16 @@ class SweepTable(Tabular, Saved):
     Attributes
     ----------
     peak : ndarray
-        Largest |x| over all time [m].
+        Largest |x| over all time [m]; in the plane the largest |r|.
     residual : ndarray
-        x at the end [m]; final if the slider rests.
+        x at the end [m]; final if the slider rests. In the plane |r| at the end.
+    residual_axis, residual_transverse : ndarray
+        In the plane, the components of r at the end [m]; the transverse direction is 90 degrees
+        clockwise from the axis. ValueError for sliders on one axis.
     sliding_distance : ndarray
         Length of the path slid [m].
     events : ndarray of int
-        Breakaways, reversals and arrests.
+        Breakaways, reversals, arrests, and all other events.
     airborne : ndarray of bool
         Whether the slider is in flight at the end, under vertical motion without `settle`; its
         residual is then x at the end of the ground motion.
@@ -79,6 +95,9 @@ class SweepTable(Tabular, Saved):
         stops, or if the table was saved before impacts were kept; so too the next three.
     impact_speed_forward, impact_speed_backward : ndarray
         Largest speed just before an impact [m/s]; 0 without impacts.
+    impacts, impact_speed : ndarray
+        In the plane, instead of these four: number of impacts on the circular stop, bounces
+        included, and largest radial speed just before an impact [m/s].
     sliders : tuple of str
         The reprs of the sliders.
     parameters : dict of ndarray
@@ -104,7 +123,8 @@ class SweepTable(Tabular, Saved):
     Tables have a row for each combination: columns `slider` and its parameters, `record` and its
     metadata, `polarity`, `peak`, `residual`, `sliding_distance` [m], `events`; with stops also
     `impacts_forward`, `impact_speed_forward` [m/s] and the same backward; `airborne` if a slider
-    ends in flight.
+    ends in flight. In the plane also `residual_axis` and `residual_transverse` [m], and with stops
+    `impacts` and `impact_speed`.
 
     The file of `save` is also of the format netCDF-4: ``xarray.open_dataset(file)`` opens it with
     the package netCDF4 or h5netcdf, over the dimensions `slider`, `record` and `polarity`. Every
@@ -129,6 +149,7 @@ class SweepTable(Tabular, Saved):
         events: ArrayLike,
         failures: Sequence[SweepFailure] = (),
         airborne: ArrayLike | None = None,
+        components: Mapping[str, ArrayLike] | None = None,
         impacts: Mapping[str, ArrayLike] | None = None,
     ) -> None:
         self.sliders = tuple(sliders)
@@ -147,12 +168,15 @@ class SweepTable(Tabular, Saved):
         self.airborne: NDArray[np.bool_] = np.array(
             np.zeros(shape) if airborne is None else airborne, bool
         )
+        self._components: dict[str, NDArray[np.float64]] = {}  # in the plane
+        if components is not None:
+            self._components = {name: np.array(components[name], float) for name in COMPONENTS}
         # None if no slider has stops, or if the table was saved before impacts were kept.
         self._impacts: dict[str, NDArray[Any]] | None = None
         if impacts is not None:
             self._impacts = {
                 name: np.array(impacts[name], float if "speed" in name else np.int64)
-                for name in IMPACTS
+                for name in (PLANAR_IMPACTS if self.planar else IMPACTS)
             }
         for name, values in self.arrays().items():
             if values.shape != shape:
@@ -166,7 +190,7 @@ class SweepTable(Tabular, Saved):
         self.done = np.isfinite(self.peak).any(axis=(0, 2))
 
     @classmethod
-    def empty(cls, *, has_stops: bool, **about: Any) -> SweepTable:
+    def empty(cls, *, has_stops: bool, planar: bool, **about: Any) -> SweepTable:
         """A table without results."""
         shape = tuple(len(about[name]) for name in ("sliders", "records", "polarity"))
         nothing = np.full(shape, np.nan)
@@ -176,18 +200,47 @@ class SweepTable(Tabular, Saved):
             residual=nothing,
             sliding_distance=nothing,
             events=np.zeros(shape, int),
-            impacts=dict.fromkeys(IMPACTS, np.zeros(shape)) if has_stops else None,
+            components=dict.fromkeys(COMPONENTS, nothing) if planar else None,
+            impacts=dict.fromkeys(IMPACTS | PLANAR_IMPACTS, np.zeros(shape)) if has_stops else None,
         )
 
     def arrays(self, columns: bool = False) -> dict[str, NDArray[Any]]:
         """The arrays over slider, record and polarity; in columns `airborne` only if one is."""
-        arrays = {name: getattr(self, name) for name in QUANTITIES} | (self._impacts or {})
+        arrays = {name: getattr(self, name) for name in QUANTITIES}
+        arrays |= self._components | (self._impacts or {})
         return (
             arrays if columns and not self.airborne.any() else arrays | {"airborne": self.airborne}
         )
 
+    @property
+    def planar(self) -> bool:
+        """Whether the sliders move in the plane."""
+        return bool(self._components)
+
+    def _component(self, name: str) -> NDArray[np.float64]:
+        if not self.planar:
+            raise ValueError(
+                f"SweepTable: {name} is known of sliders in the plane; these move on one axis: see"
+                " residual"
+            )
+        return self._components[name]
+
+    @property
+    def residual_axis(self) -> NDArray[np.float64]:
+        return self._component("residual_axis")
+
+    @property
+    def residual_transverse(self) -> NDArray[np.float64]:
+        return self._component("residual_transverse")
+
     def _impact(self, name: str) -> NDArray[Any]:
         if self._impacts is not None:
+            if name not in self._impacts:
+                raise ValueError(
+                    f"SweepTable: {name} is not known of sliders"
+                    f" {'in the plane' if self.planar else 'on one axis'}; see"
+                    f" {' and '.join(self._impacts)}"
+                )
             return self._impacts[name]
         if any("stops=" in slider for slider in self.sliders):
             raise ValueError(
@@ -213,13 +266,22 @@ class SweepTable(Tabular, Saved):
         return self._impact("impact_speed_backward")
 
     @property
+    def impacts(self) -> NDArray[np.int64]:
+        return self._impact("impacts")
+
+    @property
+    def impact_speed(self) -> NDArray[np.float64]:
+        return self._impact("impact_speed")
+
+    @property
     def impact_fraction(self) -> NDArray[np.float64]:
         """Fraction of the records and polarities in which a slider hits a stop, shape (sliders,).
 
         Combinations that failed do not count. ValueError if no slider has stops, or if the table
         was saved before impacts were kept.
         """
-        hit = (self.impacts_forward + self.impacts_backward > 0).sum(axis=(1, 2))
+        counts = self.impacts if self.planar else self.impacts_forward + self.impacts_backward
+        hit = (counts > 0).sum(axis=(1, 2))
         count = np.isfinite(self.peak).sum(axis=(1, 2))
         return np.where(count > 0, hit / np.maximum(count, 1), np.nan)
 
@@ -246,14 +308,15 @@ class SweepTable(Tabular, Saved):
         p : float or array_like
             Probabilities from 0 to 1.
         quantity : {'peak', 'residual', 'sliding_distance'}
-            The residual counts by its magnitude.
+            The residual counts by its magnitude. In the plane also 'residual_axis' and
+            'residual_transverse'.
 
         Returns
         -------
         ndarray, shape (sliders,) or (probabilities, sliders)
             Quantiles [m], without combinations that failed; NaN where all failed.
         """
-        values = np.abs(getattr(self, _checked(quantity))).reshape(len(self.sliders), -1)
+        values = np.abs(getattr(self, self._checked(quantity))).reshape(len(self.sliders), -1)
         found = [
             np.quantile(row[np.isfinite(row)], p)
             if np.isfinite(row).any()
@@ -261,6 +324,14 @@ class SweepTable(Tabular, Saved):
             for row in values
         ]
         return np.moveaxis(np.array(found), 0, -1)
+
+    def _checked(self, quantity: str) -> str:
+        names = [name for name in (*QUANTITIES, *self._components) if name != "events"]
+        if quantity not in names:
+            raise ValueError(
+                f"SweepTable: quantity must be one of {', '.join(names)}, got {quantity!r}"
+            )
+        return quantity
 
     # ---- other forms
 
@@ -299,9 +370,10 @@ class SweepTable(Tabular, Saved):
             An object: `format`; `sliders`, `records`, `polarity`, `settle`, `contact`; `parameters`
             and `metadata`, by name a list with a value for each slider or record; `units` of the
             quantities; `peak`, `residual`, `sliding_distance`, `events` and `airborne`, with stops
-            also `impacts_forward`, `impact_speed_forward` and the same backward, each a list over
-            sliders of lists over records of lists over polarities; `failures`, each with `slider`
-            and `record` (counted from 0), `polarity` and `message`.
+            also `impacts_forward`, `impact_speed_forward` and the same backward (in the plane also
+            `residual_axis` and `residual_transverse`, and with stops `impacts` and `impact_speed`),
+            each a list over sliders of lists over records of lists over polarities; `failures`,
+            each with `slider` and `record` (counted from 0), `polarity` and `message`.
 
         Notes
         -----
@@ -361,7 +433,8 @@ class SweepTable(Tabular, Saved):
                 },
                 **{name: document[name] for name in QUANTITIES},  # float makes NaN of null
                 airborne=document.get("airborne"),
-                impacts=document if "impacts_forward" in document else None,
+                components=document if "residual_axis" in document else None,
+                impacts=document if {"impacts_forward", "impacts"} & document.keys() else None,
                 settle=document["settle"],
                 contact=document["contact"],
                 failures=[
@@ -483,12 +556,19 @@ class SweepTable(Tabular, Saved):
                 kind = h5[key].attrs["kind"]
                 length = shape[0 if kind == "parameters" else 1]
                 columns[kind][h5[key].attrs["name"]] = read(h5, key, (length,))
-        impacts = {name: read(h5, name, shape) for name in IMPACTS if "impacts_forward" in h5}
+        components = {name: read(h5, name, shape) for name in COMPONENTS if "residual_axis" in h5}
+        impacts = {
+            name: read(h5, name, shape)
+            for group, first in ((IMPACTS, "impacts_forward"), (PLANAR_IMPACTS, "impacts"))
+            for name in group
+            if first in h5
+        }
         return cls._of(
             False,
             **axes,
             **columns,
             **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
+            components=components or None,
             impacts=impacts or None,
             **about,
         )
@@ -538,7 +618,8 @@ class SweepTable(Tabular, Saved):
         Parameters
         ----------
         quantity : {'peak', 'residual', 'sliding_distance'}
-            The residual counts by its magnitude.
+            The residual counts by its magnitude. In the plane also 'residual_axis' and
+            'residual_transverse'.
         against : str, optional
             The parameter on the horizontal axis; default: the first one with numbers, or the
             sliders themselves if no parameter has any. If others vary too, each combination of
@@ -603,7 +684,7 @@ class SweepTable(Tabular, Saved):
 
 
 def parameters_of(
-    sliders: Sequence[AnySlider], given: Mapping[str, Sequence[Any]]
+    sliders: Sequence[AnySwept], given: Mapping[str, Sequence[Any]]
 ) -> dict[str, Any]:
     """The parameters that `grid` varied; for a list of Coulomb laws, mu."""
     if given or not all(isinstance(one, Coulomb) for one in sliders):
@@ -631,12 +712,3 @@ def _unlisted(values: list[Any]) -> list[Any]:
     if any(isinstance(one, str) and one not in numbers for one in values):
         return values
     return [math.nan if one is None else numbers.get(one, one) for one in values]
-
-
-def _checked(quantity: str) -> str:
-    names = [name for name in QUANTITIES if name != "events"]
-    if quantity not in names:
-        raise ValueError(
-            f"SweepTable: quantity must be one of {', '.join(names)}, got {quantity!r}"
-        )
-    return quantity
