@@ -158,6 +158,18 @@ inline void print_machine() {
               build.compiler.c_str(), build.build_type.c_str(), build.compiler_flags.c_str(), build.commit.c_str());
 }
 
+/// The rows as JSON: {"commit": ..., "rows": {NAME: {"median": ..., "least": ..., "spread": ...}}}.
+inline void print_rows(const std::vector<Timing>& timings) {
+  std::printf("{\"commit\": %s, \"rows\": {", json_string(stickslip::build_info().commit).c_str());
+  const char* comma = "";
+  for (const Timing& timing : timings) {
+    std::printf("%s\n  %s: {\"median\": %.3f, \"least\": %.3f, \"spread\": %.3f}", comma,
+                json_string(timing.name).c_str(), timing.median(), timing.least(), timing.spread());
+    comma = ",";
+  }
+  std::printf("}}\n");
+}
+
 /// @param base  the row with which the others are compared
 inline void print_table(std::string_view title, const std::vector<Timing>& timings, std::size_t base) {
   std::printf("\n%-44.*s %8s %8s %8s %8s\n", static_cast<int>(title.size()), title.data(), "median", "least", "spread",

@@ -112,14 +112,7 @@ int main(int argc, char** argv) {
 
   const auto timings = bench.run(asked.rounds);
   if (asked.json) {
-    std::printf("{\"commit\": %s, \"rows\": {", bench::json_string(build_info().commit).c_str());
-    const char* comma = "";
-    for (const bench::Timing& timing : timings) {
-      std::printf("%s\n  %s: {\"median\": %.3f, \"least\": %.3f, \"spread\": %.3f}", comma,
-                  bench::json_string(timing.name).c_str(), timing.median(), timing.least(), timing.spread());
-      comma = ",";
-    }
-    std::printf("}}\n");
+    bench::print_rows(timings);
     return EXIT_SUCCESS;
   }
   bench::print_machine();
