@@ -46,6 +46,8 @@ def declarations(folder):
         if not name.startswith("stickslip"):
             continue
         for member in compound.iter("memberdef"):
+            if "<" in text(member.find("name")):  # a specialization, which Breathe cannot name
+                continue
             directive = MEMBERS.get(member.get("kind"))
             full = f"{name}::{text(member.find('name'))}"
             if directive == "doxygenfunction":
