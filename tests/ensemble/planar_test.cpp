@@ -10,6 +10,7 @@
 #include "stickslip/excitation/with_transverse.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
+#include "support/size.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -102,9 +103,10 @@ TEST_CASE("members in the plane are what integrate says of them", "[ensemble][pl
 
 TEST_CASE("members with heated surfaces, springs and slopes are what integrate says of them", "[ensemble][planar]") {
   const auto motions = pairs();
+  const std::size_t members = size(6, 2);
   const auto check = [&](const auto& slider) {
-    const Ensemble e = run_ensemble(slider, motions, options(6));
-    for (std::size_t i = 0; i < 6; ++i) {
+    const Ensemble e = run_ensemble(slider, motions, options(members));
+    for (std::size_t i = 0; i < members; ++i) {
       const PlanarResponse r = integrate(slider, motions.sample(5, i));
       INFO("member " << i);
       REQUIRE(r.peak > 0);

@@ -21,8 +21,8 @@ namespace {
 /// Two independent components that rise and fade, of noise; a vertical one under which a slider may leave the ground.
 GroundMotion station(std::uint64_t seed, double vertical = 0, double dt = 0.02) {
   const std::size_t samples = 120;
-  std::vector<double> n = gaussian(3 * seed, samples, 4, false), t = gaussian(3 * seed + 1, samples, 3, false),
-                      up = gaussian(3 * seed + 2, vertical > 0 ? samples : 0, vertical, false);
+  std::vector<double> n = gaussian(3 * seed, samples, 4), t = gaussian(3 * seed + 1, samples, 3), up;
+  if (vertical > 0) up = gaussian(3 * seed + 2, samples, vertical);
   for (std::size_t i = 0; i < samples; ++i) {
     const double s = static_cast<double>(i) / static_cast<double>(samples - 1);
     for (auto* component : {&n, &t, &up})
