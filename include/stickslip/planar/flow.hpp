@@ -82,9 +82,8 @@ class PlanarFlow {
   [[gnu::noinline]] PlanarFlow(const Mounting& mounting, const Law& law, Vector2 place, Vector2 velocity,
                                PlanarStart start, const PlanarLoad& load, double duration, int& patience)
       : damping_(mounting.damping),
-        stiffness_(mounting.stiffness()),
         stop_(mounting.stops.forward()),
-        pendulum_(mounting.pendulum),
+        spring_(mounting.spring()),
         place_(place),
         velocity_(velocity),
         load_(load),
@@ -244,8 +243,7 @@ class PlanarFlow {
     const PlanarProgress to = at_parameter(s);
     Work work{dot(load_.start, to.way), 0, 0};
     // The spring of a pendulum does work against the deviation of the weight from 1.
-    const double heavier = pendulum_ ? stiffness_ * (1 - load_.weight) : 0;
-    if (pendulum_) work.load += heavier * (dot(place_, to.way) + dot(to.way, to.way) / 2);
+    if (spring_.pendulum) work.load += spring_.rate(1 - load_.weight) * (dot(place_, to.way) + dot(to.way, to.way) / 2);
     if (kind_ == Kind::stop) {
       work.load += dot(load_.rate, to.way) * to.time / 3;
       work.friction = level_ * to.distance;
@@ -253,7 +251,7 @@ class PlanarFlow {
       return work;
     }
     if (constant_level_) work.friction = level_ * to.distance;
-    const bool weighed = pendulum_ && !detail::equal(load_.weight_rate, 0);
+    const bool weighed = spring_.pendulum && !detail::equal(load_.weight_rate, 0);
     const int degree = square_degree();
     Array energy;  // of the spring, per stiffness
     if (weighed) {
@@ -268,7 +266,7 @@ class PlanarFlow {
       double load = 0, friction = 0, damper = 0;
       if (weighed)
         for (int i = 0; i < std::min(k, order_); ++i)
-          load -= (k - i) * t_[i] * load_.weight_rate * stiffness_ * energy[k - i];
+          load -= (k - i) * t_[i] * load_.weight_rate * spring_.stiffness * energy[k - i];
       for (int i = std::max(0, k - order_); i < std::min(k, order_); ++i) {
         const int rest = k - i;
         load += rest * t_[i] * (load_.rate.axis * x_[rest] + load_.rate.transverse * y_[rest]);
@@ -351,7 +349,7 @@ class PlanarFlow {
   }
   double velocity_at(const double* c, double s) const noexcept { return c[0] + value(c, s); }
 
-  Vector2 pull() const noexcept { return (stiffness_ * (pendulum_ ? load_.weight : 1)) * place_; }
+  Vector2 pull() const noexcept { return spring_.under(load_.weight) * place_; }
 
   void end_series(int order) noexcept {
     order_ = order;
@@ -391,7 +389,7 @@ class PlanarFlow {
     const double time = turns ? minus / (2 * (level + load)) : (plus / (level - load) + minus / (level + load)) / 2;
     if (!(time <= duration_)) return false;
     const double slower = detail::level_along(law, 0.0, speed / 2, 0.0);
-    const double changes = norm(load_.rate) + stiffness_ * (speed + std::abs(load_.weight_rate) * norm(place_)) +
+    const double changes = norm(load_.rate) + spring_.stiffness * (speed + std::abs(load_.weight_rate) * norm(place_)) +
                            std::abs(load_.weight_rate) * a +
                            (2 * load_.weight * std::abs(slower - a) / speed + damping_) * (level + load) +
                            load_.weight * (memory_slope(law) * speed + change_in_time(law, speed, a));
@@ -400,7 +398,7 @@ class PlanarFlow {
     const double far = norm(place_), closest = 0x1p-56 * far + 0x1p-64 * (level + load) * duration_ * duration_;
     if (changes * time * time * (turns ? time + std::sqrt(far / (level + load)) : time) > closest) return false;
     if (turns) {
-      const double sideways = std::abs(cross(to, load_.rate)) + stiffness_ * std::abs(cross(to, velocity_));
+      const double sideways = std::abs(cross(to, load_.rate)) + spring_.stiffness * std::abs(cross(to, velocity_));
       if (sideways * time > 0x1p-44 * (level + load)) return false;
     } else if (changes * time > (level - load) / 4) {
       return false;
@@ -430,7 +428,7 @@ class PlanarFlow {
       return 0;
   }
   static double memory_slope([[maybe_unused]] const Law& law) noexcept {
-    if constexpr (LinearLaw<Law>)
+    if constexpr (form_of<Law> == Form::linear)
       return std::abs(law.slope(Direction::forward));
     else
       return 0;
@@ -448,7 +446,7 @@ class PlanarFlow {
     resistance.update(0);
     const double a = resistance[0], level = load_.weight * a;
     level_ = level;
-    const double load = norm(q0), wn = std::sqrt(stiffness_);
+    const double load = norm(q0), wn = std::sqrt(spring_.stiffness);
     const double steepest = norm(load_.rate) + a * std::abs(load_.weight_rate);
     const double rate = level + load + (damping_ + wn) * speed + std::sqrt(steepest * speed);
     // The step in tau that takes as long as the segment, at a constant acceleration along the velocity.
@@ -459,7 +457,7 @@ class PlanarFlow {
       const double needed = duration_ / speed * (std::abs(grows) < 1e-3 ? 1 - grows / 2 : std::log1p(grows) / grows);
       h = std::min(h, 1.0625 * needed);
     }
-    const bool spring = stiffness_ > 0, weighed = !detail::equal(load_.weight_rate, 0);
+    const bool spring = spring_.stiffness > 0, weighed = !detail::equal(load_.weight_rate, 0);
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     vx_[0] = velocity_.axis, vy_[0] = velocity_.transverse, u_[0] = speed;
     l_[0] = level;
@@ -487,7 +485,7 @@ class PlanarFlow {
       if (spring) {
         double wx = x_[k], wy = y_[k];
         if (k == 0) wx = place_.axis, wy = place_.transverse;
-        if (pendulum_) {
+        if (spring_.pendulum) {
           double gx = 0, gy = 0;
           if (weighed) {
             gx = t_[k] * place_.axis, gy = t_[k] * place_.transverse;
@@ -496,8 +494,9 @@ class PlanarFlow {
           wx = load_.weight * wx + load_.weight_rate * gx;
           wy = load_.weight * wy + load_.weight_rate * gy;
         }
-        const double qx = load_.rate.axis * t_[k] - stiffness_ * wx + (k == 0 ? load_.start.axis : 0);
-        const double qy = load_.rate.transverse * t_[k] - stiffness_ * wy + (k == 0 ? load_.start.transverse : 0);
+        const double qx = load_.rate.axis * t_[k] - spring_.stiffness * wx + (k == 0 ? load_.start.axis : 0);
+        const double qy =
+            load_.rate.transverse * t_[k] - spring_.stiffness * wy + (k == 0 ? load_.start.transverse : 0);
         load_on[k] = {qx, qy, qx, qy};
         with_load[k] = {u_[k], u_[k], vx_[k], vy_[k]};
         const Four products = convolve(load_on, with_load, k);
@@ -557,8 +556,8 @@ class PlanarFlow {
     if (!(load * duration_ > follows * speed) || !(dot(velocity_, q) > 0)) return false;
     if (const double gap = stop_; norm(place_) > gap * (1 - 0x1p-30)) return false;  // its velocity would be turned
     // The direction lags behind that of the load by u/Q times its rate, to first order.
-    Vector2 rate = load_.rate - (pendulum_ ? stiffness_ * load_.weight_rate : 0.0) * place_;
-    rate = rate - (stiffness_ * (pendulum_ ? load_.weight : 1.0)) * velocity_;
+    const Vector2 rate =
+        load_.rate - spring_.rate(load_.weight_rate) * place_ - spring_.under(load_.weight) * velocity_;
     const double lag = speed / load, turns = cross(q, rate) / (load * load);
     const double actual = cross(q, velocity_) / (load * speed), error = std::abs(actual + lag * turns);
     const double per_time = lag * (norm(rate) / load + damping_) +
@@ -593,13 +592,12 @@ class PlanarFlow {
     const double load = norm(q0), level = load_.weight * resistance[0];
     level_ = level;
     constant_level_ = std::same_as<decltype(resistance), series::Constant> && detail::equal(load_.weight_rate, 0);
-    Vector2 rate = load_.rate;
-    if (pendulum_) rate = rate - (stiffness_ * load_.weight_rate) * place_;
+    const Vector2 rate = load_.rate - spring_.rate(load_.weight_rate) * place_;
     // Without any load the motion begins in the direction into which the load grows.
     const bool unloaded = !(load > 0);
     const double growth = norm(rate);
     const Vector2 to = unloaded ? (growth > 0 ? (1 / growth) * rate : Vector2{1, 0}) : (1 / load) * q0;
-    const double wn = std::sqrt(stiffness_);
+    const double wn = std::sqrt(spring_.stiffness);
     double h = duration_;
     if (wn > 0) h = std::min(h, 1 / wn);
     if (damping_ > 0) h = std::min(h, 1 / damping_);
@@ -642,12 +640,12 @@ class PlanarFlow {
           resistance.update(k);
           l_[k] = load_.weight * resistance[k] + gains * resistance[k - 1];
           double wa = ra[k], wb = rb[k];
-          if (pendulum_) {
+          if (spring_.pendulum) {
             wa = load_.weight * wa + gains * ra[k - 1];
             wb = load_.weight * wb + gains * rb[k - 1];
           }
-          qa[k] = (k == 1 ? pa * h : 0) - stiffness_ * wa;
-          qb[k] = (k == 1 ? pb * h : 0) - stiffness_ * wb;
+          qa[k] = (k == 1 ? pa * h : 0) - spring_.stiffness * wa;
+          qb[k] = (k == 1 ? pb * h : 0) - spring_.stiffness * wb;
         }
         // Perpendicular to the load; the part of e along it follows from |e| = 1.
         double turned = 0;
@@ -753,8 +751,7 @@ class PlanarFlow {
     resistance.update(0);
     constant_level_ = std::same_as<decltype(resistance), series::Constant> && detail::equal(load_.weight_rate, 0);
     level_ = l_[0] = load_.weight * resistance[0];
-    const double spring = stiffness_ * (pendulum_ ? load_.weight : 1);
-    const double spring_rate = pendulum_ ? stiffness_ * load_.weight_rate : 0;
+    const double spring = spring_.under(load_.weight), spring_rate = spring_.rate(load_.weight_rate);
     double h = duration_;
     const double rate = speed / gap + std::sqrt((norm(load_.start) + level_) / gap) +
                         std::cbrt((norm(load_.rate) + resistance[0] * std::abs(load_.weight_rate)) / gap) + damping_;
@@ -856,8 +853,8 @@ class PlanarFlow {
       64;  // times in which a direction turns into that of the load, at least, in a slow slip
   static constexpr double largest_step = 2;  // of tau times the rate of the motion
 
-  double damping_, stiffness_, stop_;
-  bool pendulum_;
+  double damping_, stop_;
+  Spring spring_;
   bool constant_level_ = false;
   bool stops_ = false, leaves_ = false;
   Kind kind_ = Kind::series;

@@ -57,7 +57,7 @@ struct PlanarForce {
 template <IsotropicLaw Law>
 PlanarForce force_on(const PlanarSlider<Law>& slider, const PlanarState& state, Vector2 load, double normal) {
   const double weight = state.in_flight ? 0 : std::max(normal, 0.0) / standard_gravity;
-  const double pull = slider.stiffness() * (slider.mounting().pendulum ? weight : 1);
+  const double pull = slider.mounting().spring().under(weight);
   PlanarForce force{{}, slider.damping() * state.velocity, pull * state.displacement, weight * standard_gravity};
   const Vector2 q = load - force.spring;
   if (state.mode == PlanarMode::stuck) {

@@ -131,7 +131,7 @@ class PlanarRecorder {
 template <IsotropicLaw Law, class Go>
 bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
-  if constexpr (ConstantLevelLaw<Law>)
+  if constexpr (form_of<Law> == Form::constant)
     if (state.mode != PlanarMode::stuck && !(hold(slider.law(), 0, Direction::forward) > 0)) longest = 0;
   const double wn = slider.natural_frequency();
   double scale = wn > 0 ? norm(state.velocity) / wn : 0;  // of the displacement [m]
