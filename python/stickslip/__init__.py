@@ -102,6 +102,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "ASCE43Estimate",
     "Caster",
     "Comparison",
     "ConvergenceError",
@@ -159,6 +160,7 @@ __all__ = [
     "WithVertical",
     "__version__",
     "advance",
+    "asce43",
     "build_info",
     "compare",
     "ensemble_sensitivity",
@@ -207,6 +209,7 @@ if not TYPE_CHECKING:
             "sliding_spectrum",
             "sweep",
         ),
+        "risk.asce43": ("ASCE43Estimate", "asce43"),
         "risk.yield_acceleration": ("yield_acceleration",),
     }
 
