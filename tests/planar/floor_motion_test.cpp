@@ -55,7 +55,8 @@ TEST_CASE("the momentum of a floor in the plane is that of its motion", "[planar
       PlanarSlider(StaticKinetic(Coulomb(0.8), 1.1)),
       PlanarSlider(Degrading({0, 0.2}, {1, 0.5})),
       PlanarSlider(Coulomb(0.3), {.natural_frequency = 3, .stops = {0.02, 0.02, 0.6}}),
-      PlanarSlider(KumarFriction({.mu_ref = 0.06, .static_pressure = 20e6, .contact_radius = 0.2}))};
+      PlanarSlider(
+          KumarFriction({.mu_ref = 0.06, .static_pressure = 20e6, .reference_pressure = 20e6, .contact_radius = 0.2}))};
   for (const double vertical : {0.0, 8.0}) {
     const GroundMotion ground = pair(vertical);
     Vector2 before;

@@ -65,9 +65,9 @@ class HeldSlip {
     if (!(duration < until_stop * (1 - 0x1p-20))) return decay / (plus_ > 0 ? slow : fast);
     const double u = (plus_ + minus_) / 2, slower = (slow * plus_ + fast * minus_) / 2,
                  bend = (slow * slow * plus_ + fast * fast * minus_) / 2;
-    const double part = duration / u, change = slower * part / u;
-    double tau = part * (1 + change / 2 + (3 * change * change - bend * part * part / u) / 6), low = 0, high = never_;
-    if (!(std::abs(change) < 0.25)) {
+    const double part = duration / u, change = slower * part / u, bends = bend * part * part / u;
+    double tau = part * (1 + change / 2 + (3 * change * change - bends) / 6), low = 0, high = never_;
+    if (!(std::abs(change) < 0.25 && bends < 0.25)) {
       tau = part;
       if (slow < 0 && plus_ > 0) tau = std::min(tau, std::log1p(-2 * slow * duration / plus_) / -slow);
     }
@@ -76,7 +76,8 @@ class HeldSlip {
       const double excess = time(e, tau) - duration;
       (excess < 0 ? low : high) = tau;
       const double speed = (plus_ * (1 + e.plus) + minus_ * (1 + e.minus)) / 2, next = tau - excess / speed;
-      if (std::abs(next - tau) <= 0x1p-27 * tau) return next;  // the error of the next step is its square
+      // The error of the next step is the square of this one.
+      if (std::abs(next - tau) <= 0x1p-27 * std::min(tau, 1 / fast)) return next;
       tau = next > low && next < high ? next : high < never_ ? low + (high - low) / 2 : 2 * tau;
       if (!(low < tau && tau < high)) return tau;
     }
