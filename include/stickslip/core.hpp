@@ -15,6 +15,7 @@
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/planar/advance.hpp"
 #include "stickslip/planar/forces.hpp"
+#include "stickslip/planar/histories.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"

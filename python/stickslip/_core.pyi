@@ -2307,8 +2307,13 @@ def continuation(
     max_amplitude: _Number = ...,
     max_orbits: SupportsIndex = 10_000,
 ) -> OrbitBranch: ...
+@overload
 def histories(
     slider: _AnySlider, motion: GroundMotion
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+@overload
+def histories(
+    slider: PlanarSlider, motion: GroundMotion
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def acceleration_unit(name: str) -> float: ...
 def _parse_components(

@@ -173,6 +173,22 @@ def test_at_any_time_and_step_by_step():
     )
 
 
+@pytest.mark.parametrize("name", SLIDERS)
+def test_histories_are_those_of_integrate(name):
+    quake = station(5, vertical=noise(205))
+    r = ss.integrate(SLIDERS[name], quake)
+    x, v = ss.histories(SLIDERS[name], quake)
+    assert x.shape == v.shape == (len(quake), 2)
+    assert np.array_equal(x, r.displacement)
+    assert np.array_equal(v, r.velocity)
+    with pytest.raises(ValueError, match="read-only"):
+        x[0, 0] = 1
+    with pytest.raises(ValueError, match="histories: a PlanarSlider needs both horizontal comp"):
+        ss.histories(SLIDERS[name], ss.GroundMotion(noise(1), dt=0.01, name="x"))
+    with pytest.raises(TypeError, match="histories: the motion of a PlanarSlider must be a Ground"):
+        ss.histories(SLIDERS[name], [1.0, 2.0])
+
+
 def test_a_start_in_motion_and_a_circular_stop():
     slider = SLIDERS["stop"]
     quiet = ss.GroundMotion(np.zeros(300), dt=0.01, transverse=np.zeros(300))

@@ -98,6 +98,9 @@ void check_start(const PlanarSlider<Law>& slider, const PlanarState& state, cons
   if (place > gap * (1 + 0x1p-48))
     throw std::invalid_argument(std::string(function) + ": the displacement must be within the stop at " +
                                 shortest(gap) + " m, got |r| = " + shortest(place) + " m");
+  if (state.mode == PlanarMode::along_stop && !(place > gap * (1 - 0x1p-47)))
+    throw std::invalid_argument(std::string(function) + ": a slider that slides along its stop must be at |r| = " +
+                                shortest(gap) + " m, got |r| = " + shortest(place) + " m");
 }
 
 }  // namespace detail
@@ -111,7 +114,8 @@ void check_start(const PlanarSlider<Law>& slider, const PlanarState& state, cons
 /// @param state     state at the start, finite; replaced by the state at the end. `PlanarState::at(r, v)` makes one
 /// @param observer  receives events and flows (PlanarObserver); optional
 /// @param contact   what the slider does while N < 0
-/// @throws std::invalid_argument  a number of the segment or the state is not finite; a place beyond the stop
+/// @throws std::invalid_argument  a number of the segment or the state is not finite; a place beyond the stop, or off
+///                                the stop along which the slider slides
 /// @throws std::overflow_error    the motion leaves the range of doubles
 /// @throws ConvergenceError       more than three million steps within a hundredth of the segment
 /// On any error `state` is unchanged. Accuracy: near round-off. Cost: about 10 ns at rest, 0.5 to 1.5 us while it

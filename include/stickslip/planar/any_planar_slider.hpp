@@ -15,6 +15,7 @@
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/planar/floor_motion.hpp"
 #include "stickslip/planar/forces.hpp"
+#include "stickslip/planar/histories.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/segment.hpp"
@@ -47,6 +48,10 @@ inline const Mounting& mounting_of(const AnyPlanarSlider& slider) {
 /// As the template of the same name.
 PlanarResponse integrate(const AnyPlanarSlider& slider, const GroundMotion& motion,
                          const PlanarIntegrateOptions& options = {}, PlanarResponse storage = {});
+
+/// As the template of the same name.
+PlanarHistories histories(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                          const std::function<void()>& progress = {});
 
 /// As the template of the same name, with a function that is called now and then during a long segment, and may throw.
 void advance(const AnyPlanarSlider& slider, const PlanarSegment& segment, PlanarState& state,

@@ -48,7 +48,7 @@ class PlanarPieces {
         slope_(slope) {
     if (!motion.has_transverse())
       throw std::invalid_argument(
-          "integrate: a PlanarSlider needs a ground motion with a transverse component, got one along the axis only; "
+          "a PlanarSlider needs a ground motion with a transverse component, got one along the axis only; "
           "give GroundMotion its transverse component, or read all components of the station");
   }
 

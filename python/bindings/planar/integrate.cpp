@@ -10,14 +10,7 @@ namespace {
 PlanarResponseWithInputs integrate_planar(const AnyPlanarSlider& slider, const py::object& motion,
                                           const py::object& displacement, const py::object& velocity, bool settle,
                                           const std::string& contact, double sliding_distance) {
-  if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error("integrate: the motion of a PlanarSlider must be a GroundMotion, got " +
-                         py::type::of(motion).attr("__name__").cast<std::string>());
-  const auto& ground = motion.cast<const GroundMotion&>();
-  if (!ground.has_transverse())
-    throw std::invalid_argument(
-        "integrate: a PlanarSlider needs both horizontal components; '" + ground.name() +
-        "' has no transverse component: give GroundMotion(..., transverse=...), or read both with read_station(file)");
+  const GroundMotion& ground = both_components(motion, "integrate");
   const PlanarIntegrateOptions options{to_vector2(displacement, "integrate: displacement", "m"),
                                        to_vector2(velocity, "integrate: velocity", "m/s"),
                                        settle,
