@@ -353,8 +353,8 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f" {' and '.join(given) or 'none'}"
             )
         if spectrum is None:
-            factors = self._factors("scaled_to", given[0], targets[given[0]], period, damping)
-            return self.scaled(factors)
+            level = targets[given[0]]
+            return self.scaled(self._factors("scaled_to", given[0], level, period, damping))
         if period is not None:
             raise ValueError("Suite.scaled_to: period goes with sa_g, got it with spectrum")
         if isinstance(spectrum, ResponseSpectrum):
