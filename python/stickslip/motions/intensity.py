@@ -190,5 +190,9 @@ def spectra(suite: _Suite, periods: Any, damping: Any, kind: str) -> SuiteSpectr
 def beside(
     own: Mapping[str, NDArray[Any]], metadata: Mapping[str, NDArray[Any]]
 ) -> dict[str, NDArray[Any]]:
-    """The columns of a table, and those of the metadata, named ``..._given`` if they clash."""
-    return {**own, **{(f"{n}_given" if n in own else n): c for n, c in metadata.items()}}
+    """The columns of a table, and those of the metadata, named ``..._given`` if they clash.
+
+    A column of the metadata that repeats one of the table is left out.
+    """
+    others = {n: c for n, c in metadata.items() if n not in own or not np.array_equal(own[n], c)}
+    return {**own, **{(f"{n}_given" if n in own else n): c for n, c in others.items()}}

@@ -101,8 +101,8 @@ class SweepTable(Tabular, Saved):
     sliders : tuple of str
         The reprs of the sliders.
     parameters : dict of ndarray
-        By name, the parameters that `grid` varied, for each slider; for a list of Coulomb laws,
-        `mu`.
+        By name, the parameters that `grid` varied or that were drawn from a `Random`, for each
+        slider; for a list of Coulomb laws, `mu`.
     records : tuple of str
         Names of the ground motions.
     metadata : dict of ndarray
