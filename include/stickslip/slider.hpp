@@ -11,6 +11,7 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/spring.hpp"
 #include "stickslip/stops.hpp"
 #include "stickslip/units.hpp"
 
@@ -27,6 +28,7 @@ struct Mounting {
 
   /// wn^2, spring stiffness per unit mass [1/s^2].
   double stiffness() const noexcept { return natural_frequency * natural_frequency; }
+  Spring spring() const noexcept { return {stiffness(), pendulum}; }
   /// Slope of the ground [rad].
   double slope() const noexcept { return slope_degrees * (std::numbers::pi / 180); }
 
@@ -154,13 +156,6 @@ class Slider {
 };
 
 namespace detail {
-
-/// Force of the spring at x under a weight N+/g, per unit mass [m/s^2]: only a pendulum's depends on the weight.
-template <class Law>
-double pull(const Slider<Law>& slider, double x, double weight) noexcept {
-  const double pull = slider.stiffness() * x;
-  return slider.mounting().pendulum ? weight * pull : pull;
-}
 
 /// Throws for a mounting that a function without vertical motion does not cover. (A pendulum is then a spring.)
 template <FrictionLaw Law>

@@ -2433,11 +2433,12 @@ def draw(
 def describe(distribution: Lognormal | Normal | Uniform | _Number) -> str: ...
 @overload
 def response_spectrum(
-    motion: GroundMotion | Response,
+    motion: GroundMotion | Response | PlanarResponse,
     periods: _Number | _Samples,
     damping: _Number | _Samples = 0.05,
     *,
     kind: _SpectrumKind = "pseudo_acceleration",
+    direction: _Number = 0.0,
 ) -> ResponseSpectrum: ...
 @overload
 def response_spectrum(
@@ -2447,6 +2448,13 @@ def response_spectrum(
     *,
     kind: _SpectrumKind = "pseudo_acceleration",
 ) -> SuiteSpectra: ...
+
+class _PlanarFloorMotion:
+    def __init__(self, response: PlanarResponse) -> None: ...
+    def spectrum(
+        self, direction: _Number, periods: _Number | _Samples, damping: _Number, kind: str
+    ) -> ResponseSpectrum: ...
+
 @overload
 def strong_motion(motion: GroundMotion) -> StrongMotion: ...
 @overload

@@ -53,7 +53,7 @@ const VelocityDependent liner(0.3, 0.6, 50), weakening(0.9, 0.4, 20);
 const Stribeck stribeck(0.8, 0.4, 0.05, 2);
 const Caster caster(0.7, 0.4);
 
-static_assert(NumericLaw<ByNumbers<Caster>> && !NumericLaw<Caster>);
+static_assert(form_of<ByNumbers<Caster>> == Form::numeric && form_of<Caster> != Form::numeric);
 
 GroundMotion with_vertical() {
   std::vector<double> up;

@@ -39,7 +39,7 @@ struct Viscous {
 };
 
 static_assert(FrictionLaw<Viscous> && SpeedLaw<Viscous> && !PositionLaw<Viscous>);
-static_assert(ConstantLevelLaw<Sticky> && LawWithHold<Sticky>);
+static_assert(form_of<Sticky> == Form::constant && LawWithHold<Sticky>);
 
 }  // namespace
 

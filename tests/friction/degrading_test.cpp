@@ -21,7 +21,8 @@ using namespace stickslip;
 using namespace test;
 
 static_assert(MemoryLaw<Degrading> && FrictionLaw<Degrading> && !MemorylessLaw<Degrading>);
-static_assert(LinearLaw<Degrading::Piece> && !LinearLaw<Coulomb> && !ConstantLevelLaw<Degrading>);
+static_assert(form_of<Degrading::Piece> == Form::linear && form_of<Coulomb> != Form::linear &&
+              form_of<Degrading> != Form::constant);
 static_assert(MemoryLaw<StaticKinetic<Degrading>> && LawWithHold<StaticKinetic<Degrading>>);
 
 namespace {

@@ -9,7 +9,7 @@
 
 using namespace stickslip;
 
-static_assert(NumericLaw<FunctionLaw> && LawWithHold<FunctionLaw>);
+static_assert(form_of<FunctionLaw> == Form::numeric && LawWithHold<FunctionLaw>);
 
 TEST_CASE("a law of functions names what is wrong with a level", "[function_law]") {
   CHECK_THROWS_AS(FunctionLaw(FunctionLaw::Resist()), std::invalid_argument);

@@ -19,7 +19,7 @@ using namespace stickslip;
 using namespace test;
 
 static_assert(HeatedLaw<KumarFriction> && MemoryLaw<KumarFriction> && !MemorylessLaw<KumarFriction>);
-static_assert(NumericLaw<KumarFriction::Now> && !HeatedLaw<Degrading>);
+static_assert(form_of<KumarFriction::Now> == Form::numeric && !HeatedLaw<Degrading>);
 
 namespace {
 

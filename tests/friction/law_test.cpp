@@ -49,9 +49,9 @@ double bump_work(const Bump& law, double from, double distance) {
   return static_cast<double>(law.slip_level * law.reach * std::sqrt(std::numbers::pi_v<long double>) / 2 * area);
 }
 
-static_assert(FrictionLaw<Coulomb> && ConstantLevelLaw<Coulomb>);
-static_assert(FrictionLaw<Caster> && !ConstantLevelLaw<Caster>);
-static_assert(FrictionLaw<Bump> && !ConstantLevelLaw<Bump>);
+static_assert(FrictionLaw<Coulomb> && form_of<Coulomb> == Form::constant);
+static_assert(FrictionLaw<Caster> && form_of<Caster> != Form::constant);
+static_assert(FrictionLaw<Bump> && form_of<Bump> != Form::constant);
 static_assert(FrictionLaw<Ripple> && FrictionLaw<Quadratic> && FrictionLaw<Disguised>);
 static_assert(LawWithWork<Coulomb> && LawWithWork<Caster> && LawWithWork<Quadratic> && !LawWithWork<Bump>);
 static_assert(SpeedLaw<RateDependent> && !PositionLaw<RateDependent> && !LawWithHold<RateDependent>);

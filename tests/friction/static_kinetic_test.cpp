@@ -13,7 +13,8 @@ using namespace stickslip;
 using namespace test;
 using Catch::Matchers::ContainsSubstring;
 
-static_assert(ConstantLevelLaw<StaticKinetic<>> && LawWithWork<StaticKinetic<>> && LawWithHold<StaticKinetic<>>);
+static_assert(form_of<StaticKinetic<>> == Form::constant && LawWithWork<StaticKinetic<>> &&
+              LawWithHold<StaticKinetic<>>);
 static_assert(SpeedLaw<StaticKinetic<VelocityDependent>> && !PositionLaw<StaticKinetic<VelocityDependent>>);
 
 namespace {

@@ -63,7 +63,7 @@ void require_differentiable_mean(const Slider<Law>& slider) {
     throw std::invalid_argument("ensemble_sensitivity: covers Coulomb friction without stops, got " + reason +
                                 "; take differences of two ensembles with the same seed");
   };
-  if constexpr (NumericLaw<Law>)
+  if constexpr (form_of<Law> == Form::numeric)
     refuse("a law given as functions of numbers, whose derivatives are not known");
   else if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck>)
     refuse(

@@ -159,7 +159,7 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   double gain_of_speed() const noexcept {
     double force = std::abs(start_.acceleration) + level_here_ + gain_.largest(horizon_, 1);
     force += mounting_.damping * start_.speed;
-    if (mounting_.pendulum) force += std::abs(weight_rate_) * horizon_ * stiffness() * std::abs(displacement_);
+    force += mounting_.spring().rate(std::abs(weight_rate_)) * horizon_ * std::abs(displacement_);
     return horizon_ * force;
   }
   // Whether the motion within the horizon is too small to matter.
@@ -186,13 +186,14 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
     Values a{}, v{}, d{}, force{}, q{};
     for (std::size_t i = 0; i < n; ++i) a[i] = start_.acceleration + gain_.at(h, nodes.nodes[i]);
     a[0] = start_.acceleration;
+    const Spring spring = mounting_.spring();
     const auto pull = [&](std::size_t i, double way) {  // change of the spring force since the start
-      if constexpr (loaded)
-        if (mounting_.pendulum) {
-          const double now = weight(0), then = weight(nodes.nodes[i]);
-          return stiffness() * (then * way + (then - now) * s * displacement_);
-        }
-      return stiffness() * way;
+      if constexpr (loaded) {
+        const double now = weight(0), then = weight(nodes.nodes[i]);
+        return spring.under(then) * way + spring.rate(then - now) * s * displacement_;
+      } else {
+        return spring.stiffness * way;
+      }
     };
     // No force of this step makes the slider faster; a spring, up to four times as fast over `longest_trial`.
     const double speed_limit = 4 * (start_.speed + gain_of_speed());
@@ -293,7 +294,7 @@ class Collocating : public detail::LawFlows<Law> {
  public:
   explicit Collocating(const Slider<Law>& slider) : Base(slider.law()), slider_(slider) {}
 
-  double pull(double x, double weight) const noexcept { return detail::pull(slider_, x, weight); }
+  double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
 
   template <class SlipStart>

@@ -66,13 +66,13 @@ class Remembering : public detail::LawFlows<Law> {
  public:
   explicit Remembering(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
 
-  double pull(double x, double weight) const noexcept { return detail::pull(slider_, x, weight); }
+  double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
 
   /// The returned flow must be destroyed before the next call.
   template <class SlipStart>
   auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
-    if constexpr (std::same_as<SlipStart, Start> && LinearLaw<Now>) {
+    if constexpr (std::same_as<SlipStart, Start> && form_of<Now> == Form::linear) {
       const Now law = slider_.law().at(state);
       return LinearLevelFlow(slider_.damping(), slider_.stiffness(), law.resist(state.displacement, direction),
                              law.slope(direction), start, duration);
@@ -92,7 +92,7 @@ class Remembering : public detail::LawFlows<Law> {
 /// Makes flows that support the law under any load.
 template <FrictionLaw Law>
 auto general_flows(const Slider<Law>& slider) {
-  if constexpr (HeatedLaw<Law> || NumericLaw<Law>)
+  if constexpr (form_of<Law> == Form::numeric)
     return Collocating<Law>(slider);
   else if constexpr (MemoryLaw<Law>)
     return Remembering<Law>(slider);

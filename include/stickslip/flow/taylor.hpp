@@ -178,7 +178,9 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
       // Just after breakaway x is cubic in time, and two of three coefficients of the level are zero. A linear level
       // converges as fast as the speed.
       const double recent_level =
-          LinearLaw<Law> ? 0 : std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
+          form_of<Law> == Form::linear
+              ? 0
+              : std::max(std::max(std::abs(level[k]), std::abs(level[k - 1])), std::abs(level[k - 2]));
       // From rest, or nearly so, x may also return to its start at the horizon, where the check would then see nothing.
       const bool fast = start_.speed > fastest_ / 16;
       if (recent_level <= largest_level && (fast || balanced(0.6)) && balanced(1)) return 1;
@@ -198,9 +200,10 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
     const double gain = gain_.at(horizon_, part), drag = slider_.damping() * (end_.speed - start_.speed);
     const double now = weight(0), then = weight(part);
     double pull = slider_.stiffness() * end_.distance;
-    if constexpr (loaded)
-      if (slider_.mounting().pendulum)
-        pull = then * pull + slider_.stiffness() * (then - now) * sign(direction_) * displacement_;
+    if constexpr (loaded) {
+      const Spring spring = slider_.mounting().spring();
+      pull = spring.under(then) * end_.distance + spring.rate(then - now) * sign(direction_) * displacement_;
+    }
     const double net = start_.acceleration + gain - pull - drag - (then * level_there - now * level_here_);
     const double terms = std::abs(start_.acceleration) + gain_.largest(horizon_, part) + std::abs(pull) +
                          slider_.damping() * fastest_ + now * std::abs(level_here_) + then * std::abs(level_there) +
@@ -255,7 +258,7 @@ class Taylor : public detail::LawFlows<Law> {
  public:
   explicit Taylor(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
 
-  double pull(double x, double weight) const noexcept { return detail::pull(slider_, x, weight); }
+  double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
   double drag(double speed) const noexcept { return slider_.damping() * speed; }
 
   template <class AnyState, class SlipStart>

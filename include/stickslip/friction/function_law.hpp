@@ -8,9 +8,9 @@
 
 namespace stickslip {
 
-/// A friction law whose levels are functions, such as those of another language or of an input file. It is a
-/// NumericLaw: its motion is computed by collocation, to 1e-10 of the scale. A law that is known when the program is
-/// compiled is faster as a class of its own; see FrictionLaw.
+/// A friction law whose levels are functions, such as those of another language or of an input file. Its
+/// form is numeric: its motion is computed by collocation, to 1e-10 of the scale. A law that is known when the program
+/// is compiled is faster as a class of its own; see FrictionLaw.
 class FunctionLaw {
  public:
   static constexpr bool numeric = true;

@@ -1,9 +1,11 @@
-// The concepts that a friction law satisfies.
+// What a friction law is: what its level depends on, in which form, how much it holds at rest, and whether it is equal
+// in both directions.
 #pragma once
 
 #include <concepts>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
@@ -55,23 +57,13 @@ class InvalidLevel : public std::invalid_argument, public NoLevel {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A law that is defined by numbers only, such as a table or a function in another language. It declares `static
-/// constexpr bool numeric = true;`, and its `resist` need not be a template. It must be continuous in x and speed. The
-/// motion is computed by collocation, to 1e-10 of the scale.
-template <class Law>
-concept NumericLaw = MemorylessLaw<Law> && requires {
-  requires Law::numeric;
-};
-
 /// A law with memory: its slip level depends on State::sliding_distance. It defines its friction through another law:
 ///
 ///     at(state)                // the law in x and speed that applies from this state on
 ///     ahead(state, direction)  // distance in a direction over which that law applies [m], positive; infinite: always
 ///     pass(state, direction)   // moves a state to the end of that distance: x and the sliding distance
 ///
-/// The level must be continuous there. If the law that `at` returns is linear in x, it defines `slope(direction)`,
-/// the derivative of the resistance with respect to the distance slid in that direction [1/s^2]. The motion is then
-/// known in closed form.
+/// The level must be continuous there.
 template <class Law>
 concept MemoryLaw = std::copy_constructible<Law> &&
     requires(const Law& law, const State& state, State& there, Direction direction) {
@@ -132,11 +124,30 @@ decltype(auto) law_at(const Law& law, const AnyState& state, double weight = 1) 
     return law;
 }
 
-/// A law that is linear in x while the slider moves in one direction.
-template <class Law>
-concept LinearLaw = PositionLaw<Law> && requires(const Law& law, Direction direction) {
-  { law.slope(direction) } -> std::convertible_to<double>;
+/// How the resistance varies with x and speed while the slider moves in one direction: this decides how its motion is
+/// computed. A law with memory has the form of the law that applies from a state on.
+enum class Form {
+  constant,  ///< the law declares `static constexpr bool constant_while_sliding = true;`: closed forms
+  linear,    ///< in x; the law defines `slope(direction)`, the derivative in that direction [1/s^2]: closed forms
+  analytic,  ///< power series
+  numeric    ///< known by numbers only, such as a table or a function in another language: the law declares `static
+             ///< constexpr bool numeric = true;`, its `resist` need not be a template and must be continuous.
+             ///< Collocation, to 1e-10 of the scale
 };
+
+template <class Law>
+inline constexpr Form form_of = [] {
+  if constexpr (requires { requires Law::constant_while_sliding; })
+    return Form::constant;
+  else if constexpr (MemoryLaw<Law>)
+    return form_of<std::remove_cvref_t<decltype(law_at(std::declval<const Law&>(), State{}))>>;
+  else if constexpr (requires { requires Law::numeric; })
+    return Form::numeric;
+  else if constexpr (requires(const Law& law, Direction direction) { law.slope(direction); })
+    return Form::linear;
+  else
+    return Form::analytic;
+}();
 
 /// A law that can hold more at rest than its resistance at zero speed.
 template <class Law>
@@ -163,13 +174,6 @@ double hold(const Law& law, double x, Direction direction) {
   else
     return resists;
 }
-
-/// A law whose resistance is constant while the slider moves in one direction. The law declares this with
-/// `static constexpr bool constant_while_sliding = true;`. Its motion between events is known in closed form.
-template <class Law>
-concept ConstantLevelLaw = FrictionLaw<Law> && requires {
-  requires Law::constant_while_sliding;
-};
 
 /// A law with equal resistance in both directions. The law declares this with `static constexpr bool symmetric =
 /// true;`, which saves ensembles half of the work. (A derived law that is not symmetric declares `false`.)

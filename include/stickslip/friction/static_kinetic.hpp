@@ -25,8 +25,8 @@ namespace stickslip {
 template <FrictionLaw Law = Coulomb>
 class StaticKinetic {
  public:
-  static constexpr bool constant_while_sliding = ConstantLevelLaw<Law>;
-  static constexpr bool numeric = NumericLaw<Law>;
+  static constexpr bool constant_while_sliding = form_of<Law> == Form::constant;
+  static constexpr bool numeric = form_of<Law> == Form::numeric;
 
   /// @param sliding       the sliding law
   /// @param static_level  largest friction at rest in both directions, force per unit mass [m/s^2]; at least
@@ -78,7 +78,9 @@ class StaticKinetic {
     return sliding_.ahead(state, direction);
   }
   void pass(State& state, Direction direction) const requires MemoryLaw<Law> { sliding_.pass(state, direction); }
-  double slope(Direction direction) const noexcept requires LinearLaw<Law> { return sliding_.slope(direction); }
+  double slope(Direction direction) const noexcept requires(form_of<Law> == Form::linear) {
+    return sliding_.slope(direction);
+  }
 
  private:
   template <FrictionLaw>

@@ -181,7 +181,7 @@ class OrbitFinder {
     }
     orbit.amplitude = (high - low) / 2;
     orbit.phase = -std::remainder(omega_ * time, cycle);
-    orbit.mean_arbitrary = ConstantLevelLaw<Law> && equal(slider_.stiffness(), 0);
+    orbit.mean_arbitrary = form_of<Law> == Form::constant && equal(slider_.stiffness(), 0);
 
     Variation variation(place.state);
     after(place, std::numbers::pi, variation);
@@ -216,7 +216,7 @@ class OrbitFinder {
   std::vector<Orbit> find(const std::function<void()>& progress) const {
     std::vector<Orbit> found;
     if (load_ <= level(0)) found.push_back(rest());
-    if constexpr (ConstantLevelLaw<Law>) {
+    if constexpr (form_of<Law> == Form::constant) {
       if (!found.empty()) return found;
       if (const auto orbit = without_stops()) {
         found.push_back(*orbit);
@@ -247,7 +247,7 @@ class OrbitFinder {
     orbit.half_period_multipliers = {-1, 0};
     orbit.multipliers = {1, 0};
     orbit.stable = true;
-    orbit.mean_arbitrary = ConstantLevelLaw<Law> && equal(slider_.stiffness(), 0);
+    orbit.mean_arbitrary = form_of<Law> == Form::constant && equal(slider_.stiffness(), 0);
     return orbit;
   }
 

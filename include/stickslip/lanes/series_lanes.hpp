@@ -89,7 +89,7 @@ class SlideOfLanes {
     }
     x_[orders_ + 1] = to_x * u_[orders_] * series::reciprocal[orders_ + 1];
     converges_ = small;
-    if constexpr (ConstantLevelLaw<Law>) return;
+    if constexpr (form_of<Law> == Form::constant) return;
 
     // Whether the equation of motion holds at the end of the step, and within it for sliders that may have returned to
     // their initial position.
@@ -216,7 +216,7 @@ class SlideOfLanes {
     return (even + odd) + c[0];
   }
 
-  static constexpr double left_out = ConstantLevelLaw<Law> ? 0x1p-54 : 1e-14;  // relative to the largest term
+  static constexpr double left_out = form_of<Law> == Form::constant ? 0x1p-54 : 1e-14;  // relative to the largest term
 
   /// The arguments of `expand`, and the largest term of the speed.
   struct Beginning {
@@ -346,7 +346,7 @@ void advance_row(const SeriesLanes<Law>& lanes, std::size_t members, const doubl
                  gain = s * (last_load - load);
     Vector there, last_speed;
     Mask slides;
-    if constexpr (ConstantLevelLaw<Law>) {
+    if constexpr (form_of<Law> == Form::constant) {
       const DampedBasis& step = lanes.step;
       const Vector slope = gain / h;
       there = x + s * (speed * step.impulse + push * step.step + slope * step.ramp);

@@ -13,6 +13,7 @@
 #include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/planar/floor_motion.hpp"
 #include "stickslip/planar/forces.hpp"
 #include "stickslip/planar/integrate.hpp"
 #include "stickslip/planar/response.hpp"
@@ -57,5 +58,7 @@ void advance(const AnyPlanarSlider& slider, const PlanarLoadSegment& segment, Pl
 PlanarForces forces(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response);
 std::vector<PlanarState> states_at(const AnyPlanarSlider& slider, const GroundMotion& motion,
                                    const PlanarResponse& response, std::span<const double> times);
+PlanarFloorMotion floor_motion(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                               const PlanarResponse& response, double tolerance = 1e-6);
 
 }  // namespace stickslip

@@ -11,6 +11,7 @@
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/root.hpp"
+#include "stickslip/planar/detail/held_slip.hpp"
 #include "stickslip/planar/vector.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
@@ -24,14 +25,6 @@ struct PlanarLoad {
   Vector2 rate;            ///< its rate [m/s^3]
   double weight = 1;       ///< N+/g
   double weight_rate = 0;  ///< its rate [1/s]
-};
-
-/// The progress of a planar flow.
-struct PlanarProgress {
-  double time = 0;      ///< since its start [s]
-  Vector2 way;          ///< displacement since its start [m]
-  Vector2 velocity;     ///< r' [m/s]
-  double distance = 0;  ///< path length since its start [m]
 };
 
 /// How a planar flow starts: moving; from rest, under a load that exceeds the level or is equal to it; or pressed
@@ -82,15 +75,14 @@ class PlanarFlow {
   [[gnu::noinline]] PlanarFlow(const Mounting& mounting, const Law& law, Vector2 place, Vector2 velocity,
                                PlanarStart start, const PlanarLoad& load, double duration, int& patience)
       : damping_(mounting.damping),
-        stiffness_(mounting.stiffness()),
         stop_(mounting.stops.forward()),
-        pendulum_(mounting.pendulum),
+        spring_(mounting.spring()),
         place_(place),
         velocity_(velocity),
         load_(load),
         duration_(duration) {
     if (start == PlanarStart::moving) {
-      if (!close(law) && !follow(law, patience)) move(law);
+      if (!close(law) && !hold(law) && !follow(law, patience)) move(law);
     } else if (start == PlanarStart::along_stop) {
       move_along(law);
     } else {
@@ -113,7 +105,16 @@ class PlanarFlow {
   /// The progress at a parameter from 0 to `last()`: time, or regularized time.
   PlanarProgress at_parameter(double s) const noexcept {
     if (kind_ == Kind::stop) return closing_.at(1 - s, end_);
+    if (kind_ == Kind::held) return detail::equal(s, last_) ? end_ : held_.at(s);
     return {value(t_, s), {value(x_, s), value(y_, s)}, {velocity_at(vx_, s), velocity_at(vy_, s)}, value(s_, s)};
+  }
+
+  /// r'' at a parameter [m/s^2]; at a stop, its limit there.
+  Vector2 acceleration_at(double s) const noexcept {
+    if (kind_ == Kind::stop) return closing_.acceleration(std::max(1 - s, 0x1p-60));
+    if (kind_ == Kind::held) return held_.acceleration(s);
+    const double rate = slope(t_, s);
+    return (1 / rate) * Vector2{slope(vx_, s), slope(vy_, s)};
   }
 
   /// The parameter at a time from 0 to the horizon [s].
@@ -122,6 +123,7 @@ class PlanarFlow {
     if (!(time > 0)) return 0;
     if (kind_ == Kind::stop)
       return numerics::root([&](double s) { return at_parameter(s).time - time; }, 0, -time, 1, end_.time - time);
+    if (kind_ == Kind::held) return std::min(held_.parameter(time), last_);
     double low = 0, high = last_, s = last_ * (time / end_.time);
     for (int steps = 0; steps < 64; ++steps) {
       double sum = 0, slope = 0;
@@ -155,7 +157,7 @@ class PlanarFlow {
       s = next;
     }
   }
-  double distance_at(double s) const noexcept { return kind_ == Kind::stop ? at_parameter(s).distance : value(s_, s); }
+  double distance_at(double s) const noexcept { return is_series() ? value(s_, s) : at_parameter(s).distance; }
 
   /// The first parameter at which the path crosses a circle about the origin, outward or inward; `never` if it does
   /// not. A start on the circle is not counted.
@@ -190,6 +192,7 @@ class PlanarFlow {
   double largest_radius(double until, double peak, double& where) const noexcept {
     const double from = norm(place_);
     if (from + end_.distance <= peak) return 0;
+    if (kind_ == Kind::held) return held_.largest_radius(place_, until, where);
     const auto radius = [&](double s) { return norm(place_ + at_parameter(s).way); };
     where = until;
     double largest = radius(until);
@@ -229,7 +232,7 @@ class PlanarFlow {
     return largest;
   }
 
-  bool is_series() const noexcept { return kind_ != Kind::stop; }
+  bool is_series() const noexcept { return kind_ == Kind::series; }
   int order() const noexcept { return order_; }
   /// Coefficients of the displacement since the start, of order 1 to `order()`.
   const double* axis() const noexcept { return x_; }
@@ -244,8 +247,7 @@ class PlanarFlow {
     const PlanarProgress to = at_parameter(s);
     Work work{dot(load_.start, to.way), 0, 0};
     // The spring of a pendulum does work against the deviation of the weight from 1.
-    const double heavier = pendulum_ ? stiffness_ * (1 - load_.weight) : 0;
-    if (pendulum_) work.load += heavier * (dot(place_, to.way) + dot(to.way, to.way) / 2);
+    if (spring_.pendulum) work.load += spring_.rate(1 - load_.weight) * (dot(place_, to.way) + dot(to.way, to.way) / 2);
     if (kind_ == Kind::stop) {
       work.load += dot(load_.rate, to.way) * to.time / 3;
       work.friction = level_ * to.distance;
@@ -253,7 +255,8 @@ class PlanarFlow {
       return work;
     }
     if (constant_level_) work.friction = level_ * to.distance;
-    const bool weighed = pendulum_ && !detail::equal(load_.weight_rate, 0);
+    if (kind_ == Kind::held) return work;
+    const bool weighed = spring_.pendulum && !detail::equal(load_.weight_rate, 0);
     const int degree = square_degree();
     Array energy;  // of the spring, per stiffness
     if (weighed) {
@@ -268,7 +271,7 @@ class PlanarFlow {
       double load = 0, friction = 0, damper = 0;
       if (weighed)
         for (int i = 0; i < std::min(k, order_); ++i)
-          load -= (k - i) * t_[i] * load_.weight_rate * stiffness_ * energy[k - i];
+          load -= (k - i) * t_[i] * load_.weight_rate * spring_.stiffness * energy[k - i];
       for (int i = std::max(0, k - order_); i < std::min(k, order_); ++i) {
         const int rest = k - i;
         load += rest * t_[i] * (load_.rate.axis * x_[rest] + load_.rate.transverse * y_[rest]);
@@ -306,12 +309,17 @@ class PlanarFlow {
       left.distance = ((p > 0 ? p * p / slow : 0) + m * m / fast) / 8 + (p > 0 ? p * m / (4 * level) : 0);
       return left;
     }
+    Vector2 acceleration(double g) const noexcept {
+      const Vector2 velocity = to_stop(g).velocity;
+      const double speed = norm(velocity);
+      return load * to - (speed > 0 ? level / speed : 0) * velocity;
+    }
     PlanarProgress at(double g, const PlanarProgress& end) const noexcept {
       const PlanarProgress left = to_stop(g);
       return {end.time - left.time, end.way - left.way, left.velocity, end.distance - left.distance};
     }
   };
-  enum class Kind : unsigned char { series, stop };
+  enum class Kind : unsigned char { series, held, stop };
   using Array = double[highest_order + 2];
   struct Four {
     double of[4];
@@ -350,8 +358,14 @@ class PlanarFlow {
     return s * odd + z * even;
   }
   double velocity_at(const double* c, double s) const noexcept { return c[0] + value(c, s); }
+  // Its derivative.
+  double slope(const double* c, double s) const noexcept {
+    double sum = 0;
+    for (int k = order_; k >= 1; --k) sum = sum * s + k * c[k];
+    return sum;
+  }
 
-  Vector2 pull() const noexcept { return (stiffness_ * (pendulum_ ? load_.weight : 1)) * place_; }
+  Vector2 pull() const noexcept { return spring_.under(load_.weight) * place_; }
 
   void end_series(int order) noexcept {
     order_ = order;
@@ -385,13 +399,11 @@ class PlanarFlow {
     const double plus = along < 0 ? across * across / (speed - along) : speed + along;
     const double minus = along < 0 ? speed - along : across * across / (speed + along);
     const bool turns = !(load < level);
-    // The speed aside of a collinear motion is round-off of its largest speed, about sqrt((w a + Q) |r|).
-    const double collinear = std::max(0x1p-46 * speed, 0x1p-52 * std::sqrt((level + load) * norm(place_)));
-    if (turns && !(along < 0 && std::abs(across) <= collinear)) return false;
+    if (turns && !(along < 0 && is_collinear(across, speed, level + load))) return false;
     const double time = turns ? minus / (2 * (level + load)) : (plus / (level - load) + minus / (level + load)) / 2;
     if (!(time <= duration_)) return false;
     const double slower = detail::level_along(law, 0.0, speed / 2, 0.0);
-    const double changes = norm(load_.rate) + stiffness_ * (speed + std::abs(load_.weight_rate) * norm(place_)) +
+    const double changes = norm(load_.rate) + spring_.stiffness * (speed + std::abs(load_.weight_rate) * norm(place_)) +
                            std::abs(load_.weight_rate) * a +
                            (2 * load_.weight * std::abs(slower - a) / speed + damping_) * (level + load) +
                            load_.weight * (memory_slope(law) * speed + change_in_time(law, speed, a));
@@ -400,7 +412,7 @@ class PlanarFlow {
     const double far = norm(place_), closest = 0x1p-56 * far + 0x1p-64 * (level + load) * duration_ * duration_;
     if (changes * time * time * (turns ? time + std::sqrt(far / (level + load)) : time) > closest) return false;
     if (turns) {
-      const double sideways = std::abs(cross(to, load_.rate)) + stiffness_ * std::abs(cross(to, velocity_));
+      const double sideways = std::abs(cross(to, load_.rate)) + spring_.stiffness * std::abs(cross(to, velocity_));
       if (sideways * time > 0x1p-44 * (level + load)) return false;
     } else if (changes * time > (level - load) / 4) {
       return false;
@@ -421,6 +433,37 @@ class PlanarFlow {
     return true;
   }
 
+  // The speed aside of a collinear motion is round-off of its largest speed, about sqrt((w a + Q) |r|).
+  bool is_collinear(double across, double speed, double force) const noexcept {
+    return std::abs(across) <= std::max(0x1p-46 * speed, 0x1p-52 * std::sqrt(force * norm(place_)));
+  }
+
+  // A slip under a constant load and a constant level has a closed form. A collinear one ends where it reverses.
+  bool hold([[maybe_unused]] const Law& law) noexcept {
+    if constexpr (form_of<Law> == Form::constant) {
+      const bool constant = detail::equal(spring_.stiffness, 0) && detail::equal(damping_, 0) && !(stop_ < never) &&
+                            detail::equal(load_.rate.axis, 0) && detail::equal(load_.rate.transverse, 0) &&
+                            detail::equal(load_.weight_rate, 0);
+      if (!constant) return false;
+      level_ = load_.weight * detail::level_along(law, 0.0, 0.0, 0.0);
+      const double load = norm(load_.start), speed = norm(velocity_);
+      if (!(level_ > 0 || load > 0)) return false;
+      const Vector2 to = load > 0 ? (1 / load) * load_.start : (1 / speed) * velocity_;
+      const double along = dot(velocity_, to), across = cross(to, velocity_);
+      const bool reverses = along < 0 && is_collinear(across, speed, level_ + load);
+      const double plus = reverses ? 0 : along < 0 ? across * across / (speed - along) : speed + along;
+      const double minus = along < 0 ? speed - along : across * across / (speed + along);
+      held_ = detail::HeldSlip(to, level_, load, plus, minus, across);
+      kind_ = Kind::held;
+      constant_level_ = true;
+      last_ = held_.parameter(duration_);
+      end_ = held_.at(last_);
+      if (std::abs(end_.time - duration_) <= 0x1p-40 * duration_) end_.time = duration_;
+      return true;
+    }
+    return false;
+  }
+
   // The rate at which the level changes at a given speed [m/s^3].
   double change_in_time([[maybe_unused]] const Law& law, [[maybe_unused]] double speed,
                         [[maybe_unused]] double now) const noexcept {
@@ -430,7 +473,7 @@ class PlanarFlow {
       return 0;
   }
   static double memory_slope([[maybe_unused]] const Law& law) noexcept {
-    if constexpr (LinearLaw<Law>)
+    if constexpr (form_of<Law> == Form::linear)
       return std::abs(law.slope(Direction::forward));
     else
       return 0;
@@ -448,7 +491,7 @@ class PlanarFlow {
     resistance.update(0);
     const double a = resistance[0], level = load_.weight * a;
     level_ = level;
-    const double load = norm(q0), wn = std::sqrt(stiffness_);
+    const double load = norm(q0), wn = std::sqrt(spring_.stiffness);
     const double steepest = norm(load_.rate) + a * std::abs(load_.weight_rate);
     const double rate = level + load + (damping_ + wn) * speed + std::sqrt(steepest * speed);
     // The step in tau that takes as long as the segment, at a constant acceleration along the velocity.
@@ -459,7 +502,7 @@ class PlanarFlow {
       const double needed = duration_ / speed * (std::abs(grows) < 1e-3 ? 1 - grows / 2 : std::log1p(grows) / grows);
       h = std::min(h, 1.0625 * needed);
     }
-    const bool spring = stiffness_ > 0, weighed = !detail::equal(load_.weight_rate, 0);
+    const bool spring = spring_.stiffness > 0, weighed = !detail::equal(load_.weight_rate, 0);
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     vx_[0] = velocity_.axis, vy_[0] = velocity_.transverse, u_[0] = speed;
     l_[0] = level;
@@ -487,7 +530,7 @@ class PlanarFlow {
       if (spring) {
         double wx = x_[k], wy = y_[k];
         if (k == 0) wx = place_.axis, wy = place_.transverse;
-        if (pendulum_) {
+        if (spring_.pendulum) {
           double gx = 0, gy = 0;
           if (weighed) {
             gx = t_[k] * place_.axis, gy = t_[k] * place_.transverse;
@@ -496,8 +539,9 @@ class PlanarFlow {
           wx = load_.weight * wx + load_.weight_rate * gx;
           wy = load_.weight * wy + load_.weight_rate * gy;
         }
-        const double qx = load_.rate.axis * t_[k] - stiffness_ * wx + (k == 0 ? load_.start.axis : 0);
-        const double qy = load_.rate.transverse * t_[k] - stiffness_ * wy + (k == 0 ? load_.start.transverse : 0);
+        const double qx = load_.rate.axis * t_[k] - spring_.stiffness * wx + (k == 0 ? load_.start.axis : 0);
+        const double qy =
+            load_.rate.transverse * t_[k] - spring_.stiffness * wy + (k == 0 ? load_.start.transverse : 0);
         load_on[k] = {qx, qy, qx, qy};
         with_load[k] = {u_[k], u_[k], vx_[k], vy_[k]};
         const Four products = convolve(load_on, with_load, k);
@@ -557,8 +601,8 @@ class PlanarFlow {
     if (!(load * duration_ > follows * speed) || !(dot(velocity_, q) > 0)) return false;
     if (const double gap = stop_; norm(place_) > gap * (1 - 0x1p-30)) return false;  // its velocity would be turned
     // The direction lags behind that of the load by u/Q times its rate, to first order.
-    Vector2 rate = load_.rate - (pendulum_ ? stiffness_ * load_.weight_rate : 0.0) * place_;
-    rate = rate - (stiffness_ * (pendulum_ ? load_.weight : 1.0)) * velocity_;
+    const Vector2 rate =
+        load_.rate - spring_.rate(load_.weight_rate) * place_ - spring_.under(load_.weight) * velocity_;
     const double lag = speed / load, turns = cross(q, rate) / (load * load);
     const double actual = cross(q, velocity_) / (load * speed), error = std::abs(actual + lag * turns);
     const double per_time = lag * (norm(rate) / load + damping_) +
@@ -593,13 +637,12 @@ class PlanarFlow {
     const double load = norm(q0), level = load_.weight * resistance[0];
     level_ = level;
     constant_level_ = std::same_as<decltype(resistance), series::Constant> && detail::equal(load_.weight_rate, 0);
-    Vector2 rate = load_.rate;
-    if (pendulum_) rate = rate - (stiffness_ * load_.weight_rate) * place_;
+    const Vector2 rate = load_.rate - spring_.rate(load_.weight_rate) * place_;
     // Without any load the motion begins in the direction into which the load grows.
     const bool unloaded = !(load > 0);
     const double growth = norm(rate);
     const Vector2 to = unloaded ? (growth > 0 ? (1 / growth) * rate : Vector2{1, 0}) : (1 / load) * q0;
-    const double wn = std::sqrt(stiffness_);
+    const double wn = std::sqrt(spring_.stiffness);
     double h = duration_;
     if (wn > 0) h = std::min(h, 1 / wn);
     if (damping_ > 0) h = std::min(h, 1 / damping_);
@@ -642,12 +685,12 @@ class PlanarFlow {
           resistance.update(k);
           l_[k] = load_.weight * resistance[k] + gains * resistance[k - 1];
           double wa = ra[k], wb = rb[k];
-          if (pendulum_) {
+          if (spring_.pendulum) {
             wa = load_.weight * wa + gains * ra[k - 1];
             wb = load_.weight * wb + gains * rb[k - 1];
           }
-          qa[k] = (k == 1 ? pa * h : 0) - stiffness_ * wa;
-          qb[k] = (k == 1 ? pb * h : 0) - stiffness_ * wb;
+          qa[k] = (k == 1 ? pa * h : 0) - spring_.stiffness * wa;
+          qb[k] = (k == 1 ? pb * h : 0) - spring_.stiffness * wb;
         }
         // Perpendicular to the load; the part of e along it follows from |e| = 1.
         double turned = 0;
@@ -753,8 +796,7 @@ class PlanarFlow {
     resistance.update(0);
     constant_level_ = std::same_as<decltype(resistance), series::Constant> && detail::equal(load_.weight_rate, 0);
     level_ = l_[0] = load_.weight * resistance[0];
-    const double spring = stiffness_ * (pendulum_ ? load_.weight : 1);
-    const double spring_rate = pendulum_ ? stiffness_ * load_.weight_rate : 0;
+    const double spring = spring_.under(load_.weight), spring_rate = spring_.rate(load_.weight_rate);
     double h = duration_;
     const double rate = speed / gap + std::sqrt((norm(load_.start) + level_) / gap) +
                         std::cbrt((norm(load_.rate) + resistance[0] * std::abs(load_.weight_rate)) / gap) + damping_;
@@ -856,12 +898,13 @@ class PlanarFlow {
       64;  // times in which a direction turns into that of the load, at least, in a slow slip
   static constexpr double largest_step = 2;  // of tau times the rate of the motion
 
-  double damping_, stiffness_, stop_;
-  bool pendulum_;
+  double damping_, stop_;
+  Spring spring_;
   bool constant_level_ = false;
   bool stops_ = false, leaves_ = false;
   Kind kind_ = Kind::series;
   Closing closing_{};
+  detail::HeldSlip held_;
   Vector2 place_, velocity_;
   PlanarLoad load_;
   double duration_;

@@ -1,6 +1,7 @@
 // Integrate a slider in the plane under one ground motion.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -57,6 +58,20 @@ class PlanarPieces {
     const PlanarSegment both{axis.duration, {axis.start, transverse_[i]}, {axis.end, transverse_[i + next_]}};
     if (up_.empty()) return load_segment(both, slope_);
     return load_segment(both, slope_, up_[i], up_[i + next_]);
+  }
+
+  /// On level ground without vertical motion: the first segment from `i` up to `last` in which the load does not remain
+  /// within a circle, |p - center| <= radius. The load moves along a straight line, so that its ends suffice.
+  std::size_t first_outside(std::size_t i, std::size_t last, Vector2 center, double radius) const noexcept {
+    const double* const axis = axis_.samples();
+    const double limit = radius * radius;
+    const auto inside = [&](std::size_t sample) {
+      const double along = axis[sample] + center.axis, across = transverse_[sample] + center.transverse;
+      return along * along + across * across <= limit;
+    };
+    if (i == last || !inside(i)) return i;
+    while (i < last && inside(i + next_)) ++i;
+    return i;
   }
 
  private:
@@ -131,7 +146,7 @@ class PlanarRecorder {
 template <IsotropicLaw Law, class Go>
 bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
-  if constexpr (ConstantLevelLaw<Law>)
+  if constexpr (form_of<Law> == Form::constant)
     if (state.mode != PlanarMode::stuck && !(hold(slider.law(), 0, Direction::forward) > 0)) longest = 0;
   const double wn = slider.natural_frequency();
   double scale = wn > 0 ? norm(state.velocity) / wn : 0;  // of the displacement [m]
@@ -216,8 +231,27 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
     response.velocity[i + 1] = state.velocity;
     if (flies) response.gap[i + 1] = state.gap;
   };
-  detail::walk(pieces, motion.segments(), detail::PlanarRecorder::work_per_report, go,
-               [&] { recorder.report_progress(); });
+  // A slider that rests on level ground is asked for its next departure only.
+  const bool scans = !HeatedLaw<Law> && !(slider.slope() > 0) && !motion.has_vertical();
+  const std::size_t count = motion.segments();
+  for (std::size_t i = 0, reported = 0; i < count;) {
+    const std::size_t last = std::min(reported + detail::PlanarRecorder::work_per_report, count);
+    if (scans && state.mode == PlanarMode::stuck) {
+      const double holds =
+          hold(law_at(slider.law(), State{.sliding_distance = state.sliding_distance}), 0, Direction::forward);
+      const std::size_t next =
+          pieces.first_outside(i, last, slider.mounting().spring().under(1) * state.displacement, holds);
+      std::fill(&response.displacement[i + 1], &response.displacement[next + 1], state.displacement);
+      std::fill(&response.velocity[i + 1], &response.velocity[next + 1], Vector2{});
+      i = next;
+    }
+    if (i < last) {
+      go(i, pieces.time(i), pieces.time(i + 1), pieces.segment(i));
+      ++i;
+    }
+    if (i == last && i < count) recorder.report_progress();
+    if (i == last) reported = i;
+  }
   double end = motion.time(motion.segments());
   response.contact = options.contact;
   response.components = std::string(name_of(Component::axis)) + " + " + name_of(Component::transverse);

@@ -33,7 +33,7 @@ namespace detail {
 /// linear in the distance slid, else Taylor series.
 template <FrictionLaw Law, class Work>
 [[gnu::always_inline]] inline auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
-  if constexpr (ConstantLevelLaw<Law>) {
+  if constexpr (form_of<Law> == Form::constant) {
     if (slider.mounting().pendulum) [[unlikely]]
       return work(Taylor<Law>(slider));
     if (slider.damping() > 0) [[unlikely]]
@@ -49,7 +49,7 @@ template <FrictionLaw Law, class Work>
 /// The same under a load of one frequency.
 template <FrictionLaw Law, class Work>
 auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
-  if constexpr (ConstantLevelLaw<Law>) {
+  if constexpr (form_of<Law> == Form::constant) {
     if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0))
       return work(BlockFlows(slider.law(), Sinusoidal(omega, usual_duration)));
   }

@@ -97,7 +97,7 @@ inline Loop largest_loop(const Trajectory& trajectory) {
         "no force draws the mass back");
   if (!(response.time_sliding > 0)) throw std::invalid_argument("effective period and damping: the slider never slips");
   const double downhill = trajectory.downhill();
-  const double center = downhill / (mounting.stiffness() * (mounting.pendulum ? std::cos(mounting.slope()) : 1));
+  const double center = downhill / mounting.spring().under(std::cos(mounting.slope()));
   const std::vector<Event>& events = response.events;
   const auto x_of = [&](const Event& e) { return e.displacement - center; };
   double largest = std::abs(response.displacement.front() - center);

@@ -40,7 +40,7 @@ namespace detail {
 template <FrictionLaw Law, class Place, class Go>
 bool settle(const Slider<Law>& slider, Place& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
-  if constexpr (ConstantLevelLaw<Law>) {
+  if constexpr (form_of<Law> == Form::constant) {
     const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };
     if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
   }

@@ -167,7 +167,7 @@ class VariationalMotion : public NoRecorder {
   template <class Flow>
   void follow(const Flow& flow, double taken) {
     nodes_.clear();
-    if (equal(change_.stiffness, 0) && equal(change_.damping, 0) && !pendulum()) return;
+    if (equal(change_.stiffness, 0) && equal(change_.damping, 0) && !spring().pendulum) return;
     each_node(taken, [&](double t, double) {
       const Progress now = flow.at(t);
       nodes_.push_back({now.distance, now.speed});
@@ -184,7 +184,7 @@ class VariationalMotion : public NoRecorder {
     const auto weight_at = [&](double t) { return presses ? load_.normal(time_ + t) / standard_gravity : 0; };
     std::optional<WeighedPropagator> swings;
     WeighedPropagator::Values last{};
-    if (pendulum()) {
+    if (spring().pendulum) {
       swings.emplace(k, c, weight_at(0), weight_at(taken), taken);
       last = swings->at(taken);
     }
@@ -195,10 +195,8 @@ class VariationalMotion : public NoRecorder {
       if (!nodes_.empty()) {
         const auto [distance, speed] = nodes_[i++];
         const double here = slip.from + s * distance;
-        if (pendulum())
-          force -= (change_.stiffness * weight_at(t) + (presses ? k * by_normal(at) / standard_gravity : 0)) * here;
-        else
-          force -= change_.stiffness * here;
+        const double heavier = presses ? by_normal(at) / standard_gravity : 0;
+        force -= (change_of_spring().under(weight_at(t)) + spring().rate(heavier)) * here;
         force -= change_.damping * s * speed;
       }
       if (swings) {
@@ -303,10 +301,9 @@ class VariationalMotion : public NoRecorder {
   double by_load(double time) const noexcept { return change_of_load_.load(time); }
   double by_normal(double time) const noexcept { return change_of_load_.normal(time); }
   double weight() const noexcept { return std::max(load_.normal(time_), 0.0) / standard_gravity; }
-  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
-  /// Factor on the spring.
-  double spring_weight() const noexcept { return pendulum() ? weight() : 1; }
-  double net(double x) const noexcept { return load_.load(time_) - slider_.stiffness() * spring_weight() * x; }
+  Spring spring() const noexcept { return slider_.mounting().spring(); }
+  Spring change_of_spring() const noexcept { return {change_.stiffness, spring().pendulum}; }
+  double net(double x) const noexcept { return load_.load(time_) - spring().under(weight()) * x; }
   double kinetic(Direction direction, double x) const { return resist(slider_.law(), x, 0.0, direction); }
   bool at_wall(double x) const noexcept {
     const Stops& stops = slider_.mounting().stops;
@@ -331,11 +328,12 @@ class VariationalMotion : public NoRecorder {
     const double held = level * weight(), jump = (level - kinetic(direction, x)) * weight();
     dv_ = 0;
     if (!(jump > 0) || s * net(x) - held > 1e-9 * held) return;
-    const double duration = load_.duration, swings = pendulum() ? slider_.stiffness() * x : 0, w = spring_weight();
+    const double duration = load_.duration, stiffness = spring().under(weight());
     const double heavier = (load_.normal_end - load_.normal_start) / duration / standard_gravity;
-    const double rate = s * ((load_.load_end - load_.load_start) / duration - swings * heavier) - level * heavier;
+    const double rate =
+        s * ((load_.load_end - load_.load_start) / duration - spring().rate(heavier) * x) - level * heavier;
     const double change_of_weight = by_normal(time_) / standard_gravity;
-    const double pulls = (change_.stiffness * x + slider_.stiffness() * dx_) * w + swings * change_of_weight;
+    const double pulls = (change_of_spring().under(weight()) + spring().rate(change_of_weight)) * x + stiffness * dx_;
     const double nearer =
         s * (by_load(time_) - pulls) - change_.held * load_.normal(time_) / standard_gravity - level * change_of_weight;
     dv_ = s * jump * nearer / rate;

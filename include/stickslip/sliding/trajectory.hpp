@@ -154,9 +154,7 @@ class Trajectory {
   double end() const noexcept { return response_.events.back().time; }
 
   /// Force of the spring at x under a weight N+/g, per unit mass [m/s^2].
-  double pull(double x, double weight) const noexcept {
-    return mounting_.stiffness() * (mounting_.pendulum ? weight : 1) * x;
-  }
+  double pull(double x, double weight) const noexcept { return mounting_.spring().under(weight) * x; }
   /// g sin(slope), the load of the weight [m/s^2].
   double downhill() const noexcept {
     return mounting_.slope_degrees > 0 ? standard_gravity * std::sin(mounting_.slope()) : 0;

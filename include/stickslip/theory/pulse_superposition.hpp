@@ -179,7 +179,7 @@ class PulseSuperposition {
                      });
         return knots;
       };
-    return {ConstantLevelLaw<Law>,
+    return {form_of<Law> == Form::constant,
             [&slider](double x, Direction direction) { return slider.law().resist(x, direction); },
             [&slider, &pulses](double b, double x) {
               try {
@@ -196,7 +196,7 @@ class PulseSuperposition {
   void check(const Slider<Law>& slider, const PoissonPulses& pulses) const {
     detail::require_no_spring(slider.natural_frequency(), "PulseSuperposition");
     detail::require_plain(slider, "PulseSuperposition");
-    check(ConstantLevelLaw<Law>, pulses);
+    check(form_of<Law> == Form::constant, pulses);
   }
   void check(bool constant_level, const PoissonPulses& pulses) const;
   Moments predict(const detail::PulseSystem& system, const PoissonPulses& pulses, std::span<const double> times,

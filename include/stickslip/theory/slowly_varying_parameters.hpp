@@ -41,7 +41,8 @@ concept AnalyticLaw = PositionLaw<Law> && requires(const Law& law, const series:
 /// and for the caster: sech(sqrt(u)) is a product of factors 1 / (1 + u / ((k - 1/2) pi)^2), so that it and the square
 /// of its means are completely monotonic; adding the constant rolling resistance preserves this.
 template <class Law>
-concept OneFoldLaw = ConstantLevelLaw<Law> || std::same_as<Law, Caster>;
+concept OneFoldLaw = form_of<Law>
+== Form::constant || std::same_as<Law, Caster>;
 
 /// A friction law of any type, with what the averages over a cycle require.
 struct CycledLaw {
@@ -70,7 +71,7 @@ CycledLaw cycled(const Law& law) {
                    },
                    {},
                    OneFoldLaw<Law>};
-  if constexpr (ConstantLevelLaw<Law>)
+  if constexpr (form_of<Law> == Form::constant)
     result.mean_level = [level = law.resist(0.0, Direction::forward)](double) { return level; };
   else if constexpr (std::same_as<Law, Caster>)  // from its work: half the cost if the amplitude is not small
     result.mean_level = [law](double a) {

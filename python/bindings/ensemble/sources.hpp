@@ -190,7 +190,8 @@ auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&&
   if (const auto one = slider_of(sliders))  // the laws with vector lanes, in their static types
     return std::visit(
         [&]<class Law>(const Slider<Law>& slider) {
-          if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck> || MemoryLaw<Law> || NumericLaw<Law>)
+          if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck> || MemoryLaw<Law> ||
+                        form_of<Law> == Form::numeric)
             return f(*one);
           else
             return f(slider);

@@ -35,7 +35,7 @@ bool begins_to_slip(const PlanarSlider<Law>& slider, const GroundMotion& motion,
   const detail::PlanarPieces pieces(motion, slider.slope());
   const auto exceeds = [&](Vector2 load, double normal) {
     const double weight = std::max(normal, 0.0) / standard_gravity;
-    const double pull = slider.stiffness() * (slider.mounting().pendulum ? weight : 1);
+    const double pull = slider.mounting().spring().under(weight);
     return norm(load - pull * r) > weight * hold(law_at(slider.law(), State{}, weight), 0.0, Direction::forward);
   };
   for (std::size_t i = 0; i < motion.segments(); ++i) {

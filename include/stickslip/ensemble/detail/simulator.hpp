@@ -138,7 +138,7 @@ class PeakObserver {
   const Impacts& impacts() const noexcept { return impacts_; }
 
   void slide(const Slip& slip) {
-    if constexpr (!ConstantLevelLaw<Law>) count_work();
+    if constexpr (form_of<Law> != Form::constant) count_work();
     peak_ = std::max(peak_, std::abs(slip.to()));
   }
   void event(EventKind kind, double, const State& state) {

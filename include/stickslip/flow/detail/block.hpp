@@ -14,8 +14,8 @@ namespace stickslip::detail {
 
 /// Makes the flows of constant friction: those of a mass on a spring and a damper, or free.
 /// @tparam Oscillator  Polynomial, Harmonic, Damped or Sinusoidal
-template <ConstantLevelLaw Law, class Oscillator>
-class BlockFlows : public LawFlows<Law> {
+template <FrictionLaw Law, class Oscillator>
+requires(form_of<Law> == Form::constant) class BlockFlows : public LawFlows<Law> {
  public:
   static constexpr bool in_closed_form = requires { typename Oscillator::Basis; };
   static constexpr bool stops_twice_at_most = std::same_as<Oscillator, Polynomial>;

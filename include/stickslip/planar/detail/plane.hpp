@@ -89,7 +89,8 @@ class Plane {
     if constexpr (heated) return heated_departure(load);
     const double holds = stickslip::hold(law_now(), 0.0, Direction::forward);
     const double level = load.weight * holds, level_rate = load.weight_rate * holds;
-    const Vector2 q = load.start - pull(load.weight), rate = load.rate - pull(load.weight_rate, pendulum());
+    const Vector2 q = load.start - pull(load.weight),
+                  rate = load.rate - spring().rate(load.weight_rate) * state_.displacement;
     if (!at_stop()) return slips(exceeds(q, rate, level, level_rate, left_), q, rate, level, PlanarMode::sliding);
     // Pressed against the stop, only the load along it has to be held.
     const Vector2 outward = (1 / norm(state_.displacement)) * state_.displacement, sideways = turned(outward);
@@ -229,13 +230,8 @@ class Plane {
   }
 
  private:
-  bool pendulum() const noexcept { return slider_.mounting().pendulum; }
-  Vector2 pull(double weight) const noexcept {
-    return (slider_.stiffness() * (pendulum() ? weight : 1)) * state_.displacement;
-  }
-  Vector2 pull(double weight_rate, bool changes) const noexcept {
-    return (changes ? slider_.stiffness() * weight_rate : 0.0) * state_.displacement;
-  }
+  Spring spring() const noexcept { return slider_.mounting().spring(); }
+  Vector2 pull(double weight) const noexcept { return spring().under(weight) * state_.displacement; }
   // An isotropic law is a function of the path: a state at its beginning.
   State along_path() const noexcept {
     State state{.sliding_distance = state_.sliding_distance};

@@ -40,7 +40,7 @@ struct WithinSegment {
 /// A law evaluated at a fixed displacement.
 template <MemorylessLaw Law>
 struct AtPlace {
-  static constexpr bool numeric = NumericLaw<Law>;
+  static constexpr bool numeric = form_of<Law> == Form::numeric;
 
   const Law* law;
   double displacement;

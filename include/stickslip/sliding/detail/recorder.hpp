@@ -38,7 +38,7 @@ concept FlowWithDamper = requires(const Flow& flow, double time) {
 /// Accumulates the sums over slips and stores the events.
 /// @tparam in_steps  slips come in steps, possibly enough per segment that they must report progress themselves
 /// @tparam loaded    normal force may vary, and there may be stops: the event loop supplies the work against friction
-template <FrictionLaw Law, bool in_steps = !ConstantLevelLaw<Law>, bool loaded = false>
+template <FrictionLaw Law, bool in_steps = (form_of<Law> != Form::constant), bool loaded = false>
 class Recorder {
  public:
   static constexpr std::uint32_t work_per_report = 16384;  // segments, events or steps, each far below a millisecond
@@ -108,7 +108,7 @@ class Recorder {
   /// the ground is not added.
   /// @param event  the k-th of `count`, in order
   template <class Generate>
-  void events(std::size_t count, Generate&& event) requires ConstantLevelLaw<Law> {
+  void events(std::size_t count, Generate&& event) requires(form_of<Law> == Form::constant) {
     if (events_.size() + count > event_limit_) refuse_more_events(event_limit_, segment_begins_);
     events_.resize(events_.size() + count);
     Event* const added = events_.data() + (events_.size() - count);

@@ -35,7 +35,7 @@ struct HistorySpans {
 
 /// Under a harmonic motion, slips come in several steps for every law but Coulomb friction without a spring.
 template <Motion M, FrictionLaw Law>
-using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || !ConstantLevelLaw<Law>>;
+using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || form_of<Law> != Form::constant>;
 
 /// Iterate over the segments of a motion: call `go(i, begin, end, segment)` for each segment, from `begin` to `end`
 /// [s], and `report()` after every `segments_per_report` segments, except after the last one.
