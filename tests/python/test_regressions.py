@@ -67,7 +67,9 @@ def test_the_worksheet_of_bray_and_travasarou():
     ("model", "given", "published", "formula"),
     [  # published: rounded or read off a figure
         (RathjeSaygili2009(), {"ky": 0.1, "pga": 0.54, "M": 6.75}, 43, 43.7),
+        (RathjeSaygili2009(), {"ky": 0.1, "pga": 0.88, "M": 6.75}, 113, 112.0),
         (SaygiliRathje2008(), {"ky": 0.1, "pga": 0.54, "pgv": 42}, 29, 27.5),
+        (SaygiliRathje2008(), {"ky": 0.1, "pga": 0.88, "pgv": 71}, 81, 81.4),
         (
             RathjeAntonakos2011(),
             {"Ts": 0.2, "Tm": 0.45, "pga": 0.35, "ky": 0.05, "M": 7},
@@ -350,6 +352,17 @@ def test_a_suite_gives_an_axis_of_records(pyslammer_files, model, given):
     for record, row in zip(suite, table.median):
         one = model.of(record, ky=ky, measures=sorted(measures), **others)
         assert row == pytest.approx(one.median, rel=1e-13)
+
+
+def test_a_suite_takes_a_magnitude_for_each_record(pyslammer_files):
+    suite = ss.sample_records()[:3]
+    magnitude = np.array([6.0, 6.5, 7.0])
+    table = BrayTravasarou2007().of(suite, ky=[0.1, 0.2], Ts=[0.2, 0.4], M=magnitude[:, None])
+    assert table.median.shape == (3, 2)
+    one = BrayTravasarou2007().of(suite[1], ky=[0.1, 0.2], Ts=[0.2, 0.4], M=6.5)
+    assert table.median[1] == pytest.approx(one.median, rel=1e-13)
+    with pytest.raises(ValueError, match="at most the dimensions of ky, 0, got 1"):
+        BrayTravasarou2007().of(suite, ky=0.1, Ts=[0.2, 0.4], M=7)
 
 
 def test_both_polarities_have_the_same_measures(kobe):

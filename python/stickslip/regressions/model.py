@@ -77,8 +77,9 @@ class Regression(ABC):
         Parameters
         ----------
         motion : GroundMotion or Suite
-            A record. A suite gives a first axis: with `ky` of shape (K,) the result has the shape
-            (records, K), and values for each record have the shape (records, 1).
+            A record. The records of a suite are along an axis before those of `ky`: with `ky` of
+            shape (K,) the result has the shape (records, K), and magnitudes for each record have
+            the shape (records, 1). `Ts` is the same for all records.
         ky : float or array_like
             Yield acceleration [g].
         M : float or array_like, optional
@@ -123,7 +124,12 @@ class Regression(ABC):
             )
         own = {name: value for name, value in given.items() if value is not None}
         form = self._form(who, own, measures)
-        dimensions = max(np.ndim(value) for value in own.values())
+        dimensions = np.ndim(own["ky"])
+        if isinstance(motion, Suite) and np.ndim(own.get("Ts", 0)) > dimensions:
+            raise ValueError(
+                f"{who}: with a suite Ts must have at most the dimensions of ky, {dimensions}, got"
+                f" {np.ndim(own['Ts'])}"
+            )
         taken = [name for name in form.arguments if name not in own]
         found = measured(motion, (name for name in taken if name != "Sa"), dimensions)
         if "Sa" in taken:
