@@ -38,7 +38,8 @@ class BrayTravasarou2007(Regression):
 
     a1 is -1.10, and -0.22 for nearly rigid masses, Ts < 0.05 s. sigma is 0.66. D = 0 means less
     than 1 cm. For strong ground motions and small ky the polynomial turns: at Sa = 1 g the median
-    falls with decreasing ky below 0.014 g. We know no limits of the arguments that we could check.
+    falls with decreasing ky below 0.014 g. The model was fitted for ky from 0.02 to 0.4 g
+    (unverified); we know no other limits.
 
     References
     ----------
@@ -104,7 +105,7 @@ class BrayMacedoTravasarou2018(Regression):
         z = -3.53 - 4.78 ln ky - 0.34 (ln ky)^2 - 0.30 Ts ln ky - 0.67 Ts + 2.66 ln Sa, above
 
     P(D = 0) is unverified: it is that of pygeems, which we could not check against the paper or an
-    example. We know no limits of the arguments that we could check.
+    example. The model was fitted for ky from 0.01 to 0.8 g (unverified); we know no other limits.
 
     References
     ----------
@@ -156,7 +157,8 @@ class BrayMacedo2019(Regression):
         z = -3.40 - 4.95 ln ky - 0.30 (ln ky)^2 - 0.33 Ts ln ky - 0.62 Ts + 2.85 ln Sa, above
 
     D = 0 means less than 0.5 cm. P(D = 0) is unverified: it is that of OpenSRA, which we could not
-    check against the paper or an example. We know no limits of the arguments that we could check.
+    check against the paper or an example. The model was fitted for ky from 0.01 to 0.8 g
+    (unverified); we know no other limits.
 
     References
     ----------

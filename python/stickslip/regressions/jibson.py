@@ -26,7 +26,8 @@ class Jibson2007(Regression):
 
     log is to base 10, and so are these sigmas; `Prediction.sigma` is ln 10 times as large. D = 0
     for ky >= pga. Equation (10) does not vanish there: it steps to 0. Range of equation (7): M from
-    5.3 to 7.6; we know no limits of the other arguments.
+    5.3 to 7.6. The records were analyzed for ky from 0.05 to 0.4 g (unverified); we know no other
+    limits.
 
     References
     ----------

@@ -47,7 +47,8 @@ class SaygiliRathje2008(Regression):
 
     D = 0 for ky >= pga. The sigmas of the second and the last form are those in OpenSRA, which we
     could not check against the paper. Some publications have 20.93 for 20.39; the authors' model
-    with magnitude and exact sliding agree with 20.39. We know no limits of the arguments.
+    with magnitude agrees with 20.39. The records were analyzed for ky from 0.05 to 0.3 g
+    (unverified); we know no other limits.
 
     References
     ----------
