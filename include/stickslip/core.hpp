@@ -17,6 +17,7 @@
 #include "stickslip/planar/forces.hpp"
 #include "stickslip/planar/histories.hpp"
 #include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/planar/state.hpp"

@@ -1145,6 +1145,12 @@ class PlanarResponse(metaclass=_Pybind11Type):
     @property
     def gap(self) -> NDArray[np.float64]: ...
     @property
+    def temperature(self) -> NDArray[np.float64] | Any: ...  # or None, if no law depends on it
+    @property
+    def margin(self) -> float: ...
+    @property
+    def impact_margin(self) -> float: ...
+    @property
     def peak_force(self) -> float: ...
     @property
     def peak_force_time(self) -> float: ...
@@ -2180,6 +2186,7 @@ def integrate(
     settle: bool = False,
     contact: Literal["flight", "clipped"] = "flight",
     sliding_distance: _Number = 0.0,
+    heat: SurfaceHeat | None = None,
 ) -> PlanarResponse: ...
 
 class State(metaclass=_Pybind11Type):

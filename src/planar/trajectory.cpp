@@ -1,4 +1,4 @@
-// Forces, floor motions and states of sliders of any law in the plane: readers of one motion.
+// Forces, margins, floor motions and states of sliders of any law in the plane: readers of one motion.
 #include "stickslip/planar/any_planar_slider.hpp"
 
 namespace stickslip {
@@ -25,6 +25,21 @@ PlanarForces forces(const AnyPlanarSlider& slider, const GroundMotion& motion, c
       },
       [&](const PlanarState& state, Vector2 load, double normal) {
         return std::visit([&](const auto& one) { return detail::force_on(one, state, load, normal); }, slider);
+      });
+}
+
+Margins margins(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response) {
+  const detail::PlanarLevels levels{
+      [&](const PlanarState& state, double weight) {
+        return std::visit([&](const auto& one) { return detail::hold_at(one, state, weight); }, slider);
+      },
+      [&](const PlanarState& state, double weight, double speed) {
+        return std::visit([&](const auto& one) { return detail::resist_at(one, state, weight, speed); }, slider);
+      }};
+  return detail::planar_margins(
+      mounting_of(slider), levels, motion, response,
+      [&](const PlanarLoadSegment& segment, PlanarState& state, detail::PlanarTracer& tracer) {
+        trace(slider, segment, response.contact, state, tracer);
       });
 }
 

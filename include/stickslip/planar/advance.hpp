@@ -39,9 +39,7 @@ template <IsotropicLaw Law>
 bool rests(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, const PlanarState& state) {
   if constexpr (HeatedLaw<Law>) return false;
   if (slider.mounting().pendulum || !(segment.normal_start >= 0) || !(segment.normal_end >= 0)) return false;
-  const double level =
-      hold(law_at(slider.law(), State{.sliding_distance = state.sliding_distance}), 0, Direction::forward) /
-      standard_gravity;
+  const double level = hold_at(slider, state) / standard_gravity;
   const Vector2 pull = slider.stiffness() * state.displacement;
   const Vector2 first = segment.load_start - pull, last = segment.load_end - pull, change = last - first;
   const double holds_first = level * segment.normal_start, holds_last = level * segment.normal_end;
@@ -65,9 +63,8 @@ void advance_plane(const PlanarSlider<Law>& slider, const PlanarLoadSegment& seg
   const auto land = [&](double impulse) {
     if (state.mode == PlanarMode::stuck) return false;
     const double before = norm(state.velocity);
-    State along{.sliding_distance = state.sliding_distance};
-    if constexpr (HeatedLaw<Law>) along.heat = state.heat;
-    const double after = after_impulse(law_at(slider.law(), along, 1), 0, Direction::forward, before, impulse);
+    const double after =
+        after_impulse(law_at(slider.law(), on_path<Law>(state), 1), 0, Direction::forward, before, impulse);
     if constexpr (PlanarEnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
     if (after > 0) {
       state.velocity = (after / before) * state.velocity;

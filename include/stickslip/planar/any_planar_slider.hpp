@@ -17,6 +17,7 @@
 #include "stickslip/planar/forces.hpp"
 #include "stickslip/planar/histories.hpp"
 #include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
@@ -61,6 +62,7 @@ void advance(const AnyPlanarSlider& slider, const PlanarLoadSegment& segment, Pl
 
 /// As the templates of the same names.
 PlanarForces forces(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response);
+Margins margins(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response);
 std::vector<PlanarState> states_at(const AnyPlanarSlider& slider, const GroundMotion& motion,
                                    const PlanarResponse& response, std::span<const double> times);
 PlanarFloorMotion floor_motion(const AnyPlanarSlider& slider, const GroundMotion& motion,

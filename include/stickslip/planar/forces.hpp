@@ -66,9 +66,7 @@ PlanarForce force_on(const PlanarSlider<Law>& slider, const PlanarState& state, 
   const double speed = norm(state.velocity), size = norm(q);
   const Vector2 direction = speed > 0 ? (1 / speed) * state.velocity : size > 0 ? (1 / size) * q : Vector2{};
   if (weight > 0) {
-    State along{.sliding_distance = state.sliding_distance};
-    if constexpr (HeatedLaw<Law>) along.heat = state.heat;
-    force.friction = (weight * resist(law_at(slider.law(), along, weight), 0.0, speed, Direction::forward)) * direction;
+    force.friction = (weight * resist_at(slider, state, weight, speed)) * direction;
   }
   if (state.mode == PlanarMode::along_stop) {
     const double gap = norm(state.displacement);

@@ -31,6 +31,7 @@ struct PlanarIntegrateOptions {
   std::function<void()> progress{};   ///< called about once per second or more often; may throw to stop the work
   double sliding_distance = 0;     ///< sliding distance before the start [m], finite and at least 0; used by laws that
                                    ///< depend on it
+  SurfaceHeat heat{};              ///< of the sliding surface at the start; used by laws that depend on its temperature
   bool may_end_in_flight = false;  ///< whether a response without `settle` may end before the slider has landed
 };
 
@@ -81,10 +82,38 @@ class PlanarPieces {
   Slope slope_;
 };
 
+/// Iterate over the segments of a motion and keep the motion at the samples: `go(i, begin, end, segment)` moves `state`
+/// over a segment, and `report()` is called now and then. A slider that rests on level ground is asked for its next
+/// departure only.
+template <IsotropicLaw Law, class Go, class Report>
+void walk_plane(const PlanarSlider<Law>& slider, const GroundMotion& motion, const PlanarPieces& pieces,
+                const PlanarState& state, std::vector<Vector2>& displacement, std::vector<Vector2>& velocity, Go&& go,
+                Report&& report) {
+  constexpr std::size_t segments_per_report = 4096;
+  const bool scans = !HeatedLaw<Law> && !(slider.slope() > 0) && !motion.has_vertical();
+  const std::size_t count = motion.segments();
+  for (std::size_t i = 0; i < count;) {
+    for (const std::size_t last = std::min(i + segments_per_report, count); i < last;) {
+      if (scans && state.mode == PlanarMode::stuck) {
+        const std::size_t next = pieces.first_outside(i, last, slider.mounting().spring().under(1) * state.displacement,
+                                                      hold_at(slider, state));
+        std::fill(&displacement[i + 1], &displacement[next + 1], state.displacement);
+        std::fill(&velocity[i + 1], &velocity[next + 1], Vector2{});
+        if ((i = next) == last) break;
+      }
+      go(i, pieces.time(i), pieces.time(i + 1), pieces.segment(i));
+      displacement[i + 1] = state.displacement;
+      velocity[i + 1] = state.velocity;
+      ++i;
+    }
+    if (i < count) report();
+  }
+}
+
 /// Records the events, the peak and the sums of a motion in the plane.
 class PlanarRecorder {
  public:
-  static constexpr std::uint32_t work_per_report = 4096;  // segments, events or flows
+  static constexpr std::uint32_t work_per_report = 4096;  // events or flows
 
   PlanarRecorder(Vector2 from, double start, std::size_t event_limit, const std::function<void()>& progress,
                  PlanarResponse& response)
@@ -204,6 +233,7 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
   const detail::PlanarPieces pieces(motion, slider.slope());
   PlanarState state = PlanarState::at(options.displacement, options.velocity);
   state.sliding_distance = options.sliding_distance;
+  state.heat = options.heat;
   detail::check_start(slider, state, "integrate");
   if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
     detail::check_landing(motion, slider.slope());
@@ -213,6 +243,10 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
   response.displacement.resize(motion.samples());
   response.velocity.resize(motion.samples());
   response.gap.assign(flies ? motion.samples() : 0, 0);
+  response.temperature.clear();
+  if constexpr (HeatedLaw<Law>)
+    response.temperature.resize(motion.samples(), slider.law().temperature(detail::on_path<Law>(state)));
+  response.heat = options.heat;
   response.energy = {};
   response.peak = response.sliding_distance = response.time_sliding = 0;
   const auto kinetic = [&] { return dot(state.velocity, state.velocity) / 2; };
@@ -227,31 +261,11 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
   const auto go = [&](std::size_t i, double begin, double end, const PlanarLoadSegment& segment) {
     recorder.begin_segment(begin, end);
     detail::advance_plane(slider, segment, options.contact, state, recorder);
-    response.displacement[i + 1] = state.displacement;
-    response.velocity[i + 1] = state.velocity;
     if (flies) response.gap[i + 1] = state.gap;
+    if constexpr (HeatedLaw<Law>) response.temperature[i + 1] = slider.law().temperature(detail::on_path<Law>(state));
   };
-  // A slider that rests on level ground is asked for its next departure only.
-  const bool scans = !HeatedLaw<Law> && !(slider.slope() > 0) && !motion.has_vertical();
-  const std::size_t count = motion.segments();
-  for (std::size_t i = 0, reported = 0; i < count;) {
-    const std::size_t last = std::min(reported + detail::PlanarRecorder::work_per_report, count);
-    if (scans && state.mode == PlanarMode::stuck) {
-      const double holds =
-          hold(law_at(slider.law(), State{.sliding_distance = state.sliding_distance}), 0, Direction::forward);
-      const std::size_t next =
-          pieces.first_outside(i, last, slider.mounting().spring().under(1) * state.displacement, holds);
-      std::fill(&response.displacement[i + 1], &response.displacement[next + 1], state.displacement);
-      std::fill(&response.velocity[i + 1], &response.velocity[next + 1], Vector2{});
-      i = next;
-    }
-    if (i < last) {
-      go(i, pieces.time(i), pieces.time(i + 1), pieces.segment(i));
-      ++i;
-    }
-    if (i == last && i < count) recorder.report_progress();
-    if (i == last) reported = i;
-  }
+  detail::walk_plane(slider, motion, pieces, state, response.displacement, response.velocity, go,
+                     [&] { recorder.report_progress(); });
   double end = motion.time(motion.segments());
   response.contact = options.contact;
   response.components = std::string(name_of(Component::axis)) + " + " + name_of(Component::transverse);
@@ -277,10 +291,16 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
         break;
       }
       detail::advance_plane(slider, at_rest(motion.last_step()), options.contact, from, none);
-      if (!(motion.time(i + 1) < end)) from = PlanarState::at(state.displacement, {});
+      if (!(motion.time(i + 1) < end)) {
+        from.displacement = state.displacement;
+        from.velocity = {};
+        from.mode = PlanarMode::stuck;
+      }
       response.displacement.push_back(from.displacement);
       response.velocity.push_back(from.velocity);
       if (flies) response.gap.push_back(from.gap);
+      if constexpr (HeatedLaw<Law>)
+        response.temperature.push_back(slider.law().temperature(detail::on_path<Law>(from)));
     }
   }
   recorder.begin_segment(end, end);

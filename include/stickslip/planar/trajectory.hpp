@@ -30,6 +30,9 @@ class PlanarArc {
         place(flow.place()),
         flow_(&flow),
         at_([](const void* f, double s) -> PlanarProgress { return static_cast<const Flow*>(f)->at_parameter(s); }),
+        largest_radius_([](const void* f, double until, double& where) {
+          return static_cast<const Flow*>(f)->largest_radius(until, 0, where);
+        }),
         acceleration_([](const void* f, double s) { return static_cast<const Flow*>(f)->acceleration_at(s); }) {}
 
   double begin;   ///< since the beginning of the segment [s]
@@ -40,10 +43,13 @@ class PlanarArc {
   PlanarProgress at(double parameter) const { return at_(flow_, parameter); }
   /// r'' [m/s^2]; at a stop, its limit.
   Vector2 acceleration(double parameter) const { return acceleration_(flow_, parameter); }
+  /// The largest distance from the origin [m]; `where` receives its parameter.
+  double largest_radius(double& where) const { return largest_radius_(flow_, last, where); }
 
  private:
   const void* flow_;
   PlanarProgress (*at_)(const void*, double);
+  double (*largest_radius_)(const void*, double, double&);
   Vector2 (*acceleration_)(const void*, double);
 };
 
@@ -86,6 +92,7 @@ inline std::size_t segment_at(const GroundMotion& motion, double time) {
 inline PlanarState start_of(const PlanarResponse& response) {
   PlanarState state = PlanarState::at(response.displacement.front(), response.velocity.front());
   state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  state.heat = response.heat;
   return state;
 }
 
