@@ -87,6 +87,8 @@ if TYPE_CHECKING:
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
+    from .risk.fragility import Fragility
+    from .risk.observations import impact
     from .sweeps import (
         Grid,
         Orientations,
@@ -112,6 +114,7 @@ __all__ = [
     "EnsembleSensitivity",
     "Envelope",
     "Estimate",
+    "Fragility",
     "FrictionPendulum",
     "GaussianExcitation",
     "Grid",
@@ -165,6 +168,7 @@ __all__ = [
     "grid",
     "harmonic",
     "histories",
+    "impact",
     "integrate",
     "interfaces",
     "orientations",
@@ -193,6 +197,8 @@ if not TYPE_CHECKING:
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
+        "risk.fragility": ("Fragility",),
+        "risk.observations": ("impact",),
         "sweeps": (
             "Grid",
             "Orientations",
