@@ -88,6 +88,7 @@ if TYPE_CHECKING:
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
     from .risk.fragility import Fragility
+    from .risk.hazard import Exceedances, Hazard, read_hazard
     from .risk.observations import impact
     from .sweeps import (
         Grid,
@@ -114,12 +115,14 @@ __all__ = [
     "EnsembleSensitivity",
     "Envelope",
     "Estimate",
+    "Exceedances",
     "Fragility",
     "FrictionPendulum",
     "GaussianExcitation",
     "Grid",
     "GroundMotion",
     "HarmonicMotion",
+    "Hazard",
     "IntensityMeasures",
     "Interval",
     "KumarFriction",
@@ -172,6 +175,7 @@ __all__ = [
     "integrate",
     "interfaces",
     "orientations",
+    "read_hazard",
     "read_record",
     "read_station",
     "record_formats",
@@ -198,6 +202,7 @@ if not TYPE_CHECKING:
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
         "risk.fragility": ("Fragility",),
+        "risk.hazard": ("Exceedances", "Hazard", "read_hazard"),
         "risk.observations": ("impact",),
         "sweeps": (
             "Grid",

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any, overload
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
 from .figures import one_panel
-from .styles import COLORS, style, wrapped
+from .styles import COLORS, GRAY, style, wrapped
 
 MEASURES = {
     "pga_g": "peak ground acceleration",
@@ -73,6 +74,48 @@ def plot_fragility(
         axes.set_xlabel(measure_label(fragility.im, fragility.im_unit, fragility.im_period))
         axes.set_ylabel("probability of exceedance")
         axes.legend(title=fragility.quantity.replace("_", " "), loc="upper left")
+        if title:
+            axes.set_title(wrapped(axes, title))
+    return figure if ax is None else axes
+
+
+@overload
+def plot_exceedances(exceedances: Any, *, ax: None = None, title: str | None = ...) -> Figure: ...
+@overload
+def plot_exceedances(exceedances: Any, *, ax: Axes, title: str | None = ...) -> Axes: ...
+def plot_exceedances(
+    exceedances: Any, *, ax: Axes | None = None, title: str | None = None
+) -> FigureBase | Axes:
+    """Plot which intensities contribute to each rate, as `Exceedances.plot` does.
+
+    Parameters
+    ----------
+    exceedances : Exceedances
+    ax, title : optional
+        As for `Exceedances.plot`.
+
+    Returns
+    -------
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
+    """
+    f, hazard = exceedances.fragility, exceedances.hazard
+    im = np.geomspace(min(f.grid()[0], hazard.im[0]), max(f.grid()[-1], hazard.im[-1]), 400)
+    middle = np.sqrt(im[1:] * im[:-1])
+    parts = f.probability(middle) * -np.diff(hazard.at(im)) / np.diff(np.log(im))
+    with style():
+        figure, axes = one_panel("plot_exceedances", None, ax, 7, 4.5)
+        for i, (label, rate) in enumerate(zip(f.labels, exceedances.rate)):
+            color = COLORS[i % len(COLORS)]
+            axes.fill_between(middle, parts[i] / rate, color=color, alpha=0.2, linewidth=0)
+            axes.plot(middle, parts[i] / rate, color=color, label=f"{label}: {rate:.2g} per year")
+        for end in hazard.im[[0, -1]]:
+            axes.axvline(end, color=GRAY, linewidth=0.8, linestyle=":")
+        axes.set_xscale("log")
+        axes.set_ylim(bottom=0)
+        axes.set_xlabel(measure_label(f.im, f.im_unit, f.im_period))
+        axes.set_ylabel("contribution to the rate, per unit of ln IM")
+        axes.legend(title=f.quantity.replace("_", " "), loc="upper right")
         if title:
             axes.set_title(wrapped(axes, title))
     return figure if ax is None else axes
