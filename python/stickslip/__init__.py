@@ -88,6 +88,9 @@ if TYPE_CHECKING:
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
+    from .risk.fragility import Fragility
+    from .risk.hazard import Exceedances, Hazard, read_hazard
+    from .risk.observations import impact
     from .risk.yield_acceleration import yield_acceleration
     from .sweeps import (
         Grid,
@@ -115,11 +118,14 @@ __all__ = [
     "EnsembleSensitivity",
     "Envelope",
     "Estimate",
+    "Exceedances",
+    "Fragility",
     "FrictionPendulum",
     "GaussianExcitation",
     "Grid",
     "GroundMotion",
     "HarmonicMotion",
+    "Hazard",
     "IntensityMeasures",
     "Interval",
     "KumarFriction",
@@ -169,9 +175,11 @@ __all__ = [
     "grid",
     "harmonic",
     "histories",
+    "impact",
     "integrate",
     "interfaces",
     "orientations",
+    "read_hazard",
     "read_record",
     "read_station",
     "record_formats",
@@ -199,6 +207,9 @@ if not TYPE_CHECKING:
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
+        "risk.fragility": ("Fragility",),
+        "risk.hazard": ("Exceedances", "Hazard", "read_hazard"),
+        "risk.observations": ("impact",),
         "sweeps": (
             "Grid",
             "Orientations",

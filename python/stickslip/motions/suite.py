@@ -19,18 +19,16 @@ from .._core import (
     ResponseSpectrum,
     identity,
     response_spectrum,
-    strong_motion,
 )
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns
 from .._tabular import Tabular
 from ..runs.progress import Progress
-from .intensity import IntensityMeasures, beside
+from .intensity import LEVEL_UNITS, IntensityMeasures, beside, level_of
 from .reading import LeftOut, free_names, read_suite
 
 __all__ = ["LeftOut", "Suite"]
 
 _OTHERS = ("transverse", "vertical")  # components other than that along the axis
-_LEVEL_UNITS = {"pga_g": "g", "pgv": "m/s", "arias": "m/s", "sa_g": "g"}
 
 
 class Suite(Tabular, Saved, Sequence[GroundMotion]):
@@ -479,10 +477,10 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         if wrong.size:
             raise ValueError(
                 f"Suite.{who}: {measure} must be positive and finite, got {wrong[0]:g}"
-                f" {_LEVEL_UNITS[measure]}"
+                f" {LEVEL_UNITS[measure]}"
             )
         self._require_motion(who)
-        own = np.array([_level(motion, measure, period, damping) for motion in self._motions])
+        own = np.array([level_of(m, measure, period, damping) for m in self._motions])
         zero = np.flatnonzero(~(own > 0))
         if zero.size:
             raise ValueError(
@@ -686,15 +684,3 @@ class _Taken:
     def require_used(self) -> None:
         if self.used != self.values.size:
             raise ValueError(f"'{self.name}' must have {self.used} samples, has {self.values.size}")
-
-
-def _level(motion: GroundMotion, measure: str, period: float | None, damping: float) -> float:
-    """The intensity measure of a motion, by its keyword in `Suite.scaled_to`."""
-    if measure == "pga_g":
-        return motion.peak_acceleration / STANDARD_GRAVITY
-    if measure == "sa_g":
-        assert period is not None
-        values = np.asarray(response_spectrum(motion, [period], damping).values)
-        return float(values.item()) / STANDARD_GRAVITY
-    found = strong_motion(motion)
-    return found.peak_velocity if measure == "pgv" else found.arias_intensity

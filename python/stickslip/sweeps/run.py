@@ -171,7 +171,7 @@ def sweep(
         sliders=[repr(s) for s in these],
         parameters=parameters_of(these, getattr(sliders, "parameters", {})),
         records=[m.name or f"record {i}" for i, m in enumerate(those)],
-        metadata=motions.metadata if isinstance(motions, Suite) else {},
+        metadata=_metadata(motions),
         polarity=POLARITIES if polarity == "both" else (polarity,),
         settle=settle,
         contact=contact,
@@ -191,6 +191,7 @@ def sweep(
             else:
                 _Parts(executor, these, those, how, table, keeper).run(show)
             keeper.save(table)
+    table.motions = tuple(those)
     if table.failures:
         first = table.failures[0]
         warnings.warn(
@@ -203,6 +204,11 @@ def sweep(
     elif not table.peak.any():
         warn_of_units("sweep", these, those)
     return table
+
+
+def _metadata(motions: Any) -> dict[str, Any]:
+    """The columns of a suite, with the PGA."""
+    return {**motions.metadata, "pga_g": motions.pga_g} if isinstance(motions, Suite) else {}
 
 
 def _drawn(
