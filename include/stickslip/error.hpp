@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "stickslip/base/equal.hpp"
 #include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
@@ -30,7 +31,7 @@ inline std::string shortest_printed(double value) {
   char text[512];  // the largest double has 309 digits before the point
   int places = 0;
   do std::snprintf(text, sizeof text, "%.*e", places, value);
-  while (std::strtod(text, nullptr) != value && ++places < 17);
+  while (!equal(std::strtod(text, nullptr), value) && ++places < 17);
   const std::string scientific(text);
   places -= std::atoi(text + scientific.find('e') + 1);
   std::snprintf(text, sizeof text, "%.*f", places > 0 ? places : 0, value);

@@ -65,7 +65,7 @@ TEST_CASE("the momentum of a floor in the plane is that of its motion", "[planar
                                ground.transverse()[i] + ground.transverse()[i + 1]};
     for (std::size_t k = 0; k < sliders.size(); ++k) {
       INFO("slider " << k << ", vertical " << vertical);
-      const PlanarResponse r = integrate(sliders[k], ground, {.settle = true});
+      const PlanarResponse r = integrate(sliders[k], ground, {.settle = k != 2});  // which creeps for long
       REQUIRE(r.sliding_distance > 0);
       const double tolerance = 1e-6;
       const PlanarFloorMotion floor = floor_motion(sliders[k], ground, r, tolerance);

@@ -52,8 +52,8 @@ class HeldSlip {
     const double am = integral(e.minus + across + e.minus * across, fast + level_, tau);
     to.way = ((pp - mm) / 4) * to_ + (across_ * (plus_ * ap + minus_ * am) / 2) * turned(to_);
     to.distance = (pp + 2 * pm + mm) / 4;
-    const double p = plus_ * (1 + e.plus), m = minus_ * (1 + e.minus);
-    to.velocity = ((p - m) / 2) * to_ + (across_ * (1 + across)) * turned(to_);
+    const double p = plus_ * remaining(e.plus, slow * tau), m = minus_ * remaining(e.minus, fast * tau);
+    to.velocity = ((p - m) / 2) * to_ + (across_ * remaining(across, level_ * tau)) * turned(to_);
     return to;
   }
 
@@ -85,8 +85,8 @@ class HeldSlip {
 
   /// r'' at a regularized time [m/s^2].
   Vector2 acceleration(double tau) const noexcept {
-    const Exponentials e(*this, tau);
-    const double p = plus_ * (1 + e.plus), m = minus_ * (1 + e.minus), u = (p + m) / 2;
+    const double p = plus_ * std::exp((load_ - level_) * tau), m = minus_ * std::exp(-(load_ + level_) * tau);
+    const double u = (p + m) / 2;
     return (load_ - level_ * (p - m) / (2 * u)) * to_ - (level_ * across_ * std::exp(-level_ * tau) / u) * turned(to_);
   }
 
@@ -108,6 +108,11 @@ class HeldSlip {
     Exponentials(const HeldSlip& slip, double tau) noexcept
         : plus(std::expm1((slip.load_ - slip.level_) * tau)), minus(std::expm1(-(slip.load_ + slip.level_) * tau)) {}
   };
+
+  // exp(-decays), of which `change`, exp(-decays) - 1, is known.
+  static double remaining(double change, double decays) noexcept {
+    return change < -0.5 ? std::exp(-decays) : 1 + change;
+  }
 
   // The integral of exp(-rate tau) from 0, of which `change` is known.
   static double integral(double change, double rate, double tau) noexcept {
