@@ -489,8 +489,8 @@ TEST_CASE("a member that fails ends the run and is named", "[ensemble][errors]")
   o.settle = true;
   CHECK_THROWS_AS(run_ensemble(Slider(Coulomb(0), 1.0), shaking(50), o), ConvergenceError);
   CHECK_THROWS_WITH(run_ensemble(Slider(Coulomb(1e-12), 1.0), shaking(50), o),
-                    "run_ensemble: member 0: more than 1000792 events: the spring is too stiff, or the slip level too "
-                    "low, for segments this long");
+                    "run_ensemble: member 0: more than 1000792 events: the spring is too stiff, the slip level too "
+                    "low, or the restitution too near 1, for segments this long");
   CHECK_THROWS_WITH(run_ensemble(Coulomb(0), PoissonPulses(1, 0.5, 1, 5), o),
                     ContainsSubstring("run_ensemble: member ") && ContainsSubstring("does not come to rest"));
   CHECK_THROWS_WITH(run_ensemble(Coulomb(0), shaking(50), o),

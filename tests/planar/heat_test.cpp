@@ -94,3 +94,15 @@ TEST_CASE("a run in the plane that is continued with its heat is one run", "[pla
   CHECK(other.temperature.back() == Approx(whole.temperature.back()).epsilon(1e-7));
   CHECK(other.temperature.front() == Approx(one.temperature.back()).epsilon(1e-12));
 }
+
+TEST_CASE("a pendulum on a heated surface creeps to rest in the plane", "[planar]") {
+  // After shaking it returns while the surface cools and the level rises, until that at rest holds it.
+  const PlanarSlider slider(pendulum());
+  PlanarIntegrateOptions options;
+  options.settle = true;
+  const PlanarResponse r = integrate(slider, line(shaking(60)), options);
+  CHECK(r.state.mode == PlanarMode::stuck);
+  CHECK(r.events.back().time > 5);
+  CHECK(slider.stiffness() * norm(r.residual) <= detail::hold_at(slider, r.state));
+  CHECK(std::abs(r.energy.imbalance()) <= 1e-7 * turnover(r.energy));
+}

@@ -235,6 +235,19 @@ TEST_CASE("slider in the plane: rest is nearly passed", "[planar]") {
   }
 }
 
+TEST_CASE("slider in the plane: a near miss is no event, and a reversal on a line is one", "[planar]") {
+  const PlanarSlider block(Coulomb(1.0));
+  // Thrown against a load that it does not withstand, with a little speed aside.
+  for (const double aside : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    const Outcome there = after(block, under(1, {1.5, 0}, {0.3, 0}), {}, {-0.5, aside});
+    CHECK(there.events.all.empty());
+    CHECK(there.state.displacement.transverse == Approx(0.14185268852 * aside).epsilon(1e-4));
+  }
+  for (const Vector2 toward : {Vector2{1, 0}, Vector2{0, 1}, Vector2{0.6, -0.8}, Vector2{1 / 3.0, std::sqrt(8.0) / 3}})
+    CHECK(after(block, under(1, 1.5 * toward, 0.3 * toward), {}, -0.5 * toward).events.kinds() ==
+          std::vector{EventKind::reversal});
+}
+
 TEST_CASE("slider in the plane: breakaway", "[planar]") {
   const PlanarSlider slider(Coulomb(1));
   SECTION("where the load reaches the level") {

@@ -31,6 +31,11 @@ struct PlanarLoad {
 /// against a circular stop, moving or at rest.
 enum class PlanarStart : unsigned char { moving, above_level, at_level, along_stop };
 
+/// Flows after which it is worth trying whether the direction of a slip follows the load, and whether its speed does.
+struct PlanarPatience {
+  int direction = 0, speed = 0;
+};
+
 namespace detail {
 
 /// The resistance of an isotropic law as a function of the path length and of the time since the start of a flow, and
@@ -71,18 +76,19 @@ class PlanarFlow {
   /// @param velocity  r' at the start [m/s]; 0 only from rest
   /// @param start     the kind of start
   /// @param duration  for which the load is given [s], positive
-  /// @param patience  flows after which it is worth trying whether a slip follows the load; updated
+  /// @param patience  updated
   [[gnu::noinline]] PlanarFlow(const Mounting& mounting, const Law& law, Vector2 place, Vector2 velocity,
-                               PlanarStart start, const PlanarLoad& load, double duration, int& patience)
+                               PlanarStart start, const PlanarLoad& load, double duration, PlanarPatience& patience)
       : damping_(mounting.damping),
         stop_(mounting.stops.forward()),
         spring_(mounting.spring()),
+        along_stop_(start == PlanarStart::along_stop),
         place_(place),
         velocity_(velocity),
         load_(load),
         duration_(duration) {
     if (start == PlanarStart::moving) {
-      if (!close(law) && !hold(law) && !follow(law, patience)) move(law);
+      if (!close(law) && !hold(law) && !creep(law, patience.speed) && !follow(law, patience.direction)) move(law);
     } else if (start == PlanarStart::along_stop) {
       move_along(law);
     } else {
@@ -92,6 +98,8 @@ class PlanarFlow {
 
   /// The time at which it stops [s], or `never` if it does not stop before the horizon.
   double stop() const noexcept { return stops_ ? end_.time : never; }
+  /// Whether it does not stop but turns, in less time than can be resolved.
+  bool turns() const noexcept { return turns_; }
   /// Whether it leaves the stop along which it slides, at the horizon.
   bool leaves() const noexcept { return leaves_; }
   /// The time up to which the motion is known [s].
@@ -113,8 +121,16 @@ class PlanarFlow {
   Vector2 acceleration_at(double s) const noexcept {
     if (kind_ == Kind::stop) return closing_.acceleration(std::max(1 - s, 0x1p-60));
     if (kind_ == Kind::held) return held_.acceleration(s);
-    const double rate = slope(t_, s);
-    return (1 / rate) * Vector2{slope(vx_, s), slope(vy_, s)};
+    if (along_stop_) return (1 / slope(t_, s)) * Vector2{slope(vx_, s), slope(vy_, s)};
+    // By its forces: near a stop the derivative of the velocity is the difference of large numbers.
+    const PlanarProgress at = at_parameter(s);
+    const double weight = load_.weight + load_.weight_rate * at.time, speed = norm(at.velocity);
+    const Vector2 q = load_.start + at.time * load_.rate - spring_.under(weight) * (place_ + at.way);
+    double level = 0;
+    for (int k = order_ - 1; k >= 0; --k) level = level * s + l_[k];
+    const double size = norm(q);
+    const Vector2 direction = speed > 0 ? (1 / speed) * at.velocity : size > 0 ? (1 / size) * q : Vector2{};
+    return q - level * direction - damping_ * at.velocity;
   }
 
   /// The parameter at a time from 0 to the horizon [s].
@@ -375,8 +391,7 @@ class PlanarFlow {
   // Shorten a series until its level is that of the law at its end: a high power of the speed may only act in terms
   // that were cut.
   void keep_to(const Law& law) noexcept {
-    constexpr double exact = requires { law.resist_at(0.0, 0.0); }
-    ? 1e-9 : 0x1p-47;  // a heated level is known to 1e-8
+    constexpr double exact = heated ? level_error : 0x1p-47;
     for (int halvings = 0; halvings < 60; ++halvings, last_ /= 2) {
       double level = 0;
       for (int k = order_ - 1; k >= 0; --k) level = level * last_ + l_[k];
@@ -424,6 +439,8 @@ class PlanarFlow {
     closing_ = closing;
     kind_ = Kind::stop;
     stops_ = true;
+    // Along a line, round-off remains below a part of 1e-8 of the speed.
+    turns_ = turns && std::abs(across) > 0x1p-23 * speed;
     // The mean level along the way, for the work: the speed falls linearly.
     level_ = (load_.weight + load_.weight_rate * time / 3) *
              detail::level_along(law, whole.distance / 2, speed * (2.0 / 3), time / 3);
@@ -467,7 +484,7 @@ class PlanarFlow {
   // The rate at which the level changes at a given speed [m/s^3].
   double change_in_time([[maybe_unused]] const Law& law, [[maybe_unused]] double speed,
                         [[maybe_unused]] double now) const noexcept {
-    if constexpr (requires { law.resist_at(0.0, speed); })
+    if constexpr (heated)
       return std::max(std::abs(law.resist_at(duration_, speed) - now) - 1e-8 * now, 0.0) / duration_;  // known to 1e-8
     else
       return 0;
@@ -616,6 +633,124 @@ class PlanarFlow {
     patience = flows_to_decay(misaligned_ / allowed);
     return false;
   }
+  // Creep: a slow slip under a level that rises so steeply with the speed that the speed follows the load, too. Its
+  // equation u' = q.e - w a(u) - c u is solved for the u in a(u), and iterated with that of the direction. Without the
+  // fast decay that any other speed would have, the series holds for as long as the load hardly changes.
+  // @return false if the slip is too fast for it, or its speed still decays
+  bool creep([[maybe_unused]] const Law& law, [[maybe_unused]] int& patience) {
+    if constexpr (creeps) {
+      if (--patience > 0) return false;
+      const Vector2 q = load_.start - pull();
+      const double load = norm(q), speed = norm(velocity_);
+      if (!(dot(velocity_, q) > 0) || norm(place_) > stop_ * (1 - 0x1p-30)) return false;
+      series::Coefficients path, swift, when;
+      path[0] = path[1] = when[0] = when[1] = 0, swift[0] = speed, swift[1] = 1;
+      auto resistance = series::series_of<double>(
+          detail::level_along(law, series::Variable{&path}, series::Variable{&swift}, series::Variable{&when}));
+      resistance.update(0), resistance.update(1);
+      const double resists = resistance[0], steep = load_.weight * resistance[1] + damping_;
+      if (!(steep * duration_ > follows)) return false;
+      const Vector2 rate =
+          load_.rate - spring_.rate(load_.weight_rate) * place_ - spring_.under(load_.weight) * velocity_;
+      // The rate of the level at this speed.
+      double drift = resists * load_.weight_rate;
+      if constexpr (heated) {
+        const double soon = 0x1p-8 * duration_;
+        drift += load_.weight * (detail::level_along(law, 0.0, speed, soon) - resists) / soon;
+      }
+      const double growth = norm(rate) + std::abs(drift);
+      const double step = growth > 0 ? std::min(duration_, std::min(load, steep * speed) / (2 * growth)) : duration_;
+      if (!(steep * step > follows) || !(load * step > follows * speed)) return false;
+      // The speed lags behind that at which friction balances the load, to first order.
+      const double lag = (dot(q, rate) / load - drift) / steep;
+      const double error = std::abs(load - load_.weight * resists - damping_ * speed - lag) / steep;
+      const double allowed = std::max(steep * (0x1p-55 * duration_ * speed + 0x1p-58 * norm(place_)),
+                                      heated ? level_error * load_.weight * resists / steep : 0.0);
+      const double second_order = 16 * std::abs(lag) / (steep * steep * step);
+      if (error > second_order + allowed) {
+        patience = flows_to_decay(error / (second_order + allowed));
+        return false;
+      }
+      if (is_held_up(speed, 0x1p-46 * load / steep)) return true;
+      if (creep(law, q, step, speed, allowed)) return true;
+      patience = 10;
+    }
+    return false;
+  }
+
+  // Under a constant load creep slows down for ever. A speed that is the round-off of the load displaces nothing more.
+  bool is_held_up(double speed, double unresolved) noexcept {
+    if (heated || speed > unresolved || !(load_.rate == Vector2{}) || !detail::equal(load_.weight_rate, 0))
+      return false;
+    for (double* c : {t_, x_, y_, s_, u_, vx_, vy_, l_}) c[0] = c[1] = 0;
+    t_[1] = duration_;
+    u_[0] = speed;
+    vx_[0] = velocity_.axis, vy_[0] = velocity_.transverse;
+    end_series(1);
+    last_ = 1;
+    finish();
+    return true;
+  }
+
+  /// @param allowed  error of the speed at the start that displaces the path by less than round-off [m/s]
+  bool creep(const Law& law, Vector2 q, double step, double speed, double allowed) {
+    series::Coefficients path, swift, when;
+    path[0] = when[0] = 0, swift[0] = speed;
+    auto resistance = series::series_of<double>(
+        detail::level_along(law, series::Variable{&path}, series::Variable{&swift}, series::Variable{&when}));
+    AlongLoad slip(q, load_.rate - spring_.rate(load_.weight_rate) * place_);
+    slip.step = step;
+    const double gains = load_.weight_rate * step;
+    t_[0] = x_[0] = y_[0] = s_[0] = 0;
+    for (double& value : u_) value = 0;
+    u_[0] = speed;
+    double previous = never, steep = 0;
+    for (int sweep = 0;; ++sweep) {
+      double changed = 0;
+      for (int k = 0; k <= lagging_order; ++k) {
+        if (k > 0) lead(slip, k);
+        changed = std::max(changed, turn_into(slip, k));
+        // What friction and damper take: the level is linear in the last coefficient of the speed.
+        const double taken = slip.sigma[k] - (k + 1) * u_[k + 1] / step, before = u_[k];
+        if (k == 0) {
+          for (int i = 0; i < 3; ++i) {
+            swift[0] = u_[0], swift[1] = 1, path[1] = when[1] = 0;
+            resistance.update(0), resistance.update(1);
+            steep = load_.weight * resistance[1] + damping_;
+            if (!(steep > 0)) return false;
+            u_[0] -= (load_.weight * resistance[0] + damping_ * u_[0] - taken) / steep;
+            if (!(u_[0] > 0)) return false;
+          }
+          swift[0] = u_[0];
+          resistance.update(0);
+          l_[0] = load_.weight * resistance[0];
+        } else {
+          path[k] = s_[k], when[k] = t_[k], swift[k] = 0;
+          resistance.update(k);
+          const double rest = load_.weight * resistance[k] + gains * resistance[k - 1];
+          swift[k] = u_[k] = (taken - rest) / steep;
+          resistance.update(k);
+          l_[k] = load_.weight * resistance[k] + gains * resistance[k - 1];
+        }
+        // The round-off of the load remains.
+        const double change = std::abs(u_[k] - before) - 0x1p-51 * slip.load / steep;
+        changed = std::max(changed, change / speed);
+      }
+      if (changed <= round_off) break;
+      if (sweep > 1 && !(changed < previous / 4)) {
+        if (changed <= 0x1p-48) break;
+        return false;
+      }
+      if (sweep == 20) return false;
+      previous = changed;
+    }
+    level_ = l_[0];
+    constant_level_ = false;
+    const double misaligned = std::abs(cross(slip.to, velocity_) / speed - slip.d[0]);
+    if (!(std::abs(u_[0] - speed) <= allowed) || !(misaligned <= tolerated(speed, slip.load))) return false;
+    return end_along(law, slip, lagging_order, true, false);
+  }
+
   // Flows in which an error of the direction decays by a factor: by about e in each.
   static int flows_to_decay(double factor) noexcept {
     return factor > 1 ? static_cast<int>(std::min(std::log(factor), 40.0)) + 1 : 10;
@@ -625,8 +760,70 @@ class PlanarFlow {
     return load / speed * (0x1p-55 * duration_ + 0x1p-58 * norm(place_) / speed);
   }
 
-  // From rest, or slowly along the load: as a power series in time, in the frame of the load. With a speed u at the
-  // start, the equation of the direction e, u e' = q - (q.e) e, is solved for e and iterated.
+  // A slip along the load as a power series in time, in the frame of the load at its start.
+  struct AlongLoad {
+    Vector2 to;     // direction of the load
+    double load;    // its magnitude [m/s^2]
+    Vector2 rate;   // its rate, without that of the spring
+    double step;    // for which the series is computed [s]
+    bool unloaded;  // without any load the motion begins in the direction into which the load grows
+    // Along `to` and clockwise from it: the load q, the direction e of the motion, the path; and q.e.
+    Array qa, qb, c, d, ra, rb, sigma;
+
+    AlongLoad(Vector2 q, Vector2 its_rate) : to{1, 0}, load(norm(q)), rate(its_rate), step(0), unloaded(!(load > 0)) {
+      const double growth = norm(rate);
+      if (!unloaded)
+        to = (1 / load) * q;
+      else if (growth > 0)
+        to = (1 / growth) * rate;
+      for (double& value : d) value = 0;
+      for (double& value : sigma) value = 0;
+      ra[0] = rb[0] = qb[0] = 0;
+      qa[0] = load;
+    }
+  };
+
+  // Coefficient k > 0 of time, path and load, from the speed and the direction up to k - 1.
+  void lead(AlongLoad& s, int k) noexcept {
+    const double by = s.step * series::reciprocal[k];
+    t_[k] = k == 1 ? s.step : 0;
+    s_[k] = by * u_[k - 1];
+    double gained_a = 0, gained_b = 0;
+    for (int i = 0; i < k; ++i) gained_a += u_[i] * s.c[k - 1 - i], gained_b += u_[i] * s.d[k - 1 - i];
+    s.ra[k] = by * gained_a, s.rb[k] = by * gained_b;
+    double wa = s.ra[k], wb = s.rb[k];
+    if (spring_.pendulum) {
+      const double gains = load_.weight_rate * s.step;
+      wa = load_.weight * wa + gains * s.ra[k - 1];
+      wb = load_.weight * wb + gains * s.rb[k - 1];
+    }
+    s.qa[k] = (k == 1 ? dot(s.rate, s.to) * s.step : 0) - spring_.stiffness * wa;
+    s.qb[k] = (k == 1 && !s.unloaded ? cross(s.to, s.rate) * s.step : 0) - spring_.stiffness * wb;
+  }
+
+  // Coefficient k of the direction: u e' = q - (q.e) e, solved for the part of e perpendicular to the load. The part
+  // along it follows from |e| = 1. @return the change
+  double turn_into(AlongLoad& s, int k) const noexcept {
+    double turned = 0;
+    if (!s.unloaded) {
+      double rest = s.step * s.qb[k] - u_[0] * (k + 1) * s.d[k + 1];
+      for (int i = 1; i <= k; ++i) rest -= s.step * s.sigma[i] * s.d[k - i];
+      for (int i = 2; i <= k; ++i) rest -= u_[i] * (k - i + 1) * s.d[k - i + 1];
+      turned = rest / ((k > 0 ? k * u_[1] : 0) + s.step * s.load);
+    }
+    const double change = std::abs(turned - s.d[k]);
+    s.d[k] = turned;
+    double square = s.d[0] * s.d[k];
+    for (int i = 1; i < k; ++i) square += s.c[i] * s.c[k - i] + s.d[i] * s.d[k - i];
+    if (k > 0) square += s.d[k] * s.d[0];
+    s.c[k] = k > 0 ? -square / (2 * s.c[0]) : std::sqrt(1 - square);
+    double sum = 0;
+    for (int i = 0; i <= k; ++i) sum += s.qa[i] * s.c[k - i] + s.qb[i] * s.d[k - i];
+    s.sigma[k] = sum;
+    return change;
+  }
+
+  // From rest, or slowly along the load. With a speed u at the start, the equation of the direction is iterated.
   bool along_load(const Law& law, double speed, bool smooth) {
     const Vector2 q0 = load_.start - pull();
     series::Coefficients path, swift, when;
@@ -638,10 +835,8 @@ class PlanarFlow {
     level_ = level;
     constant_level_ = std::same_as<decltype(resistance), series::Constant> && detail::equal(load_.weight_rate, 0);
     const Vector2 rate = load_.rate - spring_.rate(load_.weight_rate) * place_;
-    // Without any load the motion begins in the direction into which the load grows.
-    const bool unloaded = !(load > 0);
+    AlongLoad slip(q0, rate);
     const double growth = norm(rate);
-    const Vector2 to = unloaded ? (growth > 0 ? (1 / growth) * rate : Vector2{1, 0}) : (1 / load) * q0;
     const double wn = std::sqrt(spring_.stiffness);
     double h = duration_;
     if (wn > 0) h = std::min(h, 1 / wn);
@@ -656,59 +851,28 @@ class PlanarFlow {
       if (!(load * h > follows * speed)) return false;
     }
 
-    // q along the load and perpendicular to it, the direction e, and q.e.
-    Array qa, qb, c, d, sigma, ra, rb;
+    slip.step = h;
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     u_[0] = speed;
-    ra[0] = rb[0] = 0;
-    const double pa = dot(rate, to), pb = unloaded ? 0 : cross(to, rate), gains = load_.weight_rate * h;
-    qa[0] = load, qb[0] = 0;
     l_[0] = level;
-    const double net0 = smooth || unloaded ? 0 : std::max(load - level, 0.0);
-    const int orders = speed > 0 ? 20 : highest_order;
-    for (int k = 0; k <= orders + 1; ++k) d[k] = sigma[k] = 0;
+    const double gains = load_.weight_rate * h;
+    const double net0 = smooth || slip.unloaded ? 0 : std::max(load - level, 0.0);
+    const int orders = speed > 0 ? lagging_order : highest_order;
     double previous = never;
     for (int sweep = 0; sweep < 12; ++sweep) {
       double changed = 0;
       for (int k = 0; k <= orders; ++k) {
-        const double by = k > 0 ? h * series::reciprocal[k] : 0;
         if (k > 0) {
-          u_[k] = by * ((k == 1 && !(speed > 0) ? net0 : sigma[k - 1] - l_[k - 1]) - damping_ * u_[k - 1]);
-          t_[k] = k == 1 ? h : 0;
-          s_[k] = by * u_[k - 1];
-          double gained_a = 0, gained_b = 0;
-          for (int i = 0; i < k; ++i) gained_a += u_[i] * c[k - 1 - i], gained_b += u_[i] * d[k - 1 - i];
-          ra[k] = by * gained_a, rb[k] = by * gained_b;
+          const double by = h * series::reciprocal[k];
+          u_[k] = by * ((k == 1 && !(speed > 0) ? net0 : slip.sigma[k - 1] - l_[k - 1]) - damping_ * u_[k - 1]);
+          lead(slip, k);
           swift[k] = u_[k];
           path[k] = s_[k];
           when[k] = t_[k];
           resistance.update(k);
           l_[k] = load_.weight * resistance[k] + gains * resistance[k - 1];
-          double wa = ra[k], wb = rb[k];
-          if (spring_.pendulum) {
-            wa = load_.weight * wa + gains * ra[k - 1];
-            wb = load_.weight * wb + gains * rb[k - 1];
-          }
-          qa[k] = (k == 1 ? pa * h : 0) - spring_.stiffness * wa;
-          qb[k] = (k == 1 ? pb * h : 0) - spring_.stiffness * wb;
         }
-        // Perpendicular to the load; the part of e along it follows from |e| = 1.
-        double turned = 0;
-        if (!unloaded) {
-          double rest = h * qb[k] - u_[0] * (k + 1) * d[k + 1];
-          for (int i = 1; i <= k; ++i) rest -= h * sigma[i] * d[k - i];
-          for (int i = 2; i <= k; ++i) rest -= u_[i] * (k - i + 1) * d[k - i + 1];
-          turned = rest / ((k > 0 ? k * u_[1] : 0) + h * load);
-        }
-        changed = std::max(changed, std::abs(turned - d[k]));
-        d[k] = turned;
-        double square = d[0] * d[k];
-        for (int i = 1; i < k; ++i) square += c[i] * c[k - i] + d[i] * d[k - i];
-        if (k > 0) square += d[k] * d[0];
-        c[k] = k > 0 ? -square / (2 * c[0]) : std::sqrt(1 - square);
-        double sum = 0;
-        for (int i = 0; i <= k; ++i) sum += qa[i] * c[k - i] + qb[i] * d[k - i];
-        sigma[k] = sum;
+        changed = std::max(changed, turn_into(slip, k));
       }
       if (!(speed > 0) || changed <= round_off) break;
       if (sweep > 1 && !(changed < previous / 4)) {
@@ -718,11 +882,21 @@ class PlanarFlow {
       previous = changed;
       if (sweep == 11) return false;
     }
-    const Vector2 aside = stickslip::turned(to);
     if (speed > 0) {
-      misaligned_ = std::abs(cross(to, velocity_) / speed - d[0]);
+      misaligned_ = std::abs(cross(slip.to, velocity_) / speed - slip.d[0]);
       if (!(misaligned_ <= tolerated(speed, load))) return false;
     }
+    constexpr bool constant = std::same_as<decltype(resistance), series::Constant>;
+    return end_along(law, slip, orders, speed > 0, constant);
+  }
+
+  // The series of a slip along the load, up to where its terms reach round-off.
+  // @param slow      whether it moves already, slowly
+  // @param constant  whether the level is
+  bool end_along(const Law& law, const AlongLoad& slip, int orders, bool slow, bool constant) {
+    const double h = slip.step, load = slip.load;
+    const Vector2 to = slip.to, aside = stickslip::turned(to);
+    const auto &c = slip.c, &d = slip.d, &ra = slip.ra, &rb = slip.rb;
     for (int k = 0; k <= orders; ++k) {
       double va = 0, vb = 0;
       for (int i = 0; i <= k; ++i) va += u_[i] * c[k - i], vb += u_[i] * d[k - i];
@@ -736,7 +910,7 @@ class PlanarFlow {
     while (leading < orders && detail::equal(u_[leading], 0)) ++leading;
     double scale = std::abs(u_[leading]), longest = 0;
     int order = orders;
-    if (speed > 0)
+    if (slow)
       for (int k = 1; k <= 3; ++k) scale = std::max(scale, std::abs(u_[k]));
     const auto part = [&](int k) {
       const double of = std::max(std::abs(u_[k]), std::max(std::abs(vx_[k]), std::abs(vy_[k])));
@@ -744,7 +918,6 @@ class PlanarFlow {
     };
     double before = leading + 1 <= orders ? part(leading + 1) : 0;
     // Terms that vanish do not end it if a law may act on later ones.
-    constexpr bool constant = std::same_as<decltype(resistance), series::Constant>;
     const int lowest = constant ? leading + 2 : std::max(leading + 2, orders - 8);
     for (int k = leading + 2; k <= orders && longest < 1; ++k) {
       const double now = part(k), both = std::min(before, now);
@@ -753,12 +926,12 @@ class PlanarFlow {
     }
     last_ = longest > 0 ? std::min(longest, 1.0) : 1;
     end_series(order);
-    if constexpr (!constant) keep_to(law);
-    if (speed > 0) {
+    if (!constant) keep_to(law);
+    if (slow) {
       // It remains slow; otherwise steps in tau are as long.
-      while (last_ > 0x1p-10 && follows * std::max(speed + value(u_, last_), speed + value(u_, last_ / 2)) > load * h)
+      while (last_ > 0x1p-10 && follows * std::max(u_[0] + value(u_, last_), u_[0] + value(u_, last_ / 2)) > load * h)
         last_ /= 2;
-      if (!(load * h * last_ > 16 * (speed + std::abs(value(u_, last_))))) return false;
+      if (!(load * h * last_ > 16 * (u_[0] + std::abs(value(u_, last_))))) return false;
     }
     // Where the speed returns to zero, a slip along one line stops, and so does a slow one. Any other still turns: the
     // series ends before.
@@ -771,7 +944,7 @@ class PlanarFlow {
     }
     if (const double stops = first_zero(slower); stops > 0 && stops < never) {
       last_ *= stops;
-      if (straight || speed > 0)
+      if (straight || slow)
         stops_ = last_ * h <= duration_;
       else
         last_ *= 0.75;
@@ -896,12 +1069,23 @@ class PlanarFlow {
   static constexpr double graze = 0x1p-42;  // a difference of radial terms that is round-off, as a fraction of them
   static constexpr double follows =
       64;  // times in which a direction turns into that of the load, at least, in a slow slip
+  // Whether the level depends on time, by the heat of a step, and how well it is then known.
+  static constexpr bool heated = requires(const Law& law) { law.resist_at(0.0, 0.0); };
+  static constexpr double level_error = 1e-9;
+  // Whether the level may depend on the speed.
+  static constexpr bool creeps = [] {
+    if constexpr (MemorylessLaw<Law>)
+      return form_of<Law> == Form::analytic;
+    else
+      return true;
+  }();
+  static constexpr int lagging_order = 20;   // of the series of a slow slip
   static constexpr double largest_step = 2;  // of tau times the rate of the motion
 
   double damping_, stop_;
   Spring spring_;
-  bool constant_level_ = false;
-  bool stops_ = false, leaves_ = false;
+  bool along_stop_, constant_level_ = false;
+  bool stops_ = false, leaves_ = false, turns_ = false;
   Kind kind_ = Kind::series;
   Closing closing_{};
   detail::HeldSlip held_;

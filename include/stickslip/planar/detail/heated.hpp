@@ -82,6 +82,9 @@ class Heating {
     const double heating = covers ? law_.heating(State{}, Direction::forward) : 0;
     std::optional<Slide> slip;
     double step = std::min(left, 16 * last_step_);
+    // A slow slip follows the load for a long time, which a short step would hide.
+    const double resists = weight(0) * law_.level_at_high_speed(weight(0), state.heat.half_integral());
+    if (256 * norm(state.velocity) < resists * left) step = left;
     for (int shortened = 0;; ++shortened) {
       const Nodes::Values before = cooling_.half_integrals(state.heat, step);
       Nodes::Values levels, q{};

@@ -128,6 +128,7 @@ class Plane {
              : departure.at_level                     ? PlanarStart::at_level
                                                       : PlanarStart::above_level;
     if (!std::exchange(stopped_, false)) return Resumption::from_rest;
+    if (turned_) return Resumption::onward;
     const PlanarLoad load = load_now();
     return dot(load.start - pull(load.weight), arrived_) > 0 ? Resumption::onward : Resumption::reversed;
   }
@@ -226,6 +227,7 @@ class Plane {
       arrived_ = slide.flow.at_parameter(leg.last / 2).velocity;
     }
     rest();
+    turned_ = slide.flow.turns();
   }
 
   [[noreturn, gnu::noinline]] void stall() const {
@@ -285,6 +287,7 @@ class Plane {
     state_.velocity = {};
     state_.mode = PlanarMode::stuck;
     stopped_ = true;
+    turned_ = false;
     if constexpr (heated) heat_at_rest_ = state_.heat;
   }
 
@@ -352,11 +355,12 @@ class Plane {
   PlanarState& state_;
   double left_;                              // time to the end of the segment [s]
   PlanarStart start_ = PlanarStart::moving;  // of the next flow
+  bool turned_ = false;                      // whether the last stop was a turn that takes no time
   bool stopped_ = false;                     // whether a slip has just stopped,
   [[no_unique_address]] HeatingOf<Law> heating_{slider_.law()};
   struct Cold {};
   [[no_unique_address]] std::conditional_t<heated, SurfaceHeat, Cold> heat_at_rest_{};
-  int patience_ = 0;   // of PlanarFlow
+  PlanarPatience patience_;
   Vector2 arrived_{};  // and its last velocity [m/s]
 };
 

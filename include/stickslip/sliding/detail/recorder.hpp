@@ -24,9 +24,11 @@ constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'0
 
 [[noreturn, gnu::noinline]] inline void refuse_more_events(std::size_t event_limit,
                                                            double time = std::numeric_limits<double>::quiet_NaN()) {
-  throw ConvergenceError("more than " + std::to_string(event_limit) + " events" +
-                         (std::isnan(time) ? "" : " up to " + shortest(time) + " s") +
-                         ": the spring is too stiff, or the slip level too low, for segments this long");
+  throw ConvergenceError(
+      "more than " + std::to_string(event_limit) + " events" +
+      (std::isnan(time) ? "" : " up to " + shortest(time) + " s") +
+      ": the spring is too stiff, the slip level too low, or the restitution too near 1, for segments this "
+      "long");
 }
 
 /// A flow that can have a damper.
