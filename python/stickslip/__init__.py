@@ -79,6 +79,7 @@ from ._core import (
 
 TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as all of this
 if TYPE_CHECKING:
+    from . import regressions
     from ._interfaces import interfaces
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, ensemble_sensitivity, run_ensemble
@@ -87,6 +88,10 @@ if TYPE_CHECKING:
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
+    from .risk.fragility import Fragility
+    from .risk.hazard import Exceedances, Hazard, read_hazard
+    from .risk.observations import impact
+    from .risk.yield_acceleration import yield_acceleration
     from .sweeps import (
         Grid,
         Orientations,
@@ -100,6 +105,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "ASCE43Estimate",
     "Caster",
     "Comparison",
     "ConvergenceError",
@@ -112,11 +118,14 @@ __all__ = [
     "EnsembleSensitivity",
     "Envelope",
     "Estimate",
+    "Exceedances",
+    "Fragility",
     "FrictionPendulum",
     "GaussianExcitation",
     "Grid",
     "GroundMotion",
     "HarmonicMotion",
+    "Hazard",
     "IntensityMeasures",
     "Interval",
     "KumarFriction",
@@ -157,6 +166,7 @@ __all__ = [
     "WithVertical",
     "__version__",
     "advance",
+    "asce43",
     "build_info",
     "compare",
     "ensemble_sensitivity",
@@ -165,12 +175,15 @@ __all__ = [
     "grid",
     "harmonic",
     "histories",
+    "impact",
     "integrate",
     "interfaces",
     "orientations",
+    "read_hazard",
     "read_record",
     "read_station",
     "record_formats",
+    "regressions",
     "response_spectrum",
     "rotd",
     "run_ensemble",
@@ -180,6 +193,7 @@ __all__ = [
     "strong_motion",
     "sweep",
     "theory",
+    "yield_acceleration",
 ]
 
 if not TYPE_CHECKING:
@@ -193,6 +207,9 @@ if not TYPE_CHECKING:
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
+        "risk.fragility": ("Fragility",),
+        "risk.hazard": ("Exceedances", "Hazard", "read_hazard"),
+        "risk.observations": ("impact",),
         "sweeps": (
             "Grid",
             "Orientations",
@@ -203,11 +220,15 @@ if not TYPE_CHECKING:
             "sliding_spectrum",
             "sweep",
         ),
+        "risk.asce43": ("ASCE43Estimate", "asce43"),
+        "risk.yield_acceleration": ("yield_acceleration",),
     }
 
     def __getattr__(name):
         from importlib import import_module
 
+        if name == "regressions":
+            return import_module(f"{__name__}.regressions")
         for module, names in _LATER.items():
             if name in names:
                 found = getattr(import_module(f"{__name__}.{module}"), name)

@@ -115,6 +115,61 @@ def test_scaling_without_one_clear_target_is_refused():
         ss.Suite([ss.GroundMotion([0, 0], dt=1, name="quiet")]).scaled_to(sa_g=1, period=1)
 
 
+@pytest.mark.parametrize(
+    "measure, levels, more",
+    [
+        ("pga_g", [0.1, 0.4], {}),
+        ("pgv", [0.2, 0.6], {}),
+        ("arias", [0.5, 2], {}),
+        ("sa_g", [0.3, 0.9], {"period": 0.6}),
+    ],
+)
+def test_stripes_scale_each_record_to_each_level(measure, levels, more):
+    stripes = SUITE.stripes(**{measure: levels}, **more)
+    assert stripes.record.tolist() == 2 * list(SUITE.names)
+    assert stripes.stripe.tolist() == np.repeat(levels, 4).tolist()
+    assert stripes.event.tolist() == 2 * SUITE.event.tolist()
+    for level in levels:
+        part = stripes[stripes.stripe == level]
+        target = SUITE.scaled_to(**{measure: level}, **more)
+        assert list(part) == list(target)
+        assert part.factor == pytest.approx(target.pga_g / SUITE.pga_g, rel=1e-14)
+    assert getattr(stripes, measure) == pytest.approx(stripes.stripe, rel=1e-14)
+    if more:
+        assert set(stripes.sa_period) == {0.6}
+    table = pytest.importorskip("pandas") and stripes.to_dataframe()
+    assert table.columns.tolist()[:2] == ["record", "pga_g"]
+    assert "record_given" not in table
+
+
+def test_stripes_scale_all_components_and_keep_the_records_apart():
+    n = MOTIONS[0].acceleration
+    pair = ss.GroundMotion(n, dt=0.02, transverse=n[::-1], name="A")
+    stripes = ss.Suite([pair, MOTIONS[1], pair, ss.GroundMotion([0, 1], dt=1)]).stripes(pga_g=[1])
+    assert stripes.record.tolist() == ["A", "quake 1", "A (2)", "record 3"]
+    assert stripes[0].transverse == pytest.approx(n[::-1] * stripes.factor[0], rel=1e-15)
+    of_one_station = SUITE.with_metadata({"record": [*"aabb"]}).stripes(pga_g=0.3)
+    assert of_one_station.record.tolist() == [*"aabb"]
+
+
+def test_levels_that_no_factor_reaches_are_refused():
+    quiet = ss.GroundMotion([0, 0], dt=1, name="quiet")
+    for bad, why in (
+        ({}, "give one of pga_g, pgv, arias, sa_g, got none"),
+        ({"pga_g": [1], "arias": [1]}, ".* got pga_g and arias"),
+        ({"pga_g": []}, "pga_g must be a list of levels"),
+        ({"pga_g": [0.1, 0]}, "pga_g must be positive and finite, got 0 g"),
+        ({"pgv": [math.nan]}, "pgv must be positive and finite, got nan m/s"),
+        ({"sa_g": [1]}, "sa_g and period go together"),
+        ({"pga_g": [1], "period": 1}, "sa_g and period go together"),
+    ):
+        with pytest.raises(ValueError, match=f"Suite.stripes: {why}"):
+            SUITE.stripes(**bad)
+    for measure in ("pga_g", "pgv", "arias"):
+        with pytest.raises(ValueError, match="'quiet' is zero throughout"):
+            ss.Suite([*MOTIONS, quiet]).stripes(**{measure: [1]})
+
+
 def test_duplicates_are_found_whatever_their_names():
     again = ss.GroundMotion(MOTIONS[1].acceleration, dt=0.02, name="other name")
     other_step = ss.GroundMotion(MOTIONS[1].acceleration, dt=0.01)

@@ -338,7 +338,8 @@ def test_tables_of_the_former_layout_open(tmp_path):
         for name in ("peak", "residual", "sliding_distance", "events"):
             h5[name] = getattr(table, name)
         h5["parameters/mu"] = table.parameters["mu"]
-        h5.create_group("metadata")["magnitude"] = table.metadata["magnitude"]
+        for name in ("magnitude", "pga_g"):
+            h5[f"metadata/{name}"] = table.metadata[name]
     assert ss.SweepTable.open(tmp_path / "t.h5") == table
 
 

@@ -11,11 +11,20 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import GroundMotion, ResponseSpectrum, response_spectrum, strong_motion
+from .._core import (
+    STANDARD_GRAVITY,
+    GroundMotion,
+    ResponseSpectrum,
+    response_spectrum,
+    strong_motion,
+)
 from .._tabular import Tabular
 from .tables import MEASURES, SPECTRUM_UNITS
 
-__all__ = ["IntensityMeasures", "SuiteSpectra", "beside", "spectra"]
+__all__ = ["LEVEL_UNITS", "IntensityMeasures", "SuiteSpectra", "beside", "level_of", "spectra"]
+
+# Intensity measures by their short names, which the levels of stripes and fragility curves have.
+LEVEL_UNITS = {"pga_g": "g", "pgv": "m/s", "arias": "m/s", "cav": "m/s", "sa_g": "g"}
 
 
 class _Suite(Protocol):
@@ -190,5 +199,27 @@ def spectra(suite: _Suite, periods: Any, damping: Any, kind: str) -> SuiteSpectr
 def beside(
     own: Mapping[str, NDArray[Any]], metadata: Mapping[str, NDArray[Any]]
 ) -> dict[str, NDArray[Any]]:
-    """The columns of a table, and those of the metadata, named ``..._given`` if they clash."""
-    return {**own, **{(f"{n}_given" if n in own else n): c for n, c in metadata.items()}}
+    """The columns of a table, and those of the metadata, named ``..._given`` if they clash.
+
+    A column of the metadata that repeats one of the table is left out.
+    """
+    others = {n: c for n, c in metadata.items() if n not in own or not np.array_equal(own[n], c)}
+    return {**own, **{(f"{n}_given" if n in own else n): c for n, c in others.items()}}
+
+
+def level_of(
+    motion: GroundMotion, measure: str, period: float | None = None, damping: float = 0.05
+) -> float:
+    """An intensity measure of a motion, by its short name, in the unit of `LEVEL_UNITS`."""
+    if measure == "pga_g":
+        return motion.peak_acceleration / STANDARD_GRAVITY
+    if measure == "sa_g":
+        assert period is not None
+        values = np.asarray(response_spectrum(motion, [period], damping).values)
+        return float(values.item()) / STANDARD_GRAVITY
+    found = strong_motion(motion)
+    return {
+        "pgv": found.peak_velocity,
+        "arias": found.arias_intensity,
+        "cav": found.cumulative_absolute_velocity,
+    }[measure]

@@ -23,7 +23,7 @@ from .._core import (
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns
 from .._tabular import Tabular
 from ..runs.progress import Progress
-from .intensity import IntensityMeasures, beside
+from .intensity import LEVEL_UNITS, IntensityMeasures, beside, level_of
 from .reading import LeftOut, free_names, read_suite
 
 __all__ = ["LeftOut", "Suite"]
@@ -350,19 +350,11 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f"Suite.scaled_to: give one of {', '.join(targets)}, got"
                 f" {' and '.join(given) or 'none'}"
             )
-        if (sa_g is None) != (period is None):
-            raise ValueError("Suite.scaled_to: sa_g and period go together, got one of them")
-        if pga_g is not None:
-            return Suite((m.scaled_to(pga_g=pga_g) for m in self._motions), self._metadata)
-        if pgv is not None:
-            return Suite((m.scaled_to(pgv=pgv) for m in self._motions), self._metadata)
-        if arias is not None:
-            return Suite((m.scaled_to(arias=arias) for m in self._motions), self._metadata)
-        if sa_g is not None:
-            assert period is not None
-            self._require_motion()
-            target_of = {"sa_g": sa_g, "period": period, "damping": damping}
-            return Suite((m.scaled_to(**target_of) for m in self._motions), self._metadata)
+        if spectrum is None:
+            level = targets[given[0]]
+            return self.scaled(self._factors("scaled_to", given[0], level, period, damping))
+        if period is not None:
+            raise ValueError("Suite.scaled_to: period goes with sa_g, got it with spectrum")
         if isinstance(spectrum, ResponseSpectrum):
             if spectrum.kind != "pseudo_acceleration" or len(spectrum.damping) != 1:
                 raise ValueError(
@@ -372,7 +364,6 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             periods, damping = np.array(spectrum.periods), float(spectrum.damping[0])
             target = np.array(spectrum.values).reshape(-1)
         else:
-            assert spectrum is not None
             periods, target = (np.asarray(part, float) for part in spectrum)
         if periods.shape != target.shape or periods.ndim != 1 or not periods.size:
             raise ValueError(
@@ -383,17 +374,136 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
             raise ValueError(
                 f"Suite.scaled_to: targets must be positive and finite, got {target.min()} m/s^2"
             )
-        self._require_motion()
+        self._require_motion("scaled_to")
         factors = []
         for motion in self._motions:
             own = np.asarray(response_spectrum(motion, periods, damping).values).reshape(-1)
             factors.append(math.exp(np.mean(np.log(target / own))))
         return self.scaled(factors)
 
-    def _require_motion(self) -> None:
+    def stripes(
+        self,
+        *,
+        pga_g: ArrayLike | None = None,
+        pgv: ArrayLike | None = None,
+        arias: ArrayLike | None = None,
+        sa_g: ArrayLike | None = None,
+        period: float | None = None,
+        damping: float = 0.05,
+    ) -> Suite:
+        """Scale each motion to each of several levels of one intensity measure.
+
+        Multiple stripe analysis evaluates the scaled motions of each level, a stripe; incremental
+        dynamic analysis follows each record over the levels. A cloud is the suite as it is.
+
+        Parameters
+        ----------
+        pga_g : array_like, shape (levels,), optional
+            Peak accelerations [g]. Levels are positive; give exactly one intensity measure.
+        pgv : array_like, shape (levels,), optional
+            Peak velocities [m/s].
+        arias : array_like, shape (levels,), optional
+            Arias intensities [m/s].
+        sa_g : array_like, shape (levels,), optional
+            Pseudo-accelerations at `period` and `damping` [g].
+        period : float, optional
+            Period [s] for `sa_g`, at least 0.
+        damping : float, optional
+            Damping ratio for `sa_g`.
+
+        Returns
+        -------
+        Suite
+            All motions at the first level, then all at the second, and so on. The metadata of each
+            motion gain `record`, the name of the record that was scaled, which is different for
+            each record of this suite; `stripe`, the level; and `factor`. The level is also in a
+            column with the name of the measure: the property `pga_g`, or `pgv`, `arias` or `sa_g`
+            with `sa_period`. If the suite has a column `record` already, it is kept: motions with
+            the same `record`, such as two components of one station, count as one record.
+
+        Raises
+        ------
+        ValueError
+            Not exactly one measure; no levels, or one that is not positive and finite; `sa_g`
+            without `period`, or the reverse; a motion whose measure is zero, which is named.
+
+        Examples
+        --------
+        >>> import stickslip as ss
+        >>> quakes = ss.Suite([ss.GroundMotion([0, 3, -3, 0], dt=0.5, name="A")])
+        >>> stripes = quakes.stripes(pga_g=[0.1, 0.2])
+        >>> [(name, float(level)) for name, level in zip(stripes.record, stripes.stripe)]
+        [('A', 0.1), ('A', 0.2)]
+        >>> len(stripes[stripes.stripe == 0.2])
+        1
+
+        Notes
+        -----
+        Factors change amplitudes only; a record scaled by a large factor lacks the frequency
+        content and the duration of a stronger earthquake.
+        """
+        targets = {"pga_g": pga_g, "pgv": pgv, "arias": arias, "sa_g": sa_g}
+        given = [name for name, value in targets.items() if value is not None]
+        if len(given) != 1:
+            raise ValueError(
+                f"Suite.stripes: give one of {', '.join(targets)}, got"
+                f" {' and '.join(given) or 'none'}"
+            )
+        measure = given[0]
+        levels = np.atleast_1d(np.asarray(targets[measure], float))
+        if levels.ndim != 1 or not levels.size:
+            raise ValueError(f"Suite.stripes: {measure} must be a list of levels, got {levels!r}")
+        factors = self._factors("stripes", measure, levels[:, np.newaxis], period, damping)
+        count, records = len(levels), len(self)
+        columns = {name: np.tile(column, count) for name, column in self._metadata.items()}
+        columns.setdefault("record", np.tile(self._different_names(), count))
+        columns["stripe"] = np.repeat(levels, records)
+        columns["factor"] = factors.ravel()
+        if measure != "pga_g":  # a property of every suite
+            columns[measure] = columns["stripe"]
+        if period is not None:
+            columns["sa_period"] = np.full(count * records, float(period))
+        motions = (m.scaled(float(f)) for row in factors for m, f in zip(self._motions, row))
+        return Suite(motions, columns)
+
+    def _factors(
+        self, who: str, measure: str, levels: Any, period: float | None, damping: float
+    ) -> NDArray[np.float64]:
+        """The factors that scale each motion to a level, or, of a column of levels, to each."""
+        if (measure == "sa_g") != (period is not None):
+            raise ValueError(f"Suite.{who}: sa_g and period go together, got one of them")
+        target = np.asarray(levels, float)
+        wrong = target[~(np.isfinite(target) & (target > 0))]
+        if wrong.size:
+            raise ValueError(
+                f"Suite.{who}: {measure} must be positive and finite, got {wrong[0]:g}"
+                f" {LEVEL_UNITS[measure]}"
+            )
+        self._require_motion(who)
+        own = np.array([level_of(m, measure, period, damping) for m in self._motions])
+        zero = np.flatnonzero(~(own > 0))
+        if zero.size:
+            raise ValueError(
+                f"Suite.{who}: the {measure} of '{self._motions[zero[0]].name}' is zero, so no"
+                " factor scales it"
+            )
+        factors: NDArray[np.float64] = target / own
+        return np.sqrt(factors) if measure == "arias" else factors  # quadratic in the amplitude
+
+    def _different_names(self) -> list[str]:
+        """The names of the motions, numbered where they are empty or occur before."""
+        seen: dict[str, int] = {}
+        names = []
+        for i, name in enumerate(self.names):
+            plain = name or f"record {i}"
+            seen[plain] = seen.get(plain, 0) + 1
+            names.append(plain if seen[plain] == 1 else f"{plain} ({seen[plain]})")
+        return names
+
+    def _require_motion(self, who: str) -> None:
         for motion in self._motions:
             if not motion.peak_acceleration > 0:
-                raise ValueError(f"Suite.scaled_to: '{motion.name}' is zero throughout")
+                raise ValueError(f"Suite.{who}: '{motion.name}' is zero throughout")
 
     # ---- files
 

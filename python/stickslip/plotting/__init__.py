@@ -23,6 +23,7 @@ from .ensemble import plot_ensemble
 from .figures import check_suffix as check_suffix
 from .figures import new_figure as new_figure
 from .figures import save
+from .fragility import plot_exceedances, plot_fragility
 from .ground import plot_ground_motion, plot_response_spectrum
 from .hysteresis import plot_hysteresis
 from .planar import plot_planar_response
@@ -41,6 +42,8 @@ from .trajectory import sticks, without_contact
 __all__ = [
     "plot_comparison",
     "plot_ensemble",
+    "plot_exceedances",
+    "plot_fragility",
     "plot_friction_sweep",
     "plot_ground_motion",
     "plot_hysteresis",

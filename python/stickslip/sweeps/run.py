@@ -26,6 +26,7 @@ from .._core import (
     VelocityDependent,
 )
 from .._units import warn_of_units
+from ..ensemble.random_slider import Random
 from ..ensemble.sources import check_directions
 from ..motions.suite import Suite
 from ..runs import parts
@@ -52,9 +53,12 @@ _PARTS = 64  # number of parts of the records for an executor
 
 
 def sweep(
-    sliders: AnySwept | Sequence[AnySwept],
+    sliders: AnySwept | Sequence[AnySwept] | Random,
     motions: GroundMotion | Sequence[GroundMotion],
     *,
+    members: SupportsIndex | None = None,
+    seed: SupportsIndex | None = None,
+    stratified: bool = False,
     polarity: Polarity = "both",
     settle: bool = False,
     contact: Literal["flight", "clipped"] = "flight",
@@ -71,11 +75,17 @@ def sweep(
 
     Parameters
     ----------
-    sliders : Slider, friction law, PlanarSlider or list of these
-        Sliders with any laws, all on one axis or all in the plane; `grid` makes lists.
+    sliders : Slider, friction law, PlanarSlider, list of these, or Random
+        Sliders with any laws, all on one axis or all in the plane; `grid` makes lists. Of a
+        `Random`, `members` sliders are drawn, the same for every record.
     motions : GroundMotion, Suite or list of GroundMotion
         Records, which may differ in length and time step. In the plane they need a transverse
         component, as `read_station` and ``Suite.read(..., stations=True)`` give them.
+    members, seed : int, optional
+        Number of sliders to draw from a `Random`, at least 1, and the seed, from 0 to 2^64 - 1;
+        both are needed with a `Random`. Slider i equals ``sliders.sample(seed=seed, member=i)``.
+    stratified : bool, optional
+        Draw a Latin hypercube from a `Random`; see `Random.draw`.
     polarity : {'both', 'recorded', 'reversed'}
         Both n(t) and -n(t), n(t) only, or -n(t) only. In the plane -n(t) reverses both horizontal
         components; on level ground the response is then the mirror image, computed once.
@@ -137,6 +147,7 @@ def sweep(
     combinations use `integrate`, one by one on all threads, as do those in which the normal force
     reaches zero, and sliders in the plane. Releases the interpreter lock.
     """
+    sliders = _drawn(sliders, members, seed, stratified)
     these = _sliders(sliders)
     those = [motions] if isinstance(motions, GroundMotion) else list(motions)
     if polarity not in ("both", *POLARITIES):
@@ -160,7 +171,7 @@ def sweep(
         sliders=[repr(s) for s in these],
         parameters=parameters_of(these, getattr(sliders, "parameters", {})),
         records=[m.name or f"record {i}" for i, m in enumerate(those)],
-        metadata=motions.metadata if isinstance(motions, Suite) else {},
+        metadata=_metadata(motions),
         polarity=POLARITIES if polarity == "both" else (polarity,),
         settle=settle,
         contact=contact,
@@ -180,6 +191,7 @@ def sweep(
             else:
                 _Parts(executor, these, those, how, table, keeper).run(show)
             keeper.save(table)
+    table.motions = tuple(those)
     if table.failures:
         first = table.failures[0]
         warnings.warn(
@@ -194,12 +206,36 @@ def sweep(
     return table
 
 
+def _metadata(motions: Any) -> dict[str, Any]:
+    """The columns of a suite, with the PGA."""
+    return {**motions.metadata, "pga_g": motions.pga_g} if isinstance(motions, Suite) else {}
+
+
+def _drawn(
+    sliders: Any, members: SupportsIndex | None, seed: SupportsIndex | None, stratified: bool
+) -> Any:
+    """The sliders, drawn if they are random."""
+    if isinstance(sliders, Random):
+        if members is None or seed is None:
+            raise ValueError(
+                "sweep: a Random needs members, the number of sliders to draw, and seed, as in"
+                " members=100, seed=1"
+            )
+        return Grid(*sliders.draw(members, seed=seed, stratified=stratified))
+    if members is not None or seed is not None or stratified:
+        raise ValueError(
+            f"sweep: members, seed and stratified are for a Random, got {type(sliders).__name__}"
+        )
+    return sliders
+
+
 def _sliders(given: Any) -> list[AnySwept]:
     if isinstance(given, _SLIDERS):
         return [given]
     if not isinstance(given, Iterable):
         raise TypeError(
-            "sweep: sliders must be a Slider, a friction law, a PlanarSlider or a list, got"
+            "sweep: sliders must be a Slider, a friction law, a PlanarSlider, a list or a Random,"
+            " got"
             f" {type(given).__name__}"
         )
     these = list(given)

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import STANDARD_GRAVITY, Coulomb
+from .._core import STANDARD_GRAVITY, Coulomb, GroundMotion
 from .._hdf5 import Saved, as_column, read, read_columns, read_texts, write
 from .._optional import optional
 from .._tables import Columns, Repeated, json_text
-from .._tabular import Tabular
+from .._tabular import Tabular, same
 from .parameter_grid import AnySwept
 
 if TYPE_CHECKING:
@@ -101,12 +102,14 @@ class SweepTable(Tabular, Saved):
     sliders : tuple of str
         The reprs of the sliders.
     parameters : dict of ndarray
-        By name, the parameters that `grid` varied, for each slider; for a list of Coulomb laws,
-        `mu`.
+        By name, the parameters that `grid` varied or that were drawn from a `Random`, for each
+        slider; for a list of Coulomb laws, `mu`.
     records : tuple of str
         Names of the ground motions.
     metadata : dict of ndarray
-        Columns of the suite, with a value for each record.
+        Columns of the suite, with a value for each record, and its `pga_g` [g].
+    motions : tuple of GroundMotion
+        The ground motions. They are not saved: empty for a table from a file and for a copy.
     polarity : tuple of str
         'recorded', under n(t), and 'reversed', under -n(t), or one of them.
     settle : bool
@@ -188,6 +191,20 @@ class SweepTable(Tabular, Saved):
                         f"SweepTable: '{name}' must have {length} values, got {column.size}"
                     )
         self.done = np.isfinite(self.peak).any(axis=(0, 2))
+        self.motions: tuple[GroundMotion, ...] = ()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "motions"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state, motions=())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, SweepTable):
+            return NotImplemented
+        return same(self.__getstate__(), other.__getstate__())
+
+    __hash__ = None  # type: ignore[assignment]
 
     @classmethod
     def empty(cls, *, has_stops: bool, planar: bool, **about: Any) -> SweepTable:
@@ -211,6 +228,16 @@ class SweepTable(Tabular, Saved):
         return (
             arrays if columns and not self.airborne.any() else arrays | {"airborne": self.airborne}
         )
+
+    @property
+    def stop_distance(self) -> NDArray[np.float64]:
+        """The largest displacement [m] that the stops of each slider allow; inf without stops."""
+        found = []
+        for slider in self.sliders:
+            stops = re.search(r"stops=Stops\(([^)]*)\)", slider)
+            gaps = re.findall(r"(?:gap|backward)=([^,)]+)", stops[1]) if stops else ["inf"]
+            found.append(max(map(float, gaps)))
+        return np.array(found)
 
     @property
     def planar(self) -> bool:
@@ -375,7 +402,11 @@ class SweepTable(Tabular, Saved):
         parameters, metadata = self._beside()
         columns |= {name: Repeated(column, s) for name, column in parameters.items()}
         columns["record"] = Repeated(np.array(self.records), r)
-        columns |= {name: Repeated(column, r) for name, column in metadata.items()}
+        columns |= {
+            name: Repeated(column, r)
+            for name, column in metadata.items()
+            if column.tolist() != list(self.records)  # as of stripes, whose names are `record`
+        }
         columns["polarity"] = Repeated(np.array(self.polarity), p)
         return columns | {name: a.ravel() for name, a in self.arrays(True).items()}, UNITS
 

@@ -1,0 +1,121 @@
+"""Fragility curves, hazard curves, and design charts of sliding."""
+
+from __future__ import annotations
+
+from typing import Any, overload
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+
+from .figures import one_panel
+from .styles import COLORS, GRAY, style, wrapped
+
+MEASURES = {
+    "pga_g": "peak ground acceleration",
+    "pgv": "peak ground velocity",
+    "arias": "Arias intensity",
+    "cav": "cumulative absolute velocity",
+    "sa_g": "pseudo-acceleration",
+}
+
+
+def measure_label(name: str, unit: str, period: float | None = None) -> str:
+    """The label of an axis of an intensity measure."""
+    at = f" at {period:g} s" if period is not None else ""
+    return MEASURES.get(name, name) + at + (f" [{unit}]" if unit else "")
+
+
+@overload
+def plot_fragility(
+    fragility: Any, *, level: float | None = ..., ax: None = None, title: str | None = ...
+) -> Figure: ...
+@overload
+def plot_fragility(
+    fragility: Any, *, level: float | None = ..., ax: Axes, title: str | None = ...
+) -> Axes: ...
+def plot_fragility(
+    fragility: Any,
+    *,
+    level: float | None = 0.9,
+    ax: Axes | None = None,
+    title: str | None = None,
+) -> FigureBase | Axes:
+    """Plot fragility curves, as `Fragility.plot` does.
+
+    Parameters
+    ----------
+    fragility : Fragility
+    level, ax, title : optional
+        As for `Fragility.plot`.
+
+    Returns
+    -------
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
+    """
+    im = fragility.grid()
+    curves = fragility.probability(im)
+    levels, fractions = fragility.fractions()
+    bands = None if level is None else fragility.bands(level, im)
+    with style():
+        figure, axes = one_panel("plot_fragility", None, ax, 7, 4.5)
+        for i, label in enumerate(fragility.labels):
+            color = COLORS[i % len(COLORS)]
+            if bands is not None:
+                axes.fill_between(
+                    im, bands.low[i], bands.high[i], color=color, alpha=0.2, linewidth=0
+                )
+            axes.plot(im, curves[i], color=color, label=label)
+            if len(levels) <= 50:
+                axes.plot(levels, fractions[i], "o", color=color, markersize=4)
+        axes.set_xscale("log")
+        axes.set_ylim(0, 1)
+        axes.set_xlabel(measure_label(fragility.im, fragility.im_unit, fragility.im_period))
+        axes.set_ylabel("probability of exceedance")
+        axes.legend(title=fragility.quantity.replace("_", " "), loc="upper left")
+        if title:
+            axes.set_title(wrapped(axes, title))
+    return figure if ax is None else axes
+
+
+@overload
+def plot_exceedances(exceedances: Any, *, ax: None = None, title: str | None = ...) -> Figure: ...
+@overload
+def plot_exceedances(exceedances: Any, *, ax: Axes, title: str | None = ...) -> Axes: ...
+def plot_exceedances(
+    exceedances: Any, *, ax: Axes | None = None, title: str | None = None
+) -> FigureBase | Axes:
+    """Plot which intensities contribute to each rate, as `Exceedances.plot` does.
+
+    Parameters
+    ----------
+    exceedances : Exceedances
+    ax, title : optional
+        As for `Exceedances.plot`.
+
+    Returns
+    -------
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
+    """
+    f, hazard = exceedances.fragility, exceedances.hazard
+    im = np.geomspace(min(f.grid()[0], hazard.im[0]), max(f.grid()[-1], hazard.im[-1]), 400)
+    middle = np.sqrt(im[1:] * im[:-1])
+    parts = f.probability(middle) * -np.diff(hazard.at(im)) / np.diff(np.log(im))
+    with style():
+        figure, axes = one_panel("plot_exceedances", None, ax, 7, 4.5)
+        for i, (label, rate) in enumerate(zip(f.labels, exceedances.rate)):
+            color = COLORS[i % len(COLORS)]
+            axes.fill_between(middle, parts[i] / rate, color=color, alpha=0.2, linewidth=0)
+            axes.plot(middle, parts[i] / rate, color=color, label=f"{label}: {rate:.2g} per year")
+        for end in hazard.im[[0, -1]]:
+            axes.axvline(end, color=GRAY, linewidth=0.8, linestyle=":")
+        axes.set_xscale("log")
+        axes.set_ylim(bottom=0)
+        axes.set_xlabel(measure_label(f.im, f.im_unit, f.im_period))
+        axes.set_ylabel("contribution to the rate, per unit of ln IM")
+        axes.legend(title=f.quantity.replace("_", " "), loc="upper right")
+        if title:
+            axes.set_title(wrapped(axes, title))
+    return figure if ax is None else axes

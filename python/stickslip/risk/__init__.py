@@ -1,0 +1,1 @@
+"""From displacements to decisions: yield accelerations and estimates of codes."""

@@ -1,0 +1,112 @@
+"""Fragility curves in the formats of pelicun and OpenQuake."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+import numpy as np
+
+from .._files import replacing
+
+if TYPE_CHECKING:
+    from .fragility import Fragility
+
+__all__ = ["to_openquake", "to_pelicun"]
+
+_NRML = "http://openquake.org/xmlns/nrml/0.5"
+# Name and unit of pelicun.
+_PELICUN = {
+    "pga_g": ("Peak Ground Acceleration", "g"),
+    "pgv": ("Peak Ground Velocity", "mps"),
+    "sa_g": ("Spectral Acceleration", "g"),
+}
+# Name of OpenQuake, and its unit in ours: velocities are in cm/s, CAV in g s.
+_OPENQUAKE = {
+    "pga_g": ("PGA", 1.0),
+    "pgv": ("PGV", 100.0),
+    "sa_g": ("SA", 1.0),
+    "arias": ("IA", 1.0),
+    "cav": ("CAV", 1 / 9.80665),
+}
+
+
+def to_pelicun(fragility: Fragility, path: str | os.PathLike[str], id: str) -> Path:
+    """See `Fragility.to_pelicun`."""
+    if fragility.method != "lognormal":
+        raise ValueError(
+            "Fragility.to_pelicun: writes lognormal curves; fit with method='lognormal', got"
+            f" {fragility.method!r}"
+        )
+    if fragility.im not in _PELICUN:
+        raise ValueError(
+            f"Fragility.to_pelicun: im must be one of {', '.join(_PELICUN)}, got {fragility.im!r}"
+        )
+    demand, unit = _PELICUN[fragility.im]
+    if fragility.im == "sa_g":
+        demand += f"|{_period(fragility, 'to_pelicun'):g}"
+    heads = ["ID", "Demand-Type", "Demand-Unit", "Demand-Directional", "Demand-Offset"]
+    row = [id, demand, unit, "0", "0"]
+    for i, (median, beta) in enumerate(zip(fragility.median, fragility.beta), 1):
+        heads += [f"LS{i}-{name}" for name in ("Family", "Theta_0", "Theta_1")]
+        row += ["lognormal", repr(float(median)), repr(float(beta))]
+    with replacing(path) as stream:
+        stream.write(f"{','.join(heads)}\n{','.join(row)}\n".encode())
+    return Path(os.fsdecode(path))
+
+
+def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) -> Path:
+    """See `Fragility.to_openquake`."""
+    if fragility.im not in _OPENQUAKE:
+        raise ValueError(
+            f"Fragility.to_openquake: im must be one of {', '.join(_OPENQUAKE)}, got"
+            f" {fragility.im!r}"
+        )
+    imt, factor = _OPENQUAKE[fragility.im]
+    if imt == "SA":
+        imt = f"SA({_period(fragility, 'to_openquake'):g})"
+    states = [label.replace(" ", "_") for label in fragility.labels]
+    root = ElementTree.Element("nrml", {"xmlns": _NRML})
+    about = {"id": id, "assetCategory": "contents", "lossCategory": "contents"}
+    model = ElementTree.SubElement(root, "fragilityModel", about)
+    ElementTree.SubElement(model, "description").text = f"stickslip: {fragility.quantity}"
+    ElementTree.SubElement(model, "limitStates").text = " ".join(states)
+    im = fragility.grid()
+    if fragility.method == "lognormal":
+        kind = {"id": id, "format": "continuous", "shape": "logncdf"}
+        function = ElementTree.SubElement(model, "fragilityFunction", kind)
+        ends = {"minIML": repr(float(im[0] * factor)), "maxIML": repr(float(im[-1] * factor))}
+        ElementTree.SubElement(function, "imls", {"imt": imt, **ends})
+        for state, median, beta in zip(states, fragility.median * factor, fragility.beta):
+            # Mean and deviation of the intensity itself, not of its logarithm.
+            mean = float(median) * math.exp(float(beta) ** 2 / 2)
+            deviation = mean * math.sqrt(math.expm1(float(beta) ** 2))
+            what = {"ls": state, "mean": repr(mean), "stddev": repr(deviation)}
+            ElementTree.SubElement(function, "params", what)
+    else:
+        function = ElementTree.SubElement(
+            model, "fragilityFunction", {"id": id, "format": "discrete"}
+        )
+        ElementTree.SubElement(function, "imls", {"imt": imt}).text = _numbers(im * factor)
+        for state, row in zip(states, fragility.probability(im)):
+            ElementTree.SubElement(function, "poes", {"ls": state}).text = _numbers(row)
+    ElementTree.indent(root)
+    with replacing(path) as stream:
+        stream.write(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n")
+    return Path(os.fsdecode(path))
+
+
+def _period(fragility: Fragility, who: str) -> float:
+    if fragility.im_period is None:
+        raise ValueError(
+            f"Fragility.{who}: the period of sa_g is unknown; the column sa_period of the suite"
+            " gives it, as stripes(sa_g=..., period=...) does"
+        )
+    return fragility.im_period
+
+
+def _numbers(values: np.ndarray) -> str:
+    return " ".join(repr(float(value)) for value in values)

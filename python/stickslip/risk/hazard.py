@@ -1,0 +1,486 @@
+"""Hazard curves, and the rates at which a fragility is exceeded under them."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import os
+import re
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._optional import optional
+from .._tables import Columns
+from .._tabular import Tabular
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from .fragility import Fragility
+
+__all__ = ["Exceedances", "Hazard", "exceedances", "read_hazard"]
+
+Array = NDArray[np.float64]
+_MUCH_BEYOND = 0.1  # share of a rate from beyond the points that is worth a warning
+# Short names and units of the measures in hazard files, and factors: PGV is in cm/s there.
+_MEASURES = {"PGA": ("pga_g", "g", 1.0), "PGV": ("pgv", "m/s", 0.01), "IA": ("arias", "m/s", 1.0)}
+
+
+class Hazard(Tabular):
+    """A hazard curve: annual rates at which intensities are exceeded.
+
+    Interpolated linearly in log-log, and extrapolated with the slopes of the first and last piece.
+
+    Parameters
+    ----------
+    im : array_like, shape (N,)
+        Intensities, positive, increasing; at least 2.
+    rate : array_like, shape (N,)
+        Annual rates of exceedance [1/year], positive, not increasing; the last is below the one
+        before.
+    name : str, optional
+        The intensity measure, such as 'pga_g', as in `Fragility.im`.
+    unit : str, optional
+        Its unit.
+    period : float, optional
+        Its period [s].
+
+    Raises
+    ------
+    ValueError
+        Values out of range; a curve that does not decrease.
+
+    Examples
+    --------
+    >>> import stickslip as ss
+    >>> hazard = ss.Hazard([0.1, 0.4, 1.6], [1e-2, 1e-3, 1e-4], name="pga_g", unit="g")
+    >>> float(round(hazard.at(0.2), 6))
+    0.003162
+    """
+
+    def __init__(
+        self,
+        im: ArrayLike,
+        rate: ArrayLike,
+        *,
+        name: str = "",
+        unit: str = "",
+        period: float | None = None,
+    ) -> None:
+        self.im = np.array(im, float)
+        self.rate = np.array(rate, float)
+        self.name, self.unit, self.period = name, unit, period
+        if self.im.ndim != 1 or self.im.shape != self.rate.shape or len(self.im) < 2:
+            raise ValueError(
+                "Hazard: im and rate must be two lists of equal length, at least 2, got shapes"
+                f" {self.im.shape} and {self.rate.shape}"
+            )
+        for what, values, of in (("im", self.im, unit), ("rate", self.rate, "1/year")):
+            wrong = values[~(np.isfinite(values) & (values > 0))]
+            if wrong.size:
+                raise ValueError(
+                    f"Hazard: {what} must be positive and finite, got {wrong[0]:g} {of}".rstrip()
+                )
+        if not (np.diff(self.im) > 0).all():
+            i = int(np.argmin(np.diff(self.im) > 0))
+            raise ValueError(
+                f"Hazard: im must increase, got {self.im[i]:g} before {self.im[i + 1]:g}"
+            )
+        rises = np.flatnonzero(np.diff(self.rate) > 0)
+        if rises.size:
+            i = int(rises[0])
+            raise ValueError(
+                "Hazard: rates must decrease, as rates of exceedance do, got"
+                f" {self.rate[i]:g} at {self.im[i]:g} and {self.rate[i + 1]:g} at"
+                f" {self.im[i + 1]:g}"
+            )
+        if self.rate[-1] == self.rate[-2]:
+            raise ValueError(
+                f"Hazard: rates must decrease, got {self.rate[-1]:g} at both of the last points, so"
+                " the curve cannot be extrapolated"
+            )
+        self.im.setflags(write=False)
+        self.rate.setflags(write=False)
+
+    @property
+    def slopes(self) -> Array:
+        """k of each piece, on which the rate is proportional to IM^-k, shape (N - 1,)."""
+        k: Array = -np.diff(np.log(self.rate)) / np.diff(np.log(self.im))
+        return k
+
+    def at(self, im: ArrayLike) -> NDArray[np.float64]:
+        """The rate at intensities [1/year].
+
+        Parameters
+        ----------
+        im : float or array_like
+            Intensities, positive.
+
+        Returns
+        -------
+        ndarray, of the shape of `im`
+        """
+        x = np.asarray(im, float)
+        if not (x > 0).all():
+            raise ValueError(f"Hazard.at: im must be positive, got {np.min(x):g}")
+        u, known = np.log(x), np.log(self.im)
+        i = np.clip(np.searchsorted(known, u, side="right") - 1, 0, len(known) - 2)
+        result: Array = self.rate[i] * np.exp(-self.slopes[i] * (u - known[i]))
+        return result
+
+    def _table(self) -> tuple[Columns, Mapping[str, str]]:
+        return {"im": self.im, "rate": self.rate}, {"im": self.unit, "rate": "1/year"}
+
+    def __repr__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        of = f" of {self.name}" if self.name else ""
+        return (
+            f"<Hazard{of}: {len(self.im)} points, {self.rate[0]:.3g}/year at {self.im[0]:.3g}{unit}"
+            f" to {self.rate[-1]:.3g}/year at {self.im[-1]:.3g}{unit}>"
+        )
+
+
+class Exceedances(Tabular):
+    """Annual rates at which thresholds are exceeded; see `Fragility.rate_of_exceedance`.
+
+    Attributes
+    ----------
+    fragility : Fragility
+    hazard : Hazard
+    rate : ndarray, shape (T,)
+        [1/year], for each threshold.
+    beyond : ndarray, shape (T,)
+        The fraction of the rate that comes from intensities below the first point of the hazard
+        curve or above its last one.
+    """
+
+    def __init__(self, fragility: Fragility, hazard: Hazard, rate: Array, beyond: Array) -> None:
+        self.fragility, self.hazard = fragility, hazard
+        self.rate, self.beyond = rate, beyond
+
+    def probability(self, years: float) -> NDArray[np.float64]:
+        """The probability of at least one exceedance in a time, 1 - exp(-rate years).
+
+        Parameters
+        ----------
+        years : float
+            At least 0.
+
+        Returns
+        -------
+        ndarray, shape (T,)
+        """
+        if not (math.isfinite(years) and years >= 0):
+            raise ValueError(
+                f"Exceedances.probability: years must be at least 0 and finite, got {years}"
+            )
+        p: Array = -np.expm1(-self.rate * years)
+        return p
+
+    def _table(self) -> tuple[Columns, Mapping[str, str]]:
+        columns, units = self.fragility._table()
+        first = {"threshold": columns["threshold"]}
+        return {**first, "rate": self.rate, "beyond": self.beyond}, {**units, "rate": "1/year"}
+
+    def __repr__(self) -> str:
+        rates = ", ".join(
+            f"{label}: {rate:.3g}/year" for label, rate in zip(self.fragility.labels, self.rate)
+        )
+        return f"<Exceedances: {rates}>"
+
+    @overload
+    def plot(self, *, ax: None = None, title: str | None = ...) -> Figure: ...
+    @overload
+    def plot(self, *, ax: Axes, title: str | None = ...) -> Axes: ...
+    def plot(self, *, ax: Axes | None = None, title: str | None = None) -> Figure | Axes:
+        """Plot which intensities contribute to each rate, and the hazard curve.
+
+        Parameters
+        ----------
+        ax : matplotlib Axes, optional
+            Where to draw; default: a new figure of 7 x 4.5 inches.
+        title : str, optional
+
+        Returns
+        -------
+        matplotlib Figure or Axes
+            The axes if they were given, otherwise the new figure.
+
+        Raises
+        ------
+        ImportError
+            matplotlib is missing.
+        """
+        from ..plotting import plot_exceedances
+
+        return plot_exceedances(self, ax=ax, title=title)
+
+
+def exceedances(fragility: Fragility, hazard: Hazard) -> Exceedances:
+    """See `Fragility.rate_of_exceedance`."""
+    if not isinstance(hazard, Hazard):
+        raise TypeError(
+            "Fragility.rate_of_exceedance: hazard must be a Hazard, as read_hazard returns it, got"
+            f" {type(hazard).__name__}"
+        )
+    if hazard.name and hazard.name != fragility.im:
+        raise ValueError(
+            f"Fragility.rate_of_exceedance: the hazard curve is of {hazard.name}, the fragility of"
+            f" {fragility.im}"
+        )
+    periods = (hazard.period, fragility.im_period)
+    if None not in periods and not math.isclose(*periods, rel_tol=1e-6):  # type: ignore[arg-type]
+        raise ValueError(
+            f"Fragility.rate_of_exceedance: the hazard curve is at a period of {periods[0]:g} s,"
+            f" the fragility at {periods[1]:g} s"
+        )
+    if fragility.method == "lognormal":
+        parts = _lognormal_pieces(fragility, hazard)
+    else:
+        parts = _pieces_by_quadrature(fragility, hazard)
+    rate = parts.sum(axis=1)
+    outside = parts[:, 0] + parts[:, -1]
+    beyond = np.divide(outside, rate, out=np.zeros_like(rate), where=rate > 0)
+    for label, share in zip(fragility.labels, beyond):
+        if share > _MUCH_BEYOND:
+            warnings.warn(
+                f"Fragility.rate_of_exceedance: {100 * share:.0f} % of the rate for {label} comes"
+                f" from beyond the points of the hazard curve, {hazard.im[0]:g} to"
+                f" {hazard.im[-1]:g} {hazard.unit}".rstrip(),
+                RuntimeWarning,
+                stacklevel=3,
+            )
+    return Exceedances(fragility, hazard, rate, beyond)
+
+
+def _ends(hazard: Hazard) -> tuple[Array, Array, Array, Array]:
+    """Begin and end in ln IM, slope, and ln rate at ln IM = 0, of each piece and both tails."""
+    u = np.log(hazard.im)
+    k = hazard.slopes
+    k = np.concatenate([k[:1], k, k[-1:]])
+    corner = np.concatenate([u[:1], u[:-1], u[-1:]])
+    height = np.log(np.concatenate([hazard.rate[:1], hazard.rate[:-1], hazard.rate[-1:]]))
+    low, high = np.concatenate([[-np.inf], u]), np.concatenate([u, [np.inf]])
+    return low, high, k, height + k * corner
+
+
+def _lognormal_pieces(fragility: Fragility, hazard: Hazard) -> Array:
+    """The rate from each piece of the hazard curve, shape (T, N + 1), in closed form.
+
+    With the rate exp(h - k u) of u = ln IM, and the median m = ln theta, the integral of
+    Phi((u - m)/beta) k exp(h - k u) du is, by parts,
+        -exp(h - k u) Phi((u - m)/beta) + exp(h - k m + k^2 beta^2/2) Phi((u - m)/beta + k beta).
+    """
+    special = optional("scipy.special", "risk", "Fragility.rate_of_exceedance")
+    low, high, k, h = _ends(hazard)
+    m, beta = np.log(fragility.median)[:, np.newaxis], fragility.beta[:, np.newaxis]
+    # ln of exp(h - k m + k^2 beta^2/2), which may exceed the doubles that its factor makes small.
+    scale = h - k * m + (k * beta) ** 2 / 2
+
+    def product(u: Array) -> Array:
+        z = (u - m) / beta
+        with np.errstate(invalid="ignore"):
+            value: Array = np.exp(h - k * u + special.log_ndtr(z))
+        # At both ends of the axis the product is zero, or there is no slope.
+        return np.where(np.isinf(u), 0.0, value)
+
+    a, b = (low - m) / beta + k * beta, (high - m) / beta + k * beta
+    upper = a > 0  # the tail that is accurate
+    first, second = np.where(upper, -a, b), np.where(upper, -b, a)
+    gained = np.exp(scale + special.log_ndtr(first)) - np.exp(scale + special.log_ndtr(second))
+    result: Array = np.maximum(product(low) - product(high) + gained, 0.0)
+    return np.where(k > 0, result, 0.0)
+
+
+def _pieces_by_quadrature(fragility: Fragility, hazard: Hazard) -> Array:
+    """The rate from each piece of the hazard curve, shape (T, N + 1), for curves of any form.
+
+    Gauss's rule with 8 points on parts of at most 0.1 in ln IM. The tails end where the curves are
+    below 1e-12, or where the rate has fallen by 1e-16.
+    """
+    low, high, k, h = _ends(hazard)
+    grid = np.log(fragility.grid())
+    low[0], high[-1] = min(grid[0] - 10, high[0]), max(grid[-1] + 1, low[-1] + 37 / k[-1])
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    parts = np.zeros((len(fragility.thresholds), len(k)))
+    for i in range(len(k)):
+        if not high[i] > low[i] or k[i] == 0:
+            continue
+        edges = np.linspace(low[i], high[i], math.ceil((high[i] - low[i]) / 0.1) + 1)
+        half = np.diff(edges) / 2
+        u = ((edges[:-1] + half)[:, np.newaxis] + half[:, np.newaxis] * nodes).ravel()
+        density = k[i] * np.exp(h[i] - k[i] * u) * (half[:, np.newaxis] * weights).ravel()
+        parts[:, i] = fragility.probability(np.exp(u)) @ density
+    return parts
+
+
+def read_hazard(
+    path: str | os.PathLike[str],
+    *,
+    imt: str | None = None,
+    site: int | tuple[float, float] | None = None,
+    years: float | None = None,
+) -> Hazard:
+    """Read a hazard curve from a file.
+
+    Parameters
+    ----------
+    path : path-like
+        A text file with two columns, intensity and annual rate [1/year], separated by commas,
+        semicolons or blanks; lines of text are skipped. OpenQuake's ``hazard_curve-*.csv``. The
+        JSON of the USGS hazard tool.
+    imt : str, optional
+        The intensity measure of a file with several, such as 'PGA' or 'SA1P0'.
+    site : int or (lon, lat), optional
+        The site of an OpenQuake file with several: its row, from 0, or its coordinates [degrees].
+    years : float, optional
+        The second column holds probabilities of exceedance in this time [years] instead of rates.
+        OpenQuake's files state it.
+
+    Returns
+    -------
+    Hazard
+        Probabilities p in t years become rates, -ln(1 - p)/t. Points with a probability of 1, or
+        with a rate of 0, have no logarithm and are left out. Velocities, which OpenQuake states in
+        cm/s, are in m/s.
+
+    Raises
+    ------
+    ValueError
+        A file that is none of these; several measures or sites without a choice; a curve that does
+        not decrease.
+    OSError
+        The file cannot be read.
+    """
+    file = Path(os.fsdecode(path))
+    text = file.read_text(encoding="utf-8-sig")
+    try:
+        if text.lstrip().startswith(("{", "[")):
+            return _from_usgs(text, imt)
+        if re.search(r"^lon,lat", text, re.MULTILINE) and "poe-" in text:
+            return _from_openquake(text, site, years)
+        return _from_columns(text, years)
+    except ValueError as error:
+        raise ValueError(f"read_hazard: '{file}': {error}") from error
+
+
+def _rates(p: Array, years: float) -> Array:
+    if not (math.isfinite(years) and years > 0):
+        raise ValueError(f"years must be positive and finite, got {years}")
+    if not ((p >= 0) & (p <= 1)).all():
+        wrong = p[~((p >= 0) & (p <= 1))][0]
+        raise ValueError(f"a probability must lie between 0 and 1, got {wrong:g}")
+    with np.errstate(divide="ignore"):
+        rate: Array = -np.log1p(-p) / years
+    return rate
+
+
+def _hazard(im: Array, rate: Array, **about: Any) -> Hazard:
+    """A hazard curve of the points that have a logarithm."""
+    if np.isnan(rate).any() or (rate < 0).any():
+        raise ValueError("a rate must be at least 0, got a negative one or NaN")
+    usable = np.isfinite(rate) & (rate > 0)
+    if usable.sum() < 2:
+        raise ValueError(
+            f"needs at least 2 points with a rate above 0, has {usable.sum()}; for probabilities"
+            " give years="
+        )
+    return Hazard(im[usable], rate[usable], **about)
+
+
+def _from_columns(text: str, years: float | None) -> Hazard:
+    rows = []
+    for line in text.splitlines():
+        cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
+        try:
+            row = [float(cell) for cell in cells]
+        except ValueError:
+            continue  # a head or a comment
+        if row and len(row) != 2:
+            raise ValueError(f"needs two columns, intensity and annual rate, got {line.strip()!r}")
+        rows += [row] if row else []
+    if len(rows) < 2:
+        raise ValueError(
+            "needs two columns, intensity and annual rate, with at least 2 rows of numbers, got"
+            f" {len(rows)}"
+        )
+    im, rate = np.array(rows).T
+    return _hazard(im, rate if years is None else _rates(rate, years))
+
+
+def _from_openquake(text: str, site: Any, years: float | None) -> Hazard:
+    lines = text.splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith("lon,lat"))
+    about = " ".join(lines[:begin])
+    stated = re.search(r"investigation_time=([0-9.eE+-]+)", about)
+    time = float(stated[1]) if stated else years
+    if time is None:
+        raise ValueError("the file does not state investigation_time; give years=")
+    heads, *rows = [row for row in csv.reader(lines[begin:]) if row]
+    if not rows:
+        raise ValueError("has no site")
+    number: Any = site
+    if site is None:
+        if len(rows) > 1:
+            raise ValueError(f"has {len(rows)} sites; give site=, a row or (lon, lat)")
+        number = 0
+    elif not isinstance(site, (int, np.integer)):
+        places = np.array([[float(cell) for cell in row[:2]] for row in rows])
+        near = np.flatnonzero(np.abs(places - np.asarray(site, float)).max(axis=1) < 1e-4)
+        if near.size != 1:
+            raise ValueError(f"has {near.size} sites at {tuple(site)} within 1e-4 degrees")
+        number = near[0]
+    if not 0 <= number < len(rows):
+        raise ValueError(f"has {len(rows)} sites, got site={number}")
+    points = [(float(h[4:]), float(c)) for h, c in zip(heads, rows[number]) if h[:4] == "poe-"]
+    im, p = np.array(points).T
+    kind = re.search(r"imt='([^']+)'", about)
+    name, unit, factor, period = _measure(kind[1] if kind else "")
+    return _hazard(im * factor, _rates(p, time), name=name, unit=unit, period=period)
+
+
+def _measure(imt: str) -> tuple[str, str, float, float | None]:
+    """Our name of a measure of a file, its unit, the factor to that unit, and its period."""
+    if imt in _MEASURES:
+        return (*_MEASURES[imt], None)
+    # SA(1.0) of OpenQuake, SA1P0 of USGS.
+    period = re.fullmatch(r"SA\(([0-9.]+)\)|SA([0-9]+)P([0-9]+)", imt)
+    if period:
+        value = float(period[1] or f"{period[2]}.{period[3]}")
+        return "sa_g", "g", 1.0, value
+    return "", "", 1.0, None
+
+
+def _from_usgs(text: str, imt: str | None) -> Hazard:
+    document = json.loads(text)
+    found: dict[str, tuple[Array, Array]] = {}
+    response = document.get("response") if isinstance(document, dict) else None
+    curves = response.get("hazardCurves") if isinstance(response, dict) else response
+    for curve in curves if isinstance(curves, list) else ():
+        about = curve.get("metadata", curve)
+        kind = curve.get("imt") or about.get("imt") or {}
+        name = str(kind.get("value", "") if isinstance(kind, dict) else kind)
+        for part in curve.get("data", ()):
+            if part.get("component", "Total") == "Total":
+                values = part.get("values", {})
+                x = part.get("xvalues") or about.get("xvalues") or values.get("xs")
+                y = part.get("yvalues") or values.get("ys")
+                if x and y and len(x) == len(y):
+                    found[name] = (np.array(x, float), np.array(y, float))
+    if not found:
+        raise ValueError("has no hazard curve where the JSON of the USGS hazard tool has one")
+    if imt is None and len(found) > 1:
+        raise ValueError(f"has curves of {', '.join(found)}; give imt=")
+    chosen = next(iter(found)) if imt is None else imt
+    if chosen not in found:
+        raise ValueError(f"has no curve of {chosen}; it has {', '.join(found)}")
+    name, unit, factor, period = _measure(chosen)  # PGV is in cm/s here, too
+    x, y = found[chosen]
+    return _hazard(x * factor, y, name=name, unit=unit, period=period)

@@ -1,0 +1,229 @@
+"""Hazard curves and rates of exceedance: closed forms, files, limits."""
+
+import itertools
+import json
+import math
+
+import numpy as np
+import pytest
+import stickslip as ss
+from test_fragility import simulated
+
+integrate = pytest.importorskip("scipy.integrate")
+stats = pytest.importorskip("scipy.stats")
+
+
+@pytest.fixture(scope="module")
+def fragility():
+    return ss.Fragility.fit(simulated(1, records=40), im="pga_g", thresholds=[0.05, 0.1])
+
+
+def power_law(k0, k, low=1e-3, high=1e3, count=7):
+    im = np.geomspace(low, high, count)
+    return ss.Hazard(im, k0 * im**-k, name="pga_g", unit="g")
+
+
+@pytest.mark.parametrize("k", [0.5, 1.7, 3.0, 8.0])
+def test_a_power_law_has_the_closed_form(fragility, k):
+    h = fragility.rate_of_exceedance(power_law(1e-4, k))
+    exact = 1e-4 * fragility.median**-k * np.exp((k * fragility.beta) ** 2 / 2)
+    assert h.rate == pytest.approx(exact, rel=1e-10)
+    assert h.probability(50) == pytest.approx(-np.expm1(-50 * exact), rel=1e-10)
+    assert h.probability(0) == pytest.approx(0, abs=0)
+    # Where the points do not reach, the slope is extrapolated: the same rate, with a share beyond.
+    with pytest.warns(RuntimeWarning, match=r"% of the rate for 0\.\d+ m comes from beyond"):
+        short = fragility.rate_of_exceedance(power_law(1e-4, k, 0.3, 0.5, 2))
+    assert short.rate == pytest.approx(exact, rel=1e-10)
+    shift = np.log(fragility.median) - k * fragility.beta**2
+    scores = (np.log([[0.3], [0.5]]) - shift) / fragility.beta
+    below, above = stats.norm.cdf(scores)
+    im = np.array([0.3, 0.5])
+    edge = 1e-4 * im[:, np.newaxis] ** -k * fragility.probability(im).T / exact
+    assert short.beyond == pytest.approx(below - edge[0] + 1 - above + edge[1], abs=1e-9)
+
+
+def kinked():
+    return ss.Hazard([0.01, 0.05, 0.2, 0.5, 1.5, 4.0], [0.3, 0.05, 3e-3, 4e-4, 1e-5, 2e-8])
+
+
+@pytest.mark.parametrize("method", ["lognormal", "logit", "cloud"])
+def test_the_integral_is_that_of_a_quadrature(method):
+    f = ss.Fragility.fit(
+        simulated(2, records=40), im="pga_g", thresholds=[0.05, 0.1], method=method
+    )
+    hazard = kinked()
+    h = f.rate_of_exceedance(hazard)
+    u = np.log(hazard.im)
+
+    def integrand(x, i):
+        k = hazard.slopes[np.clip(np.searchsorted(u, x) - 1, 0, len(u) - 2)]
+        return f.probability(math.exp(x))[i] * k * hazard.at(math.exp(x))
+
+    edges = [-9, *u, 9]
+    for i in range(2):
+        parts = [
+            integrate.quad(integrand, a, b, args=(i,), epsabs=1e-16, epsrel=1e-11)[0]
+            for a, b in itertools.pairwise(edges)
+        ]
+        assert h.rate[i] == pytest.approx(sum(parts), rel=1e-7)
+        assert h.beyond[i] == pytest.approx((parts[0] + parts[-1]) / sum(parts), abs=1e-7)
+
+
+def test_steep_curves_and_small_dispersions_stay_finite(fragility):
+    for k, reach in ((40.0, 1e4), (15.0, 300.0)):
+        im = np.geomspace(1 / reach, reach, 20)
+        with np.errstate(all="raise", under="ignore"):
+            h = fragility.rate_of_exceedance(ss.Hazard(im, np.exp(-k * np.log(im) - 30)))
+        exact = np.exp(-30 - k * np.log(fragility.median) + (k * fragility.beta) ** 2 / 2)
+        assert h.rate == pytest.approx(exact, rel=1e-8)
+
+
+def test_a_curve_is_linear_in_logarithms_between_and_beyond_its_points():
+    hazard = ss.Hazard([0.1, 0.4, 0.8], [1e-2, 1e-3, 1e-4])
+    assert hazard.at([0.1, 0.4, 0.8]) == pytest.approx([1e-2, 1e-3, 1e-4], rel=1e-12)
+    assert hazard.at(0.2) == pytest.approx(math.sqrt(1e-5), rel=1e-12)
+    assert hazard.at(0.05) == pytest.approx(1e-2 * math.sqrt(10), rel=1e-12)
+    assert hazard.at(1.6) == pytest.approx(1e-5, rel=1e-12)
+    assert "3 points, 0.01/year at 0.1" in repr(hazard)
+    # Part of a curve may be flat: all earthquakes exceed a small intensity.
+    assert ss.Hazard([0.01, 0.1, 0.4], [1e-2, 1e-2, 1e-3]).at(0.001) == pytest.approx(1e-2)
+
+
+def test_curves_that_do_not_decrease_are_refused():
+    for im, rate, why in (
+        ([0.1, 0.2, 0.4], [1e-2, 2e-2, 1e-3], r"must decrease.*0.01 at 0.1 and 0.02 at 0.2"),
+        ([0.1, 0.2, 0.4], [1e-2, 1e-3, 1e-3], "at both of the last points"),
+        ([0.1, 0.1], [1e-2, 1e-3], "im must increase, got 0.1 before 0.1"),
+        ([0, 0.1], [1e-2, 1e-3], "im must be positive and finite, got 0"),
+        ([0.1, 0.2], [1e-2, 0], "rate must be positive and finite, got 0 1/year"),
+        ([0.1, 0.2], [math.nan, 1e-3], "rate must be positive and finite, got nan"),
+        ([0.1], [1e-2], "two lists of equal length, at least 2"),
+        ([0.1, 0.2], [1e-2], "two lists of equal length"),
+    ):
+        with pytest.raises(ValueError, match=f"Hazard: .*{why}"):
+            ss.Hazard(im, rate)
+    with pytest.raises(ValueError, match="im must be positive, got 0"):
+        kinked().at(0)
+
+
+def test_a_fragility_and_a_hazard_of_different_measures_do_not_go_together(fragility):
+    with pytest.raises(TypeError, match="hazard must be a Hazard"):
+        fragility.rate_of_exceedance([0.1, 0.2])
+    with pytest.raises(ValueError, match="the hazard curve is of pgv, the fragility of pga_g"):
+        fragility.rate_of_exceedance(ss.Hazard([0.1, 1], [1e-2, 1e-4], name="pgv"))
+    with pytest.raises(ValueError, match="years must be at least 0"):
+        fragility.rate_of_exceedance(power_law(1e-4, 2)).probability(-1)
+
+
+# ---- files
+
+
+def test_two_columns(tmp_path):
+    for text in (
+        "PGA (g),annual rate\n0.1,1e-2\n0.4,1e-3\n",
+        "# im rate\n0.1 1e-2\n0.4\t1e-3\n\n",
+        "0.1;1e-2\n0.4;1e-3",
+    ):
+        (tmp_path / "h.csv").write_text(text)
+        hazard = ss.read_hazard(tmp_path / "h.csv")
+        assert hazard == ss.Hazard([0.1, 0.4], [1e-2, 1e-3])
+    (tmp_path / "h.csv").write_text("0.1,0.5\n0.4,0.1\n0.8,0\n")
+    hazard = ss.read_hazard(tmp_path / "h.csv", years=50)
+    assert hazard.rate == pytest.approx([math.log(2) / 50, -math.log(0.9) / 50], rel=1e-14)
+    for text, why in (
+        ("0.1,1e-2,3\n0.4,1e-3,4", "needs two columns"),
+        ("im,rate\n0.1,1e-2", "at least 2 rows of numbers, got 1"),
+        ("0.1,1e-3\n0.4,1e-2", "rates must decrease"),
+        ("0.1,-1e-3\n0.4,1e-2", "a rate must be at least 0"),
+    ):
+        (tmp_path / "h.csv").write_text(text)
+        with pytest.raises(ValueError, match=rf"read_hazard: '.*h.csv': .*{why}"):
+            ss.read_hazard(tmp_path / "h.csv")
+    (tmp_path / "h.csv").write_text("0.1,1.2\n0.4,0.1")
+    with pytest.raises(ValueError, match=r"a probability must lie between 0 and 1, got 1\.2"):
+        ss.read_hazard(tmp_path / "h.csv", years=50)
+
+
+OPENQUAKE = """\
+#,,,,,,"generated_by='OpenQuake engine 3.16.3', start_date='2023-05-01T10:00:00', checksum=1, \
+kind='mean', investigation_time=50.0, imt='{}'"
+lon,lat,depth,poe-0.0050000,poe-0.1000000,poe-0.4000000,poe-1.0000000
+10.00000,45.00000,0.00000,1.000000E+00,3.934693E-01,9.516258E-02,4.987521E-03
+11.00000,45.00000,0.00000,1.000000E+00,1.934693E-01,2.516258E-02,0.000000E+00
+"""
+
+
+def test_openquake_curves(tmp_path):
+    file = tmp_path / "hazard_curve-mean-PGA.csv"
+    file.write_text(OPENQUAKE.format("PGA"))
+    hazard = ss.read_hazard(file, site=0)
+    assert hazard.im.tolist() == [0.1, 0.4, 1.0]  # a probability of 1 has no rate
+    assert hazard.rate == pytest.approx([0.01, 0.002, 1e-4], rel=1e-6)
+    assert (hazard.name, hazard.unit) == ("pga_g", "g")
+    assert ss.read_hazard(file, site=(11, 45)).im.tolist() == [0.1, 0.4]
+    with pytest.raises(ValueError, match="has 2 sites; give site="):
+        ss.read_hazard(file)
+    with pytest.raises(ValueError, match="has 2 sites, got site=2"):
+        ss.read_hazard(file, site=2)
+    with pytest.raises(ValueError, match=r"has 0 sites at \(12, 45\)"):
+        ss.read_hazard(file, site=(12, 45))
+    file.write_text(OPENQUAKE.format("SA(1.0)"))
+    hazard = ss.read_hazard(file, site=0)
+    assert (hazard.name, hazard.period) == ("sa_g", 1.0)
+    file.write_text(OPENQUAKE.format("PGV"))
+    assert ss.read_hazard(file, site=0).im == pytest.approx([1e-3, 4e-3, 1e-2])
+    file.write_text("\n".join(OPENQUAKE.splitlines()[1:3]))
+    with pytest.raises(ValueError, match="does not state investigation_time; give years="):
+        ss.read_hazard(file)
+    assert ss.read_hazard(file, years=50).rate[0] == pytest.approx(0.01, rel=1e-6)
+
+
+def usgs(first):
+    """The JSON of both generations of the hazard service."""
+    x, y = [0.1, 0.4, 1.0], [1e-2, 1e-3, 0.0]
+    if first:
+        curve = {
+            "metadata": {"imt": {"value": "PGA"}, "xvalues": x},
+            "data": [
+                {"component": "Fault", "yvalues": [1, 1, 1]},
+                {"component": "Total", "yvalues": y},
+            ],
+        }
+        other = {
+            "metadata": {"imt": {"value": "SA1P0"}, "xvalues": x},
+            "data": [{"component": "Total", "yvalues": y}],
+        }
+        return {"status": "success", "response": [curve, other]}
+    data = [{"component": "Total", "values": {"xs": x, "ys": y}}]
+    curves = [{"imt": {"value": name}, "data": data} for name in ("PGA", "SA1P0")]
+    return {"status": "success", "response": {"metadata": {}, "hazardCurves": curves}}
+
+
+@pytest.mark.parametrize("first", [True, False])
+def test_usgs_curves(tmp_path, first):
+    file = tmp_path / "hazard.json"
+    file.write_text(json.dumps(usgs(first)))
+    hazard = ss.read_hazard(file, imt="PGA")
+    assert hazard == ss.Hazard([0.1, 0.4], [1e-2, 1e-3], name="pga_g", unit="g")
+    assert ss.read_hazard(file, imt="SA1P0").period == 1.0
+    with pytest.raises(ValueError, match="has curves of PGA, SA1P0; give imt="):
+        ss.read_hazard(file)
+    with pytest.raises(ValueError, match="has no curve of PGV; it has PGA, SA1P0"):
+        ss.read_hazard(file, imt="PGV")
+    file.write_text('{"response": {}}')
+    with pytest.raises(ValueError, match="has no hazard curve"):
+        ss.read_hazard(file)
+
+
+def test_rates_are_a_table_and_a_picture(fragility):
+    h = fragility.rate_of_exceedance(power_law(1e-4, 2))
+    frame = pytest.importorskip("pandas") and h.to_dataframe()
+    assert frame["rate"].tolist() == h.rate.tolist()
+    assert frame.attrs["units"]["rate"] == "1/year"
+    assert "/year" in repr(h)
+    pytest.importorskip("matplotlib")
+    (axes,) = h.plot().axes
+    # The area under the contributions is one.
+    for line in axes.get_lines()[:2]:
+        x, y = line.get_data()
+        assert np.trapezoid(y, np.log(x)) == pytest.approx(1, abs=0.01)
