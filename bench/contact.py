@@ -13,20 +13,20 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from importlib import metadata
 
 import numpy as np
 import stickslip as ss
-from measure import UNRELIABLE, Timing, machine, peer, take_turns, versions
+from accuracy import OURS, Answer, Errors, all_errors, print_times, times
+from measure import machine, peer, versions
 
 G = ss.STANDARD_GRAVITY
 TIMED = ("Kobe", "PAC")
 TOLERANCES = (1e-8, 1e-10)  # of solve_ivp
 STEPS = ((1, 1e-3), (10, 1e-4), (40, 1e-5))  # of OpenSees: steps a sample, yield displacement [m]
-OURS = "stickslip"
 
 
 @dataclass(frozen=True)
@@ -61,8 +61,6 @@ def cases() -> list[Case]:
 
 
 # ---- the peers: peak and final displacement [m]
-
-Answer = tuple[float, float]
 
 
 def by_integrate(case: Case, motion: ss.GroundMotion) -> Answer:
@@ -196,40 +194,7 @@ def peers() -> dict[str, Callable[[Case, ss.GroundMotion], Answer]]:
     return found
 
 
-# ---- errors, times
-
-
-@dataclass(frozen=True)
-class Errors:
-    """Of the peak and the final displacement, over the exact peak; NaN where a step diverged."""
-
-    peak: np.ndarray
-    final: np.ndarray
-    taken: float  # [ns of processor time per sample]
-
-    def __str__(self) -> str:
-        cells = [
-            f"{100 * f(e[~np.isnan(e)]):9.2g}"
-            for e in (self.peak, self.final)
-            for f in (np.median, np.max)
-        ]
-        diverged = np.isnan(self.peak).sum()
-        return " ".join(cells) + (f"   {diverged} diverged" if diverged else "")
-
-
-def errors(case: Case, answer: Callable[[Case, ss.GroundMotion], Answer]) -> Errors:
-    peaks, finals, samples, taken = [], [], 0, 0
-    for motion in case.motions:
-        exact = by_integrate(case, motion)
-        if exact[0] < 0.01:
-            continue
-        begin = time.process_time_ns()
-        found = answer(case, motion)
-        taken += time.process_time_ns() - begin
-        samples += len(motion)
-        peaks.append(abs(found[0] - exact[0]) / exact[0])
-        finals.append(abs(found[1] - exact[1]) / exact[0])
-    return Errors(np.array(peaks), np.array(finals), taken / samples)
+# ---- errors
 
 
 def check(found: dict[str, Errors]) -> None:
@@ -237,29 +202,12 @@ def check(found: dict[str, Errors]) -> None:
     medians = []
     for name, here in found.items():
         if name.startswith("solve_ivp"):
-            worst = max(here.peak.max(), here.final.max())
-            if not worst <= 2e-5:
-                sys.exit(f"wrong answer: {name}: {worst:.3g} of the peak")
+            if not here.largest <= 2e-5:
+                sys.exit(f"wrong answer: {name}: {here.largest:.3g} of the peak")
         else:
             medians.append(float(np.nanmedian(here.peak)))
     if medians != sorted(medians, reverse=True) or not medians[-1:] <= [0.02]:
         sys.exit(f"wrong answer: OpenSees, medians {medians} of the peak")
-
-
-def times(case: Case, rounds: int) -> dict[str, Timing]:
-    """Of two records, in turns; ours many times over in its turn, as it is so short."""
-    timed = [m for m in case.motions if any(word in m.name for word in TIMED)]
-    assert len(timed) == len(TIMED)
-    items = sum(map(len, timed))
-
-    def work(answer: Callable[[Case, ss.GroundMotion], Answer], repeats: int) -> Callable:
-        return lambda: [answer(case, m) for _ in range(repeats) for m in timed]
-
-    works = {}
-    for name, answer in peers().items():
-        repeats = 200 if name == OURS else 1
-        works[name] = (work(answer, repeats), items * repeats)
-    return take_turns(works, rounds)
 
 
 def main() -> None:
@@ -274,21 +222,13 @@ def main() -> None:
     for case in cases():
         heading = "errors [% of the peak]: peak median, largest; final median, largest"
         print(f"\n{case.name}: {heading}")
-        found = {}
-        for name, answer in peers().items():
-            if name == OURS:
-                continue
-            found[name] = here = errors(case, answer)
-            print(f"{name:36} {here}   {len(here.peak)} records", flush=True)
-        check(found)
+        programs = {name: partial(answer, case) for name, answer in peers().items()}
+        check(all_errors(programs, case.motions))
         if asked.check:
             continue
-        rows = times(case, asked.rounds)
-        print(f"{'ns per sample':36} {'median':>9} {'spread':>7} {'ratio':>9}")
-        for name, timing in rows.items():
-            print(f"{name:36} {timing} {timing.ratio(rows[OURS]):9.3g}")
-        if not all(t.reliable for t in rows.values()):
-            print(UNRELIABLE)
+        timed = [m for m in case.motions if any(word in m.name for word in TIMED)]
+        assert len(timed) == len(TIMED)
+        print_times(times(programs, timed, asked.rounds, repeats=200))
 
 
 if __name__ == "__main__":
