@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from xml.etree import ElementTree
 
 import numpy as np
@@ -418,7 +419,7 @@ def test_pelicun_reads_the_curves(tmp_path):
         (row,) = csv.DictReader(stream)
     assert row["ID"] == "cabinet"
     assert (row["Demand-Type"], row["Demand-Unit"]) == ("Peak Ground Acceleration", "g")
-    assert (row["Demand-Directional"], row["Demand-Offset"]) == ("0", "0")
+    assert (row["Demand-Directional"], row["Demand-Offset"]) == ("1", "0")
     for i in (0, 1):
         assert row[f"LS{i + 1}-Family"] == "lognormal"
         assert float(row[f"LS{i + 1}-Theta_0"]) == f.median[i]
@@ -434,6 +435,10 @@ def test_openquake_reads_the_curves(tmp_path):
     function = ElementTree.parse(f.to_openquake(tmp_path / "f.xml")).find(
         f"{nrml}fragilityModel/{nrml}fragilityFunction"
     )
+    # What OpenQuake's `valid.source_id` accepts as the name of a limit state.
+    names = [params.get("ls") for params in function.findall(f"{nrml}params")]
+    assert names == ["0p05_m", "0p1_m"]
+    assert all(re.fullmatch(r"[\w\-:]+", name) for name in names)
     assert function.attrib == {"id": "sliding", "format": "continuous", "shape": "logncdf"}
     assert function.find(f"{nrml}imls").get("imt") == "PGA"
     for i, params in enumerate(function.findall(f"{nrml}params")):
