@@ -3,7 +3,8 @@
 ``stickslip slide kobe.AT2 --mu 0.1 0.2 0.3`` prints how far a block slides; ``stickslip slide
 --help`` lists the options. ``stickslip records FOLDER`` prints what files hold, ``stickslip
 spectrum`` their response spectra. ``stickslip orientations`` slides along all directions of a
-station. ``stickslip ensemble --event "great very near field" --mu 0.2
+station, ``stickslip fragility`` fits the probability of sliding further than thresholds.
+``stickslip ensemble --event "great very near field" --mu 0.2
 --members 100000`` prints statistics for random earthquakes, and ``stickslip thesis`` redraws the
 figures of the thesis. ``stickslip completion bash`` prints a script that completes all this in a
 shell. Each subcommand is one file here, with a function that adds its arguments and one that runs
@@ -29,6 +30,7 @@ import warnings
 from .batch import StrictError
 from .completion import add_completion, complete
 from .ensemble import add_ensemble
+from .fragility import add_fragility
 from .newmark import add_newmark
 from .orientations import add_orientations
 from .output import FAILURES, complain, reason_of, version, write
@@ -77,6 +79,7 @@ exit codes:
         add_slide,
         add_newmark,
         add_orientations,
+        add_fragility,
         add_records,
         add_spectrum,
         add_ensemble,

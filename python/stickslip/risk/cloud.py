@@ -154,6 +154,9 @@ class Cloud:
                 f"Fragility.fit: displacements do not grow with {self.data.im_name}, so it is no"
                 " measure of intensity for them"
             )
+        # A resample may be flat or fall: its curve then lies far outside.
+        result["b"] = np.maximum(result["b"], 1e-2)
+        result["rise"] = np.maximum(result["rise"], 0.0)
         return result
 
     def probability(self, found: dict[str, Array], im: Array) -> Array:
@@ -188,7 +191,7 @@ class Cloud:
         """Median, and half the distance of the ln IM at 16 and 84 %, shape (B, T) each."""
         one = float(self._cdf(1.0))
         high, low = self.quantile(found, one), self.quantile(found, 1 - one)
-        return self.quantile(found, 0.5), np.log(high / low) / 2
+        return self.quantile(found, 0.5), np.maximum(np.log(high / low) / 2, 1e-3)
 
     def deviation_of_draws(self) -> Array:
         """Standard deviation over draws of the ln median of each, for each threshold."""
