@@ -87,6 +87,8 @@ if TYPE_CHECKING:
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
+    from .risk.design_chart import DesignChart, design_chart
+    from .risk.efficiency import IntensityEfficiency, intensity_efficiency
     from .risk.fragility import Fragility
     from .risk.hazard import Exceedances, Hazard, read_hazard
     from .risk.observations import impact
@@ -108,6 +110,7 @@ __all__ = [
     "ConvergenceError",
     "Coulomb",
     "Degrading",
+    "DesignChart",
     "Drawn",
     "Energy",
     "Ensemble",
@@ -123,6 +126,7 @@ __all__ = [
     "GroundMotion",
     "HarmonicMotion",
     "Hazard",
+    "IntensityEfficiency",
     "IntensityMeasures",
     "Interval",
     "KumarFriction",
@@ -165,6 +169,7 @@ __all__ = [
     "advance",
     "build_info",
     "compare",
+    "design_chart",
     "ensemble_sensitivity",
     "estimate_spectrum",
     "fit_pulses",
@@ -173,6 +178,7 @@ __all__ = [
     "histories",
     "impact",
     "integrate",
+    "intensity_efficiency",
     "interfaces",
     "orientations",
     "read_hazard",
@@ -201,6 +207,8 @@ if not TYPE_CHECKING:
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
+        "risk.design_chart": ("DesignChart", "design_chart"),
+        "risk.efficiency": ("IntensityEfficiency", "intensity_efficiency"),
         "risk.fragility": ("Fragility",),
         "risk.hazard": ("Exceedances", "Hazard", "read_hazard"),
         "risk.observations": ("impact",),

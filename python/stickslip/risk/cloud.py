@@ -139,6 +139,12 @@ class Cloud:
         a, b = theta[:, 0] * sigma, theta[:, 1] * sigma
         return a - b * center, b, sigma
 
+    def regression(self) -> dict[str, float]:
+        """a, b and sigma of ln D = a + b ln IM + e."""
+        parts = {name: values.sum(axis=0)[np.newaxis] for name, values in self.parts.items()}
+        found = self._regression(np.log(self.data.im), parts)
+        return {name: float(value[0]) for name, value in zip(("a", "b", "sigma"), found)}
+
     def estimate(self, weights: Array | None = None) -> dict[str, Array]:
         """The parameters of the two parts, for each row of weights of the records."""
         rows = np.ones((1, self.records)) if weights is None else weights

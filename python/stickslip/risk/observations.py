@@ -103,9 +103,9 @@ def measured(table: SweepTable, im: Measure, who: str) -> tuple[NDArray[np.float
                 f" a motion; the table has {', '.join(numbers) or 'none'}"
             )
     stripe = table.metadata.get("stripe")
-    if stripe is not None and stripe.dtype.kind in "iuf":
-        if np.allclose(values, stripe, rtol=1e-9, atol=0):
-            values = np.array(stripe, float)  # without the round-off of scaling
+    known = stripe is not None and stripe.dtype.kind in "iuf"
+    if known and np.allclose(values, stripe, rtol=1e-9, atol=0):  # type: ignore[arg-type]
+        values = np.array(stripe, float)  # without the round-off of scaling
     wrong = np.flatnonzero(~(np.isfinite(values) & (values > 0)))
     if wrong.size:
         raise ValueError(
