@@ -64,6 +64,10 @@ nitpick_ignore_regex = [("cpp:.*", ".*")]
 html_theme = "furo"
 html_title = f"stickslip {release}"
 html_static_path = ["_static"]
+# The page that slides records, if script/web built it.
+if (ROOT / "build" / "web" / "stickslip.html").exists():
+    html_extra_path = ["../build/web/stickslip.html"]
+    tags.add("page")  # noqa: F821, which Sphinx defines
 html_copy_source = False
 html_show_sourcelink = False
 html_permalinks_icon = "#"

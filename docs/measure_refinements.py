@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import stickslip as ss
+from measured_page import draw, replaced, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -123,12 +124,6 @@ def measure(pair: Pair, motions: Iterable[ss.GroundMotion]) -> Ratios:
         rows.append((refined.peak, plain.peak, abs(refined.residual), abs(plain.residual)))
     found = np.array(rows)
     return Ratios(found[:, :2], found[:, 2:])
-
-
-def table(heading: str, rows: Iterable[list[str]]) -> str:
-    """A table of Markdown; `heading` is its first line."""
-    rule = "|" + "---|" * (heading.count("|") - 1)
-    return "\n".join([heading, rule, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
 def summary(pair: Pair, motions: Iterable[ss.GroundMotion]) -> list[str]:
@@ -558,26 +553,6 @@ def tables() -> dict[str, str]:
     return found
 
 
-def replaced(text: str, new: str) -> str:
-    """The page with the table of this heading replaced."""
-    lines = text.splitlines(keepends=True)
-    begin = lines.index(new.splitlines(keepends=True)[0])
-    end = next((i for i in range(begin, len(lines)) if lines[i][0] != "|"), len(lines))
-    return "".join([*lines[:begin], new, *lines[end:]])
-
-
-def draw() -> None:
-    from PIL import Image
-    from stickslip import plotting
-
-    with plotting.style():
-        figure = draw_fits()
-    plotting.save(figure, PICTURE)
-    Image.open(PICTURE).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
-        PICTURE, optimize=True
-    )
-
-
 def draw_fits() -> Figure:
     """A loop of one isolator, and both ratios of all of them."""
     from stickslip import plotting
@@ -625,7 +600,7 @@ def main() -> None:
     PAGE.write_text(text, encoding="utf-8")
     if "station" not in found:
         print(f"no $STICKSLIP_RECORDS/{STATION}: the table of that station stays as it is")
-    draw()
+    draw(PICTURE, draw_fits)
 
 
 if __name__ == "__main__":

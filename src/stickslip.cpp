@@ -15,6 +15,10 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/segment.hpp"
+#include "stickslip/planar/advance.hpp"
+#include "stickslip/planar/segment.hpp"
+#include "stickslip/planar/slider.hpp"
+#include "stickslip/planar/state.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
 #include "stickslip/state.hpp"
@@ -72,6 +76,14 @@ int guarded(Work&& work) noexcept {
                  mode);
 }
 
+[[noreturn, gnu::noinline]] void refuse_member(const char* of, const char* rule, double value, const char* unit) {
+  detail::refuse(std::string(of) + rule, value, unit);
+}
+[[noreturn, gnu::noinline]] void refuse_stuck_mode(Vector2 velocity) {
+  throw std::invalid_argument("stickslip_planar_state: mode must be 1 or 2 with a velocity of " +
+                              detail::description(velocity) + " m/s, got 0");
+}
+
 void require_pointer(const void* pointer, const char* name) {
   if (pointer == nullptr) refuse_pointer(name);
 }
@@ -95,15 +107,42 @@ Mounting mounting(const stickslip_slider& s) {
           .stops = Stops(gap(s.gap, "gap"), gap(s.backward_gap, "backward_gap"), s.restitution)};
 }
 
+/// Checks what both states say of a flight.
+/// @param of  the name of the struct
+template <class AnyState>
+void check_flight(const AnyState& s, const char* of) {
+  const auto check = [of](bool holds, const char* rule, double value, const char* unit = "") {
+    if (!holds) [[unlikely]]
+      refuse_member(of, rule, value, unit);
+  };
+  check(s.in_flight == 0 || s.in_flight == 1, ": in_flight must be 0 or 1", s.in_flight);
+  check(s.gap >= 0 && std::isfinite(s.gap), ": gap must be finite and at least 0", s.gap, "m");
+  check(std::isfinite(s.gap_velocity), ": gap_velocity must be finite", s.gap_velocity, "m/s");
+}
+
 State state_of(const stickslip_state& s) {
   const double sign = s.velocity > 0 ? 1 : s.velocity < 0 ? -1 : 0;
   detail::require(s.mode == 0 || s.mode == 1 || s.mode == -1, "stickslip_state: mode must be 0, 1 or -1", s.mode);
   if (sign != 0 && s.mode != sign) refuse_mode(s.mode, s.velocity);
-  detail::require(s.in_flight == 0 || s.in_flight == 1, "stickslip_state: in_flight must be 0 or 1", s.in_flight);
-  detail::require(s.gap >= 0 && std::isfinite(s.gap), "stickslip_state: gap must be finite and at least 0", s.gap, "m");
-  detail::require(std::isfinite(s.gap_velocity), "stickslip_state: gap_velocity must be finite", s.gap_velocity, "m/s");
+  check_flight(s, "stickslip_state");
   return {s.displacement,   s.velocity, s.mode > 0 ? Mode::forward : s.mode < 0 ? Mode::backward : Mode::stuck,
           s.in_flight == 1, s.gap,      s.gap_velocity};
+}
+
+Vector2 vector(const double (&components)[2]) { return {components[0], components[1]}; }
+void store(Vector2 v, double (&components)[2]) { components[0] = v.axis, components[1] = v.transverse; }
+
+PlanarState state_of(const stickslip_planar_state& s) {
+  detail::require(s.mode == 0 || s.mode == 1 || s.mode == 2, "stickslip_planar_state: mode must be 0, 1 or 2", s.mode);
+  const Vector2 velocity = vector(s.velocity);
+  if (s.mode == 0 && std::abs(velocity.axis) + std::abs(velocity.transverse) > 0) refuse_stuck_mode(velocity);
+  check_flight(s, "stickslip_planar_state");
+  return {.displacement = vector(s.displacement),
+          .velocity = velocity,
+          .mode = static_cast<PlanarMode>(static_cast<int>(s.mode)),
+          .in_flight = s.in_flight == 1,
+          .gap = s.gap,
+          .gap_velocity = s.gap_velocity};
 }
 
 /// Calls `work` with the slider, and whether it flies where the normal force is negative.
@@ -137,6 +176,24 @@ void step(const Slider<Law>& slider, Contact contact, const stickslip_segment* s
   state->gap_velocity = at.gap_velocity;
 }
 
+template <class Law>
+void step(const Slider<Law>& slider, Contact contact, const stickslip_planar_segment* segment,
+          stickslip_planar_state* state) {
+  require_pointer(segment, "segment");
+  require_pointer(state, "state");
+  PlanarState at = state_of(*state);
+  const stickslip_planar_segment& s = *segment;
+  const PlanarSegment horizontal{s.duration, vector(s.start), vector(s.end)};
+  advance(PlanarSlider(slider), detail::load_segment(horizontal, slider.slope(), s.vertical_start, s.vertical_end), at,
+          NoPlanarObserver{}, contact);
+  store(at.displacement, state->displacement);
+  store(at.velocity, state->velocity);
+  state->mode = static_cast<double>(at.mode);
+  state->in_flight = at.in_flight ? 1 : 0;
+  state->gap = at.gap;
+  state->gap_velocity = at.gap_velocity;
+}
+
 }  // namespace
 }  // namespace stickslip
 
@@ -144,6 +201,32 @@ struct stickslip_model {
   std::variant<stickslip::Slider<stickslip::Coulomb>, stickslip::Slider<stickslip::StaticKinetic<>>> slider;
   stickslip::Contact contact;
 };
+
+namespace stickslip {
+namespace {
+
+/// Steps a model.
+template <class AnySegment, class AnyState>
+int step(const stickslip_model* model, const AnySegment* segment, AnyState* state) noexcept {
+  return guarded([&] {
+    require_pointer(model, "model");
+    if (const auto* slider = std::get_if<Slider<Coulomb>>(&model->slider))
+      step(*slider, model->contact, segment, state);
+    else
+      step(std::get<Slider<StaticKinetic<>>>(model->slider), model->contact, segment, state);
+  });
+}
+
+/// Steps a slider.
+template <class AnySegment, class AnyState>
+int step(const stickslip_slider* slider, const AnySegment* segment, AnyState* state) noexcept {
+  return guarded([&] {
+    with_slider(slider, [&](const auto& checked, Contact contact) { step(checked, contact, segment, state); });
+  });
+}
+
+}  // namespace
+}  // namespace stickslip
 
 extern "C" {
 
@@ -159,23 +242,23 @@ int stickslip_create(const stickslip_slider* slider, stickslip_model** model) {
 }
 
 int stickslip_step(const stickslip_model* model, const stickslip_segment* segment, stickslip_state* state) {
-  using namespace stickslip;
-  return guarded([&] {
-    require_pointer(model, "model");
-    if (const auto* slider = std::get_if<Slider<Coulomb>>(&model->slider))
-      step(*slider, model->contact, segment, state);
-    else
-      step(std::get<Slider<StaticKinetic<>>>(model->slider), model->contact, segment, state);
-  });
+  return stickslip::step(model, segment, state);
 }
 
 void stickslip_destroy(stickslip_model* model) { delete model; }
 
 int stickslip_advance(const stickslip_slider* slider, const stickslip_segment* segment, stickslip_state* state) {
-  using namespace stickslip;
-  return guarded([&] {
-    with_slider(slider, [&](const auto& checked, Contact contact) { step(checked, contact, segment, state); });
-  });
+  return stickslip::step(slider, segment, state);
+}
+
+int stickslip_step_planar(const stickslip_model* model, const stickslip_planar_segment* segment,
+                          stickslip_planar_state* state) {
+  return stickslip::step(model, segment, state);
+}
+
+int stickslip_advance_planar(const stickslip_slider* slider, const stickslip_planar_segment* segment,
+                             stickslip_planar_state* state) {
+  return stickslip::step(slider, segment, state);
 }
 
 int stickslip_check(const stickslip_slider* slider) {

@@ -1,6 +1,7 @@
 // The C interface: the same bits as `advance`, and errors as codes.
 #include "stickslip/stickslip.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -66,6 +67,49 @@ int check_same_bits(const stickslip_slider& c, const Slider<Law>& slider, bool v
   return flights;
 }
 
+/// The transverse component beside record A.
+double across(int m) { return 1.5 * std::sin(0.9 * m + 1.1) + 0.8 * std::cos(2.3 * m); }
+
+/// The same in the plane; how many segments end in flight, and how many along the stop.
+struct Ends {
+  int in_flight = 0, along_stop = 0;
+};
+template <class Law>
+Ends check_same_bits_in_plane(const stickslip_slider& c, const Slider<Law>& slider, bool vertical = false,
+                              Contact contact = Contact::flight) {
+  const std::vector<double> n = record_a_samples();
+  const PlanarSlider plane(slider);
+  const Model model = create(c);
+  stickslip_planar_state state = {}, stepped = {};
+  PlanarState expected;
+  Ends ends;
+  for (int m = 0; m < 400; ++m) {
+    const auto i = static_cast<std::size_t>(m);
+    const PlanarSegment horizontal{0.1, {n[i], across(m)}, {n[i + 1], across(m + 1)}};
+    const stickslip_planar_segment segment = {
+        0.1, {n[i], across(m)}, {n[i + 1], across(m + 1)}, vertical ? up(m) : 0, vertical ? up(m + 1) : 0};
+    REQUIRE(stickslip_advance_planar(&c, &segment, &state) == STICKSLIP_OK);
+    REQUIRE(stickslip_step_planar(model.get(), &segment, &stepped) == STICKSLIP_OK);
+    REQUIRE(std::memcmp(&state, &stepped, sizeof state) == 0);
+    if (vertical)
+      advance(plane, detail::load_segment(horizontal, plane.slope(), up(m), up(m + 1)), expected, NoPlanarObserver{},
+              contact);
+    else
+      advance(plane, horizontal, expected, NoPlanarObserver{}, contact);
+    REQUIRE(Vector2{state.displacement[0], state.displacement[1]} == expected.displacement);
+    REQUIRE(Vector2{state.velocity[0], state.velocity[1]} == expected.velocity);
+    REQUIRE(state.mode == static_cast<double>(expected.mode));
+    REQUIRE(state.in_flight == (expected.in_flight ? 1.0 : 0.0));
+    REQUIRE(state.gap == expected.gap);
+    REQUIRE(state.gap_velocity == expected.gap_velocity);
+    ends.in_flight += expected.in_flight;
+    ends.along_stop += expected.mode == PlanarMode::along_stop;
+  }
+  CHECK(state.displacement[0] != 0);
+  CHECK(state.displacement[1] != 0);
+  return ends;
+}
+
 }  // namespace
 
 TEST_CASE("the C interface moves a slider to the same bits") {
@@ -94,6 +138,110 @@ TEST_CASE("the C interface moves a slider to the same bits") {
     CHECK(check_same_bits({.slip_level = 1}, Slider(Coulomb(1)), true, Contact::flight) > 0);
     CHECK(check_same_bits({.slip_level = 1, .clipped = 1}, Slider(Coulomb(1)), true, Contact::clipped) == 0);
   }
+}
+
+TEST_CASE("the C interface moves a slider in the plane to the same bits", "[planar]") {
+  SECTION("a block") { check_same_bits_in_plane({.slip_level = 1}, Slider(Coulomb(1))); }
+  SECTION("static friction, spring and damper") {
+    check_same_bits_in_plane({.slip_level = 1, .static_level = 1.3, .natural_frequency = 2, .damping = 0.2},
+                             Slider(StaticKinetic(Coulomb(1), 1.3), 2, 0.2));
+  }
+  SECTION("a circular stop") {
+    const Ends ends = check_same_bits_in_plane({.slip_level = 0.3, .gap = 0.02, .backward_gap = 0.02},
+                                               Slider(Coulomb(0.3), {.stops = Stops(0.02, 0)}));
+    CHECK(ends.along_stop > 0);
+  }
+  SECTION("a slope") {
+    check_same_bits_in_plane({.slip_level = 4, .slope_degrees = 20}, Slider(Coulomb(4), {.slope_degrees = 20}));
+  }
+  SECTION("vertical motion") {
+    CHECK(check_same_bits_in_plane({.slip_level = 1}, Slider(Coulomb(1)), true).in_flight > 0);
+    CHECK(check_same_bits_in_plane({.slip_level = 1, .clipped = 1}, Slider(Coulomb(1)), true, Contact::clipped)
+              .in_flight == 0);
+  }
+}
+
+TEST_CASE("the C interface: on a line the plane is the axis", "[planar]") {
+  const Model model = create({.slip_level = 1, .natural_frequency = 2});
+  const std::vector<double> n = record_a_samples();
+  stickslip_state on_axis = {};
+  stickslip_planar_state in_plane = {};
+  double largest = 0;
+  for (std::size_t i = 0; i < 400; ++i) {
+    const stickslip_segment segment = {0.1, n[i], n[i + 1], 0, 0};
+    // Along (3, -4) / 5.
+    const stickslip_planar_segment turned = {0.1, {0.6 * n[i], -0.8 * n[i]}, {0.6 * n[i + 1], -0.8 * n[i + 1]}, 0, 0};
+    REQUIRE(stickslip_step(model.get(), &segment, &on_axis) == STICKSLIP_OK);
+    REQUIRE(stickslip_step_planar(model.get(), &turned, &in_plane) == STICKSLIP_OK);
+    largest = std::max(largest, std::abs(on_axis.displacement));
+    CHECK(std::hypot(in_plane.displacement[0] - 0.6 * on_axis.displacement,
+                     in_plane.displacement[1] + 0.8 * on_axis.displacement) <= 1e-12 * largest);
+    CHECK((in_plane.mode == 0) == (on_axis.mode == 0));
+  }
+}
+
+TEST_CASE("errors of the C interface in the plane are codes with a message, and change nothing", "[planar]") {
+  using Slip = stickslip_slider;
+  using Seg = stickslip_planar_segment;
+  using St = stickslip_planar_state;
+  struct Case {
+    std::function<void(Slip&, Seg&, St&)> spoil;
+    std::string says;
+    int code = STICKSLIP_INVALID_ARGUMENT;
+  };
+  const double nan = not_a_number;
+  const std::vector<Case> cases = {
+      {[](Slip& s, Seg&, St&) { s.slip_level = -1; }, "slip_level must be finite and at least 0, got -1 m/s^2"},
+      {[](Slip& s, Seg&, St&) { s.one_way = 1; }, "one_way has no meaning in the plane"},
+      {[](Slip& s, Seg&, St&) { s.gap = 0.1; }, "a circular stop has one gap; got stops with gaps of 0.1 m forward"},
+      {[&](Slip&, Seg& s, St&) { s.duration = nan; }, "segment and state must be finite, got a duration of nan s"},
+      {[&](Slip&, Seg& s, St&) { s.start[1] = nan; }, "nan) to (-3, -0) m/s^2"},
+      {[&](Slip&, Seg& s, St&) { s.end[0] = infinity; }, "to (-inf, -0) m/s^2"},
+      {[&](Slip&, Seg& s, St&) { s.vertical_end = nan; }, "to nan m/s^2"},
+      {[&](Slip&, Seg&, St& s) { s.displacement[1] = nan; }, "r = (0, nan) m"},
+      {[&](Slip&, Seg&, St& s) { s.velocity[0] = nan; }, "r' = (nan, 0) m/s"},
+      {[](Slip&, Seg&, St& s) { s.mode = -1; }, "mode must be 0, 1 or 2, got -1"},
+      {[&](Slip&, Seg&, St& s) { s.mode = nan; }, "mode must be 0, 1 or 2, got nan"},
+      {[](Slip&, Seg&, St& s) { s.velocity[1] = -3; }, "mode must be 1 or 2 with a velocity of (0, -3) m/s, got 0"},
+      {[](Slip&, Seg&, St& s) { s.mode = 2; }, "slides along its stop must be at |r| = inf m, got |r| = 0 m"},
+      {[](Slip& s, Seg&, St& st) { s.gap = s.backward_gap = 0.1, st.mode = 2, st.displacement[1] = 0.05; },
+       "slides along its stop must be at |r| = 0.1 m, got |r| = 0.05 m"},
+      {[](Slip& s, Seg&, St& st) { s.gap = s.backward_gap = 0.1, st.displacement[0] = 1; },
+       "within the stop at 0.1 m, got |r| = 1 m"},
+      {[](Slip&, Seg&, St& s) { s.in_flight = 2; }, "stickslip_planar_state: in_flight must be 0 or 1, got 2"},
+      {[](Slip&, Seg&, St& s) { s.gap = -1; }, "stickslip_planar_state: gap must be finite and at least 0, got -1 m"},
+      {[&](Slip&, Seg&, St& s) { s.gap_velocity = infinity; }, "gap_velocity must be finite, got inf m/s"},
+  };
+  for (const Case& c : cases) {
+    stickslip_slider slider = {.slip_level = 1};
+    stickslip_planar_segment segment = {.duration = 0.1, .start = {2, 0}, .end = {3, 0}};
+    stickslip_planar_state state = {};
+    c.spoil(slider, segment, state);
+    const stickslip_planar_state before = state;
+    INFO(c.says);
+    CHECK(stickslip_advance_planar(&slider, &segment, &state) == c.code);
+    CHECK_THAT(std::string(stickslip_message()), ContainsSubstring(c.says));
+    CHECK(std::memcmp(&state, &before, sizeof state) == 0);
+    stickslip_model* made = nullptr;
+    int code = stickslip_create(&slider, &made);
+    const Model model(made);
+    if (code == STICKSLIP_OK) code = stickslip_step_planar(made, &segment, &state);
+    CHECK(code == c.code);
+    CHECK_THAT(std::string(stickslip_message()), ContainsSubstring(c.says));
+    CHECK(std::memcmp(&state, &before, sizeof state) == 0);
+  }
+
+  const Slip slider = {.slip_level = 1};
+  const Seg segment = {.duration = 0.1};
+  St state = {};
+  CHECK(stickslip_advance_planar(nullptr, &segment, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("slider must not be null"));
+  CHECK(stickslip_step_planar(nullptr, &segment, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("model must not be null"));
+  CHECK(stickslip_advance_planar(&slider, nullptr, &state) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("segment must not be null"));
+  CHECK(stickslip_advance_planar(&slider, &segment, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("state must not be null"));
 }
 
 TEST_CASE("errors of the C interface are codes with a message, and change nothing") {

@@ -51,6 +51,23 @@ module stickslip
     real(c_double) :: gap_velocity = 0 ! its rate of change [m/s]
   end type
 
+  !> Ground acceleration with two horizontal components: along the axis, and transverse to it.
+  type, bind(c) :: stickslip_planar_segment
+    real(c_double) :: duration = 0                         ! [s]
+    real(c_double) :: start(2) = 0, end(2) = 0             ! horizontal [m/s^2]
+    real(c_double) :: vertical_start = 0, vertical_end = 0 ! upward [m/s^2]
+  end type
+
+  !> The complete state of a slider in the plane. By default at rest at r = 0.
+  type, bind(c) :: stickslip_planar_state
+    real(c_double) :: displacement(2) = 0 ! relative to the ground [m]
+    real(c_double) :: velocity(2) = 0     ! relative to the ground [m/s]
+    real(c_double) :: mode = 0            ! 0: stuck; 1: sliding; 2: sliding along the stop
+    real(c_double) :: in_flight = 0       ! 1 while the slider has left the ground
+    real(c_double) :: gap = 0             ! between slider and ground, in flight [m]
+    real(c_double) :: gap_velocity = 0    ! its rate of change [m/s]
+  end type
+
   interface
     !> Check a slider and make a model of it. Returns STICKSLIP_OK or an error; then the model is c_null_ptr.
     integer(c_int) function stickslip_create(slider, model) bind(c)
@@ -79,6 +96,22 @@ module stickslip
       type(stickslip_slider), intent(in) :: slider
       type(stickslip_segment), intent(in) :: segment
       type(stickslip_state), intent(inout) :: state
+    end function
+
+    !> Advance a model through one segment in the plane.
+    integer(c_int) function stickslip_step_planar(model, segment, state) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(stickslip_planar_segment), intent(in) :: segment
+      type(stickslip_planar_state), intent(inout) :: state
+    end function
+
+    !> The same without a model: the slider is checked at each call.
+    integer(c_int) function stickslip_advance_planar(slider, segment, state) bind(c)
+      import
+      type(stickslip_slider), intent(in) :: slider
+      type(stickslip_planar_segment), intent(in) :: segment
+      type(stickslip_planar_state), intent(inout) :: state
     end function
 
     !> Check a slider without making a model.

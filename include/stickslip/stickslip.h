@@ -10,6 +10,9 @@
  *
  *     stickslip_advance(&slider, &segment, &state);        nothing to create or destroy: checks the slider at each call
  *
+ * The same sliders move in two horizontal directions with stickslip_step_planar and stickslip_advance_planar, which
+ * take a stickslip_planar_segment and a stickslip_planar_state.
+ *
  * Only stickslip_create allocates memory. The only global data are the last message of each thread. No exception leaves
  * these functions.
  *
@@ -61,6 +64,27 @@ typedef struct stickslip_state {
   double gap_velocity; /* rate of change of the gap, in flight [m/s], finite */
 } stickslip_state;
 
+/* For a slider in the plane, whose friction opposes the velocity vector: ground acceleration with two horizontal
+ * components. The first component of a vector is along the axis (on a slope: downhill), the second along the transverse
+ * direction, 90 degrees clockwise from the axis as seen from above. */
+typedef struct stickslip_planar_segment {
+  double duration;       /* [s], finite; the state is unchanged if it is not positive */
+  double start[2];       /* horizontal ground acceleration at the start [m/s^2], finite */
+  double end[2];         /* horizontal ground acceleration at the end [m/s^2], finite */
+  double vertical_start; /* a_z, upward ground acceleration at the start [m/s^2], finite */
+  double vertical_end;   /* a_z at the end [m/s^2], finite */
+} stickslip_planar_segment;
+
+/* The complete state of a slider in the plane, as eight doubles. All zeros: at rest at r = 0. */
+typedef struct stickslip_planar_state {
+  double displacement[2]; /* r, relative to the ground [m], finite */
+  double velocity[2];     /* r', relative to the ground [m/s], finite */
+  double mode;            /* 0: stuck; 1: sliding; 2: sliding along the stop, pressed against it. Store it, as above */
+  double in_flight;       /* 1 while the slider has left the ground, else 0 */
+  double gap;             /* between slider and ground, in flight [m], finite and at least 0 */
+  double gap_velocity;    /* rate of change of the gap, in flight [m/s], finite */
+} stickslip_planar_state;
+
 /* A slider whose numbers have been checked. */
 typedef struct stickslip_model stickslip_model;
 
@@ -97,6 +121,23 @@ void stickslip_destroy(stickslip_model* model);
 /* Advances a slider through one segment, as stickslip_step does, without a model: the slider is checked at each call.
  */
 int stickslip_advance(const stickslip_slider* slider, const stickslip_segment* segment, stickslip_state* state);
+
+/* Advance a model, or a slider that is checked at each call, in the plane,
+ *     r'' + a N+/g r'/|r'| + c r' + wn^2 r = p(t)
+ *     p = ((g + a_z) sin(slope) - n cos(slope), -t),   N = (g + a_z) cos(slope) + n sin(slope),   N+ = max(N, 0)
+ * with the horizontal ground acceleration (n, t). The slider remains at rest while |p - wn^2 r| <= a_static N+/g. Its
+ * stop is a circle, |r| = gap, that reflects the radial velocity times the restitution; the stop has no friction.
+ *
+ * model, slider  as above; `backward_gap` must be equal to `gap`, and `one_way` must be 0
+ * segment        the ground acceleration
+ * state          at the start; replaced by the state at the end, and unchanged by an error. `mode` must not be 0 if
+ *                `velocity` is not 0; if it is 2, |r| must be the gap. Threads must not share a state
+ * Return STICKSLIP_OK or another stickslip_status; stickslip_message then describes the error. Accuracy: 1e-12 of the
+ * scale of r. The slider stays where it stops, and passes rest without stopping where it turns. */
+int stickslip_step_planar(const stickslip_model* model, const stickslip_planar_segment* segment,
+                          stickslip_planar_state* state);
+int stickslip_advance_planar(const stickslip_slider* slider, const stickslip_planar_segment* segment,
+                             stickslip_planar_state* state);
 
 /* Checks a slider, as stickslip_create does, without making a model. */
 int stickslip_check(const stickslip_slider* slider);

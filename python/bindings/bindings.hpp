@@ -57,6 +57,7 @@ void bind_planar_slider(py::module_& m);
 void bind_planar_advance(py::module_& m);
 void bind_planar_response(py::module_& m);
 void bind_planar_integrate(py::module_& m);
+void bind_planar_histories(py::module_& m);
 void bind_envelope(py::module_& m);
 void bind_spectrum(py::module_& m);
 void bind_response_spectrum(py::module_& m);
@@ -216,6 +217,12 @@ py::array_t<T> array_of(std::vector<T> values) {
   py::array_t<T> array(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
+}
+
+/// The same of vectors in the plane, of shape (N, 2).
+inline py::array_t<double> array_of(std::vector<Vector2> values) {
+  auto* const kept = new std::vector<Vector2>(std::move(values));
+  return view(*kept, py::capsule(kept, [](void* p) { delete static_cast<std::vector<Vector2>*>(p); }));
 }
 
 /// A new array with a copy of the values.

@@ -55,6 +55,7 @@ PYBIND11_MODULE(_core, m) {
   bind_planar_response(m);
   bind_planar_integrate(m);
   bind_histories(m);
+  bind_planar_histories(m);
   bind_envelope(m);
   bind_spectrum(m);
   bind_gaussian(m);

@@ -79,6 +79,7 @@ from ._core import (
 
 TYPE_CHECKING = False  # instead of importing `typing`, which takes as long as all of this
 if TYPE_CHECKING:
+    from . import regressions
     from ._interfaces import interfaces
     from .comparison import Comparison, compare
     from .ensemble import EnsembleError, Random, ensemble_sensitivity, run_ensemble
@@ -92,6 +93,7 @@ if TYPE_CHECKING:
     from .risk.fragility import Fragility
     from .risk.hazard import Exceedances, Hazard, read_hazard
     from .risk.observations import impact
+    from .risk.yield_acceleration import yield_acceleration
     from .sweeps import (
         Grid,
         Orientations,
@@ -105,6 +107,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "STANDARD_GRAVITY",
+    "ASCE43Estimate",
     "Caster",
     "Comparison",
     "ConvergenceError",
@@ -167,6 +170,7 @@ __all__ = [
     "WithVertical",
     "__version__",
     "advance",
+    "asce43",
     "build_info",
     "compare",
     "design_chart",
@@ -185,6 +189,7 @@ __all__ = [
     "read_record",
     "read_station",
     "record_formats",
+    "regressions",
     "response_spectrum",
     "rotd",
     "run_ensemble",
@@ -194,6 +199,7 @@ __all__ = [
     "strong_motion",
     "sweep",
     "theory",
+    "yield_acceleration",
 ]
 
 if not TYPE_CHECKING:
@@ -222,11 +228,15 @@ if not TYPE_CHECKING:
             "sliding_spectrum",
             "sweep",
         ),
+        "risk.asce43": ("ASCE43Estimate", "asce43"),
+        "risk.yield_acceleration": ("yield_acceleration",),
     }
 
     def __getattr__(name):
         from importlib import import_module
 
+        if name == "regressions":
+            return import_module(f"{__name__}.regressions")
         for module, names in _LATER.items():
             if name in names:
                 found = getattr(import_module(f"{__name__}.{module}"), name)

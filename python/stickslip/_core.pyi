@@ -1145,6 +1145,12 @@ class PlanarResponse(metaclass=_Pybind11Type):
     @property
     def gap(self) -> NDArray[np.float64]: ...
     @property
+    def temperature(self) -> NDArray[np.float64] | Any: ...  # or None, if no law depends on it
+    @property
+    def margin(self) -> float: ...
+    @property
+    def impact_margin(self) -> float: ...
+    @property
     def peak_force(self) -> float: ...
     @property
     def peak_force_time(self) -> float: ...
@@ -2180,6 +2186,7 @@ def integrate(
     settle: bool = False,
     contact: Literal["flight", "clipped"] = "flight",
     sliding_distance: _Number = 0.0,
+    heat: SurfaceHeat | None = None,
 ) -> PlanarResponse: ...
 
 class State(metaclass=_Pybind11Type):
@@ -2307,8 +2314,13 @@ def continuation(
     max_amplitude: _Number = ...,
     max_orbits: SupportsIndex = 10_000,
 ) -> OrbitBranch: ...
+@overload
 def histories(
     slider: _AnySlider, motion: GroundMotion
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+@overload
+def histories(
+    slider: PlanarSlider, motion: GroundMotion
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def acceleration_unit(name: str) -> float: ...
 def _parse_components(
@@ -2433,11 +2445,12 @@ def draw(
 def describe(distribution: Lognormal | Normal | Uniform | _Number) -> str: ...
 @overload
 def response_spectrum(
-    motion: GroundMotion | Response,
+    motion: GroundMotion | Response | PlanarResponse,
     periods: _Number | _Samples,
     damping: _Number | _Samples = 0.05,
     *,
     kind: _SpectrumKind = "pseudo_acceleration",
+    direction: _Number = 0.0,
 ) -> ResponseSpectrum: ...
 @overload
 def response_spectrum(
@@ -2447,6 +2460,13 @@ def response_spectrum(
     *,
     kind: _SpectrumKind = "pseudo_acceleration",
 ) -> SuiteSpectra: ...
+
+class _PlanarFloorMotion:
+    def __init__(self, response: PlanarResponse) -> None: ...
+    def spectrum(
+        self, direction: _Number, periods: _Number | _Samples, damping: _Number, kind: str
+    ) -> ResponseSpectrum: ...
+
 @overload
 def strong_motion(motion: GroundMotion) -> StrongMotion: ...
 @overload

@@ -183,6 +183,7 @@ def _histories(response: Response | PlanarResponse) -> tuple[tuple[str, str, str
     """Name, unit and description of the histories of a response."""
     vertical = "vertical" in response.components
     first = 0 if vertical else 2 if response.slider.slope_degrees > 0 else 3
+    heated = () if response.temperature is None else _HEATED
     if isinstance(response, PlanarResponse):
         vectors = [
             (f"{name}_{component}", unit, f"{what}, {component} component")
@@ -190,8 +191,7 @@ def _histories(response: Response | PlanarResponse) -> tuple[tuple[str, str, str
             if name in _VECTORS
             for component in _COMPONENTS
         ]
-        return (*vectors, *_LIFTING[first:], _HISTORIES[-1])
-    heated = () if response.temperature is None else _HEATED
+        return (*vectors, *_LIFTING[first:], *heated, _HISTORIES[-1])
     return (*_HISTORIES[:-1], *_LIFTING[first:], *heated, _HISTORIES[-1])
 
 

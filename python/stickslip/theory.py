@@ -5,7 +5,8 @@ if not, why; and `predict(slider, excitation, times)`, which returns the `Moment
 from rest. Your own objects with these three members are theories, too: pass them to
 `stickslip.compare`.
 
-`THEORIES` lists those that `compare` uses by default, the best first.
+`THEORIES` lists those that `compare` uses by default on one axis, the best first, and
+`PLANAR_THEORIES` those in the plane.
 """
 
 from ._core import (
@@ -30,6 +31,7 @@ from ._core import (
 )
 
 __all__ = [
+    "PLANAR_THEORIES",
     "THEORIES",
     "Coverage",
     "DisplacementDistribution",
@@ -51,7 +53,7 @@ __all__ = [
     "viscous_pulse_response",
 ]
 
-#: The theories that `compare` uses by default, the best first.
+#: The theories that `compare` uses by default for sliders on one axis, the best first.
 THEORIES = (
     WhiteNoise(),
     PulseChain(),
@@ -63,4 +65,11 @@ THEORIES = (
     PulseSuperposition(overlap="thesis"),
     PulseSuperposition(overlap="none"),
     SlowlyVaryingParameters(),
+)
+
+#: The theories that `compare` uses by default for sliders in the plane, the best first.
+PLANAR_THEORIES = (
+    WhiteNoise(dimensions=2),
+    EquivalentLinearization(dimensions=2),
+    EquivalentLinearization(force="laplace", dimensions=2),
 )

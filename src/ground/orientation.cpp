@@ -1,12 +1,11 @@
 #include "stickslip/ground/orientation.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <string>
-#include <system_error>
 
+#include "base/read_number.hpp"
 #include "stickslip/error.hpp"
 
 namespace stickslip {
@@ -22,13 +21,6 @@ std::string plain(std::string_view text) {
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
   return std::ranges::any_of(words, [&](const char* one) { return word == one; });
-}
-
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 /// In [0, 360), without the round-off of a sum of angles.
@@ -49,12 +41,12 @@ std::optional<double> azimuth_of(std::string_view orientation) {
   if (is_one_of(text, {"W", "WEST"})) return 270;
   if (text.size() > 2 && is_one_of(text.substr(0, 1), {"N", "S"}) &&
       is_one_of(text.substr(text.size() - 1), {"E", "W"})) {
-    const std::optional<double> angle = number(std::string_view(text).substr(1, text.size() - 2));
+    const std::optional<double> angle = detail::read_number(std::string_view(text).substr(1, text.size() - 2));
     if (!angle || *angle < 0 || *angle > 90) return std::nullopt;
     const bool north = text.front() == 'N', east = text.back() == 'E';
     return reduced(north ? (east ? *angle : 360 - *angle) : (east ? 180 - *angle : 180 + *angle));
   }
-  const std::optional<double> azimuth = number(text);
+  const std::optional<double> azimuth = detail::read_number(text);
   return azimuth ? std::optional(reduced(*azimuth)) : std::nullopt;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "stickslip/base/direction.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/ground/orientation.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
@@ -214,10 +215,7 @@ GroundMotion rotated(const GroundMotion& motion, double degrees) {
   detail::require(std::isfinite(degrees), "GroundMotion: the angle of rotated must be finite", degrees, "degrees");
   if (!motion.has_transverse())
     throw std::invalid_argument("GroundMotion: rotated needs a transverse component; this motion has none");
-  int quarters = 0;
-  const double rest = std::remquo(degrees, 90, &quarters) * (std::numbers::pi / 180);
-  double c = std::cos(rest), s = std::sin(rest);
-  for (int turn = quarters & 3; turn > 0; --turn) c = -std::exchange(s, c);
+  const auto [c, s] = detail::cos_sin(degrees);
   std::vector<double> n = acceleration_of(motion), t(motion.transverse().begin(), motion.transverse().end());
   for (std::size_t i = 0; i < n.size(); ++i) {
     const double along = n[i], across = t[i];
@@ -225,7 +223,7 @@ GroundMotion rotated(const GroundMotion& motion, double degrees) {
     t[i] = across * c - along * s;
   }
   std::string orientation = motion.orientation();
-  if (rest != 0 || quarters % 4 != 0) {
+  if (!(c > 0) || s != 0) {
     const std::optional<double> azimuth = azimuth_of(orientation);
     orientation = azimuth ? orientation_at(*azimuth + degrees) : std::string();
   }

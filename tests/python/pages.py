@@ -1,6 +1,8 @@
 """Pages of documentation, as the tests read them."""
 
+import importlib
 import re
+import sys
 import zipfile
 from pathlib import Path
 
@@ -13,6 +15,33 @@ def blocks(page, language):
     return re.findall(
         rf"^```{language}\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
     )
+
+
+def measuring(name):
+    """The program in docs/ that measures what a page says."""
+    folder = str(ROOT / "docs")
+    if folder not in sys.path:
+        sys.path.append(folder)
+    return importlib.import_module(name)
+
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+
+
+def assert_same_table(text, new):
+    """A page has this table: the words, and the numbers but for one in the last digit."""
+    heading, _, *found = new.splitlines()
+    lines = text.splitlines()
+    begin = lines.index(heading) + 2
+    end = next(i for i in range(begin, len(lines)) if not lines[i].startswith("|"))
+    rows = lines[begin:end]
+    assert len(rows) == len(found) > 0
+    for here, there in zip(rows, found):
+        assert NUMBER.sub("#", here) == NUMBER.sub("#", there)
+        for old, now in zip(NUMBER.findall(here), NUMBER.findall(there), strict=True):
+            places = len(old.partition(".")[2])
+            allowed = 1.01 * 10.0**-places if places else 0  # numbers of records are equal
+            assert abs(float(old) - float(now)) <= allowed, (here, there)
 
 
 def assert_same_picture(drawn, shown):

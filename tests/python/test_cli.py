@@ -393,6 +393,100 @@ def test_orientations_slides_along_all_directions_of_a_station(capsys, station, 
     assert "needs a transverse component" in capsys.readouterr().err
 
 
+# ---- sweeps
+
+
+def test_a_sweep_prints_the_statistics_of_the_library(capsys, record, tmp_path):
+    other = tmp_path / "other.csv"
+    other.write_text("".join(record.read_text().splitlines(True)[:-100]))
+    motions = [ss.read_record(one).scaled(1.5) for one in (record, other)]
+    files = tmp_path / "t.csv", tmp_path / "t.png"
+    options = ["--period", "2:3:1", "--stop-gap", "0.03", "--restitution", "0.2", "--scale", "1.5"]
+    command = ["sweep", str(record), str(other), "--mu", "0.05", "0.1", *options]
+    assert main([*command, "--csv", str(files[0]), "--plot", str(files[1])]) == 0
+    heads, head, *lines = capsys.readouterr().out.splitlines()
+    assert main([*command, "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+
+    stops = ss.Stops(gap=0.03, restitution=0.2)
+    blocks = ss.grid(
+        ss.Slider, law=ss.grid(ss.Coulomb, mu=[0.05, 0.1]), period=[2.0, 3.0], stops=stops
+    )
+    table = ss.sweep(blocks, motions, settle=True)
+    assert table.impact_fraction.max() > 0
+    assert [row["responses"] for row in document["statistics"]] == [4] * 4
+    for row, line, i in zip(document["statistics"], lines[:4], range(4)):
+        assert (row["mu"], row["period_s"]) == (blocks.parameters["mu"][i], 2 + i % 2)
+        expected = []
+        for quantity in ("peak", "residual"):
+            values = np.abs(getattr(table, quantity)[i]).ravel()
+            expected += [values.mean(), *np.quantile(values, [0.16, 0.5, 0.84]), values.max()]
+        found = [value for name, value in row.items() if name.startswith(("peak", "residual"))]
+        assert found == pytest.approx(expected, rel=1e-14)
+        assert row["impact_fraction"] == table.impact_fraction[i]
+        cells = [float(cell) for cell in line.split()[3:13]]
+        assert cells == pytest.approx([100 * one for one in expected], abs=0.00501)
+    assert head.split()[:4] == ["mu", "period", "[s]", "responses"]
+    assert heads.split() == ["peak", "[cm]", "residual", "[cm]"]
+    assert len(document["results"]) == table.peak.size
+    first = document["results"][0]
+    assert (first["file"], first["polarity"]) == (str(record), "recorded")
+    assert first["peak_m"] == table.peak[0, 0, 0]
+    assert first["impacts_forward"] == table.impacts_forward[0, 0, 0]
+    with files[0].open() as stream:
+        assert [float(row["peak_m"]) for row in csv.DictReader(stream)] == [
+            row["peak_m"] for row in document["results"]
+        ]
+    assert files[1].stat().st_size > 10_000
+
+
+@pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")
+def test_a_sweep_in_the_plane_takes_both_components_of_stations(capsys, station, record, tmp_path):
+    assert main(["sweep", str(station), "--planar", "--mu", "0.1", "0.2", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    blocks = [ss.PlanarSlider(ss.Coulomb(mu=mu)) for mu in (0.1, 0.2)]
+    table = ss.sweep(blocks, ss.read_station(station), settle=True, polarity="recorded")
+    rows = document["results"]
+    assert [row["peak_m"] for row in rows] == table.peak.ravel().tolist()
+    assert [row["residual_axis_m"] for row in rows] == table.residual_axis.ravel().tolist()
+    assert [row["peak_median_m"] for row in document["statistics"]] == table.mean().tolist()
+
+    one = tmp_path / "one.csv"
+    one.write_text("Time (s), NS (g)\n0,0\n0.1,1\n0.2,0\n")
+    options = ["--planar", "--mu", "0.1", "--orientation", "N"]
+    for command in ("sweep", "slide"):
+        assert main([command, str(one), *options]) == 1
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert "needs a transverse component, found only 'one" in err
+        assert "give the file of the other horizontal component, too" in err
+
+
+def test_a_sweep_reports_blocks_that_never_rest_and_counts_the_others(capsys, record):
+    assert main(["sweep", str(record), "--mu", "0", "0.1"]) == 1
+    out, err = capsys.readouterr()
+    assert (
+        err
+        == f"stickslip: {record}: mu = 0: without ground motion the slider does not come to rest\n"
+    )
+    (row,) = out.splitlines()[2:]
+    assert row.split()[:2] == ["0.1", "2"]
+
+
+@pytest.mark.parametrize("command", ["slide", "sweep"])
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--law", "one-way"], "--planar goes with --law coulomb, got --law one-way"),
+        (["--polarity", "both"], "--planar has no --polarity on level ground"),
+        (["--vertical", "up.csv"], "--planar takes the vertical component from the station"),
+    ],
+)
+def test_what_the_plane_excludes_is_refused(capsys, command, options, message):
+    assert main([command, "nowhere.csv", "--planar", "--mu", "0.1", *options]) == 2
+    assert message in capsys.readouterr().err
+
+
 @pytest.mark.filterwarnings("ignore::stickslip.PlausibilityWarning")
 def test_the_vertical_component_may_have_a_file_of_its_own(capsys, record, station, tmp_path):
     up = ss.read_station(station).component("vertical").acceleration / G
@@ -949,6 +1043,36 @@ def test_an_ensemble_with_vertical_motion_is_exactly_the_librarys(capsys, contac
     ]
 
 
+@pytest.mark.parametrize("source", SOURCES)
+def test_an_ensemble_of_pairs_is_exactly_the_librarys(capsys, source):
+    shaking, excitation = SOURCES[source]
+    options = [*shaking, "--mu", 0.05, "--members", 64, "--seed", 7, "--threads", 1]
+    pair = ["--planar", "--transverse-ratio", 0.8, "--coherence", 0.3, "--vertical-ratio", 0.5]
+    code, out, err = run_ensemble(capsys, *options, *pair, "--json")
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    pairs = ss.WithVertical(ss.WithTransverse(excitation, ratio=0.8, coherence=0.3), ratio=0.5)
+    e = ss.run_ensemble(ss.PlanarSlider(ss.Coulomb(mu=0.05)), pairs, members=64, seed=7)
+    assert document["configuration"] == e.configuration
+    assert [q["value"] for q in document["peak_m"]] == [
+        e.quantile(p).value for p in (0.5, 0.95, 0.99)
+    ]
+    distance = np.hypot(*e.residual.T)
+    assert document["residual_mean_m"]["value"] == pytest.approx(distance.mean(), rel=1e-12)
+    end = document["at_end"]
+    assert end["time_s"] == e.time[-1]
+    variances = [end[f"displacement_variance_{one}_m2"] for one in ("axis", "transverse")]
+    assert [one["value"] for one in variances] == e.displacement_variance[-1].tolist()
+    assert [one["error"] for one in variances] == e.displacement_variance_error[-1].tolist()
+    assert end["velocity_covariance_m2_s2"]["value"] == e.velocity_covariance[-1]
+    code, out, err = run_ensemble(capsys, *options, *pair)
+    assert (code, err) == (0, "")
+    lines = [line for line in out.splitlines() if "m^2" in line]
+    assert [line.split()[0] for line in lines] == [
+        *("displacement", "transverse", "displacement", "velocity", "transverse", "velocity")
+    ]
+
+
 def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
     code, out, err = run_ensemble(capsys, *QUAKE, "--level", 0.02, 0.05, "--confidence", 0.9)
     assert (code, err) == (0, "")
@@ -1000,6 +1124,11 @@ REFUSED_ENSEMBLES = {
     "a negative ratio": (
         [*QUAKE, "--vertical-ratio", -0.5],
         "--vertical-ratio must be finite and at least 0, got -0.5",
+    ),
+    "a pair on one axis": ([*QUAKE, "--coherence", 0.2], "--coherence goes with --planar, got 0.2"),
+    "components more than alike": (
+        [*QUAKE, "--planar", "--coherence", 2],
+        "coherence must be from -1 to 1, got 2",
     ),
     "no threads": ([*QUAKE, "--threads", 0], "threads must be at least 1, got 0"),
     "no width": (["--rate", 3, "--mu", 0.1], "--rate needs --half-width, got none"),

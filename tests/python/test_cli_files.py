@@ -470,7 +470,7 @@ def test_without_argcomplete_it_says_what_to_install(capsys, monkeypatch):
 
 def test_the_page_shows_every_command_and_option():
     page = (Path(__file__).parents[2] / "docs" / "command.md").read_text(encoding="utf-8")
-    for command in ("slide", "newmark", "orientations", "records", "spectrum", "ensemble"):
+    for command in ("slide", "sweep", "newmark", "orientations", "records", "spectrum", "ensemble"):
         done = subprocess.run(
             [sys.executable, "-m", "stickslip", command, "--help"], capture_output=True, text=True
         )

@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 import stickslip as ss
-from stickslip import ensemble, harmonic, plotting, theory
+from stickslip import ensemble, harmonic, plotting, regressions, theory
 from stickslip._refusals import explain
 
 FOREIGN = re.compile(
@@ -31,7 +31,7 @@ def public():
                 if shown or (member in SEEN and member in vars(thing)):
                     found[f"{name}.{member}"] = inspect.getattr_static(thing, member)
 
-    for module in (ss, theory, harmonic, plotting, ensemble):
+    for module in (ss, theory, harmonic, plotting, ensemble, regressions):
         for name in getattr(module, "__all__", ()):
             thing = getattr(module, name)
             if not isinstance(thing, ModuleType):

@@ -141,6 +141,47 @@ def test_a_heated_surface_slides_along_a_line_as_on_one_axis():
     assert pickle.loads(pickle.dumps(r.state)) == r.state
 
 
+def test_the_heat_of_a_surface_is_kept_and_continued():
+    law = ss.KumarFriction(
+        mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2
+    )
+    slider = ss.PlanarSlider(ss.Slider(law, period=3.0, pendulum=True))
+    n, t = noise(7, 120), noise(8, 120)
+    whole = ss.integrate(slider, ss.GroundMotion(n, dt=0.01, transverse=t))
+    assert whole.temperature.shape == (120,)
+    assert whole.temperature[0] == 20 < whole.temperature.max()
+    first = ss.integrate(slider, ss.GroundMotion(n[:61], dt=0.01, transverse=t[:61]))
+    state = first.state
+    second = ss.integrate(
+        slider,
+        ss.GroundMotion(n[60:], dt=0.01, transverse=t[60:]),
+        displacement=state.displacement,
+        velocity=state.velocity,
+        sliding_distance=state.sliding_distance,
+        heat=state.heat,
+    )
+    # The iteration of level and heat is accurate to 1e-8; the motion to 1e-7 of its scale.
+    assert np.abs(second.residual - whole.residual).max() < 1e-7 * whole.peak
+    assert second.temperature[-1] == pytest.approx(whole.temperature[-1], rel=1e-7)
+    cold = ss.integrate(slider, ss.GroundMotion(n[60:], dt=0.01, transverse=t[60:]))
+    assert cold.temperature[0] == 20
+    # What reads the motion again begins with the same heat.
+    assert (
+        np.abs(second.at(0.25).displacement - whole.at(0.85).displacement).max() < 1e-7 * whole.peak
+    )
+    assert second.peak_force > 0
+    other = pickle.loads(pickle.dumps(second))
+    assert other == second
+    assert np.array_equal(other.temperature, second.temperature)
+    assert np.array_equal(other.at([0.3])["displacement"], second.at([0.3])["displacement"])
+    assert other.margin == second.margin
+    table = second.to_dataframe()
+    assert np.array_equal(table["temperature"], second.temperature)
+    assert table.attrs["units"]["temperature"] == "degC"
+    assert json.loads(second.to_json())["temperature"] == second.temperature.tolist()
+    assert ss.integrate(SLIDERS["coulomb"], station()).temperature is None
+
+
 def test_at_any_time_and_step_by_step():
     slider, quake = SLIDERS["pendulum"], station(9, vertical=0.5 * noise(90))
     r = ss.integrate(slider, quake, settle=True)
@@ -171,6 +212,45 @@ def test_at_any_time_and_step_by_step():
     assert repr(ss.PlanarState((0.1, 0), (0, 0.5))) == (
         "<PlanarState: r (0.1, 0) m, r' (0, 0.5) m/s, sliding>"
     )
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_margins_are_those_on_one_axis_and_do_not_depend_on_the_direction(name):
+    slider, n = SLIDERS[name], noise(3)
+    x = ss.integrate(slider.along_axis, ss.GroundMotion(n, dt=0.01), settle=True)
+    line = ss.GroundMotion(0.6 * n, dt=0.01, transverse=-0.8 * n)
+    r = ss.integrate(slider, line, settle=True)
+    assert r.margin < 1
+    assert r.margin == pytest.approx(x.margin, rel=1e-6)
+    # After an impact at a speed near zero the accuracy is the square root of round-off.
+    assert r.impact_margin == pytest.approx(x.impact_margin, rel=1e-4)
+    n, t = noise(4), noise(5)
+    one = ss.integrate(slider, ss.GroundMotion(n, dt=0.01, transverse=t), settle=True)
+    other = ss.integrate(slider, ss.GroundMotion(-t, dt=0.01, transverse=n), settle=True)
+    assert other.margin == pytest.approx(one.margin, rel=1e-6)
+
+
+def test_the_margin_of_a_load_that_all_but_moves_a_block():
+    quiet = ss.GroundMotion([0, 0.6, 0], dt=1.0, transverse=[0, 0.45, 0])
+    r = ss.integrate(ss.PlanarSlider(ss.Coulomb(slip_level=1)), quiet)
+    assert r.margin == pytest.approx(0.25, rel=1e-14)
+    assert r.impact_margin == math.inf
+
+
+@pytest.mark.parametrize("name", SLIDERS)
+def test_histories_are_those_of_integrate(name):
+    quake = station(5, vertical=noise(205))
+    r = ss.integrate(SLIDERS[name], quake)
+    x, v = ss.histories(SLIDERS[name], quake)
+    assert x.shape == v.shape == (len(quake), 2)
+    assert np.array_equal(x, r.displacement)
+    assert np.array_equal(v, r.velocity)
+    with pytest.raises(ValueError, match="read-only"):
+        x[0, 0] = 1
+    with pytest.raises(ValueError, match="histories: a PlanarSlider needs both horizontal comp"):
+        ss.histories(SLIDERS[name], ss.GroundMotion(noise(1), dt=0.01, name="x"))
+    with pytest.raises(TypeError, match="histories: the motion of a PlanarSlider must be a Ground"):
+        ss.histories(SLIDERS[name], [1.0, 2.0])
 
 
 def test_a_start_in_motion_and_a_circular_stop():

@@ -1,51 +1,23 @@
 """docs/refinements.md: its tables computed again, and what its text says about them."""
 
-import importlib.util
 import math
 import re
-import sys
 
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT
+from pages import ROOT, assert_same_table, measuring
 
 PAGE = ROOT / "docs" / "refinements.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 WORDS = " ".join(TEXT.split())
-NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
-def load():
-    name = "measure_refinements"
-    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
-    sys.modules[name] = module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-measured = load()
-
-
-def shown(heading):
-    """The rows of the page's table with this heading, without it and its rule."""
-    lines = TEXT.splitlines()
-    begin = lines.index(heading) + 2
-    end = next(i for i in range(begin, len(lines)) if not lines[i].startswith("|"))
-    return lines[begin:end]
+measured = measuring("measure_refinements")
 
 
 def agree(new):
-    """Whether the page has this table: the words, and the numbers but for one in the last digit."""
-    heading, _, *found = new.splitlines()
-    rows = shown(heading)
-    assert len(rows) == len(found) > 0
-    for here, there in zip(rows, found):
-        assert NUMBER.sub("#", here) == NUMBER.sub("#", there)
-        for old, now in zip(NUMBER.findall(here), NUMBER.findall(there), strict=True):
-            places = len(old.partition(".")[2])
-            allowed = 1.01 * 10.0**-places if places else 0  # numbers of records are equal
-            assert float(old) == pytest.approx(float(now), abs=allowed), (here, there)
+    assert_same_table(TEXT, new)
 
 
 @pytest.fixture(scope="module")

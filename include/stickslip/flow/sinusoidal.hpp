@@ -58,7 +58,9 @@ class SinusoidalFlow {
 
   /// As `ClosedForm::first_stop`.
   double first_stop() const noexcept {
-    const auto [u, a, amplitude, omega, phase] = start_;
+    // No structured binding: clang captures none in a lambda before version 16.
+    const double u = start_.speed, a = start_.acceleration, amplitude = start_.amplitude;
+    const double omega = start_.frequency, phase = start_.phase;
     if (detail::equal(u, 0) && (a < 0 || (detail::equal(a, 0) && sine_ >= 0))) return 0;
 
     // The speed is too high for any load to stop the slip within the duration; most short segments end here.

@@ -135,7 +135,7 @@ enum class Form {
              ///< Collocation, to 1e-10 of the scale
 };
 
-template <FrictionLaw Law>
+template <class Law>
 inline constexpr Form form_of = [] {
   if constexpr (requires { requires Law::constant_while_sliding; })
     return Form::constant;

@@ -145,6 +145,8 @@ class GroundMotion {
     Segment segment(std::size_t i) const noexcept {
       return {times_ == nullptr ? dt_ : times_[i + 1] - times_[i], starts_[i], ends_[i]};
     }
+    /// The samples.
+    const double* samples() const noexcept { return starts_; }
 
    private:
     const double *starts_, *ends_, *times_;

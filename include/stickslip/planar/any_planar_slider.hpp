@@ -13,8 +13,11 @@
 #include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/planar/floor_motion.hpp"
 #include "stickslip/planar/forces.hpp"
+#include "stickslip/planar/histories.hpp"
 #include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/response.hpp"
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
@@ -47,6 +50,10 @@ inline const Mounting& mounting_of(const AnyPlanarSlider& slider) {
 PlanarResponse integrate(const AnyPlanarSlider& slider, const GroundMotion& motion,
                          const PlanarIntegrateOptions& options = {}, PlanarResponse storage = {});
 
+/// As the template of the same name.
+PlanarHistories histories(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                          const std::function<void()>& progress = {});
+
 /// As the template of the same name, with a function that is called now and then during a long segment, and may throw.
 void advance(const AnyPlanarSlider& slider, const PlanarSegment& segment, PlanarState& state,
              Contact contact = Contact::flight, const std::function<void()>& progress = {});
@@ -55,7 +62,10 @@ void advance(const AnyPlanarSlider& slider, const PlanarLoadSegment& segment, Pl
 
 /// As the templates of the same names.
 PlanarForces forces(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response);
+Margins margins(const AnyPlanarSlider& slider, const GroundMotion& motion, const PlanarResponse& response);
 std::vector<PlanarState> states_at(const AnyPlanarSlider& slider, const GroundMotion& motion,
                                    const PlanarResponse& response, std::span<const double> times);
+PlanarFloorMotion floor_motion(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                               const PlanarResponse& response, double tolerance = 1e-6);
 
 }  // namespace stickslip

@@ -11,6 +11,7 @@
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/numerics/root.hpp"
+#include "stickslip/planar/detail/held_slip.hpp"
 #include "stickslip/planar/vector.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/slider.hpp"
@@ -24,14 +25,6 @@ struct PlanarLoad {
   Vector2 rate;            ///< its rate [m/s^3]
   double weight = 1;       ///< N+/g
   double weight_rate = 0;  ///< its rate [1/s]
-};
-
-/// The progress of a planar flow.
-struct PlanarProgress {
-  double time = 0;      ///< since its start [s]
-  Vector2 way;          ///< displacement since its start [m]
-  Vector2 velocity;     ///< r' [m/s]
-  double distance = 0;  ///< path length since its start [m]
 };
 
 /// How a planar flow starts: moving; from rest, under a load that exceeds the level or is equal to it; or pressed
@@ -89,7 +82,7 @@ class PlanarFlow {
         load_(load),
         duration_(duration) {
     if (start == PlanarStart::moving) {
-      if (!close(law) && !follow(law, patience)) move(law);
+      if (!close(law) && !hold(law) && !follow(law, patience)) move(law);
     } else if (start == PlanarStart::along_stop) {
       move_along(law);
     } else {
@@ -112,7 +105,16 @@ class PlanarFlow {
   /// The progress at a parameter from 0 to `last()`: time, or regularized time.
   PlanarProgress at_parameter(double s) const noexcept {
     if (kind_ == Kind::stop) return closing_.at(1 - s, end_);
+    if (kind_ == Kind::held) return detail::equal(s, last_) ? end_ : held_.at(s);
     return {value(t_, s), {value(x_, s), value(y_, s)}, {velocity_at(vx_, s), velocity_at(vy_, s)}, value(s_, s)};
+  }
+
+  /// r'' at a parameter [m/s^2]; at a stop, its limit there.
+  Vector2 acceleration_at(double s) const noexcept {
+    if (kind_ == Kind::stop) return closing_.acceleration(std::max(1 - s, 0x1p-60));
+    if (kind_ == Kind::held) return held_.acceleration(s);
+    const double rate = slope(t_, s);
+    return (1 / rate) * Vector2{slope(vx_, s), slope(vy_, s)};
   }
 
   /// The parameter at a time from 0 to the horizon [s].
@@ -121,6 +123,7 @@ class PlanarFlow {
     if (!(time > 0)) return 0;
     if (kind_ == Kind::stop)
       return numerics::root([&](double s) { return at_parameter(s).time - time; }, 0, -time, 1, end_.time - time);
+    if (kind_ == Kind::held) return std::min(held_.parameter(time), last_);
     double low = 0, high = last_, s = last_ * (time / end_.time);
     for (int steps = 0; steps < 64; ++steps) {
       double sum = 0, slope = 0;
@@ -154,7 +157,7 @@ class PlanarFlow {
       s = next;
     }
   }
-  double distance_at(double s) const noexcept { return kind_ == Kind::stop ? at_parameter(s).distance : value(s_, s); }
+  double distance_at(double s) const noexcept { return is_series() ? value(s_, s) : at_parameter(s).distance; }
 
   /// The first parameter at which the path crosses a circle about the origin, outward or inward; `never` if it does
   /// not. A start on the circle is not counted.
@@ -189,6 +192,7 @@ class PlanarFlow {
   double largest_radius(double until, double peak, double& where) const noexcept {
     const double from = norm(place_);
     if (from + end_.distance <= peak) return 0;
+    if (kind_ == Kind::held) return held_.largest_radius(place_, until, where);
     const auto radius = [&](double s) { return norm(place_ + at_parameter(s).way); };
     where = until;
     double largest = radius(until);
@@ -228,7 +232,7 @@ class PlanarFlow {
     return largest;
   }
 
-  bool is_series() const noexcept { return kind_ != Kind::stop; }
+  bool is_series() const noexcept { return kind_ == Kind::series; }
   int order() const noexcept { return order_; }
   /// Coefficients of the displacement since the start, of order 1 to `order()`.
   const double* axis() const noexcept { return x_; }
@@ -251,6 +255,7 @@ class PlanarFlow {
       return work;
     }
     if (constant_level_) work.friction = level_ * to.distance;
+    if (kind_ == Kind::held) return work;
     const bool weighed = spring_.pendulum && !detail::equal(load_.weight_rate, 0);
     const int degree = square_degree();
     Array energy;  // of the spring, per stiffness
@@ -304,12 +309,17 @@ class PlanarFlow {
       left.distance = ((p > 0 ? p * p / slow : 0) + m * m / fast) / 8 + (p > 0 ? p * m / (4 * level) : 0);
       return left;
     }
+    Vector2 acceleration(double g) const noexcept {
+      const Vector2 velocity = to_stop(g).velocity;
+      const double speed = norm(velocity);
+      return load * to - (speed > 0 ? level / speed : 0) * velocity;
+    }
     PlanarProgress at(double g, const PlanarProgress& end) const noexcept {
       const PlanarProgress left = to_stop(g);
       return {end.time - left.time, end.way - left.way, left.velocity, end.distance - left.distance};
     }
   };
-  enum class Kind : unsigned char { series, stop };
+  enum class Kind : unsigned char { series, held, stop };
   using Array = double[highest_order + 2];
   struct Four {
     double of[4];
@@ -348,6 +358,12 @@ class PlanarFlow {
     return s * odd + z * even;
   }
   double velocity_at(const double* c, double s) const noexcept { return c[0] + value(c, s); }
+  // Its derivative.
+  double slope(const double* c, double s) const noexcept {
+    double sum = 0;
+    for (int k = order_; k >= 1; --k) sum = sum * s + k * c[k];
+    return sum;
+  }
 
   Vector2 pull() const noexcept { return spring_.under(load_.weight) * place_; }
 
@@ -383,9 +399,7 @@ class PlanarFlow {
     const double plus = along < 0 ? across * across / (speed - along) : speed + along;
     const double minus = along < 0 ? speed - along : across * across / (speed + along);
     const bool turns = !(load < level);
-    // The speed aside of a collinear motion is round-off of its largest speed, about sqrt((w a + Q) |r|).
-    const double collinear = std::max(0x1p-46 * speed, 0x1p-52 * std::sqrt((level + load) * norm(place_)));
-    if (turns && !(along < 0 && std::abs(across) <= collinear)) return false;
+    if (turns && !(along < 0 && is_collinear(across, speed, level + load))) return false;
     const double time = turns ? minus / (2 * (level + load)) : (plus / (level - load) + minus / (level + load)) / 2;
     if (!(time <= duration_)) return false;
     const double slower = detail::level_along(law, 0.0, speed / 2, 0.0);
@@ -417,6 +431,37 @@ class PlanarFlow {
     end_ = whole;
     end_.velocity = {};
     return true;
+  }
+
+  // The speed aside of a collinear motion is round-off of its largest speed, about sqrt((w a + Q) |r|).
+  bool is_collinear(double across, double speed, double force) const noexcept {
+    return std::abs(across) <= std::max(0x1p-46 * speed, 0x1p-52 * std::sqrt(force * norm(place_)));
+  }
+
+  // A slip under a constant load and a constant level has a closed form. A collinear one ends where it reverses.
+  bool hold([[maybe_unused]] const Law& law) noexcept {
+    if constexpr (form_of<Law> == Form::constant) {
+      const bool constant = detail::equal(spring_.stiffness, 0) && detail::equal(damping_, 0) && !(stop_ < never) &&
+                            detail::equal(load_.rate.axis, 0) && detail::equal(load_.rate.transverse, 0) &&
+                            detail::equal(load_.weight_rate, 0);
+      if (!constant) return false;
+      level_ = load_.weight * detail::level_along(law, 0.0, 0.0, 0.0);
+      const double load = norm(load_.start), speed = norm(velocity_);
+      if (!(level_ > 0 || load > 0)) return false;
+      const Vector2 to = load > 0 ? (1 / load) * load_.start : (1 / speed) * velocity_;
+      const double along = dot(velocity_, to), across = cross(to, velocity_);
+      const bool reverses = along < 0 && is_collinear(across, speed, level_ + load);
+      const double plus = reverses ? 0 : along < 0 ? across * across / (speed - along) : speed + along;
+      const double minus = along < 0 ? speed - along : across * across / (speed + along);
+      held_ = detail::HeldSlip(to, level_, load, plus, minus, across);
+      kind_ = Kind::held;
+      constant_level_ = true;
+      last_ = held_.parameter(duration_);
+      end_ = held_.at(last_);
+      if (std::abs(end_.time - duration_) <= 0x1p-40 * duration_) end_.time = duration_;
+      return true;
+    }
+    return false;
   }
 
   // The rate at which the level changes at a given speed [m/s^3].
@@ -859,6 +904,7 @@ class PlanarFlow {
   bool stops_ = false, leaves_ = false;
   Kind kind_ = Kind::series;
   Closing closing_{};
+  detail::HeldSlip held_;
   Vector2 place_, velocity_;
   PlanarLoad load_;
   double duration_;

@@ -49,8 +49,6 @@ namespace detail {
 struct PlanarForce {
   Vector2 friction, damper, spring;
   double normal;
-
-  double resultant() const noexcept { return norm(friction + damper + spring); }
 };
 
 /// The forces in a state under a load and a normal force N.
@@ -68,9 +66,7 @@ PlanarForce force_on(const PlanarSlider<Law>& slider, const PlanarState& state, 
   const double speed = norm(state.velocity), size = norm(q);
   const Vector2 direction = speed > 0 ? (1 / speed) * state.velocity : size > 0 ? (1 / size) * q : Vector2{};
   if (weight > 0) {
-    State along{.sliding_distance = state.sliding_distance};
-    if constexpr (HeatedLaw<Law>) along.heat = state.heat;
-    force.friction = (weight * resist(law_at(slider.law(), along, weight), 0.0, speed, Direction::forward)) * direction;
+    force.friction = (weight * resist_at(slider, state, weight, speed)) * direction;
   }
   if (state.mode == PlanarMode::along_stop) {
     const double gap = norm(state.displacement);
@@ -80,56 +76,38 @@ PlanarForce force_on(const PlanarSlider<Law>& slider, const PlanarState& state, 
   return force;
 }
 
-/// Finds the largest resultant force of a motion in the plane.
-template <IsotropicLaw Law>
-class PeakForce {
+/// Reads the largest resultant force of a motion in the plane, p - r'', and whether a slip begins at the start of a
+/// segment.
+class PeakForce final : public PlanarTrajectoryReader {
  public:
-  /// @param state  that of the motion, which is followed
-  PeakForce(const PlanarSlider<Law>& slider, const PlanarState& state, PlanarForces& forces)
-      : slider_(slider), state_(state), forces_(forces) {}
-
-  void begin(double time, const PlanarLoadSegment& segment) noexcept {
-    begin_ = time;
+  void segment(double begin, const PlanarLoadSegment& segment) override {
+    begin_ = begin;
     segment_ = &segment;
-    departs_ = false;
-    if (state_.mode == PlanarMode::stuck) rest(0);
+    now_ = 0;
+    departs = false;
   }
-  void end() noexcept {
-    if (state_.mode == PlanarMode::stuck) rest(segment_->duration);
-  }
-  /// Whether a slip began at the start of the segment.
-  bool departs() const noexcept { return departs_; }
+  void end_of_segment() override { rest_until(segment_->duration); }
 
-  void event(EventKind kind, double time, const PlanarState&) noexcept {
-    departs_ = departs_ || (kind == EventKind::breakaway && !(time > 0));
-    if (kind == EventKind::breakaway || kind == EventKind::arrest) rest(time);
+  void event(EventKind kind, double time, const PlanarState&) override {
+    departs = departs || (kind == EventKind::breakaway && !(time > 0));
   }
 
-  // The force is smooth in the parameter of a flow, which ends before it changes much.
-  template <class Flow>
-  void follow(const Flow& flow, double last, double begin) {
+  // The force is smooth in the parameter of an arc, which ends before it changes much.
+  void arc(const PlanarArc& arc) override {
+    rest_until(arc.begin);
     constexpr int parts = 8;
-    PlanarState there = state_;
-    double time = 0;
     const auto resultant = [&](double s) {
-      const PlanarProgress at = flow.at_parameter(s);
-      there.displacement = flow.place() + at.way;
-      there.velocity = at.velocity;
-      there.sliding_distance = state_.sliding_distance + at.distance;
-      time = begin + at.time;
-      return force_on(slider_, there, segment_->load(time), segment_->normal(time)).resultant();
+      const double time = arc.begin + arc.at(s).time, force = norm(load(time) - arc.acceleration(s));
+      look(force, time);
+      return force;
     };
-    // At a stop the direction of the velocity has a limit only.
-    const bool stops = flow.stop() < never && !(last < flow.last());
-    const double end = stops ? last * (1 - 0x1p-20) : last;
+    const double end = arc.last;
     double largest = 0;
     int where = 0;
-    for (int i = 0; i <= parts; ++i) {
-      const double here = resultant(end * i / parts);
-      if (here > largest) largest = here, where = i;
-      look(here, time);
-    }
-    if (largest < 0.9 * forces_.peak) return;
+    for (int i = 0; i <= parts; ++i)
+      if (const double here = resultant(end * i / parts); here > largest) largest = here, where = i;
+    now_ = arc.begin + arc.at(end).time;
+    if (largest < 0.9 * peak) return;
     double low = end * std::max(where - 1, 0) / parts, high = end * std::min(where + 1, parts) / parts;
     constexpr double golden = 0.6180339887498949;
     double left = high - golden * (high - low), right = low + golden * (high - low);
@@ -138,32 +116,36 @@ class PeakForce {
       if (at_left < at_right) {
         low = left, left = right, at_left = at_right;
         right = low + golden * (high - low), at_right = resultant(right);
-        look(at_right, time);
       } else {
         high = right, right = left, at_right = at_left;
         left = high - golden * (high - low), at_left = resultant(left);
-        look(at_left, time);
       }
     }
   }
 
+  double peak = 0, peak_time = 0;
+  bool departs = false;
+
  private:
-  // At rest the resultant is the load.
-  void rest(double time) noexcept {
-    look(norm(segment_->duration > 0 ? segment_->load(time) : segment_->load_end), time);
+  Vector2 load(double time) const noexcept {
+    return segment_->duration > 0 ? segment_->load(time) : segment_->load_end;
+  }
+  // At rest the resultant is the load, which is largest at an end.
+  void rest_until(double time) noexcept {
+    if (!(time - now_ > 0x1p-40 * segment_->duration)) return;
+    look(norm(load(now_)), now_);
+    look(norm(load(time)), time);
+    now_ = time;
   }
   void look(double resultant, double time) noexcept {
-    if (!(resultant > forces_.peak)) return;
-    forces_.peak = resultant;
-    forces_.peak_time = begin_ + time;
+    if (!(resultant > peak)) return;
+    peak = resultant;
+    peak_time = begin_ + time;
   }
 
-  const PlanarSlider<Law>& slider_;
-  const PlanarState& state_;
-  PlanarForces& forces_;
   const PlanarLoadSegment* segment_ = nullptr;
-  double begin_ = 0;
-  bool departs_ = false;
+  double begin_ = 0;  // of the segment [s]
+  double now_ = 0;    // since then [s]
 };
 
 /// Ground acceleration just after each of the first `samples` samples [m/s^2], of a component of a motion: at the end
@@ -183,6 +165,53 @@ inline std::vector<double> acting(const GroundMotion& motion, std::span<const do
   return n;
 }
 
+/// @param move   moves a state over a segment, observed by a PlanarTracer
+/// @param force  of a state under a load and a normal force
+template <class Move, class Force>
+PlanarForces planar_forces(const GroundMotion& motion, double angle, const PlanarResponse& response, Move&& move,
+                           Force&& force) {
+  const std::size_t samples = response.displacement.size();
+  const std::vector<double> along = acting(motion, motion.acceleration(), samples),
+                            up = acting(motion, motion.vertical(), samples),
+                            across = acting(motion, motion.transverse(), samples);
+  PlanarForces result;
+  if (angle > 0) result.downhill = standard_gravity * std::sin(angle);
+  const Slope slope(angle);
+  const PlanarPieces pieces(motion, angle);
+  const double end = response.events.back().time;
+  PlanarState state = start_of(response);
+  PeakForce peak;
+  PlanarTracer tracer{peak};
+  const auto go = [&](double from, double to) {
+    bool departs = false;
+    between(pieces, motion, angle, from, to, [&](double begin, const PlanarLoadSegment& segment) {
+      peak.segment(begin, segment);
+      move(segment, state, tracer);
+      peak.end_of_segment();
+      departs = departs || (peak.departs && equal(begin, from));
+    });
+    if (!(to < end)) state = response.state;
+    return departs;
+  };
+  for (std::size_t i = 0; i < samples; ++i) {
+    PlanarState here = state;
+    const double time = motion.time(i), next = i + 1 < samples ? std::min(motion.time(i + 1), end) : end;
+    if (time < next && go(time, next)) here.mode = PlanarMode::sliding;
+    const PlanarSegment ground{0, {along[i], across[i]}, {along[i], across[i]}};
+    const PlanarLoadSegment load = load_segment(ground, slope, up[i], up[i]);
+    const PlanarForce now = force(here, load.load_start, load.normal_start);
+    const auto positive = [](Vector2 v) { return v + Vector2{0.0, 0.0}; };  // no minus zero
+    result.friction.push_back(positive(now.friction));
+    result.damper.push_back(positive(now.damper));
+    result.spring.push_back(positive(now.spring));
+    result.normal.push_back(now.normal);
+    result.stuck.push_back(here.mode == PlanarMode::stuck);
+  }
+  result.peak = peak.peak;
+  result.peak_time = peak.peak_time;
+  return result;
+}
+
 }  // namespace detail
 
 /// The forces on a slider in the plane during a response.
@@ -199,43 +228,14 @@ inline std::vector<double> acting(const GroundMotion& motion, std::span<const do
 /// is integrated again: about twice the cost of `integrate`.
 template <IsotropicLaw Law>
 PlanarForces forces(const PlanarSlider<Law>& slider, const GroundMotion& motion, const PlanarResponse& response) {
-  const std::size_t samples = response.displacement.size();
-  const std::vector<double> along = detail::acting(motion, motion.acceleration(), samples),
-                            up = detail::acting(motion, motion.vertical(), samples),
-                            across = detail::acting(motion, motion.transverse(), samples);
-  PlanarForces result;
-  if (slider.slope() > 0) result.downhill = standard_gravity * std::sin(slider.slope());
-  const detail::Slope slope(slider.slope());
-  const detail::PlanarPieces pieces(motion, slider.slope());
-  const double end = response.events.back().time;
-  PlanarState state = detail::start_of(response);
-  detail::PeakForce<Law> peak(slider, state, result);
-  const auto go = [&](double from, double to) {
-    bool departs = false;
-    detail::between(pieces, motion, slider.slope(), from, to, [&](double begin, const PlanarLoadSegment& segment) {
-      peak.begin(begin, segment);
-      detail::advance_plane(slider, segment, response.contact, state, peak);
-      peak.end();
-      departs = departs || (peak.departs() && detail::equal(begin, from));
-    });
-    if (!(to < end)) state = response.state;
-    return departs;
-  };
-  for (std::size_t i = 0; i < samples; ++i) {
-    PlanarState here = state;
-    const double time = motion.time(i), next = i + 1 < samples ? std::min(motion.time(i + 1), end) : end;
-    if (time < next && go(time, next)) here.mode = PlanarMode::sliding;
-    const PlanarSegment ground{0, {along[i], across[i]}, {along[i], across[i]}};
-    const PlanarLoadSegment load = detail::load_segment(ground, slope, up[i], up[i]);
-    const detail::PlanarForce force = detail::force_on(slider, here, load.load_start, load.normal_start);
-    const auto positive = [](Vector2 v) { return v + Vector2{0.0, 0.0}; };  // no minus zero
-    result.friction.push_back(positive(force.friction));
-    result.damper.push_back(positive(force.damper));
-    result.spring.push_back(positive(force.spring));
-    result.normal.push_back(force.normal);
-    result.stuck.push_back(here.mode == PlanarMode::stuck);
-  }
-  return result;
+  return detail::planar_forces(
+      motion, slider.slope(), response,
+      [&](const PlanarLoadSegment& segment, PlanarState& state, detail::PlanarTracer& tracer) {
+        detail::advance_plane(slider, segment, response.contact, state, tracer);
+      },
+      [&](const PlanarState& state, Vector2 load, double normal) {
+        return detail::force_on(slider, state, load, normal);
+      });
 }
 
 }  // namespace stickslip

@@ -1,6 +1,7 @@
 // Integrate a slider in the plane under one ground motion.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -30,6 +31,7 @@ struct PlanarIntegrateOptions {
   std::function<void()> progress{};   ///< called about once per second or more often; may throw to stop the work
   double sliding_distance = 0;     ///< sliding distance before the start [m], finite and at least 0; used by laws that
                                    ///< depend on it
+  SurfaceHeat heat{};              ///< of the sliding surface at the start; used by laws that depend on its temperature
   bool may_end_in_flight = false;  ///< whether a response without `settle` may end before the slider has landed
 };
 
@@ -47,7 +49,7 @@ class PlanarPieces {
         slope_(slope) {
     if (!motion.has_transverse())
       throw std::invalid_argument(
-          "integrate: a PlanarSlider needs a ground motion with a transverse component, got one along the axis only; "
+          "a PlanarSlider needs a ground motion with a transverse component, got one along the axis only; "
           "give GroundMotion its transverse component, or read all components of the station");
   }
 
@@ -59,6 +61,20 @@ class PlanarPieces {
     return load_segment(both, slope_, up_[i], up_[i + next_]);
   }
 
+  /// On level ground without vertical motion: the first segment from `i` up to `last` in which the load does not remain
+  /// within a circle, |p - center| <= radius. The load moves along a straight line, so that its ends suffice.
+  std::size_t first_outside(std::size_t i, std::size_t last, Vector2 center, double radius) const noexcept {
+    const double* const axis = axis_.samples();
+    const double limit = radius * radius;
+    const auto inside = [&](std::size_t sample) {
+      const double along = axis[sample] + center.axis, across = transverse_[sample] + center.transverse;
+      return along * along + across * across <= limit;
+    };
+    if (i == last || !inside(i)) return i;
+    while (i < last && inside(i + next_)) ++i;
+    return i;
+  }
+
  private:
   GroundMotion::Pieces axis_;
   std::span<const double> transverse_, up_;
@@ -66,10 +82,38 @@ class PlanarPieces {
   Slope slope_;
 };
 
+/// Iterate over the segments of a motion and keep the motion at the samples: `go(i, begin, end, segment)` moves `state`
+/// over a segment, and `report()` is called now and then. A slider that rests on level ground is asked for its next
+/// departure only.
+template <IsotropicLaw Law, class Go, class Report>
+void walk_plane(const PlanarSlider<Law>& slider, const GroundMotion& motion, const PlanarPieces& pieces,
+                const PlanarState& state, std::vector<Vector2>& displacement, std::vector<Vector2>& velocity, Go&& go,
+                Report&& report) {
+  constexpr std::size_t segments_per_report = 4096;
+  const bool scans = !HeatedLaw<Law> && !(slider.slope() > 0) && !motion.has_vertical();
+  const std::size_t count = motion.segments();
+  for (std::size_t i = 0; i < count;) {
+    for (const std::size_t last = std::min(i + segments_per_report, count); i < last;) {
+      if (scans && state.mode == PlanarMode::stuck) {
+        const std::size_t next = pieces.first_outside(i, last, slider.mounting().spring().under(1) * state.displacement,
+                                                      hold_at(slider, state));
+        std::fill(&displacement[i + 1], &displacement[next + 1], state.displacement);
+        std::fill(&velocity[i + 1], &velocity[next + 1], Vector2{});
+        if ((i = next) == last) break;
+      }
+      go(i, pieces.time(i), pieces.time(i + 1), pieces.segment(i));
+      displacement[i + 1] = state.displacement;
+      velocity[i + 1] = state.velocity;
+      ++i;
+    }
+    if (i < count) report();
+  }
+}
+
 /// Records the events, the peak and the sums of a motion in the plane.
 class PlanarRecorder {
  public:
-  static constexpr std::uint32_t work_per_report = 4096;  // segments, events or flows
+  static constexpr std::uint32_t work_per_report = 4096;  // events or flows
 
   PlanarRecorder(Vector2 from, double start, std::size_t event_limit, const std::function<void()>& progress,
                  PlanarResponse& response)
@@ -189,6 +233,7 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
   const detail::PlanarPieces pieces(motion, slider.slope());
   PlanarState state = PlanarState::at(options.displacement, options.velocity);
   state.sliding_distance = options.sliding_distance;
+  state.heat = options.heat;
   detail::check_start(slider, state, "integrate");
   if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
     detail::check_landing(motion, slider.slope());
@@ -198,6 +243,10 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
   response.displacement.resize(motion.samples());
   response.velocity.resize(motion.samples());
   response.gap.assign(flies ? motion.samples() : 0, 0);
+  response.temperature.clear();
+  if constexpr (HeatedLaw<Law>)
+    response.temperature.resize(motion.samples(), slider.law().temperature(detail::on_path<Law>(state)));
+  response.heat = options.heat;
   response.energy = {};
   response.peak = response.sliding_distance = response.time_sliding = 0;
   const auto kinetic = [&] { return dot(state.velocity, state.velocity) / 2; };
@@ -212,12 +261,11 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
   const auto go = [&](std::size_t i, double begin, double end, const PlanarLoadSegment& segment) {
     recorder.begin_segment(begin, end);
     detail::advance_plane(slider, segment, options.contact, state, recorder);
-    response.displacement[i + 1] = state.displacement;
-    response.velocity[i + 1] = state.velocity;
     if (flies) response.gap[i + 1] = state.gap;
+    if constexpr (HeatedLaw<Law>) response.temperature[i + 1] = slider.law().temperature(detail::on_path<Law>(state));
   };
-  detail::walk(pieces, motion.segments(), detail::PlanarRecorder::work_per_report, go,
-               [&] { recorder.report_progress(); });
+  detail::walk_plane(slider, motion, pieces, state, response.displacement, response.velocity, go,
+                     [&] { recorder.report_progress(); });
   double end = motion.time(motion.segments());
   response.contact = options.contact;
   response.components = std::string(name_of(Component::axis)) + " + " + name_of(Component::transverse);
@@ -243,10 +291,16 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
         break;
       }
       detail::advance_plane(slider, at_rest(motion.last_step()), options.contact, from, none);
-      if (!(motion.time(i + 1) < end)) from = PlanarState::at(state.displacement, {});
+      if (!(motion.time(i + 1) < end)) {
+        from.displacement = state.displacement;
+        from.velocity = {};
+        from.mode = PlanarMode::stuck;
+      }
       response.displacement.push_back(from.displacement);
       response.velocity.push_back(from.velocity);
       if (flies) response.gap.push_back(from.gap);
+      if constexpr (HeatedLaw<Law>)
+        response.temperature.push_back(slider.law().temperature(detail::on_path<Law>(from)));
     }
   }
   recorder.begin_segment(end, end);

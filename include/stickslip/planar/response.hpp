@@ -6,6 +6,7 @@
 
 #include "stickslip/planar/state.hpp"
 #include "stickslip/sliding/response.hpp"
+#include "stickslip/surface_heat.hpp"
 
 namespace stickslip {
 
@@ -34,7 +35,10 @@ struct PlanarResponse {
   /// The energy balance along the path, as for Response: the integrals of p.r', resist N+/g |r'| and c |r'|^2.
   Energy energy;
   std::vector<double> gap;  ///< between slider and ground at the same times, in flight [m]; empty if never in flight
-  bool truncated = false;   ///< as Response::truncated
+  /// Temperature of the sliding surface at the same times [degrees Celsius]; empty if the law does not depend on it.
+  std::vector<double> temperature;
+  SurfaceHeat heat{};                 ///< of the sliding surface at the start
+  bool truncated = false;             ///< as Response::truncated
   Contact contact = Contact::flight;  ///< the model used where N < 0
   std::string components;             ///< of the ground motion that acted, joined by " + "
   PlanarState state;                  ///< at the end: a motion can be continued from it

@@ -8,7 +8,9 @@
 
 #include "stickslip/base/equal.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/planar/state.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/state.hpp"
 
 namespace stickslip {
 
@@ -64,5 +66,28 @@ class PlanarSlider {
  private:
   Slider<Law> slider_;
 };
+
+namespace detail {
+
+/// The state of which an isotropic law is a function: at the beginning of a path.
+template <IsotropicLaw Law>
+State on_path(const PlanarState& state) noexcept {
+  State start{.sliding_distance = state.sliding_distance};
+  if constexpr (HeatedLaw<Law>) start.heat = state.heat;
+  return start;
+}
+
+/// What friction holds at rest, and what resists sliding at a speed [m/s], under a normal force of `weight` times g,
+/// divided by the weight [m/s^2].
+template <IsotropicLaw Law>
+double hold_at(const PlanarSlider<Law>& slider, const PlanarState& state, double weight = 1) {
+  return hold(law_at(slider.law(), on_path<Law>(state), weight), 0.0, Direction::forward);
+}
+template <IsotropicLaw Law>
+double resist_at(const PlanarSlider<Law>& slider, const PlanarState& state, double weight, double speed) {
+  return resist(law_at(slider.law(), on_path<Law>(state), weight), 0.0, speed, Direction::forward);
+}
+
+}  // namespace detail
 
 }  // namespace stickslip

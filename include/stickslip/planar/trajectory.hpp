@@ -18,7 +18,65 @@
 #include "stickslip/sliding/trajectory.hpp"
 
 namespace stickslip {
+
+/// A part of a motion in the plane that is computed in one piece: of a slip, of a flight, or along a stop. A parameter
+/// from 0 to `last` stands for the time.
+class PlanarArc {
+ public:
+  template <class Flow>
+  PlanarArc(const Flow& flow, double end, double time)
+      : begin(time),
+        last(end),
+        place(flow.place()),
+        flow_(&flow),
+        at_([](const void* f, double s) -> PlanarProgress { return static_cast<const Flow*>(f)->at_parameter(s); }),
+        largest_radius_([](const void* f, double until, double& where) {
+          return static_cast<const Flow*>(f)->largest_radius(until, 0, where);
+        }),
+        acceleration_([](const void* f, double s) { return static_cast<const Flow*>(f)->acceleration_at(s); }) {}
+
+  double begin;   ///< since the beginning of the segment [s]
+  double last;    ///< largest parameter
+  Vector2 place;  ///< r at its beginning [m]
+
+  /// Time and displacement since the beginning of the arc, velocity, and length of the path.
+  PlanarProgress at(double parameter) const { return at_(flow_, parameter); }
+  /// r'' [m/s^2]; at a stop, its limit.
+  Vector2 acceleration(double parameter) const { return acceleration_(flow_, parameter); }
+  /// The largest distance from the origin [m]; `where` receives its parameter.
+  double largest_radius(double& where) const { return largest_radius_(flow_, last, where); }
+
+ private:
+  const void* flow_;
+  PlanarProgress (*at_)(const void*, double);
+  double (*largest_radius_)(const void*, double, double&);
+  Vector2 (*acceleration_)(const void*, double);
+};
+
+/// Receives a motion in the plane, segment by segment, while it is integrated again. The slider rests in the time that
+/// no arc covers. At an impact or a landing the state is that before it. Times are since the beginning of the segment.
+struct PlanarTrajectoryReader {
+  virtual void segment(double /*begin*/, const PlanarLoadSegment&) = 0;
+  virtual void arc(const PlanarArc&) = 0;
+  virtual void event(EventKind, double /*time*/, const PlanarState&) {}
+  virtual void end_of_segment() {}
+
+ protected:
+  ~PlanarTrajectoryReader() = default;
+};
+
 namespace detail {
+
+/// Shows flows and events to a reader.
+struct PlanarTracer {
+  PlanarTrajectoryReader& reader;
+
+  void event(EventKind kind, double time, const PlanarState& state) { reader.event(kind, time, state); }
+  template <class Flow>
+  void follow(const Flow& flow, double last, double begin) {
+    reader.arc(PlanarArc(flow, last, begin));
+  }
+};
 
 /// The last segment of a motion that begins at or before a time.
 inline std::size_t segment_at(const GroundMotion& motion, double time) {
@@ -34,6 +92,7 @@ inline std::size_t segment_at(const GroundMotion& motion, double time) {
 inline PlanarState start_of(const PlanarResponse& response) {
   PlanarState state = PlanarState::at(response.displacement.front(), response.velocity.front());
   state.sliding_distance = std::max(response.state.sliding_distance - response.sliding_distance, 0.0);
+  state.heat = response.heat;
   return state;
 }
 
@@ -54,6 +113,23 @@ void between(const PlanarPieces& pieces, const GroundMotion& motion, double slop
   }
   const double begin = std::max(motion.time(motion.segments()), from);
   if (begin < to) go(begin, load_segment(PlanarSegment{to - begin, {}, {}}, Slope(slope)));
+}
+
+/// Show a motion to a reader, from its beginning to a time.
+/// @param move  moves a state over a segment, observed by a PlanarTracer
+/// @return the state at that time
+template <class Move>
+PlanarState trace_plane(const GroundMotion& motion, double slope, const PlanarResponse& response, double until,
+                        PlanarTrajectoryReader& reader, Move&& move) {
+  PlanarState state = start_of(response);
+  PlanarTracer tracer{reader};
+  const PlanarPieces pieces(motion, slope);
+  between(pieces, motion, slope, motion.time(0), until, [&](double begin, const PlanarLoadSegment& segment) {
+    reader.segment(begin, segment);
+    move(segment, state, tracer);
+    reader.end_of_segment();
+  });
+  return state;
 }
 
 /// @param move  moves a state over a segment

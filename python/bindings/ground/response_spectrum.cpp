@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "ground/suite.hpp"
 #include "in_python.hpp"
 #include "parts.hpp"
+#include "planar/response.hpp"
 #include "sliding/response.hpp"
 #include "statistics/estimate.hpp"
 
@@ -38,6 +42,13 @@ py::array_t<double> rows_of(const py::object& self) {
   py::array_t<double> flat = view(spectrum.values, self);
   if (spectrum.damping.size() == 1) return flat;
   return flat.attr("reshape")(spectrum.damping.size(), spectrum.periods.size());
+}
+
+PlanarFloorMotion floor_in_plane(const PlanarResponseWithInputs& response) {
+  const auto& slider = response.slider.cast<const AnyPlanarSlider&>();
+  const auto& ground = response.motion.cast<const GroundMotion&>();
+  const py::gil_scoped_release released;
+  return floor_motion(slider, ground, response.response);
 }
 
 }  // namespace
@@ -92,8 +103,9 @@ The values are nested lists of shape (D, P); every number reads back as the same
 
   m.def(
       "response_spectrum",
-      [](const py::object& motion, const py::object& periods, const py::object& damping,
-         const std::string& kind) -> py::object {
+      [](const py::object& motion, const py::object& periods, const py::object& damping, const std::string& kind,
+         double direction) -> py::object {
+        detail::require(std::isfinite(direction), "response_spectrum: direction must be finite", direction, "degrees");
         if (is_suite(motion))
           return py::module_::import("stickslip.motions.intensity").attr("spectra")(motion, periods, damping, kind);
         auto all_periods = to_vector_or_number(periods, "response_spectrum: periods", "s");
@@ -105,10 +117,22 @@ The values are nested lists of shape (D, P); every number reads back as the same
             return response_spectrum(accelerations, std::move(all_periods), std::move(all_damping), which, impulses...);
           }());
         };
-        if (py::isinstance<GroundMotion>(motion)) return answer(motion.cast<const GroundMotion&>());
+        if (py::isinstance<GroundMotion>(motion)) {
+          const auto& ground = motion.cast<const GroundMotion&>();
+          return direction == 0 ? answer(ground) : answer(rotated(ground, direction));
+        }
+        if (py::isinstance<PlanarResponseWithInputs>(motion)) {
+          const FloorMotion floor = floor_in_plane(motion.cast<const PlanarResponseWithInputs&>()).along(direction);
+          return answer(floor.segments, floor.impulses);
+        }
+        if (direction != 0)
+          throw std::invalid_argument(
+              "response_spectrum: direction needs a ground motion or a response with two horizontal components");
         if (!py::isinstance<ResponseWithInputs>(motion))
-          throw py::type_error("response_spectrum: motion must be a GroundMotion, a Response or a Suite, got " +
-                               py::repr(motion).cast<std::string>());
+          throw py::type_error(
+              "response_spectrum: motion must be a GroundMotion, a Response, a PlanarResponse or a "
+              "Suite, got " +
+              py::repr(motion).cast<std::string>());
         const auto& response = motion.cast<const ResponseWithInputs&>();
         const FloorMotion floor = with_inputs(response, [&](const auto& slider, const auto& ground) {
           return floor_motion(slider, ground, response.response);
@@ -116,7 +140,7 @@ The values are nested lists of shape (D, P); every number reads back as the same
         return answer(floor.segments, floor.impulses);
       },
       py::arg("motion"), py::arg("periods"), py::arg("damping") = 0.05, py::kw_only(),
-      py::arg("kind") = "pseudo_acceleration",
+      py::arg("kind") = "pseudo_acceleration", py::arg("direction") = 0.0,
       R"(Compute the elastic response spectrum of a ground motion, or of the mass of a slider: a floor spectrum.
 
 Each linear oscillator x'' + 2 zeta wn x' + wn^2 x = -n(t), wn = 2 pi / T, is at rest when the motion begins. The value
@@ -126,11 +150,12 @@ maximum includes the free vibration that follows.
 
 Parameters
 ----------
-motion : GroundMotion, Response or Suite
+motion : GroundMotion, Response, PlanarResponse or Suite
     A suite gives the spectra of all its ground motions, as `SuiteSpectra`. A response excites the oscillators with the
     absolute acceleration of the sliding mass along x, including its jumps where a slip begins, reverses or stops. An
     impact on a stop, and the friction impulse of a landing, change the velocity of the mass at once: each oscillator
-    gets that jump as an impulse. Settle the response, otherwise the floor motion ends with the record.
+    gets that jump as an impulse. Settle the response, otherwise the floor motion ends with the record. `rotd` gives the
+    spectra of a station, or of a response in the plane, in all directions.
 periods : float or array_like, shape (P,)
     Undamped natural periods T [s], in any order: each from 1e-6 to 1e6, or 0, a rigid oscillator, which gives the PGA
     as acceleration and 0 otherwise.
@@ -140,6 +165,9 @@ kind : str, optional
     'pseudo_acceleration', wn^2 max |x| [m/s^2]; 'pseudo_velocity', wn max |x| [m/s]; 'displacement', max |x| [m],
     relative to the ground; 'velocity', max |x'| [m/s], relative to the ground; 'acceleration', max |x'' + n| [m/s^2],
     absolute.
+direction : float, optional
+    Horizontal direction of the oscillators, clockwise from the axis of the motion [degrees]: 90 is the transverse
+    component. Other values than 0 need a ground motion with a transverse component, or a response in the plane.
 
 Returns
 -------
@@ -157,7 +185,7 @@ Accurate to round-off: some 1e-15 times the square root of the number of samples
 if these exceed 1. If the ground velocity of a record does not end at zero, the ground keeps this velocity, and
 oscillators of long period continue to the displacement x' / wn: correct the baseline first.
 
-The same accuracy holds for a response with a constant slip level, without spring and damper. Other responses are
+The same accuracy holds for a response with a constant slip level on one axis, without spring and damper. Other responses are
 approximated by straight segments of the acceleration, which is as exact as `integrate`. Their error is at most 1e-6 of
 its maximum e, which changes a pseudo-acceleration by at most 1e-6 e coth(pi zeta / (2 sqrt(1 - zeta^2))): 13e-6 e at
 5 %. After an impact, the pseudo-acceleration of a stiff oscillator grows as 2 pi / T: at periods below the duration of
@@ -169,6 +197,21 @@ damping. Uneven times take some 0.3 us for each period, damping ratio and change
 References
 ----------
 N. C. Nigam, P. C. Jennings, Bull. Seism. Soc. Am. 59 (1969), 909-922, for the response at the samples.)");
+
+  py::class_<PlanarFloorMotion>(m, "_PlanarFloorMotion", "The floor motion of a response in the plane, for `rotd`.")
+      .def(py::init(&floor_in_plane), py::arg("response"))
+      .def(
+          "spectrum",
+          [](const PlanarFloorMotion& self, double direction, const py::object& periods, double damping,
+             const std::string& kind) {
+            std::vector<double> all = to_vector_or_number(periods, "rotd: periods", "s");
+            const SpectrumKind which = kind_of(kind);
+            const py::gil_scoped_release released;
+            const FloorMotion along = self.along(direction);
+            return response_spectrum(along.segments, std::move(all), {damping}, which, along.impulses);
+          },
+          py::arg("direction"), py::arg("periods"), py::arg("damping"), py::arg("kind"),
+          "The floor spectrum in a direction [degrees], as `response_spectrum`.");
 }
 
 }  // namespace stickslip::python

@@ -1,3 +1,4 @@
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,21 +10,16 @@ namespace {
 
 PlanarResponseWithInputs integrate_planar(const AnyPlanarSlider& slider, const py::object& motion,
                                           const py::object& displacement, const py::object& velocity, bool settle,
-                                          const std::string& contact, double sliding_distance) {
-  if (!py::isinstance<GroundMotion>(motion))
-    throw py::type_error("integrate: the motion of a PlanarSlider must be a GroundMotion, got " +
-                         py::type::of(motion).attr("__name__").cast<std::string>());
-  const auto& ground = motion.cast<const GroundMotion&>();
-  if (!ground.has_transverse())
-    throw std::invalid_argument(
-        "integrate: a PlanarSlider needs both horizontal components; '" + ground.name() +
-        "' has no transverse component: give GroundMotion(..., transverse=...), or read both with read_station(file)");
+                                          const std::string& contact, double sliding_distance,
+                                          const std::optional<SurfaceHeat>& heat) {
+  const GroundMotion& ground = both_components(motion, "integrate");
   const PlanarIntegrateOptions options{to_vector2(displacement, "integrate: displacement", "m"),
                                        to_vector2(velocity, "integrate: velocity", "m/s"),
                                        settle,
                                        contact_of(contact, "integrate"),
                                        check_for_interrupt,
-                                       sliding_distance};
+                                       sliding_distance,
+                                       heat.value_or(SurfaceHeat())};
   PlanarResponse response = [&] {
     const py::gil_scoped_release released;
     return integrate(slider, ground, options);
@@ -38,6 +34,7 @@ void bind_planar_integrate(py::module_& m) {
       "integrate", &integrate_planar, py::arg("slider"), py::arg("motion"), py::kw_only(),
       py::arg("displacement") = py::make_tuple(0.0, 0.0), py::arg("velocity") = py::make_tuple(0.0, 0.0),
       py::arg("settle") = false, py::arg("contact") = "flight", py::arg("sliding_distance") = 0.0,
+      py::arg("heat") = py::none(),
       R"(With a `PlanarSlider`, both horizontal components of the ground motion act, and a vertical one. The motion must have
 a transverse component. `displacement` and `velocity` are vectors of shape (2,), along the axis and along the transverse
 direction, which is 90 degrees clockwise from the axis. Returns a `PlanarResponse`.

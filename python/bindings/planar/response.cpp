@@ -89,6 +89,18 @@ auto vector() {
   return [](const Self& self) { return array_of(self.response.*member); };
 }
 
+py::object temperature_of(const py::object& self) {
+  const PlanarResponse& response = self.cast<const Self&>().response;
+  return response.temperature.empty() ? py::object(py::none()) : py::object(view(response.temperature, self));
+}
+
+Margins margins_of(const Self& self) {
+  const AnyPlanarSlider& slider = slider_of_response(self);
+  const GroundMotion& motion = motion_of(self);
+  const py::gil_scoped_release released;
+  return margins(slider, motion, self.response);
+}
+
 py::object gap_of(const py::object& self) {
   const PlanarResponse& response = self.cast<const Self&>().response;
   if (!response.gap.empty()) return view(response.gap, self);
@@ -205,6 +217,10 @@ Found by a search within each step of the motion, which is integrated once more 
           "stuck", [](Self& r) { return array_of(forces_of(r).stuck).attr("view")("?"); },
           "Whether the slider sticks at `time` (bool), shape (N,); just after the sample if that "
           "changes there.")
+      .def_property_readonly("temperature", &temperature_of,
+                             R"(Temperature of the sliding surface at `time` [degrees Celsius], shape (N,).
+
+None unless the friction law depends on it, as `KumarFriction` does.)")
       .def_property_readonly("gap", &gap_of, R"(Gap between slider and ground at `time` [m], shape (N,).
 
 0 except in flight, with contact='flight'.)")
@@ -287,6 +303,22 @@ None if the orientation of the ground motion is not an azimuth, or if the slider
                              R"(Energy balance along the path, per unit mass [m^2/s^2].
 
 As that of `Response`, with the integrals of p.r', resist N+/g |r'| and c |r'|^2.)")
+      .def_property_readonly(
+          "margin", [](const Self& r) { return margins_of(r).load; },
+          R"(Smallest ||q| - level| / level at which stick or slip was decided; infinite if there was no decision.
+
+The load is the vector q = p - wn^2 r, the level is that of the law times N+/g. The decisions are those of
+`Response.margin`, for the magnitude of q: the end of each slip, each maximum of |q| over the level during a rest, and
+the next such maximum after a breakaway, with r as at rest. While the slider rests against a stop, q is the load along
+the stop. A velocity that turns without vanishing is not a decision, however small it becomes, nor is a landing. The
+motion is integrated again.)")
+      .def_property_readonly(
+          "impact_margin", [](const Self& r) { return margins_of(r).impact; },
+          R"(Smallest distance by which a stop was missed or exceeded, over its gap.
+
+At a maximum of |r|, the remaining distance to the stop; at an impact with the radial velocity v and the radial
+deceleration d, the distance v^2 / (2 d) over which the slider would have continued. Infinite without stops and
+slips.)")
       .def(
           "plot",
           [](const py::object& self, const py::object& figure, const py::object& title, const py::object& time) {
@@ -303,7 +335,7 @@ begin and end of the part of the lower panels to draw [s]. Returns the figure, s
            R"(Convert the histories to a pandas DataFrame.
 
 As `Response.to_dataframe`, with two columns for each vector, such as `displacement_axis` and
-`displacement_transverse`. ImportError without pandas.)")
+`displacement_transverse`, and with `temperature` if the law depends on it. ImportError without pandas.)")
       .def("to_xarray", in_python("stickslip._tables", "to_xarray"),
            R"(Convert the histories to an xarray Dataset over the coordinate `time`.
 

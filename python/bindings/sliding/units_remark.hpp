@@ -14,7 +14,8 @@ bool begins_to_slip(const Slider<Law>& slider, const GroundMotion& motion, doubl
   const detail::Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
   const detail::LoadPieces loads(motion, slider.slope());
   const auto slips = [&](double load, double normal) {
-    const double weight = std::max(normal, 0.0) / standard_gravity, net = load - detail::pull(slider, x, weight);
+    const double weight = std::max(normal, 0.0) / standard_gravity,
+                 net = load - slider.mounting().spring().under(weight) * x;
     const Direction direction = net < 0 ? Direction::backward : Direction::forward;
     const double level = bounds.bound(direction, x, hold(law_at(slider.law(), State::at(x, 0), weight), x, direction));
     return std::abs(net) > detail::weigh(weight, level);

@@ -3,12 +3,12 @@
 ``stickslip slide kobe.AT2 --mu 0.1 0.2 0.3`` prints how far a block slides; ``stickslip slide
 --help`` lists the options. ``stickslip records FOLDER`` prints what files hold, ``stickslip
 spectrum`` their response spectra. ``stickslip orientations`` slides along all directions of a
-station, ``stickslip fragility`` fits the probability of sliding further than thresholds.
-``stickslip ensemble --event "great very near field" --mu 0.2
---members 100000`` prints statistics for random earthquakes, and ``stickslip thesis`` redraws the
-figures of the thesis. ``stickslip completion bash`` prints a script that completes all this in a
-shell. Each subcommand is one file here, with a function that adds its arguments and one that runs
-it.
+station, ``stickslip sweep`` prints statistics over records, and ``stickslip fragility`` fits the
+probability of sliding further than thresholds. ``stickslip ensemble --event "great very near field"
+--mu 0.2 --members 100000`` prints statistics for random earthquakes, and ``stickslip thesis``
+redraws the figures of the thesis. ``stickslip completion bash`` prints a script that completes all
+this in a shell. Each subcommand is one file here, with a function that adds its arguments and one
+that runs it.
 
 Exit codes: 0 on success, also for a slider that never comes to rest (its row says so); 1 if part of
 the work failed and the rest is printed: a record that cannot be read or slid, a picture or
@@ -38,6 +38,7 @@ from .parser import Parser
 from .records import add_records
 from .slide import add_slide
 from .spectrum import add_spectrum
+from .sweep import add_sweep
 from .thesis import add_thesis
 
 __all__ = ["main"]
@@ -77,6 +78,7 @@ exit codes:
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     for add in (
         add_slide,
+        add_sweep,
         add_newmark,
         add_orientations,
         add_fragility,

@@ -6,21 +6,25 @@ import argparse
 import contextlib
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import GroundMotion, PlausibilityWarning
 from .._core import _ground_motion as ground_motion
 from .._core import _warn_if_implausible as warn_if_implausible
 from .._failures import grouped, with_options
 from .._paths import expanded, is_same_file
+from .._text import printable
 from ..motions.metadata import Metadata, orientation_text, readings
 from ..motions.records import Component, Reading, files_in, read_components
 from ..motions.samples import sample_files, sample_record
 from ..motions.stations import Part, stations_of
-from .output import FAILURES, check_outputs, complain, reason_of
+from .output import FAILURES, check_outputs, complain, json_text, reason_of, write_csv
 from .parser import text_argument
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["Batch", "StrictError", "add_files", "add_vertical"]
 
@@ -121,6 +125,8 @@ class Batch:
         The files given, with folders and patterns expanded.
     errors, left_out : list of dict
         Failures and vertical components left out so far, as --json lists them.
+    figures : list of str
+        Pictures written so far.
     """
 
     def __init__(self, args: argparse.Namespace) -> None:
@@ -154,6 +160,7 @@ class Batch:
                 f" {len(self._directions)}"
             )
         self.station = getattr(args, "station", False)
+        self.pairs = getattr(args, "pairs", False)  # stations need both horizontal components
         self.vertical: Path | None = getattr(args, "vertical", None)
         if self.station and args.component in ("all", "vertical"):
             raise ValueError(
@@ -165,6 +172,7 @@ class Batch:
         self.inputs = [*self.files, *(f for f in (self.vertical, args.metadata) if f)]
         self.errors: list[dict[str, str]] = []
         self.left_out: list[dict[str, str]] = []
+        self.figures: list[str] = []
         self.found = 0
         self.pictures = list(self._pictures())
         outputs = [("--plot", picture) for picture in self.pictures]
@@ -180,6 +188,22 @@ class Batch:
             complain(f"left out: {line}")
         self.args.code = 1 if self.errors or (self.left_out and not self.found) else 0
         return {"errors": self.errors, "left_out": self.left_out}
+
+    def answer(
+        self,
+        columns: Sequence[str],
+        rows: list[dict[str, Any]],
+        lines: Iterable[str],
+        **more: Any,
+    ) -> str:
+        """Write the rows to --csv and `finish`; the JSON document, or the lines for a person."""
+        if self.args.csv:
+            write_csv(self.args.csv, columns, rows)
+        found = self.finish()
+        if self.args.json:
+            return json_text({"results": rows, **more, **found, "figures": self.figures})
+        written = [*self.figures, *([str(self.args.csv)] if self.args.csv else [])]
+        return "\n".join([*lines, *(f"wrote {printable(name)}" for name in written)])
 
     @contextlib.contextmanager
     def reported(self, file: Path, prefix: str = "") -> Iterator[None]:
@@ -218,8 +242,16 @@ class Batch:
                 text = f"{file}: {_in_words_of_the_command(text)}"
             complain(f"warning: {text}")
 
+    def save(self, figure: Figure, place: int = 0, motion: Motion | None = None) -> None:
+        """Save the picture of one motion of a file, or the one picture of all."""
+        from .. import plotting
+
+        picture = self.pictures[place] if motion is None else self.picture(place, motion)
+        plotting.save(figure, picture)
+        self.figures.append(str(picture))
+
     def picture(self, place: int, motion: Motion) -> Path:
-        """The picture of one motion of a file."""
+        """The name of the picture of one motion of a file."""
         picture = self.pictures[place]
         if motion.component is None:
             return picture
@@ -284,7 +316,9 @@ class Batch:
         for place, file in enumerate(self.files):
             with self.reported(file):
                 if str(file).startswith(_SAMPLE):
-                    raise ValueError("a sample record has one component; --station needs a file")
+                    raise ValueError(
+                        "a sample record has one component; give the files of a station"
+                    )
                 if file.is_dir():
                     raise ValueError("the folder holds no files")
                 for one in files_in(file):
@@ -303,6 +337,11 @@ class Batch:
                     continue
                 if station.reason and not station.is_lonely:
                     raise ValueError(station.reason)
+                if self.pairs and station.motion.transverse is None:
+                    raise ValueError(
+                        f"needs a transverse component, found only '{station.motion.name}': give"
+                        " the file of the other horizontal component, too"
+                    )
                 with self._warnings(file):
                     if station.reason:
                         warnings.warn(f"{file}: {station.reason}", RuntimeWarning, stacklevel=1)
@@ -310,13 +349,17 @@ class Batch:
                 yield place, file, Motion(station.motion, None, only.units)
 
     def _pictures(self) -> Iterator[Path]:
-        """One picture for each record; a number distinguishes records of the same name."""
+        """One picture for each record, where a number distinguishes records of the same name, or
+        one of all."""
         plot = self.args.plot
         if not plot:
             return
         from .. import plotting  # imports matplotlib, which is slow
 
         plotting.check_suffix(plot)
+        if getattr(self.args, "one_picture", False):
+            yield plot
+            return
         for place, record in enumerate(self.files, 1):
             several = f"-{place}-{record.stem}" if len(self.files) > 1 else ""
             yield plot.with_stem(f"{plot.stem}{several}")

@@ -7,20 +7,21 @@ import math
 import sys
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from .. import (
     Ensemble,
-    Estimate,
     GaussianExcitation,
     Interval,
     PoissonPulses,
     Spectrum,
+    WithTransverse,
     WithVertical,
 )
 from .._text import printable
 from .output import FAILURES, check_outputs, check_whole, complain, json_text, reason_of
 from .parser import number, numbers, ratio, text_argument, whole
-from .slider import add_contact, add_slider, slider_of
+from .slider import add_contact, add_slider, any_slider_of
 
 __all__ = ["add_ensemble"]
 
@@ -61,6 +62,24 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         metavar="R",
         help="add a vertical component, drawn independently of the horizontal one like it, and"
         " times this ratio (V/H, often near 2/3)",
+    )
+    add(
+        "--planar",
+        action="store_true",
+        help="slide in both horizontal directions at once, under pairs: the transverse component is"
+        " drawn like the other one; the displacement is the distance from the start",
+    )
+    add(
+        "--transverse-ratio",
+        type=ratio,
+        metavar="R",
+        help="factor on the transverse component (default 1; with --planar)",
+    )
+    add(
+        "--coherence",
+        type=ratio,
+        metavar="C",
+        help="correlation of the two components, from -1 to 1 (default 0; with --planar)",
     )
     add("--mu", type=ratio, required=True, help="coefficient of friction [-]")
     add_slider(parser)
@@ -126,7 +145,7 @@ def _ensemble(args: argparse.Namespace) -> str:
 
     try:
         ensemble = run_ensemble(
-            slider_of(args),
+            any_slider_of(args),
             _excitation(args),
             members=args.members,
             seed=args.seed,
@@ -156,9 +175,19 @@ def _ensemble(args: argparse.Namespace) -> str:
     return "\n".join([*_report(args, result), *(f"wrote {printable(name)}" for name in written)])
 
 
-def _excitation(args: argparse.Namespace) -> PoissonPulses | GaussianExcitation | WithVertical:
+def _excitation(
+    args: argparse.Namespace,
+) -> PoissonPulses | GaussianExcitation | WithTransverse | WithVertical:
     """The ground motion of the command line."""
-    horizontal = _horizontal(args)
+    pair = {"--transverse-ratio": args.transverse_ratio, "--coherence": args.coherence}
+    for option, value in pair.items():
+        if value is not None and not args.planar:
+            raise ValueError(f"{option} goes with --planar, got {value:g} without")
+    one = _horizontal(args)
+    horizontal: PoissonPulses | GaussianExcitation | WithTransverse = one
+    if args.planar:
+        given = {"ratio": args.transverse_ratio, "coherence": args.coherence}
+        horizontal = WithTransverse(one, **{k: v for k, v in given.items() if v is not None})
     if args.vertical_ratio is None:
         return horizontal
     if not 0 <= args.vertical_ratio < math.inf:
@@ -195,15 +224,7 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
     def interval(name: str, key: float, found: Interval) -> dict:
         return {name: key, "value": found.value, "low": found.low, "high": found.high}
 
-    def estimate(name: str, found: Estimate) -> dict:
-        if not (math.isfinite(found.value) and math.isfinite(found.error)):
-            raise OverflowError(
-                f"ensemble: {name} must be finite, got {found.value:g} +- {found.error:g}"
-            )
-        return {"value": found.value, "error": found.error}
-
     shares = (0.5, 0.95, 0.99)
-    stationary = ensemble.stationary
     return {
         "configuration": ensemble.configuration,
         "members": ensemble.members,
@@ -216,16 +237,44 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
         **_impacts(args, ensemble),
         "airborne": ensemble.airborne,
         **_residual(ensemble),
+        **(_at_end(ensemble) if args.planar else _stationary(ensemble)),
+    }
+
+
+def _stationary(ensemble: Ensemble) -> dict:
+    """The stationary averages."""
+    stationary = ensemble.stationary
+    growth = stationary.growth_rate
+    variance = stationary.velocity_variance
+    return {
         "stationary": {
             "begin_s": stationary.begin,
             "end_s": stationary.end,
-            "velocity_variance_m2_s2": estimate(
-                "the velocity variance", stationary.velocity_variance
-            ),
-            "growth_rate_m2_s": estimate("the growth rate", stationary.growth_rate),
+            "velocity_variance_m2_s2": _estimate("the velocity variance", *variance),
+            "growth_rate_m2_s": _estimate("the growth rate", *growth),
             "remark": stationary.remark,
-        },
+        }
     }
+
+
+def _at_end(ensemble: Ensemble) -> dict:
+    """In the plane, the variances and the covariance of the components at the end."""
+    found: dict[str, Any] = {"time_s": float(ensemble.time[-1])}
+    for quantity, unit in (("displacement", "m2"), ("velocity", "m2_s2")):
+        for i, component in enumerate(("axis", "transverse")):
+            name = f"{quantity}_variance"
+            pair = (float(getattr(ensemble, name + part)[-1, i]) for part in ("", "_error"))
+            found[f"{name}_{component}_{unit}"] = _estimate(f"the {quantity} variance", *pair)
+        name = f"{quantity}_covariance"
+        pair = (float(getattr(ensemble, name + part)[-1]) for part in ("", "_error"))
+        found[f"{name}_{unit}"] = _estimate(f"the {quantity} covariance", *pair)
+    return {"at_end": found}
+
+
+def _estimate(name: str, value: float, error: float) -> dict:
+    if not (math.isfinite(value) and math.isfinite(error)):
+        raise OverflowError(f"ensemble: {name} must be finite, got {value:g} +- {error:g}")
+    return {"value": value, "error": error}
 
 
 def _impacts(args: argparse.Namespace, ensemble: Ensemble) -> dict:
@@ -237,11 +286,16 @@ def _impacts(args: argparse.Namespace, ensemble: Ensemble) -> dict:
 
 
 def _residual(ensemble: Ensemble) -> dict:
-    """Mean and root mean square of the residuals; None if they are not stored."""
+    """Mean and root mean square of the residuals, in the plane of their distances from the start;
+    None if they are not stored."""
     try:
         residual = ensemble.residual
     except ValueError:
         return {"residual_mean_m": None, "residual_rms_m": None}
+    if ensemble.in_plane:
+        import numpy as np
+
+        residual = np.hypot(*residual.T)
     unit = float(abs(residual).max()) or 1.0  # squares stay within the range of doubles
     residual = residual / unit
     root_n = math.sqrt(len(residual))
@@ -269,9 +323,8 @@ def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
         else:
             low, high = factor * found["low"], factor * found["high"]
             text, around = f"{value:.4g}", f"({low:.4g} to {high:.4g})"
-        return f"{name:24}{which:>9}  {text:>10} {unit:7}  {around}"
+        return f"{name:24}{which:>10}  {text:>10} {unit:7}  {around}"
 
-    stationary = result["stationary"]
     yield (
         f"{result['members']:,} members, seed {args.seed}; {100 * args.confidence:g} % bounds in"
         f" brackets, standard errors after +-"
@@ -292,6 +345,18 @@ def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
         yield row("hits a stop", gap, result["impact_probability"], 100, "%")
     if result["airborne"]:
         yield f"{result['airborne']:,} members end in flight (--settle lets them land)"
+    if args.planar:
+        at_end = result["at_end"]
+        for quantity, unit in (("displacement", "m^2"), ("velocity", "m^2/s^2")):
+            key = unit.replace("^", "").replace("/", "_")
+            for i, which in enumerate(("axis", "transverse")):
+                found = at_end[f"{quantity}_variance_{which}_{key}"]
+                yield row("" if i else f"{quantity} variance", which, found, 1, unit)
+            covariance = at_end[f"{quantity}_covariance_{key}"]
+            yield row(f"{quantity} covariance", "", covariance, 1, unit)
+        yield f"(variances and covariances at {at_end['time_s']:.4g} s)"
+        return
+    stationary = result["stationary"]
     yield row("velocity variance", "", stationary["velocity_variance_m2_s2"], 1, "m^2/s^2")
     yield row("growth of variance of x", "", stationary["growth_rate_m2_s"], 1, "m^2/s")
     yield f"(the last two from {stationary['begin_s']:.3g} to {stationary['end_s']:.3g} s)"

@@ -5,21 +5,21 @@ from __future__ import annotations
 import argparse
 import warnings
 from collections.abc import Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .._text import printable
 from .batch import Batch, add_files
-from .output import column, complain, json_text, write_csv
-from .parser import numbers, ratio, ratios
-from .slider import add_contact, add_slider, described, heading, slider_of, variations
+from .output import add_outputs, column, complain
+from .parser import numbers, ratio
+from .slider import add_sliders, cells, described, heads, keyed, slider_of, variations
 
 if TYPE_CHECKING:
     from ..sweeps import Orientations
 
 __all__ = ["add_orientations"]
 
-_COLUMNS = ("file", "station", "scale", "mu", "degrees", "peak_m", "residual_m")
+_ABOUT = ("file", "station", "scale")
+_VALUES = ("degrees", "peak_m", "residual_m")
 _PERCENTILES = (0, 50, 100)
 
 
@@ -40,15 +40,7 @@ def add_orientations(commands: argparse._SubParsersAction) -> None:
     )
     add = parser.add_argument
     add_files(parser)
-    add(
-        "--mu",
-        nargs="+",
-        type=ratios,
-        required=True,
-        help="coefficients of friction [-] or ranges; a repeated value is used once",
-    )
-    add_slider(parser, ranges=True)
-    add_contact(parser)
+    add_sliders(parser)
     add(
         "--degrees",
         nargs="+",
@@ -57,23 +49,21 @@ def add_orientations(commands: argparse._SubParsersAction) -> None:
         help="directions (default 0:179:1; 0:359:1 where opposite directions differ)",
     )
     add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
-    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one per station")
-    add("--csv", type=Path, metavar="FILE", help="a row for each direction, exact doubles")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(horizontal=True, station=True, run=_orientations)
+    add_outputs(parser, each="station")
+    parser.set_defaults(horizontal=True, station=True, pairs=True, run=_orientations)
 
 
 def _orientations(args: argparse.Namespace) -> str:
     from ..sweeps import orientations  # imports NumPy, slowly
 
     cases, several = variations(args)
+    shown = list(dict.fromkeys(["mu", *several]))
     sliders = [(case, slider_of(case)) for case in cases]
     if args.plot and len(sliders) > 1:
         raise ValueError(f"--plot draws one slider, got {len(sliders)}")
     batch = Batch(args)
     rows: list[dict[str, Any]] = []
     printed: list[dict[str, Any]] = []
-    written: list[str] = []
     for place, file, found in batch.motions():
         motion = found.motion if args.scale == 1 else found.motion.scaled(args.scale)
         for case, slider in sliders:
@@ -92,25 +82,18 @@ def _orientations(args: argparse.Namespace) -> str:
                     "file": str(file),
                     "station": motion.name,
                     "scale": args.scale,
-                    **{name: getattr(case, name) for name in ("mu", *several)},
+                    **keyed(case, shown),
                 }
-                columns = table.degrees.tolist(), table.peak.tolist(), table.residual.tolist()
-                for row in zip(*columns):
-                    rows.append({**about, **dict(zip(_COLUMNS[-3:], row))})
+                values = table.degrees.tolist(), table.peak.tolist(), table.residual.tolist()
+                for row in zip(*values):
+                    rows.append({**about, **dict(zip(_VALUES, row))})
                 printed.append({**about, "from_north": table.from_north, **_percentiles(table)})
                 if args.plot:
-                    picture = batch.picture(place, found)
                     label = ", ".join(described(case, several))
-                    _draw(table, f"{motion.name}, {label}", picture)
-                    written.append(str(picture))
-    if args.csv:
-        names = [name for name in _COLUMNS if name != "mu"]
-        write_csv(args.csv, [*names[:3], *dict.fromkeys(["mu", *several]), *names[3:]], rows)
-    said = batch.finish()
-    if args.json:
-        return json_text({"results": rows, "percentiles": printed, **said, "figures": written})
-    written += [str(args.csv)] if args.csv else []
-    return "\n".join([*_lines(printed, several), *(f"wrote {printable(n)}" for n in written)])
+                    name = printable(f"{motion.name}, {label}")
+                    batch.save(table.plot(title=name), place, found)
+    columns = [*_ABOUT, *keyed(args, shown), *_VALUES]
+    return batch.answer(columns, rows, _lines(printed, shown), percentiles=printed)
 
 
 def _percentiles(table: Orientations) -> dict[str, float]:
@@ -123,29 +106,21 @@ def _percentiles(table: Orientations) -> dict[str, float]:
     return found
 
 
-def _draw(table: Orientations, name: str, file: Path) -> None:
-    from .. import plotting
-
-    plotting.save(table.plot(title=printable(name)), file)
-
-
-def _lines(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
+def _lines(rows: list[dict[str, Any]], shown: list[str]) -> Iterable[str]:
     if not rows:
         return
     names = [printable(row["station"] or row["file"]) for row in rows]
     width = max(len("station"), *map(len, names))
-    varied = list(dict.fromkeys(["mu", *several]))
-    heads = "".join(f"  {heading(name):>9}" for name in varied)
-    blank = " " * (width + 11 * len(varied))
-    yield f"{blank}  peak [cm]{'':29}  residual [cm]"
+    options = heads(shown)
+    yield f"{' ' * (width + len(options))}  peak [cm]{'':28}  residual [cm]"
     quantities = "".join(f"  {'RotD00':>7}  {'RotD50':>7}  {'RotD100':>7}  at [deg]" for _ in "pr")
-    yield f"{'station':{width}}{heads}{quantities}"
+    yield f"{'station':{width}}{options}{quantities}"
     last = None
     for name, row in zip(names, rows):
-        cells = "".join(f"  {row[one]:9.4g}" for one in varied)
+        line = cells(row, shown)
         for quantity in ("peak", "residual"):
             for nn in _PERCENTILES:
-                cells += f"  {column(100 * row[f'rotd{nn:02d}_{quantity}_m'], 7)}"
-            cells += f"  {row[f'rotd100_{quantity}_degrees']:8.4g}"
-        yield f"{name if name != last else '':{width}}{cells}"
+                line += f"  {column(100 * row[f'rotd{nn:02d}_{quantity}_m'], 7)}"
+            line += f"  {row[f'rotd100_{quantity}_degrees']:8.4g}"
+        yield f"{name if name != last else '':{width}}{line}"
         last = name

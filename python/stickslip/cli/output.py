@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import csv
 import errno
@@ -19,6 +20,7 @@ from .._text import printable
 
 __all__ = [
     "FAILURES",
+    "add_outputs",
     "check_outputs",
     "check_whole",
     "column",
@@ -81,6 +83,15 @@ def json_text(document: dict) -> str:
 
     document = {"stickslip": build_info()["version"], **finite(document)}
     return json.dumps(document, indent=2, allow_nan=False)
+
+
+def add_outputs(parser: argparse.ArgumentParser, each: str = "record") -> None:
+    """Add --plot, --csv and --json; `each` says of what there is a picture, if not of all."""
+    add = parser.add_argument
+    several = f", one for each {each}" if each else ""
+    add("--plot", type=Path, metavar="FILE", help=f"picture (.png, .pdf, .svg){several}")
+    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
+    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
 
 
 def check_outputs(outputs: Iterable[tuple[str, Path]], records: Iterable[Path] = ()) -> None:

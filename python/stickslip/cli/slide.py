@@ -7,7 +7,7 @@ import math
 import statistics
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from .. import (
     STANDARD_GRAVITY,
@@ -21,9 +21,21 @@ from .. import (
 )
 from .._text import printable
 from .batch import Batch, add_files, add_vertical
-from .output import column, complain, json_text, write_csv
+from .output import add_outputs, column, complain
 from .parser import ratios
-from .slider import add_contact, add_slider, described, heading, slider_of, variations
+from .slider import (
+    add_planar,
+    add_sliders,
+    any_slider_of,
+    cells,
+    check_planar,
+    described,
+    heads,
+    variations,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["add_slide"]
 
@@ -91,22 +103,9 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     )
     add = parser.add_argument
     add_files(parser)
-    add(
-        "--mu",
-        nargs="+",
-        type=ratios,
-        required=True,
-        help="coefficients of friction [-] or ranges; a repeated value is used once",
-    )
-    add_slider(parser, ranges=True)
+    add_sliders(parser)
     add_vertical(parser)
-    add_contact(parser)
-    add(
-        "--planar",
-        action="store_true",
-        help="slide in both horizontal directions at once: friction opposes the velocity vector;"
-        " implies --station, and prints the largest and the last distance from the start",
-    )
+    add_planar(parser)
     add("--scale", type=ratios, default=1.0, help="factor on the ground acceleration (default 1)")
     sense = parser.add_mutually_exclusive_group().add_argument
     sense(
@@ -116,20 +115,22 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
         " of both (for residuals, of their magnitudes)",
     )
     sense("--both", action="store_const", const="both", dest="polarity", help="--polarity both")
-    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
-    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    add_outputs(parser)
     parser.set_defaults(horizontal=True, run=_slide)
 
 
 def _slide(args: argparse.Namespace) -> str:
     cases, several = variations(args)
     if args.planar:
-        _check_planar(args, len(cases))
-    sliders = [(case, _slider_of(case)) for case in cases]
+        check_planar(args)
+        if args.plot and len(cases) > 1:
+            raise ValueError(
+                f"--plot draws one slider with --planar, got {len(cases)}; stickslip sweep draws"
+                " several"
+            )
+    sliders = [(case, any_slider_of(case)) for case in cases]
     batch = Batch(args)
     rows: list[dict[str, Any]] = []
-    written: list[str] = []
     slips, remark = False, ""
     both_ways = args.polarity == "both"
     signs = {"recorded": 1, "reversed": -1}
@@ -152,52 +153,21 @@ def _slide(args: argparse.Namespace) -> str:
                 rows += [*both, *([_mean(both)] if both_ways else [])]
         if args.plot and responses:
             with batch.reported(file):
-                picture = batch.picture(place, found)
-                _draw(responses, picture)
-                written.append(str(picture))
-    if args.csv:
-        write_csv(args.csv, (*_COLUMNS, *(_PLANAR_COLUMNS if args.planar else ())), rows)
+                batch.save(_figure(responses), place, found)
     if args.units and remark and not slips:
         complain("warning: " + remark.replace('units="g"', "--units g"))
-    said = batch.finish()
-    if args.json:
-        return json_text({"results": rows, **said, "figures": written})
-    written += [str(args.csv)] if args.csv else []
-    table = _table(rows, [name for name in several if name != "mu"])
-    return "\n".join([*table, *(f"wrote {printable(name)}" for name in written)])
+    columns = (*_COLUMNS, *(_PLANAR_COLUMNS if args.planar else ()))
+    return batch.answer(columns, rows, _table(rows, several))
 
 
-def _check_planar(args: argparse.Namespace, sliders: int) -> None:
-    """Refuse options that --planar excludes; it reads both components of each station."""
-    if args.law != "coulomb":
-        raise ValueError(f"--planar goes with --law coulomb, got --law {args.law}")
-    if args.polarity:
-        raise ValueError(
-            "--planar has no --polarity: reversing both components mirrors the response, got"
-            f" {args.polarity}"
-        )
-    if args.vertical is not None:
-        raise ValueError("--planar takes the vertical component from the station, got --vertical")
-    if args.plot and sliders > 1:
-        raise ValueError(f"--plot draws one slider with --planar, got {sliders}")
-    args.station = True
-
-
-def _slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
-    slider = slider_of(args)
-    return PlanarSlider(slider) if args.planar else slider
-
-
-def _draw(responses: dict[str, Response | PlanarResponse], file: Path) -> None:
+def _figure(responses: dict[str, Response | PlanarResponse]) -> Figure:
     from .. import plotting
 
     if len(responses) == 1:
-        figure = next(iter(responses.values())).plot()
-    else:
-        figure = plotting.plot_responses(
-            [one for one in responses.values() if isinstance(one, Response)], list(responses)
-        )
-    plotting.save(figure, file)
+        return next(iter(responses.values())).plot()
+    return plotting.plot_responses(
+        [one for one in responses.values() if isinstance(one, Response)], list(responses)
+    )
 
 
 def _settle(
@@ -323,38 +293,20 @@ def _mean(rows: list[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
-# The key of each option that may be a range.
-_KEYS = {
-    "mu_static": "mu_static",
-    "reach": "reach_m",
-    "slope": "slope_degrees",
-    "period": "period_s",
-    "damping_ratio": "damping_ratio",
-    "stop_gap": "stop_gap_m",
-    "restitution": "restitution",
-    "scale": "scale",
-}
-
-
 def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     if not rows:
         return
     names = [_name(row) for row in rows]
     # Options that were given once would be in no column, and nothing else would tell of them.
-    given = [
-        name
-        for name in ("mu_static", "stop_gap", "restitution")
-        if rows[0][_KEYS[name]] is not None
-    ]
-    several = [*(name for name in given if name not in several), *several]
+    given = {"mu_static": "mu_static", "stop_gap": "stop_gap_m", "restitution": "restitution"}
+    shown = ["mu", *(name for name, key in given.items() if rows[0][key] is not None)]
+    shown += [name for name in several if name not in shown]
     planar = "impacts" in rows[0]
     stops = rows[0]["impacts" if planar else "impacts_forward"] is not None
     width = max(len("record"), *map(len, names))
     both = any(row["polarity"] for row in rows)
-    widths = {name: max(11, len(heading(name))) for name in several}
-    more = "".join(f"  {heading(name):>{wide}}" for name, wide in widths.items())
     yield (
-        f"{'record':{width}}  PGA [g]     mu{more}{'  polarity' if both else ''}  peak [cm]"
+        f"{'record':{width}}  PGA [g]{heads(shown)}{'  polarity' if both else ''}  peak [cm]"
         "  residual [cm]  distance [cm]  sliding [s]  slips"
         f"{'  impacts  at most [m/s]' if stops else ''}"
         f"{'  azimuth of peak' if planar else ''}"
@@ -363,10 +315,9 @@ def _table(rows: list[dict[str, Any]], several: list[str]) -> Iterable[str]:
     for name, row in zip(names, rows):
         head = f"{name:{width}}  {column(row['pga_g'], 7, 3)}"
         this = row["file"], row["component"], row["scale"]
-        more = "".join(f"  {row[_KEYS[name]]:{wide}.4g}" for name, wide in widths.items())
         polarity = f"  {row['polarity']:8}" if both else ""
         yield (
-            f"{head if this != last else '':{width + 9}}  {row['mu']:5.4g}{more}{polarity}"
+            f"{head if this != last else '':{width + 9}}{cells(row, shown)}{polarity}"
             f"  {column(row['peak_m'] * 100, 9)}  {column(row['residual_m'] * 100, 13)}"
             f"  {column(row['sliding_distance_m'] * 100, 13)}"
             f"  {column(row['time_sliding_s'], 11)}"

@@ -5,26 +5,53 @@ from __future__ import annotations
 import argparse
 import itertools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from .. import Caster, Coulomb, Slider, StaticKinetic, Stops
+from .. import Caster, Coulomb, PlanarSlider, Slider, StaticKinetic, Stops
 from .parser import number, numbers, ratio, ratios
 
-__all__ = ["add_contact", "add_slider", "described", "heading", "slider_of", "variations"]
+__all__ = [
+    "add_contact",
+    "add_planar",
+    "add_slider",
+    "add_sliders",
+    "any_slider_of",
+    "cells",
+    "check_planar",
+    "described",
+    "heads",
+    "keyed",
+    "slider_of",
+    "variations",
+]
 
-# The options that may be ranges, with their headings in tables and names in legends.
+# The options that may be ranges, with their headings in tables and names in legends, and their keys
+# in rows, where a name has its unit.
 _VARIED = {
-    "mu": "mu",
-    "mu_static": "static mu",
-    "reach": "reach [m]",
-    "slope": "slope [deg]",
-    "period": "period [s]",
-    "damping_ratio": "damping",
-    "stop_gap": "stop gap [m]",
-    "restitution": "restitution",
-    "scale": "scale",
+    "mu": ("mu", "mu"),
+    "mu_static": ("static mu", "mu_static"),
+    "reach": ("reach [m]", "reach_m"),
+    "slope": ("slope [deg]", "slope_degrees"),
+    "period": ("period [s]", "period_s"),
+    "damping_ratio": ("damping", "damping_ratio"),
+    "stop_gap": ("stop gap [m]", "stop_gap_m"),
+    "restitution": ("restitution", "restitution"),
+    "scale": ("scale", "scale"),
 }
+
+
+def add_sliders(parser: argparse.ArgumentParser) -> None:
+    """Add the options that `variations` reads, except --scale, and --contact."""
+    parser.add_argument(
+        "--mu",
+        nargs="+",
+        type=ratios,
+        required=True,
+        help="coefficients of friction [-] or ranges; a repeated value is used once",
+    )
+    add_slider(parser, ranges=True)
+    add_contact(parser)
 
 
 def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
@@ -84,6 +111,30 @@ def add_contact(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_planar(parser: argparse.ArgumentParser) -> None:
+    """Add --planar."""
+    parser.add_argument(
+        "--planar",
+        action="store_true",
+        help="slide in both horizontal directions at once: friction opposes the velocity vector;"
+        " implies --station, and prints the largest and the last distance from the start",
+    )
+
+
+def check_planar(args: argparse.Namespace) -> None:
+    """Refuse options that --planar excludes; it reads both components of each station."""
+    if args.law != "coulomb":
+        raise ValueError(f"--planar goes with --law coulomb, got --law {args.law}")
+    if args.polarity and args.slope is None:
+        raise ValueError(
+            "--planar has no --polarity on level ground: reversing both components mirrors the"
+            f" response, got {args.polarity}"
+        )
+    if args.vertical is not None:
+        raise ValueError("--planar takes the vertical component from the station, got --vertical")
+    args.station = args.pairs = True
+
+
 def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list[str]]:
     """Every combination of the given values, and the options with several values."""
     given = {
@@ -98,8 +149,25 @@ def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list
     return every, [name for name, values in given.items() if len(values) > 1]
 
 
-def heading(name: str) -> str:
-    return _VARIED[name]
+def keyed(args: argparse.Namespace, names: Iterable[str]) -> dict[str, Any]:
+    """The values of the options of one combination, by the keys of rows."""
+    return {_VARIED[name][1]: getattr(args, name) for name in names}
+
+
+def heads(names: Iterable[str]) -> str:
+    """The heads of the columns of options."""
+    return "".join(f"  {head:>{_width(head)}}" for head, _ in map(_VARIED.__getitem__, names))
+
+
+def cells(row: dict[str, Any], names: Iterable[str]) -> str:
+    """The values of a row below `heads`."""
+    return "".join(
+        f"  {row[key]:{_width(head)}.4g}" for head, key in map(_VARIED.__getitem__, names)
+    )
+
+
+def _width(head: str) -> int:
+    return 5 if head == "mu" else max(11, len(head))
 
 
 def described(args: argparse.Namespace, several: list[str], mu: str = "mu") -> Iterator[str]:
@@ -107,12 +175,18 @@ def described(args: argparse.Namespace, several: list[str], mu: str = "mu") -> I
     yield f"{mu} = {args.mu:g}"
     for name in several:
         if name != "mu":
-            word, _, unit = _VARIED[name].partition(" ")
-            yield f"{word} = {getattr(args, name):g}{f' {unit[1:-1]}' if unit else ''}"
+            word, _, unit = _VARIED[name][0].partition(" [")
+            yield f"{word} = {getattr(args, name):g}{f' {unit[:-1]}' if unit else ''}"
+
+
+def any_slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
+    """The slider of the command line, in the plane with --planar."""
+    slider = slider_of(args)
+    return PlanarSlider(slider) if args.planar else slider
 
 
 def slider_of(args: argparse.Namespace) -> Slider:
-    """The slider of the command line."""
+    """The slider of the command line on one axis."""
     mu = args.mu
     lengths = {"--reach": args.reach, "--trail": args.trail, "--wheel-width": args.wheel_width}
     given = [option for option, length in lengths.items() if length is not None]

@@ -10,7 +10,7 @@ from typing import Any
 from .. import STANDARD_GRAVITY, ResponseSpectrum, response_spectrum
 from .._text import printable
 from .batch import Batch, Motion, add_files
-from .output import column, json_text, write_csv
+from .output import add_outputs, column
 from .parser import numbers, ratio, ratios
 
 __all__ = ["add_spectrum"]
@@ -63,9 +63,7 @@ def add_spectrum(commands: argparse._SubParsersAction) -> None:
         help="spectral quantity (default pseudo_acceleration)",
     )
     add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
-    add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg), one for each record")
-    add("--csv", type=Path, metavar="FILE", help="table with units in its heading, exact doubles")
-    add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
+    add_outputs(parser)
     parser.set_defaults(horizontal=False, run=_spectrum)
 
 
@@ -79,7 +77,6 @@ def _spectrum(args: argparse.Namespace) -> str:
     batch = Batch(args)
     printed: list[dict[str, Any]] = []
     rows: list[dict[str, Any]] = []
-    written: list[str] = []
     in_files = args.csv or args.json or args.plot
     for place, file, found in batch.motions():
         with batch.reported(file):
@@ -93,23 +90,9 @@ def _spectrum(args: argparse.Namespace) -> str:
                 many = response_spectrum(motion, _DRAWN, args.damping, kind=args.kind)
             rows += _rows(args, file, found, many)
             if args.plot:
-                picture = batch.picture(place, found)
-                _draw(many, motion.name, picture)
-                written.append(str(picture))
-    if args.csv:
-        names = ("file", "record", "component", "scale", "damping_ratio", "period_s")
-        write_csv(args.csv, (*names, _KINDS[args.kind][2]), rows)
-    said = batch.finish()
-    if args.json:
-        return json_text({"results": rows, "errors": said["errors"], "figures": written})
-    written += [str(args.csv)] if args.csv else []
-    return "\n".join([*_table(args, printed), *(f"wrote {printable(name)}" for name in written)])
-
-
-def _draw(spectrum: ResponseSpectrum, name: str, file: Path) -> None:
-    from .. import plotting
-
-    plotting.save(spectrum.plot(title=printable(name)), file)
+                batch.save(many.plot(title=printable(motion.name)), place, found)
+    names = ("file", "record", "component", "scale", "damping_ratio", "period_s")
+    return batch.answer((*names, _KINDS[args.kind][2]), rows, _table(args, printed))
 
 
 def _rows(

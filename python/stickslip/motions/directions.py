@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import GroundMotion, response_spectrum
+from .._core import GroundMotion, PlanarResponse, _PlanarFloorMotion, response_spectrum
 from .._tabular import Tabular
 from .tables import SPECTRUM_UNITS
 
@@ -73,7 +73,7 @@ class RotD(Tabular):
 
 
 def rotd(
-    station: GroundMotion,
+    station: GroundMotion | PlanarResponse,
     periods: ArrayLike = 0.0,
     damping: float = 0.05,
     *,
@@ -88,8 +88,9 @@ def rotd(
 
     Parameters
     ----------
-    station : GroundMotion
-        With a `transverse` component, as `read_station` returns it.
+    station : GroundMotion or PlanarResponse
+        A ground motion with a `transverse` component, as `read_station` returns it. A response in
+        the plane gives floor spectra: those of the sliding mass, from its absolute acceleration.
     periods : float or array_like, shape (P,)
         Undamped natural periods [s], as for `response_spectrum`. The default, 0, gives the peak
         ground acceleration.
@@ -105,14 +106,17 @@ def rotd(
     Raises
     ------
     ValueError
-        A motion without a transverse component; a period, damping ratio or kind not allowed.
+        A motion without a transverse component; a period, damping ratio or kind not allowed; a
+        response that is truncated.
 
     Notes
     -----
     At each angle the spectrum is that of `response_spectrum`, a maximum in continuous time, to
     round-off. The maximum over all directions exceeds RotD100 by less than 0.004 %: where the
     response is largest it varies at least as slowly with the angle as a cosine, and no direction is
-    further than 0.5 degrees from one of the steps. The cost is that of 180 spectra.
+    further than 0.5 degrees from one of the steps. The cost is that of 180 spectra. The
+    acceleration of a mass that slides in the plane is divided into straight segments, as
+    `response_spectrum` says, whose number sets the cost.
 
     References
     ----------
@@ -126,15 +130,25 @@ def rotd(
     >>> round(float(ss.rotd(station).rotd100[0]), 3)  # sqrt(3^2 + 4^2), at 53 degrees
     5.0
     """
-    if not isinstance(station, GroundMotion):
-        raise TypeError(f"rotd: station must be a GroundMotion, got {type(station).__name__}")
-    if station.transverse is None:
-        raise ValueError(f"rotd: '{station.name}' needs a transverse component, it has none")
     if np.ndim(damping):
         raise ValueError("rotd: damping must be one number, got several")
+    if isinstance(station, PlanarResponse):
+        floor = _PlanarFloorMotion(station)
 
-    def at(angle: int) -> Any:
-        return response_spectrum(station.rotated(angle), periods, damping, kind=kind)
+        def at(angle: int) -> Any:
+            return floor.spectrum(angle, periods, damping, kind)
+
+    elif not isinstance(station, GroundMotion):
+        raise TypeError(
+            "rotd: station must be a GroundMotion or a PlanarResponse, got"
+            f" {type(station).__name__}"
+        )
+    elif station.transverse is None:
+        raise ValueError(f"rotd: '{station.name}' needs a transverse component, it has none")
+    else:
+
+        def at(angle: int) -> Any:
+            return response_spectrum(station.rotated(angle), periods, damping, kind=kind)
 
     first = at(0)  # raises for invalid arguments
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, FigureBase
 
 from .._core import Ensemble, Moments
 from .figures import Place, new_figure
-from .styles import COLORS, INK, draw_band, put_figure_title, put_note, style
+from .styles import COLORS, GRAY, INK, draw_band, put_figure_title, put_note, style
 from .words import describe_ensemble, unit_for
 
 
@@ -65,7 +65,8 @@ def plot_comparison(
     Returns
     -------
     matplotlib Figure or SubFigure
-        With two axes: variance of x, variance of x'.
+        With two axes: variance of x, variance of x'. In the plane each has a band for either
+        component.
     """
     e = comparison.ensemble
     with style():
@@ -78,8 +79,14 @@ def plot_comparison(
         ):
             variance, error = getattr(e, name), getattr(e, name + "_error")
             factor, unit = unit_for(np.sqrt(variance.max()))
-            draw_band(axes, e.time, variance * factor**2, error * factor**2, INK)
-            axes.lines[-1].set_label("simulation")
+            names = ("simulation",)
+            if e.in_plane:
+                names = ("simulation, axis", "simulation, transverse")
+            for label, color, value, width in zip(
+                names, (INK, GRAY), np.atleast_2d(variance.T), np.atleast_2d(error.T)
+            ):
+                draw_band(axes, e.time, value * factor**2, width * factor**2, color)
+                axes.lines[-1].set_label(label)
             for i, (theory, moments) in enumerate(comparison.theories.items()):
                 axes.plot(
                     moments.time,
@@ -92,7 +99,7 @@ def plot_comparison(
             axes.set_xlabel("time [s]")
             axes.set_xlim(0, comparison.time[-1])
             axes.set_ylim(bottom=0)
-            is_said = part == "velocity" and not e.stationary.is_stationary
+            is_said = part == "velocity" and not (e.in_plane or e.stationary.is_stationary)
             put_note(axes, "not shown to be stationary" if is_said else "")
         figure.axes[0].legend(loc="upper left", fontsize=8)
     return figure

@@ -57,7 +57,7 @@ PLANAR_IMPACTS = {
 }
 _AIRBORNE = {"airborne": ("airborne", "", "whether the slider is in flight at the end")}
 _ALL = QUANTITIES | COMPONENTS | IMPACTS | PLANAR_IMPACTS | _AIRBORNE
-_UNITS = {name: unit for name, (_, unit, _) in _ALL.items() if unit}
+UNITS = {name: unit for name, (_, unit, _) in _ALL.items() if unit}
 
 
 class SweepFailure(NamedTuple):
@@ -343,14 +343,32 @@ class SweepTable(Tabular, Saved):
         ndarray, shape (sliders,) or (probabilities, sliders)
             Quantiles [m], without combinations that failed; NaN where all failed.
         """
-        values = np.abs(getattr(self, self._checked(quantity))).reshape(len(self.sliders), -1)
         found = [
-            np.quantile(row[np.isfinite(row)], p)
-            if np.isfinite(row).any()
-            else np.full(np.shape(p), np.nan)
-            for row in values
+            np.quantile(row, p) if row.size else np.full(np.shape(p), np.nan)
+            for row in self._responses(quantity)
         ]
         return np.moveaxis(np.array(found), 0, -1)
+
+    def mean(self, quantity: str = "peak") -> NDArray[np.float64]:
+        """Mean of |quantity| over all records and polarities, for each slider.
+
+        Parameters
+        ----------
+        quantity : {'peak', 'residual', 'sliding_distance'}
+            As for `quantile`.
+
+        Returns
+        -------
+        ndarray, shape (sliders,)
+            Means [m], without combinations that failed; NaN where all failed.
+        """
+        found = (row.mean() if row.size else math.nan for row in self._responses(quantity))
+        return np.fromiter(found, float, len(self.sliders))
+
+    def _responses(self, quantity: str) -> Iterator[NDArray[np.float64]]:
+        """For each slider, the magnitudes of a quantity where the combination did not fail."""
+        values = np.abs(getattr(self, self._checked(quantity))).reshape(len(self.sliders), -1)
+        return (row[np.isfinite(row)] for row in values)
 
     def _checked(self, quantity: str) -> str:
         names = [name for name in (*QUANTITIES, *self._components) if name != "events"]
@@ -390,7 +408,7 @@ class SweepTable(Tabular, Saved):
             if column.tolist() != list(self.records)  # as of stripes, whose names are `record`
         }
         columns["polarity"] = Repeated(np.array(self.polarity), p)
-        return columns | {name: a.ravel() for name, a in self.arrays(True).items()}, _UNITS
+        return columns | {name: a.ravel() for name, a in self.arrays(True).items()}, UNITS
 
     def to_json(self) -> str:
         """The table as one JSON document, for tools on the web.
@@ -421,7 +439,7 @@ class SweepTable(Tabular, Saved):
                 name: {key: _listed(column) for key, column in getattr(self, name).items()}
                 for name in ("parameters", "metadata")
             },
-            "units": _UNITS,
+            "units": UNITS,
             **self.arrays(),
             "failures": [one._asdict() for one in self.failures],
         }

@@ -1,10 +1,10 @@
 #include "ground/records/text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
+#include "base/read_number.hpp"
 #include "stickslip/error.hpp"
 
 namespace stickslip::records {
@@ -116,10 +116,9 @@ std::optional<double> take_number(std::string_view& text) {
     standard.append(token.substr(0, numeral.mantissa)).append("e").append(token.substr(numeral.exponent));
     token = standard;
   }
-  if (token.starts_with('+')) token.remove_prefix(1);  // from_chars rejects a leading plus
-  double value = 0;
-  if (std::from_chars(token.data(), token.data() + token.size(), value).ec != std::errc()) return std::nullopt;
-  text.remove_prefix(numeral.end);
+  if (token.starts_with('+')) token.remove_prefix(1);
+  const std::optional<double> value = detail::read_number(token);
+  if (value) text.remove_prefix(numeral.end);
   return value;
 }
 

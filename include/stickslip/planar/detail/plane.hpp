@@ -80,7 +80,16 @@ class Plane {
   double left() const noexcept { return left_; }
   double elapsed() const noexcept { return segment_.duration - left_; }
   const PlanarState& state() const noexcept { return state_; }
-  const PlanarState& resting_state() const noexcept { return state_; }
+  /// The state in which it has just stopped; by now the surface has cooled.
+  decltype(auto) resting_state() const noexcept {
+    if constexpr (heated) {
+      PlanarState at = state_;
+      at.heat = heat_at_rest_;
+      return at;
+    } else {
+      return (state_);
+    }
+  }
   bool at_rest() const noexcept { return state_.mode == PlanarMode::stuck; }
   bool has_stopped() const noexcept { return stopped_; }
 
@@ -232,12 +241,7 @@ class Plane {
  private:
   Spring spring() const noexcept { return slider_.mounting().spring(); }
   Vector2 pull(double weight) const noexcept { return spring().under(weight) * state_.displacement; }
-  // An isotropic law is a function of the path: a state at its beginning.
-  State along_path() const noexcept {
-    State state{.sliding_distance = state_.sliding_distance};
-    if constexpr (HeatedLaw<Law>) state.heat = state_.heat;
-    return state;
-  }
+  State along_path() const noexcept { return on_path<Law>(state_); }
   decltype(auto) law_now() const { return law_at(slider_.law(), along_path(), load_now().weight); }
 
   PlanarLoad load_now() const noexcept {
@@ -281,6 +285,7 @@ class Plane {
     state_.velocity = {};
     state_.mode = PlanarMode::stuck;
     stopped_ = true;
+    if constexpr (heated) heat_at_rest_ = state_.heat;
   }
 
   // The radial velocity is reversed. Infinitely many bounces are skipped if they stay within round-off of the stop: the
@@ -349,6 +354,8 @@ class Plane {
   PlanarStart start_ = PlanarStart::moving;  // of the next flow
   bool stopped_ = false;                     // whether a slip has just stopped,
   [[no_unique_address]] HeatingOf<Law> heating_{slider_.law()};
+  struct Cold {};
+  [[no_unique_address]] std::conditional_t<heated, SurfaceHeat, Cold> heat_at_rest_{};
   int patience_ = 0;   // of PlanarFlow
   Vector2 arrived_{};  // and its last velocity [m/s]
 };

@@ -1,0 +1,274 @@
+"""Measures the estimate of ASCE 43 beside exact sliding, for docs/asce43.md.
+
+    python docs/measure_asce43.py
+
+rewrites the tables and the picture of that page, in a minute. The 18 sample records come with
+pyslammer (the extra `records`). The tables of recorded pairs, and of a station with a vertical
+component, need the folder that $STICKSLIP_RECORDS names, and stay as they are without it.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Callable, Iterable
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import stickslip as ss
+from measure_refinements import samples, station, triples
+from measured_page import draw, replaced, table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DOCS = Path(__file__).parent
+PAGE = DOCS / "asce43.md"
+PICTURE = DOCS / "images" / "asce43.png"
+
+MUS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.6)
+SLIDES = 0.01  # [m]; smaller displacements are not compared
+TRIPLES = 15
+
+
+class Point(NamedTuple):
+    """One motion and one coefficient of friction."""
+
+    mu: float
+    estimate: float  # [m]
+    exact: float  # [m], the largest displacement
+    reached: bool
+
+
+# ---- ground motions
+
+
+@cache
+def pairs() -> tuple[ss.GroundMotion, ...]:
+    """Recorded pairs; none without the files. The shorter component is followed by zeros."""
+    folder = Path(os.environ.get("STICKSLIP_RECORDS", "")) / "usgs_pairs"
+    if not (folder / "pairs.csv").is_file():
+        return ()
+    with open(folder / "pairs.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    found = []
+    for first, second in zip(rows[::2], rows[1::2], strict=True):
+        assert (first["earthquake"], first["station"]) == (second["earthquake"], second["station"])
+        both = [np.loadtxt(folder / row["file"]).ravel() for row in (first, second)]
+        length = max(map(len, both))
+        n, t = (ss.STANDARD_GRAVITY * np.pad(one, (0, length - len(one))) for one in both)
+        name = f"{first['earthquake']} {first['station']}"
+        found.append(ss.GroundMotion(n, dt=float(first["dt_s"]), transverse=t, name=name))
+    return tuple(found)
+
+
+def axes(motions: Iterable[ss.GroundMotion]) -> list[ss.GroundMotion]:
+    """Each component of pairs alone."""
+    return [motion.component(which) for motion in motions for which in ("axis", "transverse")]
+
+
+@cache
+def synthetic(pga_g: float, ratio: float) -> tuple[ss.GroundMotion, ...]:
+    """Triples of docs/measure_refinements.py, as stations with all three components."""
+    both = triples(pga_g, ratio)
+    return tuple(
+        ss.GroundMotion(a.acceleration, dt=a.dt, transverse=b.acceleration, vertical=a.vertical)
+        for a, b in zip(both[: 2 * TRIPLES : 2], both[1 : 2 * TRIPLES : 2], strict=True)
+    )
+
+
+def flat(motion: ss.GroundMotion) -> ss.GroundMotion:
+    """Without the vertical component."""
+    return ss.GroundMotion(
+        motion.acceleration, dt=motion.dt, transverse=motion.transverse, name=motion.name
+    )
+
+
+# ---- estimate and exact displacement
+
+
+def measure(motion: ss.GroundMotion, mu: float) -> Point:
+    e = ss.asce43(mu=mu, motion=motion)
+    block = ss.Coulomb(mu=mu)
+    slider = block if motion.transverse is None else ss.PlanarSlider(block)
+    r = ss.integrate(slider, motion, settle=True)
+    return Point(mu, e.displacement, r.peak, e.reached)
+
+
+@cache
+def points(motions: Callable[[], tuple[ss.GroundMotion, ...]], mu: float) -> tuple[Point, ...]:
+    return tuple(measure(motion, mu) for motion in motions())
+
+
+def of_axes() -> tuple[ss.GroundMotion, ...]:
+    return tuple(axes(pairs()))
+
+
+def gentle() -> tuple[ss.GroundMotion, ...]:
+    return synthetic(0.4, 2 / 3)
+
+
+def strong() -> tuple[ss.GroundMotion, ...]:
+    return synthetic(0.4, 1)
+
+
+def gentle_flat() -> tuple[ss.GroundMotion, ...]:
+    return tuple(map(flat, gentle()))
+
+
+def ratios(found: Iterable[Point]) -> np.ndarray:
+    """Estimate / exact, where the block slides 1 cm; 0 where the spectrum never reaches c_s."""
+    return np.array([one.estimate / one.exact for one in found if one.exact >= SLIDES])
+
+
+def row(found: Iterable[Point]) -> list[str]:
+    found = list(found)
+    here = ratios(found)
+    if not here.size:
+        return [f"{len(found)}, 0", "", "", "", ""]
+    low, high = np.percentile(here, (16, 84))
+    scatter = np.log(here[here > 0]).std()
+    return [
+        f"{len(found)}, {here.size}",
+        f"{np.median(here):.2f}",
+        f"{low:.2f} to {high:.2f}",
+        f"{scatter:.2f}" if here.size > 1 else "",
+        f"{np.sum(here < 1)}",
+    ]
+
+
+def rows(
+    name: str,
+    motions: Callable[[], tuple[ss.GroundMotion, ...]],
+    mus: Iterable[float] = MUS,
+) -> list[list[str]]:
+    mus = tuple(mus)
+    each = [[name, f"{mu:g}", *row(points(motions, mu))] for mu in mus]
+    every = [point for mu in mus for point in points(motions, mu)]
+    return [*each, [name, "all", *row(every)]]
+
+
+COLUMNS = (
+    "| mu | motions, slide 1 cm | estimate / exact: median | 16 to 84 % | scatter (ln) | too low |"
+)
+
+
+def of_station() -> list[list[str]]:
+    """The station with a vertical component, both horizontal components and all three [cm]."""
+    north, east = station()
+    both = ss.GroundMotion(
+        north.acceleration,
+        dt=north.dt,
+        transverse=east.acceleration,
+        vertical=north.vertical,
+        name="WTMC",
+    )
+    found = []
+    for mu in MUS:
+        two, three = measure(flat(both), mu), measure(both, mu)
+        cells = (two.estimate, two.exact, three.estimate, three.exact)
+        found.append([f"{mu:g}", *(f"{100 * cell:.1f}" for cell in cells)])
+    return found
+
+
+# ---- the page
+
+
+def tables() -> dict[str, str]:
+    """By name, the tables that this machine has the files for."""
+    found = {
+        "samples": table(f"| one component {COLUMNS}", rows("18 sample records", samples)),
+        "vertical": table(
+            f"| synthetic triples {COLUMNS}",
+            [
+                *rows("two components", gentle_flat, (0.1, 0.2)),
+                *rows("the same, V/H = 0.67", gentle, (0.1, 0.2)),
+                *rows("the same, V/H = 1", strong, (0.1, 0.2)),
+            ],
+        ),
+    }
+    if pairs():
+        found["pairs"] = table(
+            f"| recorded pairs {COLUMNS}",
+            [*rows("each component alone", of_axes), *rows("two components", pairs)],
+        )
+    if station():
+        found["station"] = table(
+            "| mu | estimate, two components [cm] | exact | estimate, with vertical | exact |",
+            of_station(),
+        )
+    return found
+
+
+def figure() -> Figure:
+    """The construction in a spectrum, and estimate against exact displacement."""
+    from stickslip import plotting
+
+    figure = plotting.new_figure(11, 4.5)
+    spectrum, against = figure.subplots(1, 2)
+    quake = next(motion for motion in samples() if motion.name.startswith("Loma Prieta"))
+    f = np.geomspace(0.02, 50, 600)
+    a = np.asarray(ss.response_spectrum(quake, 1 / f, 0.1).values) / ss.STANDARD_GRAVITY
+    spectrum.plot(f, a, color=plotting.BLUE, lw=1.2, label="10 % damped")
+    for mu, color in ((0.1, plotting.COLORS[2]), (0.3, plotting.VERMILION)):
+        e = ss.asce43(mu=mu, motion=quake)
+        level = e.sliding_acceleration / ss.STANDARD_GRAVITY
+        spectrum.axhline(level, color=color, lw=0.8)
+        spectrum.plot(
+            e.frequency,
+            level,
+            "o",
+            color=color,
+            ms=5,
+            label=f"mu = {mu:g}: {e.frequency:.2f} Hz, {100 * e.displacement:.1f} cm",
+        )
+    spectrum.set(
+        xscale="log",
+        yscale="log",
+        ylim=(0.003, 2),
+        xlabel="frequency [Hz]",
+        ylabel="pseudo-acceleration [g]",
+        title=quake.name,
+    )
+    spectrum.legend(loc="lower right", fontsize=8)
+    line = np.array([1, 1000])
+    against.plot(line, line, color=plotting.GRAY, lw=0.8)
+    for i, mu in enumerate(MUS):
+        found = [point for point in points(samples, mu) if point.exact >= SLIDES]
+        against.plot(
+            [100 * point.exact for point in found],
+            [100 * point.estimate for point in found],
+            ".",
+            color=plotting.COLORS[i],
+            ms=6,
+            label=f"mu = {mu:g}",
+        )
+    against.set(
+        xscale="log",
+        yscale="log",
+        xlim=(1, 1000),
+        ylim=(1, 1000),
+        xlabel="exact displacement [cm]",
+        ylabel="estimate [cm]",
+        title="18 records, one component",
+    )
+    against.legend(loc="lower right", fontsize=8)
+    return figure
+
+
+def main() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    found = tables()
+    for new in found.values():
+        text = replaced(text, new)
+    PAGE.write_text(text, encoding="utf-8")
+    for name in ("pairs", "station"):
+        if name not in found:
+            print(f"no files of the {name} in $STICKSLIP_RECORDS: their table stays as it is")
+    draw(PICTURE, figure)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,199 @@
+// The absolute acceleration of a mass that slides in the plane.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stickslip/base/direction.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/ground/response_spectrum.hpp"
+#include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/response.hpp"
+#include "stickslip/planar/segment.hpp"
+#include "stickslip/planar/slider.hpp"
+#include "stickslip/planar/state.hpp"
+#include "stickslip/planar/trajectory.hpp"
+#include "stickslip/planar/vector.hpp"
+#include "stickslip/sliding/floor_motion.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+
+/// A jump of the velocity of a floor in the plane, between two segments of its acceleration.
+struct PlanarImpulse {
+  std::size_t before;  ///< index of the segment that follows
+  Vector2 velocity;    ///< after minus before the jump [m/s]
+};
+
+/// The absolute acceleration of the mass in the plane: segments, and impulses at impacts.
+struct PlanarFloorMotion {
+  std::vector<PlanarSegment> segments;  ///< consecutive, accelerations [m/s^2]
+  std::vector<PlanarImpulse> impulses;  ///< jumps of the velocity between them, in order
+
+  /// The component in a direction.
+  /// @param degrees  clockwise from the axis, finite; 90 is the transverse direction
+  FloorMotion along(double degrees) const {
+    const auto [c, s] = detail::cos_sin(degrees);
+    const Vector2 direction{c, s};
+    FloorMotion floor;
+    for (const PlanarSegment& part : segments)
+      floor.segments.push_back({part.duration, dot(part.start, direction), dot(part.end, direction)});
+    for (const PlanarImpulse& impulse : impulses)
+      floor.impulses.push_back({impulse.before, dot(impulse.velocity, direction)});
+    return floor;
+  }
+};
+
+namespace detail {
+
+/// Reads the absolute acceleration of the mass as chords, and the jumps of its velocity as impulses.
+class PlanarFloorReader final : public PlanarTrajectoryReader {
+ public:
+  /// @param tolerance  largest error of a chord [m/s^2]
+  PlanarFloorReader(double downhill, double tolerance) : downhill_(downhill), tolerance_(tolerance) {}
+
+  void segment(double, const PlanarLoadSegment& next) noexcept override {
+    segment_ = &next;
+    now_ = 0;
+  }
+  void end_of_segment() override { rest_until(segment_->duration); }
+  /// @param velocity  at the end of the motion [m/s]
+  void finish(Vector2 velocity) { jump_to(velocity); }
+
+  void event(EventKind kind, double time, const PlanarState& state) override {
+    if (kind != EventKind::impact && kind != EventKind::landing) return;
+    rest_until(time);
+    jump_to(state.velocity);
+    before_ = state.velocity;
+  }
+
+  void arc(const PlanarArc& arc) override {
+    rest_until(arc.begin);
+    jump_to(arc.at(0).velocity);
+    const auto at = [&](double s) {
+      const double time = arc.at(s).time;
+      return Point{s, time, absolute(arc.begin + time, arc.acceleration(s))};
+    };
+    const Point end = at(arc.last);
+    add(at, at(0), end, 0x1p-20 * arc.last);
+    now_ = arc.begin + end.time;
+  }
+
+  PlanarFloorMotion floor;
+
+ private:
+  struct Point {
+    double s, time;
+    Vector2 acceleration;
+  };
+
+  Vector2 absolute(double time, Vector2 acceleration) const noexcept {
+    return acceleration - segment_->load(time) + Vector2{downhill_, 0};
+  }
+
+  // At rest the mass has the acceleration of the ground, which is linear in time.
+  void rest_until(double time) {
+    const double duration = time - now_;
+    if (!(duration > 0x1p-40 * segment_->duration)) return;
+    jump_to({});
+    floor.segments.push_back({duration, absolute(now_, {}), absolute(time, {})});
+    now_ = time;
+  }
+
+  void jump_to(Vector2 velocity) {
+    if (before_ && *before_ != velocity) floor.impulses.push_back({floor.segments.size(), velocity - *before_});
+    before_.reset();
+  }
+
+  // Chords between two points of a flow, halved until the curve is close to them. At a stop the direction of friction
+  // turns within a time that vanishes; a part of the flow shorter than `shortest` is not divided.
+  template <class At>
+  void add(const At& at, const Point& first, const Point& last, double shortest) {
+    const double duration = last.time - first.time;
+    if (last.s - first.s > shortest && duration > 0) {
+      constexpr double margin = 4.0 / 3;  // the curvature between the points
+      const auto between = [&](double part) { return at(std::lerp(first.s, last.s, part)); };
+      const auto deviation = [&](const Point& p) {
+        const double part = (p.time - first.time) / duration;
+        return norm(p.acceleration - first.acceleration - part * (last.acceleration - first.acceleration));
+      };
+      const Point middle = between(0.5);
+      if (margin * std::max({deviation(middle), deviation(between(0.25)), deviation(between(0.75))}) > tolerance_) {
+        add(at, first, middle, shortest);
+        return add(at, middle, last, shortest);
+      }
+    }
+    if (duration > 0) floor.segments.push_back({duration, first.acceleration, last.acceleration});
+  }
+
+  double downhill_, tolerance_;
+  const PlanarLoadSegment* segment_ = nullptr;
+  double now_ = 0;                 // since the beginning of the segment [s]
+  std::optional<Vector2> before_;  // velocity before an impact or a landing
+};
+
+/// @param trace  shows the motion up to a time to a reader, and returns the state there
+template <class Trace>
+PlanarFloorMotion planar_floor(const GroundMotion& motion, double slope, const PlanarResponse& response,
+                               double tolerance, Trace&& trace) {
+  require(tolerance >= 1e-10 && tolerance <= 1, "floor_motion: tolerance must be from 1e-10 to 1", tolerance);
+  if (response.truncated)
+    throw std::invalid_argument(
+        "floor motion: the samples of the response must reach the final rest, but they are truncated; extend the "
+        "ground motion by zeros");
+  const std::size_t samples = response.displacement.size();
+  if (samples < motion.samples() || response.events.empty())
+    throw std::invalid_argument("floor_motion: the response must be that to the motion of " +
+                                std::to_string(motion.samples()) + " samples, got " + std::to_string(samples));
+  const auto read = [&](double largest_error) {
+    PlanarFloorReader reader(slope > 0 ? standard_gravity * std::sin(slope) : 0, largest_error);
+    const PlanarState end = trace(motion.time(samples - 1), reader);
+    reader.finish(end.velocity);
+    return std::move(reader.floor);
+  };
+  // A floor that is not accelerated needs no division.
+  double largest = std::numeric_limits<double>::min();
+  for (const PlanarSegment& part : read(never).segments)
+    largest = std::max({largest, norm(part.start), norm(part.end)});
+  return read(tolerance * largest);
+}
+
+}  // namespace detail
+
+/// The absolute acceleration of a mass that slides in the plane, r'' - p + g sin(slope); on level ground r'' + n. It is
+/// the input to equipment on a sliding floor; the spectra of its components are floor spectra.
+///
+/// As on one axis (see sliding/floor_motion.hpp). In the plane the friction turns with the velocity, so that each slip
+/// is divided into segments, of which each chord is within `tolerance`; while the slider rests the acceleration is that
+/// of the ground, which is exact.
+///
+/// @param slider     the slider
+/// @param motion     its ground motion
+/// @param response   the result of `integrate` for them, which must not be truncated
+/// @param tolerance  maximum error of a chord, as a fraction of the largest absolute acceleration, from 1e-10 to 1
+/// @return from the first to the last sample of the response. Use `settle`, otherwise the floor stops together with the
+///         ground motion
+/// @throws std::invalid_argument  a tolerance out of range, a truncated response, a response to another motion
+/// Accuracy: `tolerance`. Cost: about twice that of `integrate`, and 0.2 us per segment.
+template <IsotropicLaw Law>
+PlanarFloorMotion floor_motion(const PlanarSlider<Law>& slider, const GroundMotion& motion,
+                               const PlanarResponse& response, double tolerance = 1e-6) {
+  return detail::planar_floor(
+      motion, slider.slope(), response, tolerance, [&](double until, PlanarTrajectoryReader& reader) {
+        return detail::trace_plane(motion, slider.slope(), response, until, reader,
+                                   [&](const PlanarLoadSegment& segment, PlanarState& state, auto& tracer) {
+                                     detail::advance_plane(slider, segment, response.contact, state, tracer);
+                                   });
+      });
+}
+
+}  // namespace stickslip

@@ -1,0 +1,179 @@
+"""``stickslip sweep``: statistics of many sliders over many records."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import warnings
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .. import GroundMotion
+from .batch import Batch, add_files, add_vertical
+from .output import add_outputs, column
+from .parser import ratio
+from .slider import (
+    add_planar,
+    add_sliders,
+    any_slider_of,
+    cells,
+    check_planar,
+    described,
+    heads,
+    keyed,
+    variations,
+)
+
+if TYPE_CHECKING:
+    from ..sweeps import SweepTable
+
+__all__ = ["add_sweep"]
+
+# Statistics over the responses of a slider: key, head, probability (None: the mean).
+_STATISTICS = (
+    ("mean", "mean", None),
+    ("p16", "16 %", 0.16),
+    ("median", "median", 0.5),
+    ("p84", "84 %", 0.84),
+    ("largest", "largest", 1.0),
+)
+_QUANTITIES = ("peak", "residual")
+
+
+def add_sweep(commands: argparse._SubParsersAction) -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "sweep",
+        help="slide many blocks under many records and print statistics",
+        description="Slides blocks under strong-motion records until they come to rest and prints,"
+        " for each block, statistics over the records of the peak and of the magnitude of the"
+        " residual [cm]: mean, 16 %, median, 84 % and largest value. On one axis each record acts"
+        " as recorded and reversed. With --planar, both horizontal components of each station act"
+        " at once, and peak and residual are distances from the start.",
+        epilog="--mu and the options of the slider take numbers or ranges START:STOP:STEP; every"
+        " combination is computed. A record that cannot be read or slid is reported in one line on"
+        " stderr; the statistics are those of the others, and the exit code is 1. CSV and JSON"
+        " have every response; in JSON the statistics are listed besides.",
+    )
+    add = parser.add_argument
+    add_files(parser)
+    add_sliders(parser)
+    add_vertical(parser)
+    add_planar(parser)
+    add("--scale", type=ratio, default=1.0, help="factor on the ground acceleration (default 1)")
+    add(
+        "--polarity",
+        choices=("recorded", "reversed", "both"),
+        help="slide each record as recorded, reversed, or both (the default; as recorded with"
+        " --planar)",
+    )
+    add_outputs(parser, each="")
+    parser.set_defaults(horizontal=True, one_picture=True, run=_sweep)
+
+
+def _sweep(args: argparse.Namespace) -> str:
+    from ..sweeps import sweep  # imports NumPy, slowly
+    from ..sweeps.parameter_grid import Grid
+
+    cases, several = variations(args)
+    shown = list(dict.fromkeys(["mu", *several]))
+    if args.planar:
+        check_planar(args)
+    parameters = {name: [getattr(case, name) for case in cases] for name in shown}
+    sliders = Grid([any_slider_of(case) for case in cases], parameters)
+    batch = Batch(args)
+    files: list[Path] = []
+    motions: list[GroundMotion] = []
+    for _, file, found in batch.motions():
+        files.append(file)
+        motions.append(found.motion if args.scale == 1 else found.motion.scaled(args.scale))
+    if not motions:
+        return batch.answer((), [], (), statistics=[])
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "sweep: .* combinations failed")  # reported below
+        table = sweep(
+            sliders,
+            motions,
+            polarity=args.polarity or ("recorded" if args.planar else "both"),
+            settle=True,
+            contact=args.contact,
+        )
+    for place, slider, message in dict.fromkeys(
+        (one.record, one.slider, one.message.partition(":")[0]) for one in table.failures
+    ):
+        with batch.reported(files[place]):
+            raise ValueError(f"{', '.join(described(cases[slider], several))}: {message}")
+    rows = _rows(cases, files, table, shown)
+    statistics = _statistics(cases, table, shown)
+    if args.plot:
+        with batch.reported(args.plot):
+            batch.save(table.plot())
+    columns = dict.fromkeys(name for row in rows for name in row)
+    lines = _lines(args, statistics, shown)
+    return batch.answer(tuple(columns), rows, lines, statistics=statistics)
+
+
+def _rows(
+    cases: list[argparse.Namespace], files: list[Path], table: SweepTable, shown: list[str]
+) -> list[dict[str, Any]]:
+    """A row for each response, by record; keys include units."""
+    from ..sweeps.table import UNITS
+
+    arrays = {
+        f"{name}_{UNITS[name].replace('/', '_')}" if name in UNITS else name: values.tolist()
+        for name, values in table.arrays(columns=True).items()
+    }
+    return [
+        {
+            "file": str(file),
+            "record": table.records[r],
+            "scale": case.scale,
+            **keyed(case, shown),
+            "polarity": polarity,
+            **{name: values[s][r][p] for name, values in arrays.items()},
+        }
+        for r, file in enumerate(files)
+        for s, case in enumerate(cases)
+        for p, polarity in enumerate(table.polarity)
+        if not math.isnan(table.peak[s, r, p])  # it failed, and is reported
+    ]
+
+
+def _statistics(
+    cases: list[argparse.Namespace], table: SweepTable, shown: list[str]
+) -> list[dict[str, Any]]:
+    """A row for each slider that has responses."""
+    import numpy as np
+
+    counts = np.isfinite(table.peak).sum(axis=(1, 2)).tolist()
+    rows = [{**keyed(case, shown), "responses": n} for case, n in zip(cases, counts)]
+    for quantity in _QUANTITIES:
+        for key, _, p in _STATISTICS:
+            values = table.mean(quantity) if p is None else table.quantile(p, quantity)
+            for row, value in zip(rows, values.tolist()):
+                row[f"{quantity}_{key}_m"] = value
+    if cases[0].stop_gap is not None:
+        for row, value in zip(rows, table.impact_fraction.tolist()):
+            row["impact_fraction"] = value
+    return [row for row in rows if row["responses"]]
+
+
+def _lines(
+    args: argparse.Namespace, statistics: list[dict[str, Any]], shown: list[str]
+) -> Iterable[str]:
+    if not statistics:
+        return
+    options = heads(shown)
+    stops = "impact_fraction" in statistics[0]
+    yield (f"{'':{len(options) + 9}}  {'peak [cm]':{9 * len(_STATISTICS) - 2}}  residual [cm]")
+    names = "".join(f"  {head:>7}" for _, head, _ in _STATISTICS)
+    yield f"{options}  responses"[2:] + names * len(_QUANTITIES) + ("  hit a stop" if stops else "")
+    for row in statistics:
+        values = "".join(
+            f"  {column(100 * row[f'{quantity}_{key}_m'], 7)}"
+            for quantity in _QUANTITIES
+            for key, _, _ in _STATISTICS
+        )
+        hits = f"  {100 * row['impact_fraction']:8.3g} %" if stops else ""
+        yield f"{cells(row, shown)}  {row['responses']:9d}"[2:] + values + hits

@@ -1,0 +1,375 @@
+// The library for the page: records, ground motions, intensity measures and responses, as functions of numbers and
+// bytes.
+//
+// Every function that can fail returns a negative number if it did; `text()` is then the message. Arguments that are
+// not numbers are bytes in `input(size)`, and results are numbers in `numbers()` or a line per item in `text()`. The
+// functions that keep a ground motion return its number, which `discard` takes.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "stickslip/error.hpp"
+#include "stickslip/excitation/gaussian.hpp"
+#include "stickslip/excitation/spectrum.hpp"
+#include "stickslip/friction/caster.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/static_kinetic.hpp"
+#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/ground/ground_motion.hpp"
+#include "stickslip/ground/intensity_measures.hpp"
+#include "stickslip/ground/orientation.hpp"
+#include "stickslip/ground/records.hpp"
+#include "stickslip/ground/station.hpp"
+#include "stickslip/ground/strong_motion.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/sliding/forces.hpp"
+#include "stickslip/sliding/integrate.hpp"
+#include "stickslip/sliding/margins.hpp"
+#include "stickslip/sliding/trajectory.hpp"
+#include "stickslip/units.hpp"
+
+#ifdef __EMSCRIPTEN__
+#define STICKSLIP_EXPORT(name) __attribute__((export_name(#name), used))
+#else
+#define STICKSLIP_EXPORT(name)
+#endif
+
+namespace {
+
+using namespace stickslip;
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<char> given;     // what the page wrote
+std::vector<double> answer;  // numbers for the page
+std::string said;            // text for the page
+std::map<int, RecordComponent> kept;
+int next = 0;
+
+int keep(RecordComponent component) {
+  kept.emplace(next, std::move(component));
+  return next++;
+}
+
+const RecordComponent& of(int number) { return kept.at(number); }
+
+/// Runs `work`, which returns a number of at least 0; -1 with its message if it throws.
+template <class Work>
+int guarded(Work&& work) {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    said = error.what();
+    return -1;
+  }
+}
+
+/// What the page chooses; the names are those of the command's options. NaN is an option that is not given.
+struct Settings {
+  enum Law { coulomb, caster, one_way, speed, degrading };
+  double law, mu, mu_static, reach, mu_fast, rate, mu_residual, distance;
+  double period, damping_ratio, pendulum, slope, stop_gap, restitution;
+  double vertical, clipped, scale;
+};
+
+constexpr const char* setting_names =
+    "law mu mu_static reach mu_fast rate mu_residual distance period damping_ratio pendulum slope stop_gap restitution "
+    "vertical clipped scale";
+
+bool is(double flag) { return flag > 0; }
+
+Mounting mounting_of(const Settings& s) {
+  Mounting on;
+  if (!std::isnan(s.period)) {
+    detail::require(std::isfinite(s.period) && s.period > 0, "period must be positive and finite", s.period, "s");
+    on.natural_frequency = 2 * std::numbers::pi / s.period;
+    on.pendulum = is(s.pendulum);
+    if (!std::isnan(s.damping_ratio)) {
+      detail::require(std::isfinite(s.damping_ratio) && s.damping_ratio >= 0,
+                      "damping ratio must be finite and at least 0", s.damping_ratio);
+      on.damping = 2 * on.natural_frequency * s.damping_ratio;
+    }
+  }
+  if (!std::isnan(s.slope)) on.slope_degrees = s.slope;
+  if (!std::isnan(s.stop_gap)) on.stops = Stops(s.stop_gap, std::isnan(s.restitution) ? 0 : s.restitution);
+  return on;
+}
+
+/// Calls `use(law, mounting)` with the law of the settings.
+template <class Use>
+void with_law(const Settings& s, Use&& use) {
+  constexpr double g = standard_gravity;
+  Mounting on = mounting_of(s);
+  const auto sticky = [&](auto law) {
+    if (std::isnan(s.mu_static)) return use(std::move(law), on);
+    detail::require(s.mu_static >= s.mu && std::isfinite(s.mu_static), "static mu must be finite and at least mu",
+                    s.mu_static);
+    use(StaticKinetic(std::move(law), s.mu_static * g), on);
+  };
+  switch (static_cast<Settings::Law>(static_cast<int>(s.law))) {
+    case Settings::coulomb:
+      return sticky(Coulomb::from_friction(s.mu));
+    case Settings::caster:
+      return sticky(Caster(s.mu * g, s.reach));
+    case Settings::one_way:
+      if (std::isnan(s.slope) && std::isnan(s.mu_static))  // a level that nothing outgrows, as the command has it
+        return use(Coulomb(s.mu * g, std::numeric_limits<double>::infinity()), on);
+      on.one_way = true;
+      return sticky(Coulomb::from_friction(s.mu));
+    case Settings::speed:
+      return sticky(VelocityDependent(s.mu * g, s.mu_fast * g, s.rate));
+    case Settings::degrading:
+      return sticky(Degrading({0, s.distance}, {s.mu * g, s.mu_residual * g}));
+  }
+  throw std::invalid_argument("unknown law");
+}
+
+Response response;
+Forces floor_forces;
+std::optional<GroundMotion> driving;
+
+/// The motion of the settings: with or without its vertical component, scaled.
+GroundMotion driven(const Settings& s, const GroundMotion& record) {
+  GroundMotion motion = is(s.vertical) ? record : record.component(Component::axis);
+  return s.scale == 1 ? motion : motion.scaled(s.scale);
+}
+
+struct Summary {
+  double peak, residual, sliding_distance, time_sliding, slips, impacts, liftoffs, at_rest;
+  double events, samples, end, input, imbalance, margin, impact_margin, pga;
+};
+constexpr const char* summary_names =
+    "peak residual sliding_distance time_sliding slips impacts liftoffs at_rest events samples end input imbalance "
+    "margin impact_margin pga";
+
+double count(EventKind kind) {
+  double total = 0;
+  for (const Event& event : response.events) total += event.kind == kind ? 1 : 0;
+  return total;
+}
+
+template <class Law>
+void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
+  const Slider<Law> slider(law, mounting);
+  IntegrateOptions options;
+  options.contact = clipped ? Contact::clipped : Contact::flight;
+  options.settle = true;
+  try {
+    response = integrate(slider, motion, options, std::move(response));
+  } catch (const ConvergenceError&) {  // its state at the end of the record, as the command reports it
+    options.settle = false;
+    response = integrate(slider, motion, options);
+  }
+  const auto path = trajectory(slider, motion, response);
+  floor_forces = forces(*path);
+  const Margins margin = margins(*path);
+  const Energy& energy = response.energy;
+  const Summary summary{response.peak,
+                        response.residual,
+                        response.sliding_distance,
+                        response.time_sliding,
+                        count(EventKind::breakaway) + count(EventKind::reversal),
+                        count(EventKind::impact),
+                        count(EventKind::liftoff),
+                        response.state.mode == Mode::stuck ? 1.0 : 0.0,
+                        static_cast<double>(response.events.size()),
+                        static_cast<double>(response.displacement.size()),
+                        response.events.back().time,
+                        energy.input,
+                        energy.imbalance(),
+                        margin.load,
+                        margin.impact,
+                        motion.peak_acceleration()};
+  answer.resize(sizeof summary / sizeof(double));
+  std::memcpy(answer.data(), &summary, sizeof summary);
+}
+
+void answer_with(std::span<const double> values) { answer.assign(values.begin(), values.end()); }
+
+/// The next of the texts in the input, each of which ends with a zero byte.
+std::string take(std::string_view& input) {
+  const std::size_t end = input.find('\0');
+  std::string text(input.substr(0, end));
+  input.remove_prefix(end + 1);
+  return text;
+}
+
+}  // namespace
+
+extern "C" {
+
+STICKSLIP_EXPORT(input) char* input(std::size_t size) {
+  given.resize(size);
+  return given.data();
+}
+STICKSLIP_EXPORT(text) const char* text() { return said.data(); }
+STICKSLIP_EXPORT(text_size) std::size_t text_size() { return said.size(); }
+STICKSLIP_EXPORT(numbers) const double* numbers() { return answer.data(); }
+STICKSLIP_EXPORT(numbers_size) std::size_t numbers_size() { return answer.size(); }
+
+/// The names of the numbers in settings and in summaries.
+STICKSLIP_EXPORT(names) void names() { said = std::string(setting_names) + "\n" + summary_names; }
+
+/// Reads a record. The input is the file's name, units and component, each followed by a zero byte, and the content.
+/// @param dt  NaN: as the file states
+/// @return the number of the first component; `text` has a line of name, component, orientation, units and whether it
+/// is
+///         vertical for each, separated by tabs
+STICKSLIP_EXPORT(read) int read(double dt, int gaps) {
+  return guarded([&] {
+    std::string_view content(given.data(), given.size());
+    const std::string file = take(content);
+    RecordOptions options;
+    options.units = take(content);
+    options.component = take(content);
+    if (!std::isnan(dt)) options.dt = dt;
+    options.gaps = gaps != 0;
+    std::vector<RecordComponent> components = parse_components(content, file, options);
+    const int first = next;
+    said.clear();
+    for (RecordComponent& one : components) {
+      const std::string& orientation = one.motion.orientation();
+      said += one.motion.name() + "\t" + one.name + "\t" + orientation + "\t" + one.units + "\t" +
+              (upward(orientation) != 0 ? "vertical" : "") + "\n";
+      keep(std::move(one));
+    }
+    return first;
+  });
+}
+
+/// Keeps a motion whose samples [m/s^2] are the input: of the axis, and with `vertical` as many of the vertical component.
+STICKSLIP_EXPORT(make) int make(double dt, int vertical) {
+  return guarded([&] {
+    std::vector<double> axis(given.size() / sizeof(double)), up;
+    std::memcpy(axis.data(), given.data(), axis.size() * sizeof(double));
+    if (vertical != 0) {
+      const auto middle = axis.begin() + static_cast<std::ptrdiff_t>(axis.size() / 2);
+      up.assign(middle, axis.end());
+      axis.erase(middle, axis.end());
+    }
+    const GroundMotion motion(std::move(axis), dt);
+    return keep({vertical != 0 ? motion.with_components({}, std::move(up)) : motion});
+  });
+}
+
+/// Keeps a stationary Gaussian motion with a Kanai-Tajimi spectrum; `frequency` in rad/s.
+STICKSLIP_EXPORT(kanai_tajimi)
+int kanai_tajimi(double s0, double frequency, double damping, double dt, double samples, double seed) {
+  return guarded([&] {
+    const GaussianExcitation source(Spectrum::kanai_tajimi(s0, frequency, damping), dt,
+                                    static_cast<std::size_t>(samples));
+    return keep({source.sample(static_cast<std::uint64_t>(seed), 0)});
+  });
+}
+
+/// Keeps the motion of a station from the numbers, 32-bit integers, in the input.
+STICKSLIP_EXPORT(station) int station() {
+  return guarded([&] {
+    std::vector<std::int32_t> numbers(given.size() / sizeof(std::int32_t));
+    std::memcpy(numbers.data(), given.data(), numbers.size() * sizeof(std::int32_t));
+    std::vector<RecordComponent> components;
+    for (const std::int32_t number : numbers) components.push_back(of(number));
+    return keep({station_motion(components, components.at(0).motion.orientation())});
+  });
+}
+
+STICKSLIP_EXPORT(discard) void discard(int number) { kept.erase(number); }
+
+/// The accelerations of a motion [m/s^2].
+STICKSLIP_EXPORT(acceleration) int acceleration(int number) {
+  return guarded([&] {
+    answer_with(of(number).motion.acceleration());
+    return 0;
+  });
+}
+
+/// The times of the samples of a motion, and of the `more` samples that follow the last [s].
+STICKSLIP_EXPORT(times) int times(int number, int more) {
+  return guarded([&] {
+    const GroundMotion& motion = of(number).motion;
+    answer.resize(motion.samples() + static_cast<std::size_t>(more));
+    for (std::size_t i = 0; i < answer.size(); ++i) answer[i] = motion.time(i);
+    return 0;
+  });
+}
+
+/// dt, NaN for uneven times, and duration [s], PGA [m/s^2], PGV [m/s], PGD [m], CAV [m/s], Arias intensity [m/s] and Tm
+/// [s] of a motion, and D5-95 and D5-75 [s], NaN where they are not defined.
+STICKSLIP_EXPORT(measures) int measures(int number) {
+  return guarded([&] {
+    const GroundMotion& motion = of(number).motion;
+    answer = {motion.dt(),
+              motion.duration(),
+              motion.peak_acceleration(),
+              peak_velocity(motion),
+              peak_displacement(motion),
+              cumulative_absolute_velocity(motion),
+              arias_intensity(motion),
+              mean_period(motion),
+              undefined,
+              undefined};
+    try {
+      const StrongMotion strong = strong_motion(motion);
+      answer[8] = strong.duration;
+      answer[9] = strong.duration_5_75;
+    } catch (const std::invalid_argument&) {  // no acceleration, or a straight line
+    }
+    return 0;
+  });
+}
+
+/// Slides. The input is the settings.
+/// @return 0; `numbers` is the summary, and `history` has the histories
+STICKSLIP_EXPORT(slide) int slide(int number) {
+  return guarded([&] {
+    Settings settings;
+    if (given.size() != sizeof settings) throw std::invalid_argument("slide: wrong number of settings");
+    std::memcpy(&settings, given.data(), sizeof settings);
+    driving = driven(settings, of(number).motion);
+    with_law(settings, [&](const auto& law, const Mounting& on) { slide(law, on, *driving, is(settings.clipped)); });
+    return 0;
+  });
+}
+
+/// What `slide` found: 0 displacement [m], 1 velocity [m/s], 2 force on the mass per unit mass [m/s^2], 3 ground
+/// acceleration [m/s^2], 4 resistance of friction [m/s^2], 5 time, displacement, velocity and kind of each event, 6 the
+/// height above the ground [m], empty if it never leaves it.
+STICKSLIP_EXPORT(history) void history(int which) {
+  answer.clear();
+  switch (which) {
+    case 0:
+      return answer_with(response.displacement);
+    case 1:
+      return answer_with(response.velocity);
+    case 2:
+      for (std::size_t i = 0; i < floor_forces.friction.size(); ++i) answer.push_back(floor_forces.total(i));
+      return;
+    case 3:
+      if (driving) answer_with(driving->acceleration());
+      return;
+    case 4:
+      return answer_with(floor_forces.friction);
+    case 5:
+      for (const Event& event : response.events)
+        answer.insert(answer.end(), {event.time, event.displacement, event.velocity,
+                                     static_cast<double>(static_cast<int>(event.kind))});
+      return;
+    case 6:
+      return answer_with(response.gap);
+  }
+}
+
+}  // extern "C"

@@ -1,0 +1,63 @@
+// Makes one self-contained page of the compiled library, the modules and the style sheet: `node web/build.js`.
+import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const build = new URL("../build/web/", import.meta.url);
+const page = new URL("page/", import.meta.url);
+const modules = fileURLToPath(new URL("node_modules/", build));
+const { buildSync } = createRequire(new URL("package.json", build))("esbuild");
+
+/** @param {string} entry */
+const bundled = (entry) =>
+  buildSync({
+    entryPoints: [fileURLToPath(new URL(entry, page))],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: "iife",
+    charset: "utf8",
+    target: "es2022",
+    nodePaths: [modules],
+    legalComments: "none", // their texts are in the page
+  }).outputFiles[0].text;
+
+/** @param {string | URL} file */
+const text = (file) => readFileSync(file, "utf8");
+/** @param {string} script  in which a closing tag would end the element */
+const inScript = (script) => script.replaceAll("</script", "<\\/script");
+
+const styles = buildSync({
+  stdin: { contents: text(`${modules}uplot/dist/uPlot.min.css`) + text(new URL("style.css", page)), loader: "css" },
+  minify: true,
+  write: false,
+}).outputFiles[0].text;
+
+/** @type {Record<string, string>} */
+const parts = {
+  STYLE: styles,
+  LICENSES: [
+    `stickslip\n\n${text(new URL("../LICENSE", import.meta.url))}`,
+    `uPlot, which draws the plots\n\n${text(new URL("../licenses/uPlot.txt", import.meta.url))}`,
+    "Highway, whose headers are compiled in, is under the Apache License 2.0 (https://www.apache.org/licenses/LICENSE-2.0); " +
+      "Emscripten's libraries, musl and libc++, are under the MIT License and the Apache License 2.0 with LLVM exceptions.",
+  ]
+    .join("\n\n")
+    .replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c] ?? c),
+  LIBRARY: gzipSync(readFileSync(new URL("stickslip.wasm", build)), { level: 9 }).toString("base64"),
+  WORKER: inScript(bundled("worker.js")),
+  PAGE: inScript(bundled("main.js")),
+};
+
+let html = text(new URL("page.html", page));
+for (const [name, part] of Object.entries(parts)) html = html.replace(`/* ${name} */`, () => part);
+const file = new URL("stickslip.html", build);
+writeFileSync(file, html);
+
+const size = Buffer.byteLength(html);
+console.log(`stickslip.html: ${(size / 1000).toFixed(0)} kB`);
+if (size > 600_000) {
+  console.error("the page must be below 600 kB");
+  process.exit(1);
+}

@@ -1,0 +1,260 @@
+// The compiled library: what web/bindings.cpp exports, with JavaScript's types.
+
+/**
+ * What a slider is; the names are those of the command's options, SI units; NaN is not given.
+ * @typedef {Object} Settings
+ * @property {number} law            0 Coulomb, 1 caster, 2 one-way, 3 speed-dependent, 4 degrading
+ * @property {number} mu             coefficient of friction; of the laws 3 and 4 that at rest and that of a new surface
+ * @property {number} mu_static
+ * @property {number} reach          [m]
+ * @property {number} mu_fast
+ * @property {number} rate           [s/m]
+ * @property {number} mu_residual
+ * @property {number} distance       [m]
+ * @property {number} period         [s]
+ * @property {number} damping_ratio
+ * @property {number} pendulum       1: the spring is a pendulum
+ * @property {number} slope          [degrees]
+ * @property {number} stop_gap       [m]
+ * @property {number} restitution
+ * @property {number} vertical       1: the vertical component acts
+ * @property {number} clipped        1: the slider never leaves the ground
+ * @property {number} scale          factor on the ground acceleration
+ */
+
+/**
+ * @typedef {Object} Summary
+ * @property {number} peak              [m]
+ * @property {number} residual          [m]
+ * @property {number} sliding_distance  [m]
+ * @property {number} time_sliding      [s]
+ * @property {number} slips
+ * @property {number} impacts
+ * @property {number} liftoffs
+ * @property {number} at_rest           1 or 0
+ * @property {number} events
+ * @property {number} samples
+ * @property {number} end               [s]
+ * @property {number} input             work of the ground [m^2/s^2]
+ * @property {number} imbalance         of the energy [m^2/s^2]
+ * @property {number} margin
+ * @property {number} impact_margin
+ * @property {number} pga               of the scaled motion [m/s^2]
+ */
+
+/**
+ * @typedef {Object} Component
+ * @property {number} id           of the ground motion
+ * @property {string} name
+ * @property {string} component
+ * @property {string} orientation
+ * @property {string} units
+ * @property {boolean} vertical
+ */
+
+/**
+ * @typedef {Object} Measures
+ * @property {number} dt             [s]; NaN for uneven times
+ * @property {number} duration       [s]
+ * @property {number} pga            [m/s^2]
+ * @property {number} pgv            [m/s]
+ * @property {number} pgd            [m]
+ * @property {number} cav            [m/s]
+ * @property {number} arias          [m/s]
+ * @property {number} mean_period    [s]
+ * @property {number} d5_95          [s]
+ * @property {number} d5_75          [s]
+ */
+
+/**
+ * @typedef {Object} ReadOptions
+ * @property {string} [units]
+ * @property {string} [component]
+ * @property {number} [dt]        [s]
+ * @property {boolean} [gaps]
+ */
+
+const HISTORIES = /** @type {const} */ ([
+  "displacement",
+  "velocity",
+  "force",
+  "acceleration",
+  "friction",
+  "events",
+  "gap",
+]);
+
+export class Library {
+  /** @type {string[]} */
+  #settings;
+  /** @type {string[]} */
+  #summary;
+  /** @type {any} */
+  #wasm;
+
+  /** @param {any} wasm  the exports of the module */
+  constructor(wasm) {
+    this.#wasm = wasm;
+    wasm._initialize?.();
+    wasm.names();
+    const [settings = "", summary = ""] = this.#text().split("\n");
+    this.#settings = settings.split(" ");
+    this.#summary = summary.split(" ");
+  }
+
+  /**
+   * @param {BufferSource} bytes  of the module
+   * @returns {Promise<Library>}
+   */
+  static async load(bytes) {
+    const module = await WebAssembly.compile(bytes);
+    /** @type {Record<string, Record<string, () => number>>} */
+    const imports = {};
+    // Nothing of what the module imports is used: files, clocks and exits of a program.
+    for (const { module: from, name } of WebAssembly.Module.imports(module))
+      (imports[from] ??= {})[name] = () => 0;
+    return new Library((await WebAssembly.instantiate(module, imports)).exports);
+  }
+
+  /** Size of the memory in use [bytes]; it never shrinks. */
+  get memory() {
+    return this.#wasm.memory.buffer.byteLength;
+  }
+
+  #text() {
+    const { memory, text, text_size } = this.#wasm;
+    return new TextDecoder().decode(new Uint8Array(memory.buffer, text(), text_size()));
+  }
+
+  /** A copy of the numbers of the last call. */
+  #numbers() {
+    const { memory, numbers, numbers_size } = this.#wasm;
+    return new Float64Array(memory.buffer, numbers(), numbers_size()).slice();
+  }
+
+  /** @param {Uint8Array} bytes */
+  #give(bytes) {
+    const place = this.#wasm.input(bytes.length);
+    new Uint8Array(this.#wasm.memory.buffer, place, bytes.length).set(bytes);
+  }
+
+  /** @param {ArrayBufferView} view */
+  #giveView(view) {
+    this.#give(new Uint8Array(view.buffer, view.byteOffset, view.byteLength));
+  }
+
+  /** @param {number} answer  of a function that returns a negative number if it failed */
+  #checked(answer) {
+    if (answer < 0) throw new Error(this.#text());
+    return answer;
+  }
+
+  /**
+   * All components of a record.
+   * @param {string} name
+   * @param {Uint8Array} content
+   * @param {ReadOptions} [options]
+   * @returns {Component[]}
+   * @throws {Error} with the reader's message
+   */
+  read(name, content, { units = "", component = "", dt = NaN, gaps = false } = {}) {
+    const texts = new TextEncoder().encode(`${name}\0${units}\0${component}\0`);
+    const bytes = new Uint8Array(texts.length + content.length);
+    bytes.set(texts);
+    bytes.set(content, texts.length);
+    this.#give(bytes);
+    const first = this.#checked(this.#wasm.read(dt, gaps ? 1 : 0));
+    return this.#text()
+      .trimEnd()
+      .split("\n")
+      .map((line, i) => {
+        const [motion = "", called = "", orientation = "", unit = "", vertical = ""] = line.split("\t");
+        const id = first + i;
+        return { id, name: motion, component: called, orientation, units: unit, vertical: vertical !== "" };
+      });
+  }
+
+  /**
+   * @param {Float64Array} acceleration  [m/s^2]
+   * @param {number} dt                  [s]
+   * @param {Float64Array} [vertical]    [m/s^2], as many
+   * @returns {number} the number of the motion
+   */
+  make(acceleration, dt, vertical = new Float64Array()) {
+    const both = new Float64Array(acceleration.length + vertical.length);
+    both.set(acceleration);
+    both.set(vertical, acceleration.length);
+    this.#giveView(both);
+    return this.#checked(this.#wasm.make(dt, vertical.length > 0 ? 1 : 0));
+  }
+
+  /**
+   * A member of a stationary Gaussian process with a Kanai-Tajimi spectrum.
+   * @param {{s0: number, frequency: number, damping: number, dt: number, samples: number, seed: number}} of
+   *   s0 [m^2/s^3], frequency [rad/s], dt [s]
+   */
+  kanaiTajimi({ s0, frequency, damping, dt, samples, seed }) {
+    return this.#checked(this.#wasm.kanai_tajimi(s0, frequency, damping, dt, samples, seed));
+  }
+
+  /**
+   * The motion of a station, along its first component.
+   * @param {number[]} ids
+   */
+  station(ids) {
+    this.#giveView(Int32Array.from(ids));
+    return this.#checked(this.#wasm.station());
+  }
+
+  /** @param {number} id */
+  discard(id) {
+    this.#wasm.discard(id);
+  }
+
+  /** @param {number} id */
+  acceleration(id) {
+    this.#checked(this.#wasm.acceleration(id));
+    return this.#numbers();
+  }
+
+  /**
+   * @param {number} id
+   * @param {number} [more]  samples after the last of the motion
+   */
+  times(id, more = 0) {
+    this.#checked(this.#wasm.times(id, more));
+    return this.#numbers();
+  }
+
+  /**
+   * @param {number} id
+   * @returns {Measures}
+   */
+  measures(id) {
+    this.#checked(this.#wasm.measures(id));
+    const [dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75] = this.#numbers();
+    return /** @type {Measures} */ ({ dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75 });
+  }
+
+  /**
+   * @param {number} id
+   * @param {Settings} settings
+   * @returns {Summary}
+   */
+  slide(id, settings) {
+    const values = /** @type {any} */ (settings);
+    this.#giveView(Float64Array.from(this.#settings, (name) => Number(values[name])));
+    this.#checked(this.#wasm.slide(id));
+    const numbers = this.#numbers();
+    return /** @type {any} */ (Object.fromEntries(this.#summary.map((name, i) => [name, numbers[i]])));
+  }
+
+  /**
+   * A history of the last response, or its events: time, displacement, velocity and kind of each.
+   * @param {typeof HISTORIES[number]} which
+   */
+  history(which) {
+    this.#wasm.history(HISTORIES.indexOf(which));
+    return this.#numbers();
+  }
+}

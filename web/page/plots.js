@@ -1,0 +1,219 @@
+// Pictures of a response: histories over time and the force over the displacement.
+
+import uPlot from "uplot";
+
+/** @typedef {(u: uPlot, ctx: CanvasRenderingContext2D) => void} Draw */
+
+/**
+ * @param {string} name  of a custom property of the style sheet
+ */
+export const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+const HEIGHT = 150;
+const FONT = "12px system-ui, sans-serif";
+
+/** @param {boolean} time */
+const axes = (time) => {
+  // Functions, because the colors change with the mode.
+  const common = {
+    stroke: () => color("ink"),
+    font: FONT,
+    grid: { stroke: () => color("grid"), width: 1 },
+    ticks: { show: false },
+  };
+  const seconds = (/** @type {any} */ _, /** @type {number[]} */ ticks) =>
+    ticks.map((t, i) => (i === ticks.length - 1 ? `${t} s` : String(t)));
+  return [
+    { ...common, size: 28, ...(time ? { values: seconds } : {}) },
+    { ...common, size: 56 },
+  ];
+};
+
+/**
+ * A picture over time, whose cursor the pictures of one group share.
+ */
+export class TimePlot {
+  /** @type {uPlot} */
+  #plot;
+  #container;
+  /** @type {Draw} */
+  #before = () => {};
+  /** @type {Draw} */
+  #after = () => {};
+
+  /**
+   * @param {HTMLElement} container
+   * @param {string} stroke  name of the color
+   * @param {(index: number | null) => void} onCursor
+   */
+  constructor(container, stroke, onCursor) {
+    this.#container = container;
+    const draw = (/** @type {() => Draw} */ what) => (/** @type {uPlot} */ u) => {
+      const { ctx, bbox } = u;
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+      ctx.clip();
+      ctx.scale(devicePixelRatio, devicePixelRatio);
+      ctx.font = FONT;
+      what()(u, ctx);
+      ctx.restore();
+    };
+    this.#plot = new uPlot(
+      {
+        width: container.clientWidth || 300,
+        height: HEIGHT,
+        padding: [8, 12, 0, 0],
+        legend: { show: false },
+        scales: { x: { time: false } },
+        axes: axes(true),
+        cursor: { y: false, drag: { x: true, y: false }, sync: { key: "time" }, points: { size: 6 } },
+        series: [{}, { stroke: () => color(stroke), width: 1.25, points: { show: false } }],
+        hooks: {
+          drawClear: [draw(() => this.#before)],
+          draw: [draw(() => this.#after)],
+          setCursor: [(/** @type {uPlot} */ u) => onCursor(u.cursor.idx ?? null)],
+        },
+      },
+      [[], []],
+      container,
+    );
+  }
+
+  /**
+   * @param {Float64Array} time
+   * @param {Float64Array} values
+   * @param {{before?: Draw, after?: Draw, range?: [number, number]}} [more]  drawn below and above the line, in CSS pixels; the
+   *   least range of values
+   */
+  show(time, values, { before = () => {}, after = () => {}, range = [0, 0] } = {}) {
+    this.#before = before;
+    this.#after = after;
+    let [low, high] = range;
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+    const room = 0.06 * (high - low || 1);
+    this.#plot.batch(() => {
+      this.#plot.setData(/** @type {any} */ ([time, values]), false);
+      this.#plot.setScale("x", { min: time[0] ?? 0, max: time.at(-1) ?? 1 });
+      this.#plot.setScale("y", { min: low - room, max: high + room });
+    });
+  }
+
+  /** @param {number} time  where the cursor goes */
+  point(time) {
+    this.#plot.setCursor({ left: this.#plot.valToPos(time, "x"), top: 0 }, false);
+  }
+
+  resize() {
+    this.#plot.setSize({ width: this.#container.clientWidth, height: HEIGHT });
+  }
+
+  destroy() {
+    this.#plot.destroy();
+  }
+}
+
+/** A curve in a plane: the force over the displacement. */
+export class CurvePlot {
+  /** @type {uPlot} */
+  #plot;
+  #container;
+
+  /**
+   * @param {HTMLElement} container
+   * @param {string} stroke
+   */
+  constructor(container, stroke) {
+    this.#container = container;
+    this.#plot = new uPlot(
+      {
+        mode: 2,
+        width: container.clientWidth || 300,
+        height: 240,
+        padding: [8, 12, 0, 0],
+        legend: { show: false },
+        scales: { x: { time: false } },
+        axes: axes(false),
+        cursor: { show: false },
+        series: [
+          {},
+          {
+            stroke: () => color(stroke),
+            width: 1.25,
+            facets: [
+              { scale: "x", auto: true },
+              { scale: "y", auto: true },
+            ],
+            paths: (u, series) => {
+              const [xs, ys] = /** @type {any} */ (u.data[series]);
+              const stroke = new Path2D();
+              for (let i = 0; i < xs.length; ++i) stroke.lineTo(u.valToPos(xs[i], "x", true), u.valToPos(ys[i], "y", true));
+              return /** @type {any} */ ({ stroke, fill: null, clip: null });
+            },
+          },
+        ],
+      },
+      /** @type {any} */ ([null, [[], []]]),
+      container,
+    );
+  }
+
+  /**
+   * @param {Float64Array} xs
+   * @param {Float64Array} ys
+   */
+  show(xs, ys) {
+    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), true);
+  }
+
+  resize() {
+    this.#plot.setSize({ width: this.#container.clientWidth, height: 240 });
+  }
+
+  destroy() {
+    this.#plot.destroy();
+  }
+}
+
+/**
+ * A horizontal line, with a label at its right end.
+ * @param {uPlot} u
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} value
+ * @param {{stroke: string, dash?: number[], label?: string, below?: boolean}} how
+ */
+export function levelLine(u, ctx, value, { stroke, dash = [], label = "", below = false }) {
+  const ratio = devicePixelRatio;
+  const y = u.valToPos(value, "y", true) / ratio;
+  const [left, right] = [u.bbox.left / ratio, (u.bbox.left + u.bbox.width) / ratio];
+  ctx.strokeStyle = color(stroke);
+  ctx.fillStyle = color(stroke);
+  ctx.setLineDash(dash);
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  ctx.moveTo(left, y);
+  ctx.lineTo(right, y);
+  ctx.stroke();
+  ctx.textAlign = "right";
+  ctx.textBaseline = "alphabetic";
+  ctx.fillText(label, right - 4, below ? y + 13 : y - 4);
+}
+
+/**
+ * Shades intervals of time.
+ * @param {uPlot} u
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {[number, number][]} intervals
+ */
+export function shade(u, ctx, intervals) {
+  const ratio = devicePixelRatio;
+  const { top, height } = u.bbox;
+  ctx.fillStyle = color("stick");
+  for (const [begin, end] of intervals) {
+    const left = u.valToPos(begin, "x", true) / ratio;
+    ctx.fillRect(left, top / ratio, u.valToPos(end, "x", true) / ratio - left, height / ratio);
+  }
+}

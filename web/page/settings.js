@@ -1,0 +1,193 @@
+// What the page lets its reader choose: laws and mountings by the names of the command's options, the link that holds
+// them, and the command and the Python lines that give the same numbers.
+
+/** @import { Settings } from "./library.js" */
+/** @import { Source } from "./sources.js" */
+
+/** Settings in which nothing is given. @type {Settings} */
+export const NOT_GIVEN = Object.freeze({
+  law: 0,
+  mu: NaN,
+  mu_static: NaN,
+  reach: NaN,
+  mu_fast: NaN,
+  rate: NaN,
+  mu_residual: NaN,
+  distance: NaN,
+  period: NaN,
+  damping_ratio: NaN,
+  pendulum: 0,
+  slope: NaN,
+  stop_gap: NaN,
+  restitution: NaN,
+  vertical: 0,
+  clipped: 0,
+  scale: 1,
+});
+
+/** The friction laws, in the order of their numbers. */
+export const LAWS = /** @type {const} */ ([
+  { name: "coulomb", label: "Coulomb" },
+  { name: "caster", label: "casters" },
+  { name: "one-way", label: "one-way (Newmark)" },
+  { name: "speed", label: "speed-dependent" },
+  { name: "degrading", label: "degrading" },
+]);
+
+/**
+ * @typedef {Object} Field
+ * @property {keyof Settings} key
+ * @property {string} label
+ * @property {string} unit
+ * @property {number} [value]     where the law needs it and the link has none
+ * @property {string[]} [laws]    that have it; all if not given
+ * @property {keyof Settings} [needs]  the setting without which it has no meaning
+ * @property {string} hint
+ */
+
+/** The numbers beside mu, in the order of the form. @type {readonly Field[]} */
+export const FIELDS = Object.freeze([
+  { key: "reach", label: "reach", unit: "m", value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
+  { key: "mu_fast", label: "\u03bc fast", unit: "", value: 0.15, laws: ["speed"], hint: "at high speed; \u03bc is that at rest" },
+  { key: "rate", label: "rate", unit: "s/m", value: 20, laws: ["speed"], hint: "of the change with the speed" },
+  { key: "mu_residual", label: "\u03bc residual", unit: "", value: 0.05, laws: ["degrading"], hint: "after the distance" },
+  { key: "distance", label: "distance", unit: "m", value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
+  { key: "mu_static", label: "\u03bc static", unit: "", hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "degrading"] },
+  { key: "period", label: "period", unit: "s", hint: "of the mass on its spring; empty without a spring" },
+  { key: "damping_ratio", label: "damping ratio", unit: "", needs: "period", hint: "of a damper beside the spring" },
+  { key: "slope", label: "slope", unit: "degrees", hint: "of the ground; downhill is forward" },
+  { key: "stop_gap", label: "stop gap", unit: "m", hint: "from the start to a stop, both ways" },
+  { key: "restitution", label: "restitution", unit: "", value: 0.5, needs: "stop_gap", hint: "speed after an impact over that before" },
+  { key: "scale", label: "scale", unit: "", value: 1, hint: "factor on the ground acceleration" },
+]);
+
+/**
+ * Whether a field has a meaning with these settings.
+ * @param {Field} field
+ * @param {Settings} settings
+ */
+export function applies(field, settings) {
+  const law = LAWS[settings.law]?.name ?? "";
+  return (field.laws?.includes(law) ?? true) && (field.needs === undefined || !Number.isNaN(settings[field.needs]));
+}
+
+/**
+ * The settings without numbers that have no meaning, and with values for those that the law needs.
+ * @param {Settings} settings
+ * @returns {Settings}
+ */
+export function completed(settings) {
+  const result = { ...settings };
+  for (const field of FIELDS) {
+    if (!applies(field, result)) result[field.key] = NaN;
+    else if (Number.isNaN(result[field.key]) && field.value !== undefined) result[field.key] = field.value;
+  }
+  if (Number.isNaN(result.period)) result.pendulum = 0;
+  return result;
+}
+
+/**
+ * As the part of a link after `#`.
+ * @param {Settings} settings
+ * @param {Record<string, string>} [others]
+ */
+export function toLink(settings, others = {}) {
+  const given = new URLSearchParams();
+  for (const [key, value] of Object.entries(settings)) {
+    if (Number.isNaN(value) || (key !== "law" && value === /** @type {any} */ (NOT_GIVEN)[key])) continue;
+    given.set(key, key === "law" ? (LAWS[value]?.name ?? "") : String(value));
+  }
+  for (const [key, value] of Object.entries(others)) given.set(key, value);
+  return given.toString();
+}
+
+/**
+ * What a link holds; invalid values are not given.
+ * @param {string} text
+ * @returns {{settings: Settings, others: Record<string, string>}}
+ */
+export function fromLink(text) {
+  /** @type {any} */
+  const settings = { ...NOT_GIVEN, mu: 0.1 };
+  /** @type {Record<string, string>} */
+  const others = {};
+  for (const [key, value] of new URLSearchParams(text)) {
+    if (key === "law") settings.law = Math.max(0, LAWS.findIndex((law) => law.name === value));
+    else if (!(key in NOT_GIVEN)) others[key] = value;
+    else if (value.trim() !== "" && Number.isFinite(Number(value))) settings[key] = Number(value);
+  }
+  return { settings, others };
+}
+
+/**
+ * A word of a shell.
+ * @param {string} text
+ */
+export const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
+
+/**
+ * The command that gives the same numbers; null if it has no option for a setting.
+ * @param {Settings} settings
+ * @param {Source} source
+ * @returns {string | null}
+ */
+export function command(settings, source) {
+  const law = LAWS[settings.law]?.name ?? "";
+  if (source.file === null || law === "speed" || law === "degrading" || settings.pendulum) return null;
+  const words = ["stickslip slide", quoted(source.file), "--mu", settings.mu];
+  if (law !== "coulomb") words.push("--law", law);
+  if (source.units) words.push("--units", quoted(source.units));
+  if (source.dt) words.push("--dt", source.dt);
+  if (settings.vertical) words.push("--station");
+  if (source.component) words.push("--component", quoted(source.component));
+  for (const [option, value] of /** @type {[string, number][]} */ ([
+    ["--reach", settings.reach],
+    ["--mu-static", settings.mu_static],
+    ["--period", settings.period],
+    ["--damping-ratio", settings.damping_ratio],
+    ["--slope", settings.slope],
+    ["--stop-gap", settings.stop_gap],
+    ["--restitution", settings.restitution],
+  ]))
+    if (!Number.isNaN(value)) words.push(option, value);
+  if (settings.scale !== 1) words.push(`--scale=${settings.scale}`);
+  if (settings.vertical && settings.clipped) words.push("--contact clipped");
+  return words.join(" ");
+}
+
+/**
+ * The Python lines that give the same numbers.
+ * @param {Settings} s
+ * @param {Source} source
+ */
+export function python(s, source) {
+  const law = LAWS[s.law]?.name ?? "";
+  let oneWay = law === "one-way";
+  let friction = `ss.Coulomb(mu=${s.mu})`;
+  if (law === "caster") friction = `ss.Caster(mu=${s.mu}, reach=${s.reach})`;
+  if (law === "speed") friction = `ss.VelocityDependent(mu_slow=${s.mu}, mu_fast=${s.mu_fast}, rate=${s.rate})`;
+  if (law === "degrading")
+    friction = `ss.Degrading(distance=[0, ${s.distance}], mu=[${s.mu}, ${s.mu_residual}])`;
+  if (oneWay && Number.isNaN(s.slope) && Number.isNaN(s.mu_static)) {
+    friction = `ss.Coulomb(mu=${s.mu}, backward=float("inf"))`;
+    oneWay = false;
+  }
+  if (!Number.isNaN(s.mu_static)) friction = `ss.StaticKinetic(${friction}, mu_static=${s.mu_static})`;
+  const mounting = [friction];
+  if (!Number.isNaN(s.period)) mounting.push(`period=${s.period}`);
+  if (!Number.isNaN(s.damping_ratio)) mounting.push(`damping_ratio=${s.damping_ratio}`);
+  if (s.pendulum) mounting.push("pendulum=True");
+  if (!Number.isNaN(s.slope)) mounting.push(`slope_degrees=${s.slope}`);
+  if (oneWay) mounting.push("one_way=True");
+  if (!Number.isNaN(s.stop_gap)) mounting.push(`stops=ss.Stops(gap=${s.stop_gap}, restitution=${s.restitution})`);
+  const contact = s.vertical && s.clipped ? ', contact="clipped"' : "";
+  return [
+    ...(source.python.some((line) => line.includes("np.")) ? ["import numpy as np"] : []),
+    "import stickslip as ss",
+    "",
+    ...source.python,
+    `slider = ss.Slider(${mounting.join(", ")})`,
+    `response = ss.integrate(slider, motion${s.scale === 1 ? "" : `.scaled(${s.scale})`}, settle=True${contact})`,
+    "print(response.peak, response.residual)",
+  ].join("\n");
+}

@@ -1,0 +1,274 @@
+// The page in a headless Chromium: its numbers against the native library's, and what its reader does.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { after, before, beforeEach, test } from "node:test";
+import { fileURLToPath } from "node:url";
+
+/** @import { Browser, Page } from "puppeteer-core" */
+
+const build = new URL("../../build/web/", import.meta.url);
+const samples = fileURLToPath(new URL("samples/", build));
+const screenshots = fileURLToPath(new URL("screenshots/", build));
+const address = new URL("stickslip.html", build).href;
+const puppeteer = createRequire(new URL("package.json", build))("puppeteer-core");
+const answers = JSON.parse(readFileSync(`${samples}answers.json`, "utf8"));
+const python = process.env.PYTHON ?? "python";
+
+/** @type {Browser} */
+let browser;
+/** @type {Page} */
+let page;
+/** What must not happen. @type {string[]} */
+let complaints = [];
+
+before(async () => {
+  mkdirSync(screenshots, { recursive: true });
+  browser = await puppeteer.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu"],
+  });
+});
+after(() => browser?.close());
+
+beforeEach(async () => {
+  complaints = [];
+  await page?.close();
+  page = await browser.newPage();
+  page.on("console", (message) => complaints.push(`console: ${message.text()}`));
+  page.on("pageerror", (error) => complaints.push(`error: ${/** @type {Error} */ (error).message}`));
+  page.on("request", (request) => {
+    if (!/^(data|blob):/.test(request.url()) && request.url().split("#")[0] !== address)
+      complaints.push(`request: ${request.url()}`);
+  });
+});
+
+/** @param {string} [settings]  @param {string} [state]  in which it ends */
+async function open(settings = "", state = "shown") {
+  await page.setViewport({ width: 1280, height: 900 });
+  await page.goto("about:blank");
+  await page.goto(`${address}#${settings}`);
+  await settled(state);
+}
+
+/** Waits until the page shows what belongs to its settings. */
+const settled = (state = "shown") =>
+  page.waitForFunction((wanted) => document.body.dataset.state === wanted, { timeout: 60_000 }, state);
+
+/** Drops files on the page, as from a file manager. @param {...string} names */
+async function drop(...names) {
+  const contents = names.map((name) => [name, readFileSync(samples + name).toString("base64")]);
+  const before = await page.$$eval("#records li", (all) => all.length);
+  await page.evaluate((files) => {
+    const transfer = new DataTransfer();
+    for (const [name = "", base64 = ""] of files)
+      transfer.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], name));
+    document.body.dataset.state = "busy";
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, contents);
+  await page.waitForFunction(
+    (before) =>
+      document.querySelectorAll("#records li").length > before && document.querySelector("#progress")?.textContent === "",
+    { timeout: 60_000 },
+    before,
+  );
+  await settled();
+}
+
+/** The table, in SI units. @returns {Promise<Record<string, number>>} */
+const table = async () =>
+  Object.fromEntries(
+    await page.$$eval("#numbers tr[data-name]", (rows) =>
+      rows.map((row) => [/** @type {HTMLElement} */ (row).dataset.name, Number(/** @type {HTMLElement} */ (row).dataset.si)]),
+    ),
+  );
+
+/** Ten significant digits. @param {Record<string, number>} found  @param {Record<string, number>} expected */
+function compare(found, expected) {
+  for (const [name, value] of Object.entries(expected)) {
+    // The margin is a relative difference of accelerations; its error is that of round-off over it.
+    const allowed = name.startsWith("margin") ? 1e-12 : 1e-10 * Math.max(Math.abs(value), name === "residual" ? (expected.peak ?? 0) : 0);
+    assert.ok(Math.abs((found[name] ?? NaN) - value) <= allowed, `${name}: ${found[name]}, natively ${value}`);
+  }
+}
+
+/** @param {string} text  of a label in the list of records */
+async function choose(text) {
+  await page.evaluate((wanted) => {
+    const label = [...document.querySelectorAll("#records label")].find((one) => one.textContent?.includes(wanted));
+    label?.querySelector("input")?.click();
+  }, text);
+  await settled();
+}
+
+/** @param {string} id */
+const textOf = (id) => page.$eval(`#${id}`, (one) => one.textContent ?? "");
+
+test("dropped files slide as the native library has it", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  compare(await table(), answers.components[0]);
+  assert.match(await textOf("command"), /^stickslip slide three\.csv --mu 0\.1 --component N00E$/);
+  await choose("(N90E)");
+  compare(await table(), answers.components[1]);
+  await choose("(N00E)");
+  await page.click("#vertical");
+  await settled();
+  compare(await table(), answers.vertical);
+  assert.deepEqual(complaints, []);
+});
+
+test("a generated motion is that of Python", async () => {
+  await open("mu=0.1&period=2&motion=kanai-tajimi");
+  compare(await table(), answers["kanai-tajimi"]);
+  assert.deepEqual(complaints, []);
+});
+
+test("the command and the Python lines give the numbers of the page", async () => {
+  for (const settings of [
+    "mu=0.12&law=caster&reach=0.1&stop_gap=0.2&restitution=0.3",
+    "mu=0.2&law=one-way&slope=5",
+    "mu=0.2&law=one-way&mu_static=0.25",
+    "mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1",
+    "mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&scale=-1.5",
+  ]) {
+    await open(settings);
+    await drop("three.csv");
+    const { peak, residual } = await table();
+    const lines = `${await textOf("python")}\nprint(repr(response.peak), repr(response.residual))`;
+    const printed = execFileSync(python, ["-W", "ignore", "-c", lines], { cwd: samples, encoding: "utf8" });
+    const [p = NaN, r = NaN] = (printed.trim().split("\n").at(-1) ?? "").split(" ").map(Number);
+    compare({ peak: peak ?? NaN, residual: residual ?? NaN }, { peak: p, residual: r });
+    const command = await textOf("command");
+    if (!command.startsWith("stickslip")) continue;
+    const words = command.split(" ").slice(1);
+    const json = execFileSync(python, ["-W", "ignore", "-m", "stickslip", ...words, "--json"], { cwd: samples, encoding: "utf8" });
+    const [row] = JSON.parse(json).results;
+    compare({ peak: peak ?? NaN, residual: residual ?? NaN }, { peak: row.peak_m, residual: row.residual_m });
+  }
+  assert.deepEqual(complaints, []);
+});
+
+test("the slider moves by mouse and by keyboard", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  const slider = /** @type {import("puppeteer-core").ElementHandle<HTMLInputElement>} */ (await page.$("#mu-slider"));
+  const box = /** @type {{x: number, y: number, width: number, height: number}} */ (await slider.boundingBox());
+  await page.mouse.move(box.x + box.width * 0.1, box.y + box.height / 2);
+  await page.mouse.down();
+  for (let i = 1; i <= 40; ++i) await page.mouse.move(box.x + box.width * (0.1 + 0.01 * i), box.y + box.height / 2);
+  await page.mouse.up();
+  await settled();
+  const far = Number(await page.$eval("#mu", (one) => /** @type {HTMLInputElement} */ (one).value));
+  assert.ok(far > 0.4 && far < 0.6, `mu by mouse is ${far}`);
+  assert.ok(((await table()).peak ?? 1) < answers.first["0.15"].peak);
+
+  await slider.focus();
+  await page.keyboard.press("Home");
+  for (let i = 0; i < 29; ++i) await page.keyboard.press("ArrowRight"); // from 0.005 in steps of 0.005
+  await settled();
+  compare(await table(), answers.first["0.15"]);
+  assert.match(await page.evaluate(() => location.hash), /mu=0\.15\b/);
+  // A reader without a mouse reads values at a point.
+  await page.focus("figure[tabindex]");
+  await page.keyboard.press("PageDown");
+  await page.keyboard.press("ArrowRight");
+  assert.match(await textOf("readout"), /^t = 0\.51 s: ground .* g, velocity .* cm\/s, displacement .* cm$/);
+  assert.deepEqual(complaints, []);
+});
+
+test("archives, broken files, and files that leave their units open", async () => {
+  await open("mu=0.1");
+  await drop("packed.csv.gz", "broken.csv", "many.zip", "column.txt");
+  const failed = await page.$$eval("#records li.failed", (all) => all.map((one) => one.textContent ?? ""));
+  assert.equal(failed.length, 3);
+  assert.match(failed[0] ?? "", /^broken\.csv.*line 3.*oops/);
+  assert.match(failed[1] ?? "", /^many\.zip::broken\.csv/);
+  assert.match(failed[2] ?? "", /^column\.txt/);
+  compare(await table(), answers.components[0]); // the first that could be read
+  await choose("many.zip::folder/three.csv (N90E)");
+  compare(await table(), answers.components[1]);
+
+  await page.select("#records form select", "m/s^2");
+  await page.type("#records form input", "0.01");
+  await page.evaluate(() => (document.body.dataset.state = "busy"));
+  await page.click("#records form button");
+  await settled();
+  compare(await table(), answers.column);
+  assert.match(await textOf("command"), /--units m\/s\^2|--units 'm\/s\^2'/);
+  assert.deepEqual(complaints, []);
+});
+
+test("the table downloads with full digits", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  const folder = mkdtempSync(`${fileURLToPath(build)}download-`);
+  const client = await page.createCDPSession();
+  await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await page.click("#csv");
+  for (let tries = 0; tries < 100 && !readdirSync(folder).some((name) => name.endsWith(".csv")); ++tries)
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  const [name = ""] = readdirSync(folder);
+  const lines = readFileSync(`${folder}/${name}`, "utf8").trim().split("\n");
+  const rows = lines.filter((line) => !line.startsWith("#")).map((line) => line.split(","));
+  assert.deepEqual(rows[0], ["time_s", "ground_acceleration_m_s2", "velocity_m_s", "displacement_m", "force_m_s2"]);
+  const { peak = NaN, residual = NaN } = await table();
+  assert.ok(lines.includes(`# peak [m]: ${peak}`));
+  assert.equal(Number(rows.at(-1)?.[3]), residual);
+  assert.ok(rows.length > 3000);
+  assert.deepEqual(complaints, []);
+});
+
+test("an invalid setting is refused in the library's words, and the page goes on", async () => {
+  await open("mu=0.05&slope=10", "failed");
+  assert.match(await textOf("trouble"), /slides under its own weight unless mu is at least/);
+  await page.focus("#mu-slider");
+  for (let i = 0; i < 40; ++i) await page.keyboard.press("ArrowRight");
+  await settled();
+  assert.equal(await textOf("trouble"), "");
+  assert.deepEqual(complaints, []);
+});
+
+test("memory does not grow over 1,000 redraws", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  const redraw = (/** @type {number} */ count) =>
+    page.evaluate(async (count) => {
+      const slider = /** @type {HTMLInputElement} */ (document.querySelector("#mu-slider"));
+      for (let i = 0; i < count; ++i) {
+        slider.value = String(0.1 + 0.005 * (i % 40));
+        slider.dispatchEvent(new Event("input"));
+        while (document.body.dataset.state !== "shown") await new Promise((resolve) => setTimeout(resolve));
+      }
+    }, count);
+  const used = async () => {
+    const client = await page.createCDPSession();
+    await client.send("HeapProfiler.collectGarbage");
+    return (await page.metrics()).JSHeapUsedSize ?? 0;
+  };
+  await redraw(100);
+  const before = await used();
+  await redraw(1000);
+  const grown = ((await used()) - before) / 1e6;
+  assert.ok(grown < 2, `${grown} MB more after 1,000 redraws`);
+  assert.deepEqual(complaints, []);
+});
+
+test("screenshots at both widths in both modes", async () => {
+  for (const width of [1280, 390])
+    for (const value of ["light", "dark"]) {
+      await open("mu=0.12&law=caster&reach=0.05&period=3&motion=kanai-tajimi");
+      await page.setViewport({ width, height: 900 });
+      await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value }]);
+      await page.focus("figure[tabindex]");
+      for (let i = 0; i < 20; ++i) await page.keyboard.press("PageDown");
+      await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 300)));
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= width, `the page is ${wide} pixels wide in a window of ${width}`);
+      const path = /** @type {`${string}.png`} */ (`${screenshots}${width}-${value}.png`);
+      await page.screenshot({ path, fullPage: true });
+      assert.ok(statSync(path).size > 20_000);
+    }
+  assert.deepEqual(complaints, []);
+});

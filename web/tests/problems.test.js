@@ -1,0 +1,66 @@
+// Random problems in Node against the answers of the native library, which problems.py computed.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+
+import { Library } from "../page/library.js";
+import { NOT_GIVEN } from "../page/settings.js";
+
+const build = new URL("../../build/web/", import.meta.url);
+const problems = JSON.parse(readFileSync(new URL("problems.json", build), "utf8"));
+const library = await Library.load(readFileSync(new URL("stickslip.wasm", build)));
+
+/** Ten significant digits, of a value or of what it is a difference of. */
+const DIGITS = 1e-10;
+/** A decision nearer than this hangs on round-off. */
+const DECIDED = 1e-9;
+
+test(`${problems.length} random problems agree with the native library`, (context) => {
+  let undecided = 0;
+  let refused = 0;
+  let worst = 0;
+  problems.forEach((/** @type {any} */ problem, /** @type {number} */ number) => {
+    const settings = { ...NOT_GIVEN, ...problem.settings };
+    const id = library.make(
+      Float64Array.from(problem.acceleration),
+      problem.dt,
+      problem.vertical ? Float64Array.from(problem.vertical) : undefined,
+    );
+    if (problem.error !== undefined) {
+      refused++;
+      assert.throws(() => library.slide(id, settings), { message: problem.error }, `problem ${number}`);
+      library.discard(id);
+      return;
+    }
+    const summary = library.slide(id, settings);
+    const last = library.history("displacement").at(-1);
+    library.discard(id);
+    const { answer } = problem;
+    const margin = Math.min(answer.margin ?? Infinity, summary.margin, summary.impact_margin);
+    if (!(margin > DECIDED)) {
+      undecided++;
+      return;
+    }
+    for (const name of ["events", "slips", "samples"])
+      assert.equal(/** @type {any} */ (summary)[name], answer[name], `${name} of problem ${number}`);
+    for (const [name, scale] of [
+      ["peak", answer.peak],
+      ["residual", answer.peak],
+      ["last", answer.peak],
+      ["sliding_distance", answer.sliding_distance],
+      ["time_sliding", answer.end],
+      ["end", answer.end],
+      ["input", Math.max(answer.input, answer.sliding_distance)],
+    ]) {
+      const found = name === "last" ? last : /** @type {any} */ (summary)[name];
+      const off = Math.abs(found - answer[name]) / (scale || 1);
+      worst = Math.max(worst, off);
+      assert.ok(off <= DIGITS, `${name} of problem ${number}: ${found}, natively ${answer[name]}`);
+    }
+  });
+  context.diagnostic(
+    `largest relative difference ${worst.toExponential(1)}; ${undecided} undecided to round-off, ${refused} refused alike`,
+  );
+  // More than a hundredth of the problems would be another kind of problem.
+  assert.ok(undecided <= problems.length / 100, `${undecided} of ${problems.length} are not decided`);
+});

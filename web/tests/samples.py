@@ -1,0 +1,83 @@
+"""Files for the test of the page, and the native library's numbers for them.
+
+python web/tests/samples.py build/web/samples
+"""
+
+import gzip
+import json
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import stickslip as ss
+
+MU = (0.1, 0.15)
+
+
+def record(path: Path, units: str = "(g)") -> None:
+    """Three components of noise."""
+    rng = np.random.default_rng(33)
+    time = np.arange(3000) * 0.01
+    shape = np.exp(-(((time - 10) / 5) ** 2))
+    smooth = np.hanning(9) / np.hanning(9).sum()
+    columns = [
+        size * shape * np.convolve(rng.normal(size=time.size), smooth, "same")
+        for size in (1.0, 0.8, 0.6)
+    ]
+    heading = f"Time (s), N00E {units}, N90E {units}, Up {units}"
+    rows = np.column_stack([time, *columns])
+    lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
+    path.write_text("\n".join([heading, *lines]) + "\n")
+
+
+def numbers(motion: ss.GroundMotion, mu: float, **mounting: float) -> dict[str, float]:
+    """As the table of the page has them."""
+    response = ss.integrate(ss.Slider(ss.Coulomb(mu=mu), **mounting), motion, settle=True)
+    strong = ss.strong_motion(motion)
+    return {
+        "peak": response.peak,
+        "residual": response.residual,
+        "sliding distance": response.sliding_distance,
+        "time sliding": response.time_sliding,
+        "slips": response.slips,
+        "PGA": motion.peak_acceleration,
+        "PGV": strong.peak_velocity,
+        "Arias intensity": strong.arias_intensity,
+        "D5-95": strong.duration,
+        "Tm": strong.mean_period,
+        "events": len(response.events),
+        "margin of the closest decision": min(response.margin, response.impact_margin),
+    }
+
+
+def main() -> None:
+    folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    three = folder / "three.csv"
+    record(three)
+    one = folder / "column.txt"
+    one.write_text(
+        "\n".join(f"{value:.5f}" for value in ss.read_record(three, component=1).acceleration)
+    )
+    (folder / "broken.csv").write_text("Time (s), Acceleration (g)\n0, 0\n0.01, oops\n0.02, 0.1\n")
+    (folder / "packed.csv.gz").write_bytes(gzip.compress(three.read_bytes()))
+    with zipfile.ZipFile(folder / "many.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.write(three, "folder/three.csv")
+        archive.writestr("broken.csv", "nothing\n")
+
+    first = ss.read_record(three, component=1)
+    spectrum = ss.Spectrum.kanai_tajimi(s0=0.01, frequency=15, damping=0.6)
+    noise = ss.GaussianExcitation(spectrum, 0.01, 2048).sample(seed=1, member=0)
+    answers = {
+        "components": [numbers(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
+        "first": {str(mu): numbers(first, mu) for mu in MU},
+        "vertical": numbers(ss.read_station(three, along=first.orientation), MU[0]),
+        "column": numbers(ss.read_record(one, units="m/s^2", dt=0.01), MU[0]),
+        "kanai-tajimi": numbers(noise, MU[0], period=2.0),
+    }
+    (folder / "answers.json").write_text(json.dumps(answers))
+
+
+if __name__ == "__main__":
+    main()
