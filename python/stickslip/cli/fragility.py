@@ -116,8 +116,8 @@ def _fragility(args: argparse.Namespace) -> str:
     if args.curves:
         from ..plotting import save
 
-        about = f"mu = {args.mu:g}" + (f", beta = {args.mu_beta:g}" if args.mu_beta else "")
-        title = f"{len(motions)} records, {about}"
+        friction = f"mu = {args.mu:g}" + (f", beta = {args.mu_beta:g}" if args.mu_beta else "")
+        title = f"{len(motions)} records, {friction}"
         save(f.plot(level=_LEVEL if len(motions) > 1 else None, title=title), args.curves)
         written.append(str(args.curves))
     if args.json:

@@ -227,7 +227,8 @@ class Cloud:
             dmu = (parts["y"] - parts["seen"] * mu) / found["sigma"] ** 2
             dmu = dmu - censored * mills / found["sigma"]
             misses = parts["slide"] - parts["n"] * slides(x)
-            return -found["rise"] * misses - found["b"] * dmu
+            slope: Array = -found["rise"] * misses - found["b"] * dmu
+            return slope
 
         def score(shift: Array) -> Array:
             total: Array = slopes(at(shift), parts).sum(axis=1)

@@ -170,12 +170,12 @@ def design_chart(
     levels = np.atleast_1d(np.asarray(values, float))
     shares = np.atleast_1d(np.asarray(percentiles, float))
     if not ((shares >= 0) & (shares <= 100)).all():
-        raise ValueError(f"design_chart: percentiles must lie from 0 to 100, got {percentiles}")
+        raise ValueError(f"design_chart: percentiles must lie from 0 to 100, got {percentiles!r}")
     coefficients = np.atleast_1d(np.asarray(mu, float))
     blocks = grid(Coulomb, mu=coefficients)
     statistic = np.max if directions == "rotd100" else np.median
     if directions == "axis":
-        stripes, turns = suite.stripes(**{measure: levels}), 1
+        stripes, turns = suite.stripes(pga_g=pga_g, pgv=pgv), 1
     else:
         rotated = [_directions(motion) for motion in suite]
         turns = len(rotated[0])
