@@ -88,6 +88,8 @@ if TYPE_CHECKING:
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
     from .motions.suite import Suite
+    from .risk.design_chart import DesignChart, design_chart
+    from .risk.efficiency import IntensityEfficiency, intensity_efficiency
     from .risk.fragility import Fragility
     from .risk.hazard import Exceedances, Hazard, read_hazard
     from .risk.observations import impact
@@ -111,6 +113,7 @@ __all__ = [
     "ConvergenceError",
     "Coulomb",
     "Degrading",
+    "DesignChart",
     "Drawn",
     "Energy",
     "Ensemble",
@@ -126,6 +129,7 @@ __all__ = [
     "GroundMotion",
     "HarmonicMotion",
     "Hazard",
+    "IntensityEfficiency",
     "IntensityMeasures",
     "Interval",
     "KumarFriction",
@@ -169,6 +173,7 @@ __all__ = [
     "asce43",
     "build_info",
     "compare",
+    "design_chart",
     "ensemble_sensitivity",
     "estimate_spectrum",
     "fit_pulses",
@@ -177,6 +182,7 @@ __all__ = [
     "histories",
     "impact",
     "integrate",
+    "intensity_efficiency",
     "interfaces",
     "orientations",
     "read_hazard",
@@ -207,6 +213,8 @@ if not TYPE_CHECKING:
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
         "motions.suite": ("Suite",),
+        "risk.design_chart": ("DesignChart", "design_chart"),
+        "risk.efficiency": ("IntensityEfficiency", "intensity_efficiency"),
         "risk.fragility": ("Fragility",),
         "risk.hazard": ("Exceedances", "Hazard", "read_hazard"),
         "risk.observations": ("impact",),

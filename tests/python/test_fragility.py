@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from xml.etree import ElementTree
 
 import numpy as np
@@ -418,7 +419,7 @@ def test_pelicun_reads_the_curves(tmp_path):
         (row,) = csv.DictReader(stream)
     assert row["ID"] == "cabinet"
     assert (row["Demand-Type"], row["Demand-Unit"]) == ("Peak Ground Acceleration", "g")
-    assert (row["Demand-Directional"], row["Demand-Offset"]) == ("0", "0")
+    assert (row["Demand-Directional"], row["Demand-Offset"]) == ("1", "0")
     for i in (0, 1):
         assert row[f"LS{i + 1}-Family"] == "lognormal"
         assert float(row[f"LS{i + 1}-Theta_0"]) == f.median[i]
@@ -434,6 +435,10 @@ def test_openquake_reads_the_curves(tmp_path):
     function = ElementTree.parse(f.to_openquake(tmp_path / "f.xml")).find(
         f"{nrml}fragilityModel/{nrml}fragilityFunction"
     )
+    # What OpenQuake's `valid.source_id` accepts as the name of a limit state.
+    names = [params.get("ls") for params in function.findall(f"{nrml}params")]
+    assert names == ["0p05_m", "0p1_m"]
+    assert all(re.fullmatch(r"[\w\-:]+", name) for name in names)
     assert function.attrib == {"id": "sliding", "format": "continuous", "shape": "logncdf"}
     assert function.find(f"{nrml}imls").get("imt") == "PGA"
     for i, params in enumerate(function.findall(f"{nrml}params")):
@@ -450,3 +455,36 @@ def test_openquake_reads_the_curves(tmp_path):
     im = np.array(function.find(f"{nrml}imls").text.split(), float)
     poes = [np.array(one.text.split(), float) for one in function.findall(f"{nrml}poes")]
     assert np.array(poes) == pytest.approx(logit.probability(im), rel=1e-12)
+
+
+def test_openquake_itself_reads_the_curves(tmp_path):
+    nrml = pytest.importorskip("openquake.hazardlib.nrml")
+    pytest.importorskip("openquake.risklib.read_nrml")
+    f = ss.Fragility.fit(simulated(1), im="pga_g", thresholds=[0.05, 0.1])
+    model = nrml.to_python(str(f.to_openquake(tmp_path / "f.xml")))
+    curves = model["PGA", "sliding"].build(model.limitStates)
+    for i, curve in enumerate(curves):
+        assert curve(np.array([0.3])) == pytest.approx(f.probability([0.3])[i], rel=1e-9)
+
+
+def test_pelicun_itself_reads_the_curves(tmp_path):
+    assessment = pytest.importorskip("pelicun.assessment")
+    pandas = pytest.importorskip("pandas")
+    f = ss.Fragility.fit(simulated(1), im="pga_g", thresholds=[0.05, 0.1])
+    model = assessment.Assessment({"PrintLog": False, "Seed": 1})
+    model.stories = 1
+    count, demand = 10_000, "1-PGA-0-1"
+    units = pandas.DataFrame({demand: ["g"]}, index=["Units"])
+    values = pandas.DataFrame({demand: np.full(count, f.median[0])})
+    model.demand.load_sample(pandas.concat([units, values]))
+    columns = {"Units": "ea", "Location": "0", "Direction": "1", "Theta_0": 1, "Blocks": 1}
+    unknown = {"Family": np.nan, "Theta_1": np.nan}
+    marginals = pandas.DataFrame(columns | unknown, index=["sliding"])
+    model.asset.load_cmp_model({"marginals": marginals})
+    model.asset.generate_cmp_sample(count)
+    model.damage.load_model_parameters([str(f.to_pelicun(tmp_path / "f.csv"))], {"sliding"})
+    model.damage.calculate()
+    safe, *_, worst = model.damage.save_sample().mean()
+    # Standard errors of 0.005: five of them, 6e-7.
+    assert safe == pytest.approx(0.5, abs=0.025)
+    assert worst == pytest.approx(f.probability(f.median[0])[1], abs=0.025)

@@ -3,11 +3,12 @@
 ``stickslip slide kobe.AT2 --mu 0.1 0.2 0.3`` prints how far a block slides; ``stickslip slide
 --help`` lists the options. ``stickslip records FOLDER`` prints what files hold, ``stickslip
 spectrum`` their response spectra. ``stickslip orientations`` slides along all directions of a
-station, and ``stickslip sweep`` prints statistics over records. ``stickslip ensemble --event "great
-very near field" --mu 0.2 --members 100000`` prints statistics for random earthquakes, and
-``stickslip thesis`` redraws the figures of the thesis. ``stickslip completion bash`` prints a
-script that completes all this in a shell. Each subcommand is one file here, with a function that
-adds its arguments and one that runs it.
+station, ``stickslip sweep`` prints statistics over records, and ``stickslip fragility`` fits the
+probability of sliding further than thresholds. ``stickslip ensemble --event "great very near field"
+--mu 0.2 --members 100000`` prints statistics for random earthquakes, and ``stickslip thesis``
+redraws the figures of the thesis. ``stickslip completion bash`` prints a script that completes all
+this in a shell. Each subcommand is one file here, with a function that adds its arguments and one
+that runs it.
 
 Exit codes: 0 on success, also for a slider that never comes to rest (its row says so); 1 if part of
 the work failed and the rest is printed: a record that cannot be read or slid, a picture or
@@ -29,6 +30,7 @@ import warnings
 from .batch import StrictError
 from .completion import add_completion, complete
 from .ensemble import add_ensemble
+from .fragility import add_fragility
 from .newmark import add_newmark
 from .orientations import add_orientations
 from .output import FAILURES, complain, reason_of, version, write
@@ -79,6 +81,7 @@ exit codes:
         add_sweep,
         add_newmark,
         add_orientations,
+        add_fragility,
         add_records,
         add_spectrum,
         add_ensemble,

@@ -23,7 +23,7 @@ from .ensemble import plot_ensemble
 from .figures import check_suffix as check_suffix
 from .figures import new_figure as new_figure
 from .figures import save
-from .fragility import plot_exceedances, plot_fragility
+from .fragility import plot_design_chart, plot_exceedances, plot_fragility
 from .ground import plot_ground_motion, plot_response_spectrum
 from .hysteresis import plot_hysteresis
 from .planar import plot_planar_response
@@ -41,6 +41,7 @@ from .trajectory import sticks, without_contact
 # Names with `as` are those that the package's own pictures use, too.
 __all__ = [
     "plot_comparison",
+    "plot_design_chart",
     "plot_ensemble",
     "plot_exceedances",
     "plot_fragility",

@@ -119,3 +119,63 @@ def plot_exceedances(
         if title:
             axes.set_title(wrapped(axes, title))
     return figure if ax is None else axes
+
+
+@overload
+def plot_design_chart(
+    chart: Any, quantity: str = ..., *, ax: None = None, title: str | None = ...
+) -> Figure: ...
+@overload
+def plot_design_chart(
+    chart: Any, quantity: str = ..., *, ax: Axes, title: str | None = ...
+) -> Axes: ...
+def plot_design_chart(
+    chart: Any, quantity: str = "peak", *, ax: Axes | None = None, title: str | None = None
+) -> FigureBase | Axes:
+    """Plot displacements against the coefficient of friction, as `DesignChart.plot` does.
+
+    Parameters
+    ----------
+    chart : DesignChart
+    quantity, ax, title : optional
+        As for `DesignChart.plot`.
+
+    Returns
+    -------
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
+
+    Raises
+    ------
+    ValueError
+        Another quantity; more than six levels.
+    """
+    if quantity not in ("peak", "residual"):
+        raise ValueError(
+            f"plot_design_chart: quantity must be 'peak' or 'residual', got {quantity!r}"
+        )
+    if len(chart.levels) > len(COLORS):
+        raise ValueError(
+            f"plot_design_chart: draws at most {len(COLORS)} levels, got {len(chart.levels)}"
+        )
+    values = 100 * getattr(chart, quantity)
+    middle = int(np.argmin(np.abs(chart.percentiles - 50)))
+    unit = {"pga_g": "g", "pgv": "m/s"}[chart.measure]
+    shares = ", ".join(f"{p:g}" for p in chart.percentiles)
+    over = {"axis": "", "rotd50": "RotD50 of ", "rotd100": "RotD100 of "}[chart.directions]
+    with style():
+        figure, axes = one_panel("plot_design_chart", None, ax, 7, 4.5)
+        for i, (level, color) in enumerate(zip(chart.levels, COLORS)):
+            for p in range(len(chart.percentiles)):
+                # A line in a logarithmic scale ends where the block does not slide.
+                y = np.where(values[p, i] > 1e-3, values[p, i], np.nan)
+                label = f"{level:g} {unit}" if p == middle else None
+                width = 1.6 if p == middle else 0.7
+                axes.plot(chart.mu, y, color=color, linewidth=width, label=label)
+        axes.set_yscale("log")
+        axes.set_xlabel("coefficient of friction [\N{MINUS SIGN}]")
+        axes.set_ylabel(f"{over}{quantity} displacement [cm]: {shares} %")
+        axes.legend(title=MEASURES[chart.measure])
+        if title:
+            axes.set_title(wrapped(axes, title))
+    return figure if ax is None else axes

@@ -139,6 +139,12 @@ class Cloud:
         a, b = theta[:, 0] * sigma, theta[:, 1] * sigma
         return a - b * center, b, sigma
 
+    def regression(self) -> dict[str, float]:
+        """a, b and sigma of ln D = a + b ln IM + e."""
+        parts = {name: values.sum(axis=0)[np.newaxis] for name, values in self.parts.items()}
+        found = self._regression(np.log(self.data.im), parts)
+        return {name: float(value[0]) for name, value in zip(("a", "b", "sigma"), found)}
+
     def estimate(self, weights: Array | None = None) -> dict[str, Array]:
         """The parameters of the two parts, for each row of weights of the records."""
         rows = np.ones((1, self.records)) if weights is None else weights
@@ -154,6 +160,9 @@ class Cloud:
                 f"Fragility.fit: displacements do not grow with {self.data.im_name}, so it is no"
                 " measure of intensity for them"
             )
+        # A resample may be flat or fall: its curve then lies far outside.
+        result["b"] = np.maximum(result["b"], 1e-2)
+        result["rise"] = np.maximum(result["rise"], 0.0)
         return result
 
     def probability(self, found: dict[str, Array], im: Array) -> Array:
@@ -188,7 +197,7 @@ class Cloud:
         """Median, and half the distance of the ln IM at 16 and 84 %, shape (B, T) each."""
         one = float(self._cdf(1.0))
         high, low = self.quantile(found, one), self.quantile(found, 1 - one)
-        return self.quantile(found, 0.5), np.log(high / low) / 2
+        return self.quantile(found, 0.5), np.maximum(np.log(high / low) / 2, 1e-3)
 
     def deviation_of_draws(self) -> Array:
         """Standard deviation over draws of the ln median of each, for each threshold."""
@@ -218,7 +227,8 @@ class Cloud:
             dmu = (parts["y"] - parts["seen"] * mu) / found["sigma"] ** 2
             dmu = dmu - censored * mills / found["sigma"]
             misses = parts["slide"] - parts["n"] * slides(x)
-            return -found["rise"] * misses - found["b"] * dmu
+            slope: Array = -found["rise"] * misses - found["b"] * dmu
+            return slope
 
         def score(shift: Array) -> Array:
             total: Array = slopes(at(shift), parts).sum(axis=1)

@@ -197,7 +197,7 @@ class Exceedance:
                 " so it is no measure of intensity for them"
             )
         # A resample may lack exceedances or be flat: its curve then lies far outside.
-        slope = np.maximum(slope, 1e-3)
+        slope = np.maximum(slope, 0.05)
         reach = 20.0
         log_median = np.clip(-intercept / slope, self.x[0] - reach, self.x[-1] + reach)
         return {"median": np.exp(log_median), "beta": self.link.deviation / slope}

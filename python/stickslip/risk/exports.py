@@ -47,9 +47,10 @@ def to_pelicun(fragility: Fragility, path: str | os.PathLike[str], id: str) -> P
         )
     demand, unit = _PELICUN[fragility.im]
     if fragility.im == "sa_g":
-        demand += f"|{_period(fragility, 'to_pelicun'):g}"
+        demand += f"|{_period(fragility, 'to_pelicun')}"
     heads = ["ID", "Demand-Type", "Demand-Unit", "Demand-Directional", "Demand-Offset"]
-    row = [id, demand, unit, "0", "0"]
+    # Directional: of the component of the records, without the factor of 1.2 for any direction.
+    row = [id, demand, unit, "1", "0"]
     for i, (median, beta) in enumerate(zip(fragility.median, fragility.beta), 1):
         heads += [f"LS{i}-{name}" for name in ("Family", "Theta_0", "Theta_1")]
         row += ["lognormal", repr(float(median)), repr(float(beta))]
@@ -68,7 +69,8 @@ def to_openquake(fragility: Fragility, path: str | os.PathLike[str], id: str) ->
     imt, factor = _OPENQUAKE[fragility.im]
     if imt == "SA":
         imt = f"SA({_period(fragility, 'to_openquake'):g})"
-    states = [label.replace(" ", "_") for label in fragility.labels]
+    # Names may have no point: 0p05_m.
+    states = [label.replace(" ", "_").replace(".", "p") for label in fragility.labels]
     root = ElementTree.Element("nrml", {"xmlns": _NRML})
     about = {"id": id, "assetCategory": "contents", "lossCategory": "contents"}
     model = ElementTree.SubElement(root, "fragilityModel", about)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
 from ..sweeps.table import SweepTable
@@ -204,7 +205,8 @@ class Fragility(Tabular):
         if not (values >= 0).all():
             raise ValueError(f"Fragility.probability: im must be at least 0, got {values.min():g}")
         flat = self._model.probability(self._found, values.reshape(-1))[0]
-        return flat.reshape(len(self.thresholds), *values.shape)
+        shaped: _Array = flat.reshape(len(self.thresholds), *values.shape)
+        return shaped
 
     def bands(
         self,
@@ -250,8 +252,7 @@ class Fragility(Tabular):
         beta, 90 % for the HCLPF and 91 to 95 % for the curve (300 trials); plain percentiles cover
         74 % for beta. 1,000 samples of 18 records at 20 levels take 0.1 s.
         """
-        from scipy import stats
-
+        stats = optional("scipy.stats", "risk", "Fragility.bands")
         if not 0 < level < 1:
             raise ValueError(f"Fragility.bands: level must lie between 0 and 1, got {level}")
         count = int(samples)
@@ -437,7 +438,7 @@ class Fragility(Tabular):
             return NotImplemented
         return self.to_json() == other.to_json()
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None
 
     def _table(self) -> tuple[Columns, Mapping[str, str]]:
         numbers = not any(isinstance(one, Event) for one in self.thresholds)

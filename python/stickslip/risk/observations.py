@@ -102,6 +102,10 @@ def measured(table: SweepTable, im: Measure, who: str) -> tuple[NDArray[np.float
                 f"{who}: im must be a column with numbers, which '{name}' is not, or a function of"
                 f" a motion; the table has {', '.join(numbers) or 'none'}"
             )
+    stripe = table.metadata.get("stripe")
+    known = stripe is not None and stripe.dtype.kind in "iuf"
+    if known and np.allclose(values, stripe, rtol=1e-9, atol=0):  # type: ignore[arg-type]
+        values = np.array(stripe, float)  # without the round-off of scaling
     wrong = np.flatnonzero(~(np.isfinite(values) & (values > 0)))
     if wrong.size:
         raise ValueError(
@@ -137,7 +141,7 @@ def observe(
     period = table.metadata.get("sa_period") if name == "sa_g" else None
     given: tuple[Any, ...] = (
         (thresholds,)
-        if isinstance(thresholds, Event) or np.ndim(thresholds) == 0
+        if isinstance(thresholds, Event) or np.ndim(thresholds) == 0  # type: ignore[arg-type]
         else tuple(thresholds)  # type: ignore[arg-type]
     )
     if not given:
@@ -183,9 +187,11 @@ def _hit(table: SweepTable, who: str) -> NDArray[np.float64]:
     """1 for each response that hits a stop, 0 for the others, NaN for failures."""
     if not np.isfinite(table.stop_distance).any():
         raise ValueError(f"{who}: impact needs sliders with stops, and none has any")
-    sides = () if table.planar else (table.impacts_forward, table.impacts_backward)
-    count = sum(sides) if sides else table.impacts
-    return np.where(np.isnan(table.peak), np.nan, (count > 0).astype(float))
+    if table.planar:
+        hit = table.impacts > 0
+    else:
+        hit = (table.impacts_forward > 0) | (table.impacts_backward > 0)
+    return np.where(np.isnan(table.peak), np.nan, hit.astype(float))
 
 
 def _check_thresholds(

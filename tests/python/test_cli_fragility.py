@@ -1,0 +1,75 @@
+"""`stickslip fragility`: options, tables, files."""
+
+import csv
+import json
+
+import pytest
+import stickslip as ss
+from stickslip.cli import main
+
+pytest.importorskip("scipy")
+
+USUAL = ["fragility", "sample:all", "--mu", "0.2", "--thresholds", "0.02", "0.1"]
+PGA = ["--pga", "0.2", "0.4", "0.8", "1.2"]
+
+
+def fitted(**more):
+    stripes = ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.8, 1.2])
+    mu = ss.Random(ss.Coulomb, mu=ss.Lognormal(median=0.2, beta=0.3))
+    table = ss.sweep(mu, stripes, members=20, seed=3, settle=True)
+    return ss.Fragility.fit(table, im="pga_g", thresholds=[0.02, 0.1], **more)
+
+
+def test_the_rows_are_those_of_the_library(capsys, tmp_path):
+    more = ["--mu-beta", "0.3", "--members", "20", "--seed", "3", *PGA]
+    assert main([*USUAL, *more, "--json", "--csv", str(tmp_path / "f.csv")]) == 0
+    document = json.loads(capsys.readouterr().out)
+    f = fitted()
+    bands = f.bands(0.9)
+    assert (document["records"], document["method"]) == (18, "lognormal")
+    for i, row in enumerate(document["results"]):
+        assert row["threshold_m"] == f.thresholds[i]
+        assert row["median_g"] == f.median[i]
+        assert [row["median_low_g"], row["median_high_g"]] == bands.median[i].tolist()
+        assert row["beta_parameters"] == f.beta_parameters[i]
+    with (tmp_path / "f.csv").open(newline="") as stream:
+        assert [float(row["hclpf_g"]) for row in csv.DictReader(stream)] == f.hclpf.tolist()
+    assert main([*USUAL, *more, "--separate"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split()[:2] == ["exceeds", "[m]"]
+    assert f"{fitted(separate=True).median[1]:.3f}" in lines[2]
+
+
+def test_without_levels_the_records_are_a_cloud(capsys, tmp_path):
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "f.png"
+    hazard = tmp_path / "h.csv"
+    hazard.write_text("PGA,rate\n0.02,1e-1\n0.2,5e-3\n0.8,2e-4\n3,1e-6\n")
+    assert main([*USUAL, "--plot", str(picture), "--hazard", str(hazard), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["method"] == "cloud"
+    assert picture.stat().st_size > 10_000
+    table = ss.sweep(ss.Coulomb(mu=0.2), ss.sample_records(), settle=True)
+    f = ss.Fragility.fit(table, im="pga_g", thresholds=[0.02, 0.1], method="cloud")
+    h = f.rate_of_exceedance(ss.read_hazard(hazard))
+    assert [row["rate_per_year"] for row in document["results"]] == h.rate.tolist()
+    assert [row["probability"] for row in document["results"]] == h.probability(50).tolist()
+    assert main([*USUAL, "--hazard", str(hazard)]) == 0
+    assert "in 50 years" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "more, message",
+    [
+        ([*PGA, "--mu-beta", "-1"], "--mu-beta must be at least 0"),
+        ([*PGA, "--members", "0"], "--members must be"),
+        (["--pga", "0"], "pga_g must be positive and finite, got 0 g"),
+        ([*PGA, "--thresholds", "50"], "none of the 144 responses exceed 50 m"),
+        ([*PGA, "--plot", "f.txt"], "must end in .png"),
+    ],
+)
+def test_what_cannot_be_fitted_is_an_error(capsys, more, message):
+    assert main([*USUAL, *more]) == 2
+    captured = capsys.readouterr()
+    assert message in captured.err
+    assert captured.out == ""
