@@ -36,7 +36,7 @@ def test_rotd_of_a_floor():
         one = ss.response_spectrum(r, PERIODS, 0.02, direction=degrees)
         assert np.array_equal(table.values[degrees], one.values)
     assert (table.rotd50 <= table.rotd100).all()
-    # A floor that slides is accelerated as strongly as friction allows, in one direction or another.
+    # A floor that slides is accelerated as strongly as friction allows, in some direction.
     rigid = ss.rotd(r)
     assert r.peak_force * np.cos(np.radians(0.5)) <= rigid.rotd100[0] <= r.peak_force * (1 + 1e-12)
     assert table.to_dataframe().shape == (4, 5)
@@ -56,7 +56,7 @@ def test_directions_that_do_not_exist_are_refused():
     ground = station()
     along = ss.GroundMotion(ground.acceleration, dt=0.01)
     one = ss.integrate(ss.Coulomb(mu=0.1), along)
-    with pytest.raises(ValueError, match="direction needs .* two horizontal components"):
+    with pytest.raises(ValueError, match=r"direction needs .* two horizontal components"):
         ss.response_spectrum(one, 1.0, direction=90)
     with pytest.raises(ValueError, match="needs a transverse component"):
         ss.response_spectrum(along, 1.0, direction=90)
