@@ -108,6 +108,32 @@ const calls = {
     };
   },
 
+  /**
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {Float64Array} mus
+   */
+  spectrum(id, settings, mus) {
+    return library.spectrum(id, settings, mus);
+  },
+
+  /**
+   * Peak and magnitude of the residual [m] with the record as it is and reversed.
+   * @param {number} id
+   * @param {Settings} settings
+   */
+  bothWays(id, settings) {
+    const [normal, inverse] = [1, -1].map((sign) => {
+      const { peak, residual } = library.spectrum(
+        id,
+        { ...settings, scale: sign * settings.scale },
+        Float64Array.of(settings.mu),
+      );
+      return { peak: peak[0] ?? NaN, residual: residual[0] ?? NaN };
+    });
+    return { normal: normal ?? { peak: NaN, residual: NaN }, inverse: inverse ?? { peak: NaN, residual: NaN } };
+  },
+
   /** Size of the memory of the library [bytes]. */
   memory() {
     return library.memory;
