@@ -35,6 +35,8 @@
 #include "stickslip/ground/records.hpp"
 #include "stickslip/ground/station.hpp"
 #include "stickslip/ground/strong_motion.hpp"
+#include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/slider.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
@@ -164,7 +166,8 @@ double count(EventKind kind) {
 
 /// The response up to the final rest, or to the end of the motion if it never rests, as the command reports it.
 template <class Law>
-[[gnu::noinline]] Response settled(const Slider<Law>& slider, const GroundMotion& motion, bool clipped, Response storage) {
+[[gnu::noinline]] Response settled(const Slider<Law>& slider, const GroundMotion& motion, bool clipped,
+                                   Response storage) {
   IntegrateOptions options;
   options.contact = clipped ? Contact::clipped : Contact::flight;
   options.settle = true;
@@ -229,6 +232,8 @@ void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion,
   answer.resize(sizeof summary / sizeof(double));
   std::memcpy(answer.data(), &summary, sizeof summary);
 }
+
+std::vector<double> copy_of(std::span<const double> values) { return {values.begin(), values.end()}; }
 
 void answer_with(std::span<const double> values) { answer.assign(values.begin(), values.end()); }
 
@@ -401,6 +406,32 @@ STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
         answer.insert(answer.end(), {undefined, undefined});
       }
     }
+    return 0;
+  });
+}
+
+/// Slides a Coulomb slider in the plane under both horizontal components; the input is the settings.
+/// @return 0; `numbers` is the peak [m], its time [s], the residual along both axes [m], the sliding distance [m], the
+///         energy imbalance over the input, and then x and y at each sample [m]
+STICKSLIP_EXPORT(path) int path(int number) {
+  return guarded([&] {
+    Settings settings;
+    std::memcpy(&settings, given.data(), sizeof settings);
+    const GroundMotion& record = of(number).motion;
+    GroundMotion motion = is(settings.vertical) ? record : record.with_components(copy_of(record.transverse()));
+    if (settings.scale != 1) motion = motion.scaled(settings.scale);
+    PlanarIntegrateOptions options;
+    options.contact = is(settings.clipped) ? Contact::clipped : Contact::flight;
+    options.settle = true;
+    const PlanarSlider slider(Coulomb::from_friction(settings.mu), mounting_of(settings));
+    const PlanarResponse found = integrate(slider, motion, options);
+    answer = {found.peak,
+              found.peak_time,
+              found.residual.axis,
+              found.residual.transverse,
+              found.sliding_distance,
+              found.energy.imbalance() / (found.energy.input > 0 ? found.energy.input : 1)};
+    for (const Vector2& place : found.displacement) answer.insert(answer.end(), {place.axis, place.transverse});
     return 0;
   });
 }

@@ -273,6 +273,24 @@ export class Library {
   }
 
   /**
+   * A Coulomb slider in the plane, under both horizontal components.
+   * @param {number} id
+   * @param {Settings} settings  of the law only mu counts
+   * @returns {{peak: number, residual: [number, number], axis: Float64Array, transverse: Float64Array}}  [m]
+   */
+  path(id, settings) {
+    this.#giveView(this.#values(settings));
+    this.#checked(this.#wasm.path(id));
+    const [peak = NaN, , x = NaN, y = NaN, , , ...places] = this.#numbers();
+    return {
+      peak,
+      residual: [x, y],
+      axis: Float64Array.from({ length: places.length / 2 }, (_, i) => places[2 * i] ?? NaN),
+      transverse: Float64Array.from({ length: places.length / 2 }, (_, i) => places[2 * i + 1] ?? NaN),
+    };
+  }
+
+  /**
    * A history of the last response, or its events: time, displacement, velocity and kind of each.
    * @param {typeof HISTORIES[number]} which
    */

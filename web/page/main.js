@@ -6,6 +6,7 @@ import { color, CurvePlot, levelLine, LinePlot, shade } from "./plots.js";
 import { drawScene } from "./scene.js";
 import { applies, command, completed, FIELDS, fromLink, LAWS, python, toLink } from "./settings.js";
 import { GENERATORS, recorded } from "./sources.js";
+import { fromText } from "./packed.js";
 import { statistics } from "./statistics.js";
 import { svg } from "./svg.js";
 import { digits, unitOf } from "./units.js";
@@ -92,6 +93,7 @@ function makePlots() {
     velocity: new LinePlot(element("plot-velocity"), ["velocity", "pinned"], onCursor),
     displacement: new LinePlot(element("plot-displacement"), ["displacement", "pinned"], onCursor),
     hysteresis: new CurvePlot(element("plot-hysteresis"), "force"),
+    path: new CurvePlot(element("plot-path"), "displacement"),
     spectrum: new LinePlot(element("plot-spectrum"), ["displacement", "velocity"], null),
   };
 }
@@ -100,6 +102,10 @@ const update = latest(async () => {
   const row = selected;
   if (!row?.motion) return;
   const [now, id] = problemOf(settings, row.motion);
+  const change = changes;
+  const done = (/** @type {string} */ state) => {
+    if (change === changes) document.body.dataset.state = state; // else the next one is coming
+  };
   try {
     const found = await worker.slide(id, now);
     if (pinned) {
@@ -109,11 +115,11 @@ const update = latest(async () => {
     if (row !== selected) return;
     response = found;
     element("trouble").textContent = "";
-    document.body.dataset.state = "shown";
+    done("shown");
   } catch (error) {
     response = null;
     element("trouble").textContent = /** @type {Error} */ (error).message;
-    document.body.dataset.state = "failed";
+    done("failed");
   }
   show(now, row);
 });
@@ -131,14 +137,17 @@ function problemOf(given, motion) {
 }
 
 let lastChange = 0; // [ms]
+let changes = 0;
 
 /** Before the answer comes, the page is not up to date. */
 function changed() {
   lastChange = performance.now();
+  ++changes;
   document.body.dataset.state = "busy";
   history.replaceState(null, "", `#${linkText()}`);
   update();
   updateSpectrum();
+  updatePath();
   if (!element("many").hidden) slideMany();
 }
 
@@ -192,6 +201,25 @@ function showSpectrum() {
     },
   });
 }
+
+// ---- the path in the plane
+
+const updatePath = latest(async () => {
+  const id = selected?.motion?.planarId ?? null;
+  const full = completed(settings);
+  const possible = id !== null && LAWS[full.law]?.name === "coulomb" && Number.isNaN(full.mu_static);
+  const found = possible ? await worker.path(id, full).catch(() => null) : null;
+  element("figure-path").hidden = found === null;
+  if (!found) return;
+  const [peak, residual] = [found.peak, Math.hypot(...found.residual)];
+  const figure = element("figure-path");
+  figure.dataset.si = JSON.stringify([found.peak, ...found.residual]);
+  element("title-path").textContent =
+    `Path in the plane [${unit("length").name}], friction along the velocity: largest distance ` +
+    `${shown(peak, "length")}, residual ${shown(residual, "length")}`;
+  plots.path.resize();
+  plots.path.show(inUnits(found.axis, "length"), inUnits(found.transverse, "length"), true);
+});
 
 // ---- many records
 
@@ -574,18 +602,25 @@ function play(on) {
 
 // ---- records
 
+let readingStopped = false;
+
 /** @param {FileList | File[]} files */
 async function addFiles(files) {
   let done = 0;
   const first = rows.length;
+  readingStopped = false;
+  element("reading-cancel").hidden = files.length === 1;
   for (const file of files) {
     element("progress").textContent = files.length > 1 ? `Reading file ${++done} of ${files.length}` : "Reading";
     const inside = await worker.unpack(file.name, new Uint8Array(await file.arrayBuffer()));
     for (const one of inside) {
       if ("error" in one) rows.push({ label: one.name, file: one.name, error: one.error, source: () => recordedAs(one.name) });
       else await addFile(one.name, one.bytes);
+      if (readingStopped) break;
     }
+    if (readingStopped) break;
   }
+  element("reading-cancel").hidden = true;
   element("progress").textContent = "";
   select(rows.slice(first).find((row) => row.motion) ?? selected);
 }
@@ -625,7 +660,7 @@ async function addFile(file, bytes, options = {}, place = rows.length) {
     found = [{ label: file, file, error: message, bytes, source: () => recordedAs(file) }];
   }
   rows.splice(place, 1, ...found);
-  showRows();
+  showRowsSoon();
   return found[0];
 }
 
@@ -639,6 +674,18 @@ function select(row) {
 
 function showRows() {
   element("records").replaceChildren(...rows.map(rowElement));
+}
+
+let rowsWait = false;
+
+/** Once for many files. */
+function showRowsSoon() {
+  if (rowsWait) return;
+  rowsWait = true;
+  setTimeout(() => {
+    rowsWait = false;
+    showRows();
+  }, 100);
 }
 
 /** @param {Row} row */
@@ -675,6 +722,7 @@ function retryForm(row) {
     const options = { units: choice.value, ...(dt.value ? { dt: Number(dt.value) } : {}) };
     const found = await addFile(row.file, /** @type {Uint8Array} */ (row.bytes), options, rows.indexOf(row));
     if (found?.motion) select(found);
+    else showRows();
   };
   return form;
 }
@@ -683,8 +731,8 @@ function retryForm(row) {
 function removeRow(row) {
   const place = rows.indexOf(row);
   rows.splice(place, 1);
-  const { id, verticalId } = row.motion ?? {};
-  worker.discard([id, verticalId].filter((one) => one != null));
+  const { id, verticalId, planarId } = row.motion ?? {};
+  worker.discard([id, verticalId, planarId].filter((one) => one != null));
   if (row === selected) select(rows.slice(place).find((one) => one.motion) ?? rows.findLast((one) => one.motion) ?? null);
   else showRows();
 }
@@ -844,6 +892,7 @@ function listen() {
   element("csv").onclick = downloadCsv;
   element("svg").onclick = downloadSvg;
   element("many-csv").onclick = downloadMany;
+  element("reading-cancel").onclick = () => (readingStopped = true);
   element("many-cancel").onclick = () => (cancelled = true);
   element("view-one").onclick = () => view(false);
   element("view-many").onclick = () => view(true);
@@ -899,7 +948,7 @@ async function start() {
   listen();
   showForm();
   showGenerator();
-  const packed = Uint8Array.from(atob((element("library").textContent ?? "").trim()), (c) => c.charCodeAt(0));
+  const packed = fromText((element("library").textContent ?? "").trim());
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   await worker.load(await new globalThis.Response(stream).arrayBuffer());
   generate();

@@ -186,9 +186,18 @@ export class CurvePlot {
   /**
    * @param {Float64Array} xs
    * @param {Float64Array} ys
+   * @param {boolean} [equal]  whether both axes have one scale
    */
-  show(xs, ys) {
-    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), true);
+  show(xs, ys, equal = false) {
+    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), !equal);
+    if (!equal) return;
+    const [wide, high] = [this.#plot.over.clientWidth, this.#plot.over.clientHeight];
+    const largest = (/** @type {Float64Array} */ values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
+    const scale = 0.55 * Math.max(largest(xs) / (wide / 2), largest(ys) / (high / 2));
+    this.#plot.batch(() => {
+      this.#plot.setScale("x", { min: -scale * wide, max: scale * wide });
+      this.#plot.setScale("y", { min: -scale * high, max: scale * high });
+    });
   }
 
   resize() {

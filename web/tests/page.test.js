@@ -110,6 +110,9 @@ test("dropped files slide as the native library has it", async () => {
   await drop("three.csv");
   compare(await table(), answers.components[0]);
   assert.match(await textOf("command"), /^stickslip slide three\.csv --mu 0\.1 --component N00E$/);
+  await page.waitForSelector("#figure-path[data-si]");
+  const path = await page.$eval("#figure-path", (one) => JSON.parse(/** @type {HTMLElement} */ (one).dataset.si ?? ""));
+  compare(Object.fromEntries(Object.entries(path)), Object.fromEntries(Object.entries(answers.path)));
   await choose("(N90E)");
   compare(await table(), answers.components[1]);
   await choose("(N00E)");
