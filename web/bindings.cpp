@@ -4,6 +4,7 @@
 // Every function that can fail returns a negative number if it did; `text()` is then the message. Arguments that are
 // not numbers are bytes in `input(size)`, and results are numbers in `numbers()` or a line per item in `text()`. The
 // functions that keep a ground motion return its number, which `discard` takes.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,8 @@
 #include "stickslip/ground/records.hpp"
 #include "stickslip/ground/station.hpp"
 #include "stickslip/ground/strong_motion.hpp"
+#include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/slider.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/integrate.hpp"
@@ -161,21 +164,54 @@ double count(EventKind kind) {
   return total;
 }
 
+/// The response up to the final rest, or to the end of the motion if it never rests, as the command reports it.
 template <class Law>
-void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
-  const Slider<Law> slider(law, mounting);
+[[gnu::noinline]] Response settled(const Slider<Law>& slider, const GroundMotion& motion, bool clipped,
+                                   Response storage) {
   IntegrateOptions options;
   options.contact = clipped ? Contact::clipped : Contact::flight;
   options.settle = true;
   try {
-    response = integrate(slider, motion, options, std::move(response));
-  } catch (const ConvergenceError&) {  // its state at the end of the record, as the command reports it
+    return integrate(slider, motion, options, std::move(storage));
+  } catch (const ConvergenceError&) {
     options.settle = false;
-    response = integrate(slider, motion, options);
+    return integrate(slider, motion, options);
   }
-  const auto path = trajectory(slider, motion, response);
-  floor_forces = forces(*path);
-  const Margins margin = margins(*path);
+}
+
+/// Reads forces and margins in one pass, which costs as much as the integration.
+struct ForcesAndMargins final : TrajectoryReader {
+  explicit ForcesAndMargins(const Trajectory& trajectory) : forces(trajectory), margins(trajectory) {}
+  void arc(const Arc& arc) override {
+    forces.arc(arc);
+    margins.arc(arc);
+  }
+  void event(EventKind kind, double time, const State& state, const Load& load) override {
+    forces.event(kind, time, state, load);
+    margins.event(kind, time, state, load);
+  }
+  detail::ForcesReader forces;
+  detail::MarginReader margins;
+};
+
+/// The margins; keeps the forces.
+Margins read(const Trajectory& trajectory) {
+  const double end = trajectory.end();
+  if (trajectory.time(response.displacement.size() - 1) > end) {  // they end at different times
+    floor_forces = forces(trajectory);
+    return margins(trajectory);
+  }
+  ForcesAndMargins reader(trajectory);
+  trajectory.read(reader, end);
+  floor_forces = std::move(reader.forces.forces);
+  return reader.margins.margins;
+}
+
+template <class Law>
+void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
+  const Slider<Law> slider(law, mounting);
+  response = settled(slider, motion, clipped, std::move(response));
+  const Margins margin = read(*trajectory(slider, motion, response));
   const Energy& energy = response.energy;
   const Summary summary{response.peak,
                         response.residual,
@@ -196,6 +232,8 @@ void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion,
   answer.resize(sizeof summary / sizeof(double));
   std::memcpy(answer.data(), &summary, sizeof summary);
 }
+
+std::vector<double> copy_of(std::span<const double> values) { return {values.begin(), values.end()}; }
 
 void answer_with(std::span<const double> values) { answer.assign(values.begin(), values.end()); }
 
@@ -250,7 +288,8 @@ STICKSLIP_EXPORT(read) int read(double dt, int gaps) {
   });
 }
 
-/// Keeps a motion whose samples [m/s^2] are the input: of the axis, and with `vertical` as many of the vertical component.
+/// Keeps a motion whose samples [m/s^2] are the input: of the axis, and with `vertical` as many of the vertical
+/// component.
 STICKSLIP_EXPORT(make) int make(double dt, int vertical) {
   return guarded([&] {
     std::vector<double> axis(given.size() / sizeof(double)), up;
@@ -340,6 +379,59 @@ STICKSLIP_EXPORT(slide) int slide(int number) {
     std::memcpy(&settings, given.data(), sizeof settings);
     driving = driven(settings, of(number).motion);
     with_law(settings, [&](const auto& law, const Mounting& on) { slide(law, on, *driving, is(settings.clipped)); });
+    return 0;
+  });
+}
+
+/// Peaks and magnitudes of residuals [m] for each mu in the input, after the settings: a sliding spectrum.
+STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
+  return guarded([&] {
+    Settings settings;
+    std::vector<double> mus((given.size() - sizeof settings) / sizeof(double));
+    std::memcpy(&settings, given.data(), sizeof settings);
+    std::memcpy(mus.data(), given.data() + sizeof settings, mus.size() * sizeof(double));
+    const GroundMotion motion = driven(settings, of(number).motion);
+    answer.clear();
+    Response one;
+    for (const double mu : mus) {
+      if (!std::isnan(settings.mu_static)) settings.mu_static = std::max(settings.mu_static, mu);
+      settings.mu = mu;
+      const auto use = [&](const auto& law, const Mounting& on) {
+        one = settled(Slider(law, on), motion, is(settings.clipped), std::move(one));
+      };
+      try {
+        with_law(settings, use);
+        answer.insert(answer.end(), {one.peak, std::abs(one.residual)});
+      } catch (const std::invalid_argument&) {  // it slides under its own weight
+        answer.insert(answer.end(), {undefined, undefined});
+      }
+    }
+    return 0;
+  });
+}
+
+/// Slides a Coulomb slider in the plane under both horizontal components; the input is the settings.
+/// @return 0; `numbers` is the peak [m], its time [s], the residual along both axes [m], the sliding distance [m], the
+///         energy imbalance over the input, and then x and y at each sample [m]
+STICKSLIP_EXPORT(path) int path(int number) {
+  return guarded([&] {
+    Settings settings;
+    std::memcpy(&settings, given.data(), sizeof settings);
+    const GroundMotion& record = of(number).motion;
+    GroundMotion motion = is(settings.vertical) ? record : record.with_components(copy_of(record.transverse()));
+    if (settings.scale != 1) motion = motion.scaled(settings.scale);
+    PlanarIntegrateOptions options;
+    options.contact = is(settings.clipped) ? Contact::clipped : Contact::flight;
+    options.settle = true;
+    const PlanarSlider slider(Coulomb::from_friction(settings.mu), mounting_of(settings));
+    const PlanarResponse found = integrate(slider, motion, options);
+    answer = {found.peak,
+              found.peak_time,
+              found.residual.axis,
+              found.residual.transverse,
+              found.sliding_distance,
+              found.energy.imbalance() / (found.energy.input > 0 ? found.energy.input : 1)};
+    for (const Vector2& place : found.displacement) answer.insert(answer.end(), {place.axis, place.transverse});
     return 0;
   });
 }

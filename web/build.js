@@ -4,6 +4,8 @@ import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 
+import { toText } from "./page/packed.js";
+
 const build = new URL("../build/web/", import.meta.url);
 const page = new URL("page/", import.meta.url);
 const modules = fileURLToPath(new URL("node_modules/", build));
@@ -45,7 +47,7 @@ const parts = {
   ]
     .join("\n\n")
     .replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c] ?? c),
-  LIBRARY: gzipSync(readFileSync(new URL("stickslip.wasm", build)), { level: 9 }).toString("base64"),
+  LIBRARY: toText(gzipSync(readFileSync(new URL("stickslip.wasm", build)), { level: 9 })),
   WORKER: inScript(bundled("worker.js")),
   PAGE: inScript(bundled("main.js")),
 };

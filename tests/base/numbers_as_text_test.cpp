@@ -49,9 +49,38 @@ TEST_CASE("Without std::from_chars, numbers read the same") {
     for (const std::string& text : {shortest(value), std::to_string(value)})
       if (read_number_by_strtod(text) != read_number(text)) CHECK(read_number_by_strtod(text) == read_number(text));
   });
-  for (const char* text :
-       {"",    "-",    "+1",       " 1",    "1 ",    "1e",     "1e+",    "e5",     ".",  "-.5", "5.",    "0x10", "nan",
-        "inf", "-inf", "infinity", "1.5.2", "1e999", "-1e999", "1e-999", "0e-999", "-0", "1,5", "1e5e5", "--1"}) {
+  for (const char* text : {"",
+                           "-",
+                           "+1",
+                           " 1",
+                           "1 ",
+                           "1e",
+                           "1e+",
+                           "e5",
+                           ".",
+                           "-.5",
+                           "5.",
+                           "0x10",
+                           "nan",
+                           "inf",
+                           "-inf",
+                           "infinity",
+                           "1.5.2",
+                           "1e999",
+                           "-1e999",
+                           "1e-999",
+                           "0e-999",
+                           "-0",
+                           "1,5",
+                           "1e5e5",
+                           "--1",
+                           "1e+-5",
+                           "1e++5",
+                           "9007199254740993",
+                           "123456789012345678901",
+                           "1e22",
+                           "1e23",
+                           "-.5e-3"}) {
     CAPTURE(text);
     CHECK(read_number_by_strtod(text) == read_number(text));
   }

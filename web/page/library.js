@@ -236,17 +236,58 @@ export class Library {
     return /** @type {Measures} */ ({ dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75 });
   }
 
+  /** @param {Settings} settings */
+  #values(settings) {
+    const values = /** @type {any} */ (settings);
+    return Float64Array.from(this.#settings, (name) => Number(values[name]));
+  }
+
   /**
    * @param {number} id
    * @param {Settings} settings
    * @returns {Summary}
    */
   slide(id, settings) {
-    const values = /** @type {any} */ (settings);
-    this.#giveView(Float64Array.from(this.#settings, (name) => Number(values[name])));
+    this.#giveView(this.#values(settings));
     this.#checked(this.#wasm.slide(id));
     const numbers = this.#numbers();
     return /** @type {any} */ (Object.fromEntries(this.#summary.map((name, i) => [name, numbers[i]])));
+  }
+
+  /**
+   * Peaks and magnitudes of residuals [m] over the friction coefficient; NaN where the slider would slide under its own
+   * weight.
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {Float64Array} mus
+   */
+  spectrum(id, settings, mus) {
+    const values = this.#values(settings);
+    const both = new Float64Array(values.length + mus.length);
+    both.set(values);
+    both.set(mus, values.length);
+    this.#giveView(both);
+    this.#checked(this.#wasm.spectrum(id));
+    const numbers = this.#numbers();
+    return { peak: numbers.filter((_, i) => i % 2 === 0), residual: numbers.filter((_, i) => i % 2 === 1) };
+  }
+
+  /**
+   * A Coulomb slider in the plane, under both horizontal components.
+   * @param {number} id
+   * @param {Settings} settings  of the law only mu counts
+   * @returns {{peak: number, residual: [number, number], axis: Float64Array, transverse: Float64Array}}  [m]
+   */
+  path(id, settings) {
+    this.#giveView(this.#values(settings));
+    this.#checked(this.#wasm.path(id));
+    const [peak = NaN, , x = NaN, y = NaN, , , ...places] = this.#numbers();
+    return {
+      peak,
+      residual: [x, y],
+      axis: Float64Array.from({ length: places.length / 2 }, (_, i) => places[2 * i] ?? NaN),
+      transverse: Float64Array.from({ length: places.length / 2 }, (_, i) => places[2 * i + 1] ?? NaN),
+    };
   }
 
   /**

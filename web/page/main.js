@@ -2,10 +2,13 @@
 
 import { latest, startWorker } from "./client.js";
 import { csv, download } from "./csv.js";
-import { CurvePlot, levelLine, shade, TimePlot } from "./plots.js";
+import { color, CurvePlot, levelLine, LinePlot, shade } from "./plots.js";
 import { drawScene } from "./scene.js";
 import { applies, command, completed, FIELDS, fromLink, LAWS, python, toLink } from "./settings.js";
 import { GENERATORS, recorded } from "./sources.js";
+import { fromText } from "./packed.js";
+import { statistics } from "./statistics.js";
+import { svg } from "./svg.js";
 import { digits, unitOf } from "./units.js";
 
 /** @import { Settings } from "./library.js" */
@@ -59,6 +62,8 @@ const rows = [];
 let selected = null;
 /** @type {Response | null} */
 let response = null;
+/** Settings to compare with, and what they give. @type {{settings: Settings, response: Response | null} | null} */
+let pinned = null;
 let now = 0; // [s]
 let generator = GENERATORS.find((one) => one.name === others.motion) ?? GENERATORS[0];
 
@@ -84,38 +89,229 @@ function makePlots() {
     if (!playing && !moving && response && index !== null) setTime(response.time[index] ?? 0, false);
   };
   return {
-    acceleration: new TimePlot(element("plot-acceleration"), "acceleration", onCursor),
-    velocity: new TimePlot(element("plot-velocity"), "velocity", onCursor),
-    displacement: new TimePlot(element("plot-displacement"), "displacement", onCursor),
+    acceleration: new LinePlot(element("plot-acceleration"), ["acceleration"], onCursor),
+    velocity: new LinePlot(element("plot-velocity"), ["velocity", "pinned"], onCursor),
+    displacement: new LinePlot(element("plot-displacement"), ["displacement", "pinned"], onCursor),
     hysteresis: new CurvePlot(element("plot-hysteresis"), "force"),
+    path: new CurvePlot(element("plot-path"), "displacement"),
+    spectrum: new LinePlot(element("plot-spectrum"), ["displacement", "velocity"], null),
   };
 }
 
 const update = latest(async () => {
   const row = selected;
   if (!row?.motion) return;
-  const now = completed(settings);
-  if (!row.motion.verticalId) now.vertical = 0;
-  const id = now.vertical && row.motion.verticalId ? row.motion.verticalId : row.motion.id;
+  const [now, id] = problemOf(settings, row.motion);
+  const change = changes;
+  const done = (/** @type {string} */ state) => {
+    if (change === changes) document.body.dataset.state = state; // else the next one is coming
+  };
   try {
     const found = await worker.slide(id, now);
+    if (pinned) {
+      const [others, other] = problemOf(pinned.settings, row.motion);
+      pinned.response = await worker.slide(other, others).catch(() => null);
+    }
     if (row !== selected) return;
     response = found;
     element("trouble").textContent = "";
-    document.body.dataset.state = "shown";
+    done("shown");
   } catch (error) {
     response = null;
     element("trouble").textContent = /** @type {Error} */ (error).message;
-    document.body.dataset.state = "failed";
+    done("failed");
   }
   show(now, row);
 });
 
+/**
+ * What a motion slides with: the settings that have a meaning, and the motion with or without its vertical component.
+ * @param {Settings} given
+ * @param {Motion} motion
+ * @returns {[Settings, number]}
+ */
+function problemOf(given, motion) {
+  const full = completed(given);
+  if (motion.verticalId === null) full.vertical = 0;
+  return [full, full.vertical && motion.verticalId !== null ? motion.verticalId : motion.id];
+}
+
+let lastChange = 0; // [ms]
+let changes = 0;
+
 /** Before the answer comes, the page is not up to date. */
 function changed() {
+  lastChange = performance.now();
+  ++changes;
   document.body.dataset.state = "busy";
   history.replaceState(null, "", `#${linkText()}`);
   update();
+  updateSpectrum();
+  updatePath();
+  if (!element("many").hidden) slideMany();
+}
+
+// ---- the sliding spectrum
+
+/** @type {{key: string, mus: Float64Array, peak: Float64Array, residual: Float64Array} | null} */
+let spectrum = null;
+const [LEVELS, PART] = [100, 4];
+
+/** In parts, while nothing else is asked: it does not depend on mu, so that a moving slider can wait for it. */
+const updateSpectrum = latest(async () => {
+  const row = selected;
+  if (!row?.motion) return;
+  const [full, id] = problemOf(settings, row.motion);
+  const key = `${id} ${JSON.stringify({ ...full, mu: 0 })}`;
+  if (spectrum?.key !== key) {
+    const highest = Math.max((row.motion.measures.pga * Math.abs(full.scale)) / GRAVITY, 0.01);
+    const mus = Float64Array.from({ length: LEVELS }, (_, i) => ((i + 1) / LEVELS) * highest);
+    const [peak, residual] = [new Float64Array(LEVELS), new Float64Array(LEVELS)];
+    for (let i = 0; i < LEVELS; i += PART) {
+      await untilIdle();
+      if (row !== selected || key !== `${id} ${JSON.stringify({ ...problemOf(settings, row.motion)[0], mu: 0 })}`) return;
+      const part = await worker.spectrum(id, full, mus.slice(i, i + PART)).catch(() => null);
+      if (!part) return;
+      peak.set(part.peak, i);
+      residual.set(part.residual, i);
+    }
+    spectrum = { key, mus, peak, residual };
+  }
+  showSpectrum();
+});
+
+/** Until the response to the last change is drawn, and some time more. */
+async function untilIdle() {
+  while (document.body.dataset.state === "busy" || performance.now() - lastChange < 200)
+    await new Promise((resolve) => setTimeout(resolve, 20));
+}
+
+function showSpectrum() {
+  if (!spectrum) return;
+  const { mus, peak, residual } = spectrum;
+  element("title-spectrum").textContent = `Sliding spectrum: peak and residual (dashed) [${unit("length").name}] over \u03bc`;
+  plots.spectrum.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], {
+    after: (u, ctx) => {
+      const x = u.valToPos(settings.mu, "x", true) / devicePixelRatio;
+      ctx.strokeStyle = color("level");
+      ctx.beginPath();
+      ctx.moveTo(x, 0);
+      ctx.lineTo(x, 1000);
+      ctx.stroke();
+    },
+  });
+}
+
+// ---- the path in the plane
+
+const updatePath = latest(async () => {
+  const id = selected?.motion?.planarId ?? null;
+  const full = completed(settings);
+  const possible = id !== null && LAWS[full.law]?.name === "coulomb" && Number.isNaN(full.mu_static);
+  const found = possible ? await worker.path(id, full).catch(() => null) : null;
+  element("figure-path").hidden = found === null;
+  if (!found) return;
+  const [peak, residual] = [found.peak, Math.hypot(...found.residual)];
+  const figure = element("figure-path");
+  figure.dataset.si = JSON.stringify([found.peak, ...found.residual]);
+  element("title-path").textContent =
+    `Path in the plane [${unit("length").name}], friction along the velocity: largest distance ` +
+    `${shown(peak, "length")}, residual ${shown(residual, "length")}`;
+  plots.path.resize();
+  plots.path.show(inUnits(found.axis, "length"), inUnits(found.transverse, "length"), true);
+});
+
+// ---- many records
+
+/** @typedef {{row: Row, normal: {peak: number, residual: number}, inverse: {peak: number, residual: number}, error?: string}} Pair */
+
+/** @type {Pair[]} */
+let pairs = [];
+let cancelled = false;
+
+const slideMany = latest(async () => {
+  cancelled = false;
+  const found = [];
+  const motions = rows.filter((row) => row.motion);
+  const given = JSON.stringify(settings);
+  element("many-cancel").hidden = false;
+  for (const row of motions) {
+    element("many-progress").textContent = `Record ${found.length + 1} of ${motions.length}`;
+    const [full, id] = problemOf(settings, /** @type {Motion} */ (row.motion));
+    const none = { peak: NaN, residual: NaN };
+    try {
+      found.push({ row, ...(await worker.bothWays(id, full)) });
+    } catch (error) {
+      found.push({ row, normal: none, inverse: none, error: /** @type {Error} */ (error).message });
+    }
+    if (cancelled || given !== JSON.stringify(settings)) break;
+  }
+  element("many-cancel").hidden = true;
+  element("many-progress").textContent = cancelled ? `Cancelled after ${found.length} of ${motions.length}` : "";
+  pairs = found;
+  showMany();
+});
+
+/** @type {[string, (pair: Pair) => number][]} */
+const COLUMNS = [
+  ["peak normal", ({ normal }) => normal.peak],
+  ["peak inverse", ({ inverse }) => inverse.peak],
+  ["peak mean", ({ normal, inverse }) => (normal.peak + inverse.peak) / 2],
+  ["residual normal", ({ normal }) => normal.residual],
+  ["residual inverse", ({ inverse }) => inverse.residual],
+  ["residual mean", ({ normal, inverse }) => (normal.residual + inverse.residual) / 2],
+];
+
+/** @returns {[string, number[]][]}  mean, median and standard deviation of each column [m] */
+function manyStatistics() {
+  const columns = COLUMNS.map(([, of]) => statistics(pairs.map(of)));
+  return [
+    ["mean", columns.map((one) => one.mean)],
+    ["median", columns.map((one) => one.median)],
+    ["standard deviation", columns.map((one) => one.deviation)],
+  ];
+}
+
+function showMany() {
+  const { name, size } = unit("length");
+  const cells = (/** @type {number[]} */ values) => values.map((value) => make("td", {}, digits(value / size)));
+  const table = element("many-table");
+  table.tHead.replaceChildren(
+    make("tr", {}, make("th", {}, "record"), make("th", {}, "PGA"), ...COLUMNS.map(([head]) => make("th", {}, `${head} [${name}]`))),
+  );
+  table.tBodies[0].replaceChildren(
+    ...pairs.map((pair) => {
+      const pga = shown((pair.row.motion?.measures.pga ?? NaN) * Math.abs(settings.scale), "acceleration");
+      const head = make("th", { scope: "row" }, pair.row.label, ...(pair.error ? [make("small", {}, ` ${pair.error}`)] : []));
+      const line = make("tr", {}, head, make("td", {}, pga), ...cells(COLUMNS.map(([, of]) => of(pair))));
+      line.dataset.si = JSON.stringify(COLUMNS.map(([, of]) => of(pair)));
+      return line;
+    }),
+  );
+  table.tFoot.replaceChildren(
+    ...manyStatistics().map(([head, values]) => make("tr", {}, make("th", { scope: "row", colSpan: 2 }, head), ...cells(values))),
+  );
+}
+
+function downloadMany() {
+  const header = ["record", "pga_m_s2", ...COLUMNS.map(([head]) => `${head.replace(" ", "_")}_m`)];
+  const lines = pairs.map((pair) => [
+    pair.row.label,
+    (pair.row.motion?.measures.pga ?? NaN) * Math.abs(settings.scale),
+    ...COLUMNS.map(([, of]) => of(pair)),
+  ]);
+  const ends = manyStatistics().map(([head, values]) => [head, "", ...values]);
+  download("records.csv", csv(header, [...lines, ...ends], [`stickslip: ${toLink(completed(settings))}`]), "text/csv");
+}
+
+/** @param {boolean} many */
+function view(many) {
+  element("many").hidden = !many;
+  element("one").hidden = many;
+  element("view-one").setAttribute("aria-pressed", String(!many));
+  element("view-many").setAttribute("aria-pressed", String(many));
+  if (many) slideMany();
+  else for (const plot of Object.values(plots)) plot.resize();
 }
 
 /**
@@ -127,14 +323,23 @@ function show(s, row) {
   element("command").textContent =
     command(s, source) ?? "The command has no option for this; the lines in Python give the same numbers.";
   element("python").textContent = python(s, source);
+  element("pinned").textContent = pinned ? `Compared with ${toLink(completed(pinned.settings)).replaceAll("&", ", ")} (dashed).` : "";
   element("output").classList.toggle("empty", response === null);
   if (!response) return;
-  const { summary, time, acceleration, velocity, displacement, force, events } = response;
+  const { summary, acceleration, velocity, displacement, force, events } = response;
+  const other = pinned?.response ?? null;
+  // Both on the longer time base: the one that rested earlier stays where it is.
+  const time = other && other.time.length > response.time.length ? other.time : response.time;
+  const padded = (/** @type {Float64Array} */ values, /** @type {number} */ rest) => {
+    const longer = new Float64Array(time.length).fill(rest);
+    longer.set(values);
+    return longer;
+  };
   const [length, speed, ground] = [unit("length"), unit("velocity"), unit("acceleration")];
 
   element("title-acceleration").textContent = `Ground acceleration [${ground.name}]`;
   const levels = slipLevels(s).map((level) => level / ground.size);
-  plots.acceleration.show(time, inUnits(acceleration, "acceleration"), {
+  plots.acceleration.show(time, [inUnits(padded(acceleration, 0), "acceleration")], {
     after: (u, ctx) =>
       levels.forEach((level, i) =>
         levelLine(u, ctx, level, { stroke: "level", dash: [5, 4], label: i ? "" : "slip level", below: level < 0 }),
@@ -142,12 +347,24 @@ function show(s, row) {
   });
   element("title-velocity").textContent = `Velocity relative to the ground [${speed.name}]; shaded where it sticks`;
   const rests = sticks(events, time.at(-1) ?? 0);
-  plots.velocity.show(time, inUnits(velocity, "velocity"), { before: (u, ctx) => shade(u, ctx, rests) });
+  const speeds = [padded(velocity, 0), other ? padded(other.velocity, 0) : new Float64Array()];
+  plots.velocity.show(
+    time,
+    speeds.map((values) => inUnits(values, "velocity")),
+    { before: (u, ctx) => shade(u, ctx, rests) },
+  );
   element("title-displacement").textContent = `Displacement relative to the ground [${length.name}]`;
   const [peak, residual] = [summary.peak / length.size, summary.residual / length.size];
   const extremes = displacement.reduce((most, x) => (Math.abs(x) > Math.abs(most) ? x : most), 0);
   const signed = extremes < 0 ? -peak : peak;
-  plots.displacement.show(time, inUnits(displacement, "length"), {
+  const places = [
+    padded(displacement, summary.residual),
+    other ? padded(other.displacement, other.summary.residual) : new Float64Array(),
+  ];
+  plots.displacement.show(
+    time,
+    places.map((values) => inUnits(values, "length")),
+    {
     range: [Math.min(0, signed), Math.max(0, signed)],
     after: (u, ctx) => {
       levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3], label: `peak ${digits(peak)}`, below: signed > 0 });
@@ -158,10 +375,13 @@ function show(s, row) {
         below: residual < signed,
       });
     },
-  });
+    },
+  );
   element("title-hysteresis").textContent = `Force over the weight [g] over displacement [${length.name}]`;
   plots.hysteresis.show(inUnits(displacement, "length"), force.map((value) => value / GRAVITY));
   showNumbers();
+  showSpectrum();
+  element("report").textContent = report(s, row);
   element("time").max = String(time.at(-1) ?? 1);
   setTime(Math.min(now, time.at(-1) ?? 0));
 }
@@ -202,12 +422,15 @@ function sticks(events, end) {
   return intervals;
 }
 
-/** @returns {[string, number, Quantity, string][]}  name, value in SI units, quantity, SI unit */
-function numbers() {
-  if (!response || !selected?.motion) return [];
-  const { summary } = response;
+/**
+ * @param {Response | null} of
+ * @param {number} times  the scale of the motion
+ * @returns {[string, number, Quantity, string][]}  name, value in SI units, quantity, SI unit
+ */
+function numbers(of = response, times = settings.scale) {
+  if (!of || !selected?.motion) return [];
+  const { summary } = of;
   const { measures } = selected.motion;
-  const times = settings.scale;
   return [
     ["peak", summary.peak, "length", "m"],
     ["residual", summary.residual, "length", "m"],
@@ -228,9 +451,14 @@ function numbers() {
 }
 
 function showNumbers() {
+  const compared = pinned ? numbers(pinned.response, pinned.settings.scale) : [];
+  element("numbers").tHead.replaceChildren(
+    ...(compared.length ? [make("tr", {}, make("th"), make("td", {}, "now"), make("td", {}, "compared"))] : []),
+  );
   element("numbers").tBodies[0].replaceChildren(
-    ...numbers().map(([name, value, quantity]) => {
-      const row = make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, shown(value, quantity)));
+    ...numbers().map(([name, value, quantity], i) => {
+      const also = compared[i] ? [make("td", {}, shown(compared[i][1], quantity))] : [];
+      const row = make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, shown(value, quantity)), ...also);
       row.dataset.name = name;
       row.dataset.si = String(value);
       return row;
@@ -241,6 +469,61 @@ function showNumbers() {
       make("tr", {}, make("th", { colSpan: 2 }, "It never comes to rest; these are the numbers at the end of the record.")),
     );
 }
+
+/**
+ * A paragraph for a report.
+ * @param {Settings} s
+ * @param {Row} row
+ */
+function report(s, row) {
+  if (!response || !row.motion) return "";
+  const { summary } = response;
+  const law = LAWS[s.law]?.label ?? "";
+  const given = FIELDS.filter(({ key }) => key !== "scale" && !Number.isNaN(s[key])).map(
+    ({ key, label, unit: in_ }) => `${label} ${s[key]}${in_ ? ` ${in_}` : ""}`,
+  );
+  if (s.pendulum) given.push("the spring being a pendulum");
+  const scaled = s.scale === 1 ? "" : `, scaled by ${s.scale}`;
+  const ground = `${row.label} (PGA ${shown(summary.pga, "acceleration")}${s.vertical ? ", with its vertical component" : ""}${scaled})`;
+  const rest = summary.at_rest
+    ? `comes to rest with a residual displacement of ${shown(summary.residual, "length")}`
+    : `has not come to rest at the end of the record, where its displacement is ${shown(summary.residual, "length")}`;
+  return (
+    `A mass held by friction (${law}, \u03bc = ${s.mu}${given.length ? `; ${given.join("; ")}` : ""}) was subjected to the ground motion ` +
+    `${ground}. It slides ${shown(summary.sliding_distance, "length")} in ${summary.slips} slips; its displacement relative to the ` +
+    `ground reaches ${shown(summary.peak, "length")}, and it ${rest}. Computed with stickslip, event by event; the energy ` +
+    `balance closes to ${digits(Math.abs(summary.imbalance / (summary.input || 1)))} of the work of the ground, and the closest ` +
+    `decision between stick and slip has a relative margin of ${digits(Math.min(summary.margin, summary.impact_margin))}.`
+  );
+}
+
+function downloadSvg() {
+  if (!response || !selected) return;
+  const { summary, time, acceleration, velocity, displacement } = response;
+  const { length, ground, speed } = { length: unit("length"), ground: unit("acceleration"), speed: unit("velocity") };
+  const level = { stroke: "#a0417a", label: "" };
+  const picture = svg(selected.label, time, [
+    {
+      title: `Ground acceleration [${ground.name}]`,
+      lines: [{ values: inUnits(acceleration, "acceleration"), stroke: "#56616c" }],
+      levels: slipLevels(completed(settings)).map((value) => ({ ...level, value: value / ground.size })),
+    },
+    {
+      title: `Velocity relative to the ground [${speed.name}]`,
+      lines: [{ values: inUnits(velocity, "velocity"), stroke: "#0072b2" }],
+      levels: [],
+    },
+    {
+      title: `Displacement relative to the ground [${length.name}], peak ${digits(summary.peak / length.size)}`,
+      lines: [{ values: inUnits(displacement, "length"), stroke: "#d55e00" }],
+      levels: [{ ...level, value: summary.residual / length.size, label: `residual ${digits(summary.residual / length.size)}` }],
+    },
+  ]);
+  download(`${fileName(selected)}.svg`, picture, "image/svg+xml");
+}
+
+/** @param {Row} row */
+const fileName = (row) => row.label.replace(/[^\w.-]+/g, "_");
 
 // ---- time
 
@@ -319,18 +602,25 @@ function play(on) {
 
 // ---- records
 
+let readingStopped = false;
+
 /** @param {FileList | File[]} files */
 async function addFiles(files) {
   let done = 0;
   const first = rows.length;
+  readingStopped = false;
+  element("reading-cancel").hidden = files.length === 1;
   for (const file of files) {
     element("progress").textContent = files.length > 1 ? `Reading file ${++done} of ${files.length}` : "Reading";
     const inside = await worker.unpack(file.name, new Uint8Array(await file.arrayBuffer()));
     for (const one of inside) {
       if ("error" in one) rows.push({ label: one.name, file: one.name, error: one.error, source: () => recordedAs(one.name) });
       else await addFile(one.name, one.bytes);
+      if (readingStopped) break;
     }
+    if (readingStopped) break;
   }
+  element("reading-cancel").hidden = true;
   element("progress").textContent = "";
   select(rows.slice(first).find((row) => row.motion) ?? selected);
 }
@@ -370,7 +660,7 @@ async function addFile(file, bytes, options = {}, place = rows.length) {
     found = [{ label: file, file, error: message, bytes, source: () => recordedAs(file) }];
   }
   rows.splice(place, 1, ...found);
-  showRows();
+  showRowsSoon();
   return found[0];
 }
 
@@ -384,6 +674,18 @@ function select(row) {
 
 function showRows() {
   element("records").replaceChildren(...rows.map(rowElement));
+}
+
+let rowsWait = false;
+
+/** Once for many files. */
+function showRowsSoon() {
+  if (rowsWait) return;
+  rowsWait = true;
+  setTimeout(() => {
+    rowsWait = false;
+    showRows();
+  }, 100);
 }
 
 /** @param {Row} row */
@@ -420,6 +722,7 @@ function retryForm(row) {
     const options = { units: choice.value, ...(dt.value ? { dt: Number(dt.value) } : {}) };
     const found = await addFile(row.file, /** @type {Uint8Array} */ (row.bytes), options, rows.indexOf(row));
     if (found?.motion) select(found);
+    else showRows();
   };
   return form;
 }
@@ -428,8 +731,8 @@ function retryForm(row) {
 function removeRow(row) {
   const place = rows.indexOf(row);
   rows.splice(place, 1);
-  const { id, verticalId } = row.motion ?? {};
-  worker.discard([id, verticalId].filter((one) => one != null));
+  const { id, verticalId, planarId } = row.motion ?? {};
+  worker.discard([id, verticalId, planarId].filter((one) => one != null));
   if (row === selected) select(rows.slice(place).find((one) => one.motion) ?? rows.findLast((one) => one.motion) ?? null);
   else showRows();
 }
@@ -587,6 +890,17 @@ function listen() {
       setTime(response.time[index] ?? 0);
     };
   element("csv").onclick = downloadCsv;
+  element("svg").onclick = downloadSvg;
+  element("many-csv").onclick = downloadMany;
+  element("reading-cancel").onclick = () => (readingStopped = true);
+  element("many-cancel").onclick = () => (cancelled = true);
+  element("view-one").onclick = () => view(false);
+  element("view-many").onclick = () => view(true);
+  element("pin").onclick = () => {
+    pinned = pinned ? null : { settings: { ...settings }, response };
+    element("pin").setAttribute("aria-pressed", String(pinned !== null));
+    changed();
+  };
   element("link").onclick = () => copy(location.href, element("link"));
   for (const button of /** @type {NodeListOf<HTMLButtonElement>} */ (document.querySelectorAll(".copy")))
     button.onclick = () => copy(element(button.dataset.of ?? "").textContent ?? "", button);
@@ -622,8 +936,7 @@ function downloadCsv() {
     ...numbers().map(([name, value, , si]) => `${name}${si ? ` [${si}]` : ""}: ${value}`),
   ];
   const header = ["time_s", "ground_acceleration_m_s2", "velocity_m_s", "displacement_m", "force_m_s2"];
-  const name = selected.label.replace(/[^\w.-]+/g, "_");
-  download(`${name}.csv`, csv(header, rows, comments), "text/csv");
+  download(`${fileName(selected)}.csv`, csv(header, rows, comments), "text/csv");
 }
 
 // ---- start
@@ -635,7 +948,7 @@ async function start() {
   listen();
   showForm();
   showGenerator();
-  const packed = Uint8Array.from(atob((element("library").textContent ?? "").trim()), (c) => c.charCodeAt(0));
+  const packed = fromText((element("library").textContent ?? "").trim());
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   await worker.load(await new globalThis.Response(stream).arrayBuffer());
   generate();

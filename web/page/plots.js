@@ -29,10 +29,8 @@ const axes = (time) => {
   ];
 };
 
-/**
- * A picture over time, whose cursor the pictures of one group share.
- */
-export class TimePlot {
+/** A picture of lines over time, whose cursor the pictures over time share; or over another number. */
+export class LinePlot {
   /** @type {uPlot} */
   #plot;
   #container;
@@ -43,10 +41,10 @@ export class TimePlot {
 
   /**
    * @param {HTMLElement} container
-   * @param {string} stroke  name of the color
-   * @param {(index: number | null) => void} onCursor
+   * @param {string[]} strokes  names of the colors; the second line is dashed
+   * @param {((index: number | null) => void) | null} onCursor  null if it is not over time
    */
-  constructor(container, stroke, onCursor) {
+  constructor(container, strokes, onCursor) {
     this.#container = container;
     const draw = (/** @type {() => Draw} */ what) => (/** @type {uPlot} */ u) => {
       const { ctx, bbox } = u;
@@ -66,37 +64,54 @@ export class TimePlot {
         padding: [8, 12, 0, 0],
         legend: { show: false },
         scales: { x: { time: false } },
-        axes: axes(true),
-        cursor: { y: false, drag: { x: true, y: false }, sync: { key: "time" }, points: { size: 6 } },
-        series: [{}, { stroke: () => color(stroke), width: 1.25, points: { show: false } }],
+        axes: axes(onCursor !== null),
+        cursor: {
+          show: onCursor !== null,
+          y: false,
+          drag: { x: true, y: false },
+          points: { size: 6 },
+          ...(onCursor ? { sync: { key: "time" } } : {}),
+        },
+        series: [
+          {},
+          ...strokes.map((stroke, i) => ({
+            stroke: () => color(stroke),
+            width: 1.25,
+            points: { show: false },
+            ...(i ? { dash: [6, 3] } : {}),
+          })),
+        ],
         hooks: {
           drawClear: [draw(() => this.#before)],
           draw: [draw(() => this.#after)],
-          setCursor: [(/** @type {uPlot} */ u) => onCursor(u.cursor.idx ?? null)],
+          setCursor: [(/** @type {uPlot} */ u) => onCursor?.(u.cursor.idx ?? null)],
         },
       },
-      [[], []],
+      [[], ...strokes.map(() => [])],
       container,
     );
   }
 
   /**
    * @param {Float64Array} time
-   * @param {Float64Array} values
+   * @param {Float64Array[]} lines  as long, or empty
    * @param {{before?: Draw, after?: Draw, range?: [number, number]}} [more]  drawn below and above the line, in CSS pixels; the
    *   least range of values
    */
-  show(time, values, { before = () => {}, after = () => {}, range = [0, 0] } = {}) {
+  show(time, lines, { before = () => {}, after = () => {}, range = [0, 0] } = {}) {
     this.#before = before;
     this.#after = after;
     let [low, high] = range;
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
+    for (const values of lines)
+      for (const value of values) {
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
     const room = 0.06 * (high - low || 1);
     this.#plot.batch(() => {
-      this.#plot.setData(/** @type {any} */ ([time, values]), false);
+      const filled = lines.map((values) => (values.length ? values : time.map(() => NaN)));
+      this.#plot.setData(/** @type {any} */ ([time, ...filled]), false);
+      lines.forEach((values, i) => this.#plot.setSeries(i + 1, { show: values.length > 0 }));
       this.#plot.setScale("x", { min: time[0] ?? 0, max: time.at(-1) ?? 1 });
       this.#plot.setScale("y", { min: low - room, max: high + room });
     });
@@ -150,7 +165,14 @@ export class CurvePlot {
             paths: (u, series) => {
               const [xs, ys] = /** @type {any} */ (u.data[series]);
               const stroke = new Path2D();
-              for (let i = 0; i < xs.length; ++i) stroke.lineTo(u.valToPos(xs[i], "x", true), u.valToPos(ys[i], "y", true));
+              const [left, top] = [u.valToPos(0, "x", true), u.valToPos(0, "y", true)];
+              const [wide, high] = [u.valToPos(1, "x", true) - left, u.valToPos(1, "y", true) - top];
+              let [lastX, lastY] = [NaN, NaN];
+              for (let i = 0; i < xs.length; ++i) {
+                const [x, y] = [left + wide * xs[i], top + high * ys[i]];
+                if (Math.abs(x - lastX) < 0.5 && Math.abs(y - lastY) < 0.5) continue; // nobody would see it
+                stroke.lineTo((lastX = x), (lastY = y));
+              }
               return /** @type {any} */ ({ stroke, fill: null, clip: null });
             },
           },
@@ -164,9 +186,18 @@ export class CurvePlot {
   /**
    * @param {Float64Array} xs
    * @param {Float64Array} ys
+   * @param {boolean} [equal]  whether both axes have one scale
    */
-  show(xs, ys) {
-    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), true);
+  show(xs, ys, equal = false) {
+    this.#plot.setData(/** @type {any} */ ([null, [xs, ys]]), !equal);
+    if (!equal) return;
+    const [wide, high] = [this.#plot.over.clientWidth, this.#plot.over.clientHeight];
+    const largest = (/** @type {Float64Array} */ values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 1e-9);
+    const scale = 0.55 * Math.max(largest(xs) / (wide / 2), largest(ys) / (high / 2));
+    this.#plot.batch(() => {
+      this.#plot.setScale("x", { min: -scale * wide, max: scale * wide });
+      this.#plot.setScale("y", { min: -scale * high, max: scale * high });
+    });
   }
 
   resize() {

@@ -8,7 +8,7 @@ import { GENERATORS } from "./sources.js";
 
 /**
  * A ground motion of the worker.
- * @typedef {Component & {measures: Measures, verticalId: number | null, several: boolean}} Motion
+ * @typedef {Component & {measures: Measures, verticalId: number | null, planarId: number | null, several: boolean}} Motion
  */
 
 /**
@@ -54,7 +54,16 @@ const calls = {
         } catch {
           // No orientation, or another time base: the component slides alone.
         }
-      return { ...one, measures: library.measures(one.id), verticalId, several };
+      /** @type {number | null} */
+      let planarId = null;
+      const other = horizontal.find((another) => another !== one);
+      if (other && !one.vertical && horizontal.length === 2)
+        try {
+          planarId = library.station([one.id, other.id, ...(vertical ? [vertical.id] : [])]);
+        } catch {
+          // As above: there is no path in the plane.
+        }
+      return { ...one, measures: library.measures(one.id), verticalId, planarId, several };
     });
     if (vertical && horizontal.length) library.discard(vertical.id);
     return motions;
@@ -78,7 +87,7 @@ const calls = {
     const id = generator.make(library, values);
     const measures = library.measures(id);
     const named = { name: generator.label, component: "", orientation: "", units: "" };
-    return { id, ...named, vertical: false, measures, verticalId: null, several: false };
+    return { id, ...named, vertical: false, measures, verticalId: null, planarId: null, several: false };
   },
 
   /** @param {number[]} ids */
@@ -106,6 +115,40 @@ const calls = {
       force: library.history("force"),
       events: library.history("events"),
     };
+  },
+
+  /**
+   * @param {number} id
+   * @param {Settings} settings
+   */
+  path(id, settings) {
+    return library.path(id, settings);
+  },
+
+  /**
+   * @param {number} id
+   * @param {Settings} settings
+   * @param {Float64Array} mus
+   */
+  spectrum(id, settings, mus) {
+    return library.spectrum(id, settings, mus);
+  },
+
+  /**
+   * Peak and magnitude of the residual [m] with the record as it is and reversed.
+   * @param {number} id
+   * @param {Settings} settings
+   */
+  bothWays(id, settings) {
+    const [normal, inverse] = [1, -1].map((sign) => {
+      const { peak, residual } = library.spectrum(
+        id,
+        { ...settings, scale: sign * settings.scale },
+        Float64Array.of(settings.mu),
+      );
+      return { peak: peak[0] ?? NaN, residual: residual[0] ?? NaN };
+    });
+    return { normal: normal ?? { peak: NaN, residual: NaN }, inverse: inverse ?? { peak: NaN, residual: NaN } };
   },
 
   /** Size of the memory of the library [bytes]. */

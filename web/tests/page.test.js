@@ -1,7 +1,7 @@
 // The page in a headless Chromium: its numbers against the native library's, and what its reader does.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readdirSync, readFileSync, statSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { after, before, beforeEach, test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -110,6 +110,9 @@ test("dropped files slide as the native library has it", async () => {
   await drop("three.csv");
   compare(await table(), answers.components[0]);
   assert.match(await textOf("command"), /^stickslip slide three\.csv --mu 0\.1 --component N00E$/);
+  await page.waitForSelector("#figure-path[data-si]");
+  const path = await page.$eval("#figure-path", (one) => JSON.parse(/** @type {HTMLElement} */ (one).dataset.si ?? ""));
+  compare(Object.fromEntries(Object.entries(path)), Object.fromEntries(Object.entries(answers.path)));
   await choose("(N90E)");
   compare(await table(), answers.components[1]);
   await choose("(N00E)");
@@ -203,20 +206,66 @@ test("archives, broken files, and files that leave their units open", async () =
 test("the table downloads with full digits", async () => {
   await open("mu=0.1");
   await drop("three.csv");
-  const folder = mkdtempSync(`${fileURLToPath(build)}download-`);
-  const client = await page.createCDPSession();
-  await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
-  await page.click("#csv");
-  for (let tries = 0; tries < 100 && !readdirSync(folder).some((name) => name.endsWith(".csv")); ++tries)
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  const [name = ""] = readdirSync(folder);
-  const lines = readFileSync(`${folder}/${name}`, "utf8").trim().split("\n");
+  const lines = (await downloaded("#csv", ".csv")).trim().split("\n");
   const rows = lines.filter((line) => !line.startsWith("#")).map((line) => line.split(","));
   assert.deepEqual(rows[0], ["time_s", "ground_acceleration_m_s2", "velocity_m_s", "displacement_m", "force_m_s2"]);
   const { peak = NaN, residual = NaN } = await table();
   assert.ok(lines.includes(`# peak [m]: ${peak}`));
   assert.equal(Number(rows.at(-1)?.[3]), residual);
   assert.ok(rows.length > 3000);
+  assert.deepEqual(complaints, []);
+});
+
+/** What a button downloads. @param {string} button  @param {string} ending */
+async function downloaded(button, ending) {
+  const folder = mkdtempSync(`${fileURLToPath(build)}download-`);
+  const client = await page.createCDPSession();
+  await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await page.click(button);
+  const found = () => readdirSync(folder).find((name) => name.endsWith(ending));
+  for (let tries = 0; tries < 100 && !found(); ++tries) await new Promise((resolve) => setTimeout(resolve, 100));
+  const text = readFileSync(`${folder}/${found()}`, "utf8");
+  rmSync(folder, { recursive: true });
+  return text;
+}
+
+test("many records: both ways, with mean, median and deviation", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  await page.click("#view-many");
+  await page.waitForFunction(() => document.querySelectorAll("#many-table tbody tr").length === 3);
+  const found = await page.$$eval("#many-table tbody tr", (all) =>
+    all.slice(1).map((one) => JSON.parse(/** @type {HTMLElement} */ (one).dataset.si ?? "")),
+  );
+  answers.many.forEach((/** @type {number[]} */ expected, /** @type {number} */ i) =>
+    compare(Object.fromEntries(Object.entries(found[i] ?? [])), Object.fromEntries(Object.entries(expected))),
+  );
+  const lines = (await downloaded("#many-csv", ".csv")).trim().split("\n");
+  assert.equal(lines.length, 1 + 1 + 3 + 3);
+  const peaks = lines.slice(2, 5).map((line) => Number(line.split(",")[2]));
+  const mean = peaks.reduce((sum, value) => sum + value, 0) / 3;
+  assert.equal(lines[5]?.split(",")[0], "mean");
+  assert.ok(Math.abs(Number(lines[5]?.split(",")[2]) - mean) < 1e-12);
+  assert.equal(Number(lines[6]?.split(",")[2]), peaks.sort((a, b) => a - b)[1]);
+  assert.deepEqual(complaints, []);
+});
+
+test("two settings side by side, SVG, and a paragraph", async () => {
+  await open("mu=0.15");
+  await drop("three.csv");
+  await page.click("#pin");
+  await settled();
+  await page.focus("#mu-slider");
+  for (let i = 0; i < 10; ++i) await page.keyboard.press("ArrowLeft");
+  await settled();
+  compare(await table(), answers.first["0.1"]);
+  const row = await page.$eval('#numbers tr[data-name="peak"]', (one) => [...one.querySelectorAll("td")].map((td) => td.textContent));
+  const shown = [answers.first["0.1"].peak, answers.first["0.15"].peak].map((peak) => `${Number((peak * 100).toPrecision(4))} cm`);
+  assert.deepEqual(row, shown);
+  assert.match(await textOf("report"), /^A mass held by friction \(Coulomb, \u03bc = 0\.1\) .* reaches 57\.13 cm/);
+  const picture = await downloaded("#svg", ".svg");
+  assert.match(picture, /^<svg .*<path d="M[\d.,L-]+" fill="none".*<\/svg>$/s);
+  await page.waitForFunction(() => document.querySelector("#title-spectrum")?.textContent?.startsWith("Sliding spectrum"));
   assert.deepEqual(complaints, []);
 });
 

@@ -51,6 +51,17 @@ def numbers(motion: ss.GroundMotion, mu: float, **mounting: float) -> dict[str, 
     }
 
 
+def both_ways(motion: ss.GroundMotion, mu: float) -> list[float]:
+    """Peaks, then magnitudes of residuals: of the motion, of its reverse, and the means."""
+    slider = ss.Slider(ss.Coulomb(mu=mu))
+    normal, inverse = (
+        ss.integrate(slider, motion.scaled(sign), settle=True) for sign in (1.0, -1.0)
+    )
+    peaks = [normal.peak, inverse.peak]
+    residuals = [abs(normal.residual), abs(inverse.residual)]
+    return [*peaks, float(np.mean(peaks)), *residuals, float(np.mean(residuals))]
+
+
 def main() -> None:
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
@@ -69,7 +80,14 @@ def main() -> None:
     first = ss.read_record(three, component=1)
     spectrum = ss.Spectrum.kanai_tajimi(s0=0.01, frequency=15, damping=0.6)
     noise = ss.GaussianExcitation(spectrum, 0.01, 2048).sample(seed=1, member=0)
+    horizontal = ss.read_station(three, along=first.orientation)
+    horizontal = ss.GroundMotion(
+        horizontal.acceleration, horizontal.dt, transverse=horizontal.transverse
+    )
+    plane = ss.integrate(ss.PlanarSlider(ss.Slider(ss.Coulomb(mu=MU[0]))), horizontal, settle=True)
     answers = {
+        "many": [both_ways(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
+        "path": [plane.peak, *plane.residual.tolist()],
         "components": [numbers(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
         "first": {str(mu): numbers(first, mu) for mu in MU},
         "vertical": numbers(ss.read_station(three, along=first.orientation), MU[0]),
