@@ -2461,7 +2461,7 @@ def response_spectrum(
     kind: _SpectrumKind = "pseudo_acceleration",
 ) -> SuiteSpectra: ...
 
-class _PlanarFloorMotion:
+class _PlanarFloorMotion(metaclass=_Pybind11Type):
     def __init__(self, response: PlanarResponse) -> None: ...
     def spectrum(
         self, direction: _Number, periods: _Number | _Samples, damping: _Number, kind: str

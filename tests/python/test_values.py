@@ -49,6 +49,12 @@ FIGURES = [DRAWN.figure(number) for number in ("4.3", "A.2", "Table 5.1")]
 STATEMENTS = [s for figure in FIGURES for s in figure.statements]
 RARE = ss.PoissonPulses(rate=0.01, half_width=1, sigma=2, duration=100)
 
+STRIPES = ss.sweep(
+    ss.Coulomb(mu=0.2), ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.8]), settle=True
+)
+CURVES = [ss.Fragility.fit(STRIPES, im="pga_g", thresholds=t) for t in (0.05, [0.05, 0.1])]
+HAZARD = ss.Hazard([0.01, 0.1, 1, 10], [1, 1e-2, 1e-4, 1e-7], name="pga_g", unit="g")
+
 # Of each class, objects that differ.
 EXAMPLES = {
     ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
@@ -211,6 +217,17 @@ EXAMPLES = {
         ss.WithTransverse(PULSES, arrivals="independent"),
         ss.WithTransverse(ss.WithVertical(PULSES)),
     ],
+    ss.ASCE43Estimate: [ss.asce43(mu=mu, motion=EVEN) for mu in (0.05, 0.1)],
+    ss.DesignChart: [
+        ss.design_chart(ss.Suite([ss.sample_record("Kobe")]), [0.1, 0.2], pga_g=[level])
+        for level in (0.4, 0.6)
+    ],
+    ss.IntensityEfficiency: [
+        ss.intensity_efficiency(STRIPES, ["pga_g", "pgv"], periods=periods) for periods in ([], [1])
+    ],
+    ss.Fragility: CURVES,
+    ss.Hazard: [HAZARD, ss.Hazard([0.1, 1], [1e-2, 1e-5], name="pga_g", unit="g")],
+    ss.Exceedances: [curve.rate_of_exceedance(HAZARD) for curve in CURVES],
     ss.Orientations: [
         ss.orientations(BLOCK, TWO, [0, 45]),
         ss.orientations(BLOCK, TWO, [0, 46]),
@@ -395,6 +412,7 @@ def test_what_differs_compares_different(kind):
 def test_what_can_change_has_no_hash_and_all_else_has_one():
     unhashable = {kind for kind in EXAMPLES if kind.__hash__ is None}
     tables = {ss.SweepTable, ss.IntensityMeasures, ss.SuiteSpectra, ss.RotD, ss.Orientations}
+    tables |= {ss.Fragility, ss.Hazard, ss.Exceedances, ss.DesignChart, ss.IntensityEfficiency}
     assert unhashable == {ss.Ensemble, ss.Comparison, ss.Grid} | tables
     for kind in EXAMPLES.keys() - unhashable:
         assert len({*EXAMPLES[kind], *EXAMPLES[kind]}) == len(EXAMPLES[kind])

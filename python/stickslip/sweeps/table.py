@@ -109,7 +109,7 @@ class SweepTable(Tabular, Saved):
     metadata : dict of ndarray
         Columns of the suite, with a value for each record, and its `pga_g` [g].
     motions : tuple of GroundMotion
-        The ground motions. They are not saved: empty for a table from a file and for a copy.
+        The ground motions; empty for a table from a file.
     polarity : tuple of str
         'recorded', under n(t), and 'reversed', under -n(t), or one of them.
     settle : bool
@@ -193,16 +193,12 @@ class SweepTable(Tabular, Saved):
         self.done = np.isfinite(self.peak).any(axis=(0, 2))
         self.motions: tuple[GroundMotion, ...] = ()
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "motions"}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state, motions=())
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, SweepTable):
             return NotImplemented
-        return same(self.__getstate__(), other.__getstate__())
+        # A table from a file has no motions.
+        mine, its = ({**table.__dict__, "motions": ()} for table in (self, other))
+        return same(mine, its)
 
     __hash__ = None  # type: ignore[assignment]
 
