@@ -345,10 +345,13 @@ def content(thing):
         return content(np.asarray(thing))
     if isinstance(thing, list | tuple | range):
         return type(thing), [content(element) for element in thing]
+    if hasattr(thing, "toarray"):  # a sparse matrix
+        return content(thing.toarray())
     if isinstance(thing, dict):
         return {name: content(value) for name, value in thing.items()}
     if type(thing) not in EXAMPLES:
-        return thing
+        part = type(thing).__module__.startswith("stickslip.") and hasattr(thing, "__dict__")
+        return content(vars(thing)) if part and type(thing).__eq__ is object.__eq__ else thing
     shown = {"repr": repr(thing)} if type(thing) is not ss.Comparison else {}
     for name in dir(thing):
         if name.startswith("__") or name == "with_traceback":
