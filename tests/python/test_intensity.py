@@ -153,7 +153,7 @@ def test_rotd_does_not_depend_on_how_the_station_is_turned():
 def test_rotd_needs_two_horizontal_components():
     with pytest.raises(ValueError, match="rotd: 'quake 1' needs a transverse component"):
         ss.rotd(quake(1))
-    with pytest.raises(TypeError, match="rotd: station must be a GroundMotion or a PlanarResponse, got Suite"):
+    with pytest.raises(TypeError, match="must be a GroundMotion or a PlanarResponse, got Suite"):
         ss.rotd(SUITE)
     with pytest.raises(ValueError, match="damping must be one number"):
         ss.rotd(quake(1, transverse=quake(2).acceleration), 1.0, [0.02, 0.05])

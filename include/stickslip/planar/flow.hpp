@@ -119,15 +119,16 @@ class PlanarFlow {
 
   /// r'' at a parameter [m/s^2]; at a stop, its limit there.
   Vector2 acceleration_at(double s) const noexcept {
-    if (kind_ == Kind::stop) return closing_.acceleration(std::max(1 - s, 0x1p-60));
     if (kind_ == Kind::held) return held_.acceleration(s);
     if (along_stop_) return (1 / slope(t_, s)) * Vector2{slope(vx_, s), slope(vy_, s)};
     // By its forces: near a stop the derivative of the velocity is the difference of large numbers.
-    const PlanarProgress at = at_parameter(s);
+    const bool stop = kind_ == Kind::stop;
+    PlanarProgress at = at_parameter(s);
+    if (stop) at.velocity = at_parameter(std::min(s, 1 - 0x1p-40)).velocity;  // of which the direction has a limit
     const double weight = load_.weight + load_.weight_rate * at.time, speed = norm(at.velocity);
     const Vector2 q = load_.start + at.time * load_.rate - spring_.under(weight) * (place_ + at.way);
-    double level = 0;
-    for (int k = order_ - 1; k >= 0; --k) level = level * s + l_[k];
+    double level = stop ? closing_.level - damping_ * norm(velocity_) : 0;
+    for (int k = stop ? -1 : order_ - 1; k >= 0; --k) level = level * s + l_[k];
     const double size = norm(q);
     const Vector2 direction = speed > 0 ? (1 / speed) * at.velocity : size > 0 ? (1 / size) * q : Vector2{};
     return q - level * direction - damping_ * at.velocity;
@@ -324,11 +325,6 @@ class PlanarFlow {
       left.velocity = ((p - m) / 2) * to + c * turned(to);
       left.distance = ((p > 0 ? p * p / slow : 0) + m * m / fast) / 8 + (p > 0 ? p * m / (4 * level) : 0);
       return left;
-    }
-    Vector2 acceleration(double g) const noexcept {
-      const Vector2 velocity = to_stop(g).velocity;
-      const double speed = norm(velocity);
-      return load * to - (speed > 0 ? level / speed : 0) * velocity;
     }
     PlanarProgress at(double g, const PlanarProgress& end) const noexcept {
       const PlanarProgress left = to_stop(g);
@@ -704,6 +700,15 @@ class PlanarFlow {
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     for (double& value : u_) value = 0;
     u_[0] = speed;
+    // A coefficient is set twice. GCC 12 at -O1 drops the first of two such stores (-fipa-modref), although the update
+    // between them reads it: the compiler is told that the store is seen.
+    const auto update = [&](int k, double speed_k) {
+      swift[k] = speed_k;
+#if defined(__GNUC__)
+      asm volatile("" : : "r"(&swift) : "memory");
+#endif
+      resistance.update(k);
+    };
     double previous = never, steep = 0;
     for (int sweep = 0;; ++sweep) {
       double changed = 0;
@@ -714,22 +719,20 @@ class PlanarFlow {
         const double taken = slip.sigma[k] - (k + 1) * u_[k + 1] / step, before = u_[k];
         if (k == 0) {
           for (int i = 0; i < 3; ++i) {
-            swift[0] = u_[0], swift[1] = 1, path[1] = when[1] = 0;
-            resistance.update(0), resistance.update(1);
+            path[1] = when[1] = 0;
+            update(0, u_[0]), update(1, 1);
             steep = load_.weight * resistance[1] + damping_;
             if (!(steep > 0)) return false;
             u_[0] -= (load_.weight * resistance[0] + damping_ * u_[0] - taken) / steep;
             if (!(u_[0] > 0)) return false;
           }
-          swift[0] = u_[0];
-          resistance.update(0);
+          update(0, u_[0]);
           l_[0] = load_.weight * resistance[0];
         } else {
-          path[k] = s_[k], when[k] = t_[k], swift[k] = 0;
-          resistance.update(k);
+          path[k] = s_[k], when[k] = t_[k];
+          update(k, 0);
           const double rest = load_.weight * resistance[k] + gains * resistance[k - 1];
-          swift[k] = u_[k] = (taken - rest) / steep;
-          resistance.update(k);
+          update(k, u_[k] = (taken - rest) / steep);
           l_[k] = load_.weight * resistance[k] + gains * resistance[k - 1];
         }
         // The round-off of the load remains.
