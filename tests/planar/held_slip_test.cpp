@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <random>
 
+#include "stickslip/planar/integrate.hpp"
 #include "support/catch.hpp"
+#include "support/motions.hpp"
 #include "support/size.hpp"
 
 using namespace stickslip;
@@ -16,7 +19,7 @@ namespace {
 
 using Real = long double;
 
-struct Start {
+struct SlipStart {
   double level, load, speed, angle;  // from the load
   double plus() const { return along() < 0 ? across() * across() / (speed - along()) : speed + along(); }
   double minus() const { return along() < 0 ? speed - along() : across() * across() / (speed + along()); }
@@ -25,9 +28,9 @@ struct Start {
   detail::HeldSlip slip() const { return {{1, 0}, level, load, plus(), minus(), across()}; }
 };
 
-Start random_start(std::mt19937_64& bits, int i) {
+SlipStart random_start(std::mt19937_64& bits, int i) {
   std::uniform_real_distribution<double> part(0, 1);
-  Start s{3 * part(bits), 4 * part(bits), std::pow(10, -2 + 2 * part(bits)), 2 * std::numbers::pi * part(bits)};
+  SlipStart s{3 * part(bits), 4 * part(bits), std::pow(10, -2 + 2 * part(bits)), 2 * std::numbers::pi * part(bits)};
   if (i % 5 == 1) s.load = 2 * s.level;  // at which a rate of the motion across the load vanishes
   if (i % 5 == 2) s.load = s.level;
   if (i % 5 == 3) s.load = 0;
@@ -39,7 +42,7 @@ Start random_start(std::mt19937_64& bits, int i) {
 /// which no exponential changes by more than e^(1/4): exact to 1e-20 of each.
 struct Integrals {
   Real time = 0, along = 0, across = 0, distance = 0;
-  Integrals(const Start& s, double until) {
+  Integrals(const SlipStart& s, double until) {
     static constexpr Real nodes[] = {0.1488743389816312108848260011297200L, 0.4333953941292471907992659431657842L,
                                      0.6794095682990244062343273651148736L, 0.8650633666889845107320966884234930L,
                                      0.9739065285171717200779640120844521L};
@@ -69,7 +72,7 @@ TEST_CASE("a slip under a held load is the integral of its exponentials", "[plan
   std::uniform_real_distribution<double> part(0, 1);
   int stops = 0;
   for (int i = 0; i < size(400, 40); ++i) {
-    const Start s = random_start(bits, i);
+    const SlipStart s = random_start(bits, i);
     const double duration = std::pow(10, -3 + 3 * part(bits));
     INFO("level " << s.level << ", load " << s.load << ", speed " << s.speed << ", angle " << s.angle << " for "
                   << duration);
@@ -105,7 +108,7 @@ TEST_CASE("the largest distance of a slip under a held load is found between its
   std::uniform_real_distribution<double> part(-2, 2);
   int inside = 0;
   for (int i = 0; i < size(300, 40); ++i) {
-    const Start s = random_start(bits, i);
+    const SlipStart s = random_start(bits, i);
     const detail::HeldSlip slip = s.slip();
     const double tau = slip.parameter(0.3 * (1 + i % 7));
     const double path = slip.at(tau).distance;
@@ -121,4 +124,22 @@ TEST_CASE("the largest distance of a slip under a held load is found between its
     inside += largest > std::max(start, end) * (1 + 1e-9);
   }
   CHECK(inside > 10);
+}
+
+TEST_CASE("under held loads the closed form and power series give the same response", "[planar][held]") {
+  // A damper of 1e-200/s changes nothing, but it has no closed form.
+  for (std::uint64_t seed = 1; seed <= size(60u, 6u); ++seed) {
+    const double strength = seed % 3 == 0 ? 0.1 : 2;
+    const GroundMotion ground = GroundMotion(gaussian(seed, 300, 2), 0.02, Interpolation::constant)
+                                    .with_components(gaussian(seed + 1000, 300, strength));
+    const PlanarResponse one = integrate(PlanarSlider(Coulomb(1)), ground, {.settle = true}),
+                         other = integrate(PlanarSlider(Coulomb(1), {.damping = 1e-200}), ground, {.settle = true});
+    INFO("seed " << seed);
+    const double scale = one.sliding_distance;
+    CHECK(std::abs(one.peak - other.peak) <= 1e-12 * scale);
+    CHECK(norm(one.residual - other.residual) <= 1e-12 * scale);
+    CHECK(std::abs(one.sliding_distance - other.sliding_distance) <= 1e-12 * scale);
+    CHECK(std::abs(one.energy.imbalance()) <= 1e-12 * one.energy.dissipated);
+    CHECK(one.events.size() == other.events.size());
+  }
 }

@@ -213,7 +213,13 @@ class PlanarFlow {
     const auto radius = [&](double s) { return norm(place_ + at_parameter(s).way); };
     where = until;
     double largest = radius(until);
-    if (kind_ == Kind::stop) return largest;
+    if (kind_ == Kind::stop) {
+      // A slip may turn sharply on its last way.
+      double tau = 0;
+      const double reached = closing_.slip().largest_radius(place_, closing_.slip().parameter(never), tau);
+      if (reached > largest) largest = reached, where = -std::expm1(-(closing_.level + closing_.load) * tau);
+      return largest;
+    }
     // Where |r|^2 stops growing. After each such zero the search continues where it grows again.
     Array square, growth;
     const int degree = square_degree() - 1;
@@ -310,6 +316,8 @@ class PlanarFlow {
     Vector2 to;                  // direction of the load
     double level, load;          // w a and Q [m/s^2]
     double plus, minus, across;  // u + v_q, u - v_q, and the velocity across [m/s]
+
+    detail::HeldSlip slip() const noexcept { return {to, level, load, plus, minus, across}; }
 
     // What is left from the time on at which u - v_q has decayed to a fraction g. Without friction the velocity only
     // reverses: u + v_q is then 0.
