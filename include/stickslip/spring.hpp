@@ -1,6 +1,8 @@
 // The spring that centers a slider.
 #pragma once
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip {
 
 /// A spring that draws a slider back to x = 0, per unit mass. Its force is under(w) x, where w = N+/g is the normal

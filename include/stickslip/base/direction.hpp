@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip::detail {
 
 struct CosSin {
