@@ -117,8 +117,8 @@ class Random:
         first, second : str
             Two of `names`.
         coefficient : float
-            Correlation of the normal scores, between -1 and 1; for two `Lognormal`s, that of the
-            logarithms.
+            Correlation of the normal scores, between -1 and 1; for two `Lognormal` parameters, that
+            of the logarithms.
 
         Returns
         -------
