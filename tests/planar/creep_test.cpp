@@ -70,6 +70,21 @@ TEST_CASE("creep in the plane is that of a balance of forces", "[planar]") {
   CHECK(time == Approx(50).epsilon(1e-4));
 }
 
+TEST_CASE("a slider on a strong damper settles where friction holds the spring", "[planar]") {
+  const GroundMotion still = GroundMotion({0, 0, 0}, 0.1).with_components({0, 0, 0});
+  for (const double damping : {1.9, 2.1, 5.0}) {
+    PlanarIntegrateOptions options;
+    options.displacement = {0.48, 0.64};
+    options.settle = true;
+    const PlanarResponse r =
+        integrate(PlanarSlider(Coulomb(0.5), {.natural_frequency = 1, .damping = damping}), still, options);
+    CHECK(r.state.mode == PlanarMode::stuck);
+    CHECK(norm(r.residual) <= 0.5 * (1 + 1e-12));
+    if (damping > 2) CHECK(norm(r.residual - Vector2{0.3, 0.4}) <= 1e-12);
+    CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * test::turnover(r.energy));
+  }
+}
+
 TEST_CASE("a slider that creeps in the plane settles where friction at rest holds the spring", "[planar]") {
   std::vector<double> n, t;
   for (int i = 0; i < 600; ++i) {

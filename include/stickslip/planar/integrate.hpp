@@ -185,7 +185,8 @@ bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
     go(duration);
     if (state.in_flight) continue;
     if (state.mode == PlanarMode::stuck) return false;
-    if constexpr (!PositionLaw<Law>) {
+    // A damper above the critical one lets a slider creep, too.
+    if (!PositionLaw<Law> || slider.damping() > 0) {
       scale = std::max(scale, std::max(norm(from), norm(state.displacement)));
       const bool rests = norm(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
       if (rests && norm(state.displacement - from) <= 0x1p-50 * scale) {
