@@ -291,8 +291,20 @@ def test_a_single_record_has_no_bands():
 # ---- intensity measures, thresholds, stops
 
 
+def test_one_level_with_both_outcomes_fixes_no_dispersion():
+    t = ss.sweep(
+        ss.Coulomb(mu=0.1), ss.sample_records().stripes(pga_g=[0.1, 0.2, 0.4]), settle=True
+    )
+    exceed = [(t.peak[:, t.metadata["stripe"] == level] > 0.1).mean() for level in (0.1, 0.2, 0.4)]
+    assert exceed[:2] == [0, 0]
+    assert 0 < exceed[2] < 1
+    for method in ("lognormal", "logit"):
+        with pytest.raises(ValueError, match="but for one level at most, so the fit is unbounded"):
+            ss.Fragility.fit(t, im="pga_g", thresholds=0.1, method=method)
+
+
 def test_an_intensity_is_a_column_a_short_name_or_a_function():
-    t = ss.sweep(ss.Coulomb(mu=0.1), ss.sample_records().stripes(pgv=[0.1, 0.2, 0.4, 0.8]))
+    t = ss.sweep(ss.Coulomb(mu=0.1), ss.sample_records().stripes(pgv=[0.2, 0.3, 0.4, 0.5]))
     by = ss.Fragility.fit(t, im="pgv", thresholds=0.05)
     assert (by.im, by.im_unit) == ("pgv", "m/s")
     same = ss.Fragility.fit(
@@ -366,7 +378,7 @@ def test_unbounded_fits_are_refused():
     with pytest.raises(ValueError, match=r"separates the responses .* dispersion of zero"):
         ss.Fragility.fit(same, im="pga_g", thresholds=0.1)
     fading = table_of(0.1 * simulated(1).peak[:, ::-1], LEVELS, 18)
-    with pytest.raises(ValueError, match="do not become more frequent with pga_g"):
+    with pytest.raises(ValueError, match="hardly become more frequent with pga_g"):
         ss.Fragility.fit(fading, im="pga_g", thresholds=0.01)
     with pytest.raises(ValueError, match="do not grow with pga_g"):
         ss.Fragility.fit(fading, im="pga_g", thresholds=0.01, method="cloud")

@@ -15,18 +15,21 @@ from .shifts import deviation_of_draws, shifts
 __all__ = ["Exceedance", "fit_parallel"]
 
 Array = NDArray[np.float64]
+_FLATTEST = 0.05  # slope below which a curve counts as flat: beta = 20
 _STEEPEST = 200.0  # slope at which a curve counts as a step: beta = 0.005
 
 
 class Link:
     """A distribution function, by its name: the standard normal one, or the logistic one.
 
-    `deviation` is the standard deviation of the distribution.
+    `deviation` is the standard deviation of the distribution, and beyond `farthest` a residual has
+    no effect.
     """
 
     def __init__(self, method: str) -> None:
         special = optional("scipy.special", "risk", "Fragility.fit")
         self.method = method
+        self.farthest = 8.0 if method == "lognormal" else 36.0
         self.deviation = 1.0 if method == "lognormal" else math.pi / math.sqrt(3)
         self.cdf = special.ndtr if method == "lognormal" else special.expit
         self.quantile = special.ndtri if method == "lognormal" else special.logit
@@ -76,7 +79,7 @@ def fit_parallel(
         slope, intercept = slopes[left], intercepts[left]
         weight = n[left][:, np.newaxis, :]
         eta = slope[:, np.newaxis, np.newaxis] * z + intercept[:, :, np.newaxis]
-        np.clip(eta, -8, 8, out=eta)  # where a residual has no effect
+        np.clip(eta, -link.farthest, link.farthest, out=eta)
         p = link.cdf(eta)
         variance = p * link.cdf(-eta)
         ratio = link.density(eta, variance) / variance
@@ -145,15 +148,16 @@ class Exceedance:
                     " threshold"
                 )
             some, less = hits.sum(axis=0) > 0, (self.count - hits).sum(axis=0) > 0
-            steps.append(data.im[some].min() > data.im[less].max())
+            # Also with both outcomes at one level alone: any steeper curve through it fits better.
+            steps.append(data.im[some].min() >= data.im[less].max())
             if steps[-1] and self.separate:
                 break
         if all(steps) or (self.separate and any(steps)):
             label = data.labels[steps.index(True)]
             raise ValueError(
                 f"Fragility.fit: {data.im_name} separates the responses that exceed {label} from"
-                " all others, so the fit is unbounded, with a dispersion of zero: it needs more"
-                " levels between them, or more records"
+                " all others, but for one level at most, so the fit is unbounded, with a dispersion"
+                " of zero: it needs more levels between them, or more records"
             )
 
     def estimate(self, weights: Array | None = None) -> dict[str, Array]:
@@ -191,13 +195,14 @@ class Exceedance:
                 slopes.append(np.repeat(slope[:, np.newaxis], k.shape[1], axis=1))
                 intercepts.append(intercept)
         slope, intercept = np.concatenate(slopes), np.concatenate(intercepts)
-        if weights is None and not (slope > 0).all():
+        if weights is None and not (slope > _FLATTEST).all():
             raise ValueError(
-                f"Fragility.fit: exceedances do not become more frequent with {self.data.im_name},"
-                " so it is no measure of intensity for them"
+                f"Fragility.fit: exceedances hardly become more frequent with {self.data.im_name}"
+                f" (a dispersion above {self.link.deviation / _FLATTEST:.3g}), so it is no measure"
+                " of intensity for them"
             )
         # A resample may lack exceedances or be flat: its curve then lies far outside.
-        slope = np.maximum(slope, 0.05)
+        slope = np.maximum(slope, _FLATTEST)
         reach = 20.0
         log_median = np.clip(-intercept / slope, self.x[0] - reach, self.x[-1] + reach)
         return {"median": np.exp(log_median), "beta": self.link.deviation / slope}
@@ -238,7 +243,7 @@ class Exceedance:
         def mean_and_ratio(shift: Array, x: Array) -> tuple[Array, Array, Array]:
             """P at ln IM less the shift of each draw, density/(P (1 - P)), and P (1 - P)."""
             eta = slope * (x - shift[:, np.newaxis]) + intercept[:, np.newaxis, np.newaxis]
-            np.clip(eta, -8, 8, out=eta)
+            np.clip(eta, -self.link.farthest, self.link.farthest, out=eta)
             p = self.link.cdf(eta)
             variance = p * self.link.cdf(-eta)
             return p, self.link.density(eta, variance) / variance, variance
