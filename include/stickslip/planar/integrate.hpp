@@ -97,8 +97,8 @@ void walk_plane(const PlanarSlider<Law>& slider, const GroundMotion& motion, con
       if (scans && state.mode == PlanarMode::stuck) {
         const std::size_t next = pieces.first_outside(i, last, slider.mounting().spring().under(1) * state.displacement,
                                                       hold_at(slider, state));
-        std::fill(&displacement[i + 1], &displacement[next + 1], state.displacement);
-        std::fill(&velocity[i + 1], &velocity[next + 1], Vector2{});
+        std::fill(displacement.data() + i + 1, displacement.data() + next + 1, state.displacement);
+        std::fill(velocity.data() + i + 1, velocity.data() + next + 1, Vector2{});
         if ((i = next) == last) break;
       }
       go(i, pieces.time(i), pieces.time(i + 1), pieces.segment(i));
