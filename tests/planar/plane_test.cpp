@@ -459,3 +459,16 @@ TEST_CASE("slider in the plane: what it refuses", "[planar]") {
   static_assert(IsotropicLaw<Coulomb> && IsotropicLaw<StaticKinetic<Coulomb>> && IsotropicLaw<VelocityDependent> &&
                 IsotropicLaw<Stribeck> && IsotropicLaw<Degrading>);
 }
+
+TEST_CASE("slider in the plane: along a stop, friction that rises in the last moment", "[planar]") {
+  // While it is fast, the power series of the speed knows nothing of the static level, which acts only just before a
+  // stop. Reference: the angle along the stop, by DOP853 in long double.
+  const PlanarSlider slider(Stribeck(0.637, 0.332, 0.02, 5), {.stops = Stops(0.02, 0.02, 0.3)});
+  PlanarState state = PlanarState::at({0.02 * std::cos(0.8), 0.02 * std::sin(0.8)},
+                                      {-0.15 * std::sin(0.8), 0.15 * std::cos(0.8)}),
+              parts = state;
+  advance(slider, PlanarSegment{0.6, {-2, 0}, {-2, 0}}, state);
+  for (int i = 0; i < 60; ++i) advance(slider, PlanarSegment{0.01, {-2, 0}, {-2, 0}}, parts);
+  CHECK(norm(state.displacement - Vector2{0.01994353, -0.00150188}) <= 1e-8);
+  CHECK(norm(state.displacement - parts.displacement) <= 1e-11);
+}

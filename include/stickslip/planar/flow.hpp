@@ -1039,6 +1039,11 @@ class PlanarFlow {
       stops_ = stops <= leaves;
       leaves_ = !stops_;
     }
+    if constexpr (!std::same_as<decltype(resistance), series::Constant>) {
+      const double reached = last_;
+      keep_to(law);
+      if (last_ < reached) stops_ = leaves_ = false;
+    }
     finish();
     if (end_.time >= duration_ && last_ * h > duration_ * (1 + 0x1p-50)) stops_ = leaves_ = false;
   }
