@@ -682,7 +682,8 @@ class PlanarFlow {
     return false;
   }
 
-  // Under a constant load creep slows down for ever. A speed that is the round-off of the load displaces nothing more.
+  // Under a constant load creep slows down without end. A speed that is the round-off of the load displaces nothing
+  // more.
   bool is_held_up(double speed, double unresolved) noexcept {
     if (heated || speed > unresolved || !(load_.rate == Vector2{}) || !detail::equal(load_.weight_rate, 0))
       return false;
@@ -709,7 +710,7 @@ class PlanarFlow {
     for (double& value : u_) value = 0;
     u_[0] = speed;
     // A coefficient is set twice. GCC 12 at -O1 drops the first of two such stores (-fipa-modref), although the update
-    // between them reads it: the compiler is told that the store is seen.
+    // between them reads it; an empty statement that may read all memory keeps it.
     const auto update = [&](int k, double speed_k) {
       swift[k] = speed_k;
 #if defined(__GNUC__)
