@@ -83,6 +83,7 @@ class Slider {
                           " degrees it slides under its own weight unless mu is at least " + detail::shortest(steepest),
                       holds / standard_gravity);
     }
+    if constexpr (requires { law_.mount(mounting_); }) law_.mount(mounting_);
     if (mounting_.pendulum && !(stiffness() > 0))
       throw std::invalid_argument("Slider: a pendulum needs a natural_frequency, sqrt(g / radius)");
   }

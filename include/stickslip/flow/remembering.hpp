@@ -22,11 +22,13 @@ namespace stickslip {
 /// If wn^2 + k is negative, the spring pushes away from its center.
 class LinearLevelFlow {
  public:
-  /// @param level  resistance at the start [m/s^2]
-  /// @param slope  k [1/s^2]
-  LinearLevelFlow(double damping, double stiffness, double level, double slope, const Start& start, double duration)
-      : level_(level),
-        slope_(slope),
+  /// @param slope     k, of the resistance [1/s^2]
+  /// @param friction  the part of the resistance that dissipates, at the start [m/s^2]
+  /// @param wears     and its slope [1/s^2]
+  LinearLevelFlow(double damping, double stiffness, double slope, double friction, double wears, const Start& start,
+                  double duration)
+      : friction_(friction),
+        wears_(wears),
         damped_(damping, std::copysign(std::sqrt(std::abs(stiffness + slope)), stiffness + slope)),
         flow_(damped_, part_of(start, duration, stiffness + slope), reach(duration, stiffness + slope)) {}
   LinearLevelFlow(const LinearLevelFlow&) = delete;
@@ -42,7 +44,7 @@ class LinearLevelFlow {
   /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const noexcept {
     const double way = t < horizon() ? at(t).distance : at_horizon().distance;
-    return way * (level_ + slope_ / 2 * way);
+    return way * (friction_ + wears_ / 2 * way);
   }
 
  private:
@@ -54,7 +56,7 @@ class LinearLevelFlow {
     return {start.speed, start.acceleration, start.gain_within(reach(duration, stiffness), duration)};
   }
 
-  double level_, slope_;
+  double friction_, wears_;
   Damped damped_;
   DampedFlow flow_;
 };
@@ -74,8 +76,10 @@ class Remembering : public detail::LawFlows<Law> {
   auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
     if constexpr (std::same_as<SlipStart, Start> && form_of<Now> == Form::linear) {
       const Now law = slider_.law().at(state);
-      return LinearLevelFlow(slider_.damping(), slider_.stiffness(), law.resist(state.displacement, direction),
-                             law.slope(direction), start, duration);
+      const double slope = law.slope(direction);
+      return LinearLevelFlow(slider_.damping(), slider_.stiffness(), slope,
+                             friction(law, state.displacement, 0, direction), detail::SpringLaw<Now> ? 0 : slope, start,
+                             duration);
     } else {
       now_.emplace(slider_.at(state));
       return TaylorFlow<Now, SlipStart>(*now_, direction, state.displacement, start, duration);

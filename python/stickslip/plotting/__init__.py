@@ -26,6 +26,7 @@ from .figures import save
 from .fragility import plot_design_chart, plot_exceedances, plot_fragility
 from .ground import plot_ground_motion, plot_response_spectrum
 from .hysteresis import plot_hysteresis
+from .pendulum import plot_pendulum_loop, plot_surfaces
 from .planar import plot_planar_response
 from .response import plot_response, plot_responses
 from .styles import BLUE as BLUE
@@ -49,10 +50,12 @@ __all__ = [
     "plot_ground_motion",
     "plot_hysteresis",
     "plot_orientations",
+    "plot_pendulum_loop",
     "plot_planar_response",
     "plot_response",
     "plot_response_spectrum",
     "plot_responses",
+    "plot_surfaces",
     "plot_sweep",
     "save",
     "sticks",

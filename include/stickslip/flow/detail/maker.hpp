@@ -86,8 +86,8 @@ class LawFlows {
     if constexpr (MemoryLaw<Law>) law_.pass(state, direction);
   }
   template <class AnyState>
-  void slid(AnyState& state, double distance) const noexcept {
-    if constexpr (MemoryLaw<Law>) state.sliding_distance += distance;
+  void slid(AnyState& state, double distance) const {
+    if constexpr (MemoryLaw<Law>) detail::slide(law_, state, distance);
   }
   template <class Flow, class AnyState>
   void remember(const Flow&, double, AnyState&) const noexcept {}

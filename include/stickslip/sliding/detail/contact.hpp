@@ -145,8 +145,20 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
     if (state.mode == Mode::stuck) return false;
     const Direction direction = direction_of(state.mode);
     const double before = std::abs(state.velocity);
-    const double after = after_impulse(flows.law_now(state, 1), state.displacement, direction, before, impulse);
-    if constexpr (EnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
+    const auto& law = flows.law_now(state, 1);
+    const double after = after_impulse(law, state.displacement, direction, before, impulse);
+    if constexpr (EnergyObserver<Observer>) {
+      const double taken = (before * before - after * after) / 2;
+      double dissipated = taken;
+      if constexpr (SpringLaw<std::remove_cvref_t<decltype(law)>>) {
+        // The impulse also acts on the springs in the law; their part is work of the ground.
+        const double level = law.resist(state.displacement, direction) / standard_gravity;
+        const double acts = level * impulse > before ? before / level : impulse;
+        dissipated = law.friction(state.displacement, direction) / standard_gravity * acts * (before + after) / 2;
+        observer.slide(Slip{direction, state.displacement, 0, 0, dissipated - taken});
+      }
+      observer.dissipate(dissipated);
+    }
     state.velocity = sign(direction) * after;
     if (after > 0) return false;
     state.mode = Mode::stuck;
