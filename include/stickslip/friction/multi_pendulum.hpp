@@ -182,9 +182,10 @@ class MultiPendulum {
 
   /// u_k [m].
   double displacement(const PendulumMemory& memory, int k) const noexcept {
-    if ((memory.at_forward | memory.at_backward) & bit(k))
-      return memory.at_forward & bit(k) ? capacity(k) : -capacity(k);
-    return flat(k) ? memory.place[index(k)] : radius(k) * memory.place[index(k)];
+    const double most = capacity(k);
+    if ((memory.at_forward | memory.at_backward) & bit(k)) return memory.at_forward & bit(k) ? most : -most;
+    const double u = (flat(k) ? 1 : radius(k)) * memory.place[index(k)];
+    return std::max(-most, std::min(u, most));
   }
   /// The displacements of all elements [m].
   std::vector<double> displacements(const PendulumMemory& memory) const {

@@ -47,7 +47,7 @@ class ElementReader final : public TrajectoryReader {
       last_ = arc.start;
       keep();
     }
-    for (; sample_ < samples() && trajectory_.time(sample_) < arc.end; ++sample_)
+    while (sample_ < samples() && trajectory_.time(sample_) < arc.end)
       store(arc.at(std::max(trajectory_.time(sample_) - arc.begin, 0.0)));
     last_ = arc.at(arc.duration);
     if (arc.rests()) return;

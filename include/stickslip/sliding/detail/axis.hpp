@@ -103,7 +103,7 @@ class Axis {
     net_ = departure.net;
     const Mode stopped = std::exchange(stopped_, Mode::stuck);
     if (stopped == Mode::stuck) return Resumption::from_rest;
-    return stopped == departure.mode ? Resumption::onward : Resumption::reversed;
+    return stopped == departure.mode || limits_.at_struck_wall() ? Resumption::onward : Resumption::reversed;
   }
 
   [[gnu::always_inline]] auto slide() {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/ground/segment.hpp"
@@ -20,6 +21,7 @@ struct Unbounded {
   static constexpr double wall(Direction) noexcept { return never; }
   static constexpr double restitution() noexcept { return 0; }
   static constexpr bool has_struck() noexcept { return false; }
+  static constexpr bool at_struck_wall() noexcept { return false; }
   static constexpr void strike(Direction) noexcept {}
   static constexpr void move(Direction, double) noexcept {}
 };
@@ -47,6 +49,7 @@ class Bounds {
 
   /// Record an impact on the wall in a direction, or a distance slid [m].
   bool has_struck() const noexcept { return from_wall_ >= 0; }
+  bool at_struck_wall() const noexcept { return equal(from_wall_, 0); }
   void strike(Direction direction) noexcept {
     struck_ = direction;
     from_wall_ = 0;
