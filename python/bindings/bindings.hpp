@@ -208,7 +208,7 @@ inline py::array_t<double> view(std::span<const Vector2> values, py::handle owne
 }
 
 /// A read-only array of rows of equal length.
-inline py::array_t<double> rows(const std::vector<std::vector<double>>& values) {
+inline py::array_t<double> array_of_rows(const std::vector<std::vector<double>>& values) {
   const std::size_t columns = values.empty() ? 0 : values.front().size();
   py::array_t<double> array({static_cast<py::ssize_t>(values.size()), static_cast<py::ssize_t>(columns)});
   double* to = array.mutable_data();

@@ -45,7 +45,7 @@ def test_fenz_and_constantinou_s_five_regimes():
 def test_the_isolator_of_the_issue_slides_settles_and_says_how_its_surfaces_moved():
     isolator = ss.TriplePendulum(**TRIPLE)
     r = ss.integrate(isolator, QUAKE, settle=True)
-    assert r.peak == pytest.approx(0.1418561840784805, rel=1e-12)
+    assert r.peak == pytest.approx(0.1418561840578805, rel=1e-12)
     assert r.residual == pytest.approx(-0.04492939877512182, rel=1e-11)
     assert r.elements.displacement.shape == (4, len(r.displacement))
     assert r.surfaces.displacement.shape == (4, len(r.displacement))
@@ -57,8 +57,8 @@ def test_the_isolator_of_the_issue_slides_settles_and_says_how_its_surfaces_move
     assert r.elements.slides.tolist()[:2] == [r.elements.slides[0]] * 2
     assert len(r.impacts) == 0
     sliding = ss.integrate(isolator, QUAKE)
-    # The force at rest follows the load; while it moves it is the acceleration's.
-    assert np.abs(sliding.force + sliding.acceleration + RECORD).max() < 1e-10
+    # Nothing but the force of the bearing accelerates the mass.
+    assert np.abs(sliding.force + sliding.acceleration).max() < 1e-12
 
 
 def test_an_element_that_stops_stays_there_until_it_is_pulled_back():
@@ -67,7 +67,7 @@ def test_an_element_that_stops_stays_there_until_it_is_pulled_back():
     assert r.elements.stops.tolist() == [0, 0, 39, 0]
     assert r.surfaces.stops.tolist() == [39, 0, 0, 0]
     assert r.surfaces.peak[0] == 0.064
-    assert r.elements.peak <= pytest.approx(lab.element_capacities)
+    assert (r.elements.peak <= lab.element_capacities).all()
 
 
 @pytest.mark.parametrize("isolator", [ss.TriplePendulum(**TRIPLE), FIVE], ids=["triple", "five"])
@@ -78,7 +78,7 @@ def test_every_call_takes_a_pendulum(isolator, motion, tmp_path):
     assert r.effective_period > 0
     assert 0 < r.effective_damping < 1
     assert (ss.response_spectrum(r, [0.2, 1]).values > 0).all()
-    assert json.loads(r.to_json())["slider"]["law"] == "MultiPendulum"
+    assert eval(json.loads(r.to_json())["slider"], vars(ss)) == ss.Slider(isolator)
     assert pickle.loads(pickle.dumps(r)) == r
     assert pickle.loads(pickle.dumps(isolator)) == isolator
     assert eval(repr(isolator), vars(ss)) == isolator
@@ -171,10 +171,9 @@ def test_messages_name_the_value(make, message):
 
 def test_other_sliders_have_no_elements():
     r = ss.integrate(ss.Coulomb(mu=0.1), QUAKE)
-    assert not hasattr(r, "elements")
-    with pytest.raises(AttributeError, match="only a MultiPendulum has them"):
+    with pytest.raises(ValueError, match="only a MultiPendulum has them"):
         _ = r.surfaces
-    with pytest.raises(TypeError):
+    with pytest.raises(ValueError, match="not defined in all directions"):
         ss.PlanarSlider(FIVE)
 
 
@@ -210,12 +209,12 @@ def test_the_command_slides_a_triple_pendulum(capsys, tmp_path):
         "0.04",
         "0.08",
     ]
-    rows = tmp_path / "rows.json"
-    assert main(["slide", str(file), "--unit", "m/s^2", *options, "--json", str(rows)]) == 0
-    (row,) = json.loads(rows.read_text())
+    assert main(["slide", str(file), "--units", "m/s^2", *options, "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["results"]
     r = ss.integrate(ss.TriplePendulum(TRIPLE["radii"], TRIPLE["mu"]), QUAKE, settle=True)
     assert row["peak_m"] == pytest.approx(r.peak, rel=1e-9)
     assert row["mu"] == TRIPLE["mu"]
+    assert main(["slide", str(file), "--units", "m/s^2", *options]) == 0
     assert "0.01/0.04/0.08" in capsys.readouterr().out
-    assert main(["slide", str(file), "--unit", "m/s^2", "--mu", "0.1", "--radii", "1", "2"]) != 0
+    assert main(["slide", str(file), "--units", "m/s^2", "--mu", "0.1", "--radii", "1", "2"]) != 0
     assert "--radii goes with --law pendulum" in capsys.readouterr().err

@@ -9,6 +9,7 @@
 #include "stickslip/flow/collocation.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/detail/maker.hpp"
+#include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
@@ -27,20 +28,26 @@ class LinearLevelFlow {
   /// @param wears     and its slope [1/s^2]
   LinearLevelFlow(double damping, double stiffness, double slope, double friction, double wears, const Start& start,
                   double duration)
-      : friction_(friction),
-        wears_(wears),
-        damped_(damping, std::copysign(std::sqrt(std::abs(stiffness + slope)), stiffness + slope)),
-        flow_(damped_, part_of(start, duration, stiffness + slope), reach(duration, stiffness + slope)) {}
+      : friction_(friction), wears_(wears) {
+    const double k = stiffness + slope;
+    if (k > 0 && !(damping > 0)) {
+      harmonic_.emplace(std::sqrt(k));
+      undamped_.emplace(harmonic_->flow(start, duration));
+    } else {
+      damped_.emplace(damping, std::copysign(std::sqrt(std::abs(k)), k));
+      flow_.emplace(*damped_, part_of(start, duration, k), reach(duration, k));
+    }
+  }
   LinearLevelFlow(const LinearLevelFlow&) = delete;
   LinearLevelFlow& operator=(const LinearLevelFlow&) = delete;
 
-  double horizon() const noexcept { return flow_.horizon(); }
-  double first_stop() const noexcept { return flow_.first_stop(); }
-  Progress at(double t) const noexcept { return flow_.at(t); }
-  Progress at_horizon() const noexcept { return flow_.at_horizon(); }
+  double horizon() const noexcept { return undamped_ ? undamped_->horizon() : flow_->horizon(); }
+  double first_stop() const noexcept { return undamped_ ? undamped_->first_stop() : flow_->first_stop(); }
+  Progress at(double t) const noexcept { return undamped_ ? undamped_->at(t) : flow_->at(t); }
+  Progress at_horizon() const noexcept { return undamped_ ? undamped_->at_horizon() : flow_->at_horizon(); }
 
   /// Work on the damper up to time t [m^2/s^2].
-  double damped_work(double t) const noexcept { return damped_.damping() > 0 ? flow_.damped_work(t) : 0; }
+  double damped_work(double t) const noexcept { return damped_ && damped_->damping() > 0 ? flow_->damped_work(t) : 0; }
   /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const noexcept {
     const double way = t < horizon() ? at(t).distance : at_horizon().distance;
@@ -57,8 +64,11 @@ class LinearLevelFlow {
   }
 
   double friction_, wears_;
-  Damped damped_;
-  DampedFlow flow_;
+  // On a spring without a damper, or any other motion.
+  std::optional<Harmonic> harmonic_;
+  std::optional<ClosedForm<Harmonic>> undamped_;
+  std::optional<Damped> damped_;
+  std::optional<DampedFlow> flow_;
 };
 
 /// Makes the flows of a slider whose law has memory, from the law that applies from each state on. The flow has a
@@ -66,6 +76,8 @@ class LinearLevelFlow {
 template <MemoryLaw Law>
 class Remembering : public detail::LawFlows<Law> {
  public:
+  static constexpr bool in_closed_form = form_of<Law> == Form::linear;
+
   explicit Remembering(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
 
   double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }

@@ -157,6 +157,13 @@ class MultiPendulum {
       if (!flat(k)) sum += radius(k) * state.pendulum.place[index(k)] * state.pendulum.place[index(k)] / 2;
     return standard_gravity * sum;
   }
+  /// The largest acceleration that the springs of the elements give under the weight [m/s^2]; infinite without stops.
+  double push() const noexcept {
+    double steepest = 0;
+    for (const Element& element : elements_)
+      if (element.radius < infinite) steepest = std::max(steepest, element.capacity / element.radius);
+    return standard_gravity * steepest;
+  }
   /// Adds the last stop to a mounting.
   /// @throws std::invalid_argument if it has a slope, slides one way, is a pendulum itself, or has stops that lie
   ///         farther away

@@ -27,8 +27,8 @@ std::vector<double> capacities_from(const py::object& capacities, std::size_t co
   return to_vector(capacities, who + ": capacities", "m");
 }
 
-MultiPendulum made(const std::string& who, const py::object& radii, const py::object& mu, const py::object& capacities,
-                   double restitution, bool nested) {
+MultiPendulum bearing_from(const std::string& who, const py::object& radii, const py::object& mu,
+                           const py::object& capacities, double restitution, bool nested) {
   std::vector<double> of_radii = to_vector(radii, who + ": radii", "m"), of_mu = to_vector(mu, who + ": mu");
   for (const double one : of_mu) check_coefficient(who, "mu", one);
   const std::size_t count = of_radii.size();
@@ -42,7 +42,7 @@ void def_bearing(py::module_& m, const char* name, std::size_t surfaces, bool ne
       name,
       [name, surfaces, nested](const py::object& radii, const py::object& mu, const py::object& capacities,
                                double restitution) {
-        const MultiPendulum bearing = made(name, radii, mu, capacities, restitution, nested);
+        const MultiPendulum bearing = bearing_from(name, radii, mu, capacities, restitution, nested);
         detail::require(bearing.radii().size() == surfaces,
                         std::string(name) + ": radii must hold " + std::to_string(surfaces),
                         static_cast<double>(bearing.radii().size()));
@@ -111,8 +111,9 @@ Examples
 1.1518
 >>> isolator.trace([0.508, -0.508]).force.round(4)
 array([ 0.1225, -0.1225]))");
-  type.def(py::init([](const py::object& radii, const py::object& mu, const py::object& capacities, double restitution,
-                       bool nested) { return made("MultiPendulum", radii, mu, capacities, restitution, nested); }),
+  type.def(py::init(
+               [](const py::object& radii, const py::object& mu, const py::object& capacities, double restitution,
+                  bool nested) { return bearing_from("MultiPendulum", radii, mu, capacities, restitution, nested); }),
            py::arg("radii"), py::arg("mu"), py::arg("capacities") = py::none(), py::arg("restitution") = 0.0,
            py::kw_only(), py::arg("nested") = false)
       .def_property_readonly(
@@ -124,7 +125,9 @@ array([ 0.1225, -0.1225]))");
           "Travel to the stops, as given [m].")
       .def_property_readonly("restitution", &MultiPendulum::restitution, "Of the last stop.")
       .def_property_readonly("nested", &MultiPendulum::nested, "Whether the surfaces are nested.")
-      .def_property_readonly("capacity", &MultiPendulum::capacity, "Largest displacement of the bearing [m].")
+      .def_property_readonly(
+          "capacity", [](const MultiPendulum& law) { return law.capacity(); },
+          "Largest displacement of the bearing [m].")
       .def_property_readonly("element_radii", of_elements<&MultiPendulum::Element::radius>(),
                              "R_k of the elements of the series [m].")
       .def_property_readonly("element_mu", of_elements<&MultiPendulum::Element::mu>(), "mu_k of the elements.")
@@ -184,16 +187,16 @@ PendulumLoop)")
           [](const PendulumLoop& loop) {
             std::vector<std::vector<double>> points;
             for (const auto& corner : loop.corners) points.push_back({corner.displacement, corner.force});
-            return rows(points);
+            return array_of_rows(points);
           },
           R"(Displacement [m] and F/W where the stiffness or the force changes, shape (corners, 2).
 
 Straight lines between them are the loop. Where the force jumps there are two at one displacement.)")
       .def_property_readonly(
-          "displacement", [](const PendulumLoop& loop) { return rows(loop.displacement); },
+          "displacement", [](const PendulumLoop& loop) { return array_of_rows(loop.displacement); },
           "Of each element at each point of the path [m], shape (elements, points).")
       .def_property_readonly(
-          "surfaces", [](const PendulumLoop& loop) { return rows(loop.surfaces); },
+          "surfaces", [](const PendulumLoop& loop) { return array_of_rows(loop.surfaces); },
           "Of each surface, from bottom to top, at each point of the path [m], shape (surfaces, points).")
       .def_property_readonly(
           "dissipated", [](const PendulumLoop& loop) { return to_array(loop.dissipated); },
@@ -203,7 +206,7 @@ Straight lines between them are the loop. Where the force jumps there are two at
           [](const py::object& self, const py::object& ax, const py::object& title) {
             return py::module_::import("stickslip.plotting").attr("plot_pendulum_loop")(self, ax, title);
           },
-          py::arg("ax") = py::none(), py::arg("title") = py::none(),
+          py::kw_only(), py::arg("ax") = py::none(), py::arg("title") = py::none(),
           R"(Plot force over weight against displacement, with the corners.
 
 Needs matplotlib. Takes `ax`, matplotlib Axes to draw in, and `title`. Returns the axes or the figure, see

@@ -11,7 +11,7 @@ namespace {
 
 template <auto member>
 auto of() {
-  return [](const ElementMotion& motion) { return rows(motion.*member); };
+  return [](const ElementMotion& motion) { return array_of_rows(motion.*member); };
 }
 template <auto member>
 auto each() {
@@ -48,7 +48,7 @@ In the order of the series; of nested surfaces: lower and upper inner, then outw
 
 From bottom to top; the innermost surface of nested ones occurs twice.)")
       .def_property_readonly(
-          "displacement", [](const SurfaceMotion& s) { return rows(s.motion.surfaces); },
+          "displacement", [](const SurfaceMotion& s) { return array_of_rows(s.motion.surfaces); },
           "At the samples of the response [m], shape (surfaces, samples).")
       .def_property_readonly(
           "peak", [](const SurfaceMotion& s) { return array_of(std::vector<double>(s.motion.surface_peak)); },

@@ -103,8 +103,8 @@ ElementMotion elements_of(const ResponseWithInputs& self) {
   return with_inputs(self, [&](const auto& slider, const auto& motion) {
     const auto* bearing = std::get_if<Slider<MultiPendulum>>(&slider);
     if (bearing == nullptr)
-      throw py::attribute_error("elements and surfaces: only a MultiPendulum has them, not " +
-                                py::repr(self.slider).cast<std::string>());
+      throw std::invalid_argument("elements and surfaces: only a MultiPendulum has them, not " +
+                                  py::repr(self.slider).cast<std::string>());
     const py::gil_scoped_release released;
     return element_motion(bearing->law(), *trajectory(slider, motion, self.response));
   });
@@ -497,12 +497,12 @@ force of spring and friction on arrival. ValueError without a spring, because th
 never slips; if |x| is largest at the start, at the end of an unfinished slip, or in flight without a force.)")
       .def_property_readonly("elements", &elements_of, R"(The motion of the elements of a `MultiPendulum`.
 
-Returns an `ElementMotion`. The motion is integrated again, so keep it. AttributeError for other sliders.)")
+Returns an `ElementMotion`. The motion is integrated again, so keep it. ValueError for other sliders.)")
       .def_property_readonly(
           "surfaces", [](const ResponseWithInputs& r) { return SurfaceMotion{elements_of(r)}; },
           R"(The motion of the surfaces of a `MultiPendulum`, from bottom to top.
 
-Returns a `SurfaceMotion`. The motion is integrated again, so keep it. AttributeError for other sliders.)")
+Returns a `SurfaceMotion`. The motion is integrated again, so keep it. ValueError for other sliders.)")
       .def_property_readonly(
           "effective_damping", [](const ResponseWithInputs& r) { return loop_of(r).damping(); },
           R"(E_d / (2 pi k_eff D^2) of the same loop, a fraction of critical damping.

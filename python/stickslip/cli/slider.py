@@ -20,7 +20,7 @@ from .. import (
     Stops,
     TriplePendulum,
 )
-from .parser import number, numbers, ratio, ratios
+from .parser import StoreAll, number, numbers, ratio, ratios
 
 __all__ = [
     "add_contact",
@@ -76,6 +76,7 @@ def add_sliders(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--mu",
         nargs="+",
+        action=StoreAll,
         type=ratios,
         required=True,
         help="coefficients of friction [-] or ranges; a repeated value is used once",
@@ -84,6 +85,7 @@ def add_sliders(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--radii",
         nargs="+",
+        action=StoreAll,
         type=number,
         metavar="M",
         help="pendulum: effective radii of a double bearing (lower, upper), a triple one (inner,"
@@ -93,6 +95,7 @@ def add_sliders(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--capacities",
         nargs="+",
+        action=StoreAll,
         type=number,
         metavar="M",
         help="pendulum: travel of each surface to its stop [m]; default: none",
@@ -189,8 +192,9 @@ def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list
         for name in _VARIED
         for value in [getattr(args, name)]
     }
-    if args.law == "pendulum":
-        given["mu"] = [_Surfaces(given["mu"])]
+    given["mu"] = (
+        [_Surfaces(given["mu"])] if args.law == "pendulum" else list(dict.fromkeys(given["mu"]))
+    )
     every = [
         argparse.Namespace(**{**vars(args), **dict(zip(given, values))})
         for values in itertools.product(*given.values())

@@ -75,7 +75,7 @@ def plot_surfaces(
 
     Raises
     ------
-    AttributeError
+    ValueError
         The response of another slider.
     """
     motions = response.surfaces

@@ -22,6 +22,7 @@ struct Departure {
 ///
 ///     law_now(state, weight)            // the law in x and speed that applies now, under a weight N+/g
 ///     pull(x, weight), drag(speed)      // forces of spring and damper, per unit mass [m/s^2]
+///     push()                            // the largest acceleration that springs in the law give under the weight
 ///     flow(direction, state, start, duration)
 ///                                       // a slip from its start on; over a part of `duration` if it is not known for
 ///                                       // longer. `law_now` applies over a distance `ahead(state, direction)` [m], at
@@ -74,6 +75,12 @@ class LawFlows {
     const double then = load.weight(left - departure.delay);
     departure.net = departure.mode == Mode::forward ? Load::weigh(then, forward) : -Load::weigh(then, backward);
     return departure;
+  }
+
+  /// The largest acceleration that springs in the law give [m/s^2].
+  double push() const noexcept {
+    if constexpr (requires { law_.push(); }) return law_.push();
+    return 0;
   }
 
   template <class AnyState>

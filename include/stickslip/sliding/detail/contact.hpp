@@ -174,7 +174,8 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
                                            Contact contact, Place& state, Observer& observer) {
   if constexpr (Flows::in_closed_form) {  // other flows cost more than these checks
     const double first = segment.normal_start, last = segment.normal_end;
-    if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1, 1), state)) {
+    if (!state.in_flight && first >= 0 && last >= 0 &&
+        bounds.out_of_reach(segment, flows.pull(1, 1), flows.push(), state)) {
       if (equal(first, standard_gravity) && equal(last, standard_gravity))
         return advance(flows, Segment{segment.duration, -segment.load_start, -segment.load_end}, state, observer);
       const WeighedLoad weighed{segment.duration, segment.load_start, segment.load_end, first / standard_gravity,
