@@ -196,7 +196,9 @@ class PlanarFlow {
     for (int k = 0; k <= degree; ++k, power *= last_) {
       double terms = 0;
       const double square = square_of_distance(k, terms);
-      // Along the circle, and where a slider leaves it, what is left of the first terms is round-off.
+      // Along the circle, and where a slider leaves it, what is left of the first terms is round-off: also of the load,
+      // which is the small difference of larger ones where its radial part changes sign.
+      if (k == 2) terms += from * largest_load() * t_[1] * t_[1];
       room[k] = at_circle && k < 4 && std::abs(square) <= graze * terms ? 0 : sign * power * square;
     }
     room[0] = at_circle ? 0 : sign * (from - radius) * (from + radius);
@@ -384,6 +386,9 @@ class PlanarFlow {
     for (int k = order_; k >= 1; --k) sum = sum * s + k * c[k];
     return sum;
   }
+
+  // A bound on the load during the segment [m/s^2].
+  double largest_load() const noexcept { return norm(load_.start) + norm(load_.rate) * duration_; }
 
   Vector2 pull() const noexcept { return spring_.under(load_.weight) * place_; }
 
@@ -995,7 +1000,7 @@ class PlanarFlow {
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     vx_[0] = velocity_.axis, vy_[0] = velocity_.transverse;
     reaction[0] = pa - spring * gap + speed * speed / gap;
-    if (std::abs(reaction[0]) <= graze * (std::abs(pa) + spring * gap + speed * speed / gap)) reaction[0] = 0;
+    if (std::abs(reaction[0]) <= graze * (largest_load() + spring * gap + speed * speed / gap)) reaction[0] = 0;
     for (int k = 0; k < highest_order; ++k) {
       const double by = h * series::reciprocal[k + 1];
       if (k > 0) {
