@@ -73,8 +73,7 @@ template <class Work>
 void for_each_slider(Work&& work) {
   for_each_law([&](const auto& example) {
     for (const Named& on : mountings()) {
-      if constexpr (std::same_as<std::remove_cvref_t<decltype(example.law)>, MultiPendulum>)
-        if (on.mounting.slope_degrees > 0 || on.mounting.one_way || on.mounting.pendulum) continue;  // refused
+      if (taken_by(example.law, on.mounting) != on.mounting) continue;
       INFO(example.name << ", " << on.name);
       work(example, on, Slider(example.law, on.mounting), ground(11, on.vertical));
     }

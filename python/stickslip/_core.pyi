@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from .motions.intensity import IntensityMeasures, SuiteSpectra
 from .motions.suite import Suite
+from .plotting.animation import Animation
 
 _Number: TypeAlias = SupportsFloat | SupportsIndex
 
@@ -1184,6 +1185,14 @@ class Response(metaclass=_Pybind11Type):
     def surfaces(self) -> SurfaceMotion: ...
     @property
     def effective_damping(self) -> float: ...
+    def animate(
+        self,
+        *,
+        time: tuple[float, float] | None = None,
+        speed: _Number = 1.0,
+        fps: _Number = 15.0,
+        title: str | None = None,
+    ) -> Animation: ...
     @overload
     def plot(
         self, *, figure: None = None, title: str | None = None, time: _TimeWindow | None = None
@@ -1303,6 +1312,14 @@ class PlanarResponse(metaclass=_Pybind11Type):
     def time_sliding(self) -> float: ...
     @property
     def energy(self) -> Energy: ...
+    def animate(
+        self,
+        *,
+        time: tuple[float, float] | None = None,
+        speed: _Number = 1.0,
+        fps: _Number = 15.0,
+        title: str | None = None,
+    ) -> Animation: ...
     @overload
     def plot(
         self, *, figure: None = None, title: str | None = None, time: _TimeWindow | None = None

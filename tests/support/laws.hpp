@@ -98,6 +98,16 @@ inline auto all_laws() {
   };
 }
 
+/// A mounting as a law takes it: a MultiPendulum is a pendulum itself, on level ground, and slides both ways.
+template <class Law>
+Mounting taken_by(const Law&, Mounting mounting) {
+  if constexpr (std::same_as<Law, MultiPendulum>) {
+    mounting.slope_degrees = 0;
+    mounting.one_way = mounting.pendulum = false;
+  }
+  return mounting;
+}
+
 /// Call `work(example)` for each law.
 template <class Work>
 void for_each_law(Work&& work) {

@@ -60,8 +60,8 @@ class ElementReader final : public TrajectoryReader {
         equal(first, 1) && equal(last, 1) ? arc.distance : numerics::gauss_integral<10>(0, arc.duration, [&](double t) {
           return arc.weight(t) * std::abs(arc.at(t).velocity);
         });
-    const auto reached = [&](const State& state) { return state.pendulum.at_forward | state.pendulum.at_backward; };
-    const unsigned stops = reached(last_) & moving;
+    const PendulumMemory& now = last_.pendulum;
+    const unsigned stops = (unsigned{now.at_forward} | unsigned{now.at_backward}) & moving;
     for (std::size_t k = 0; k < motion_.peak.size(); ++k) {
       const int element = static_cast<int>(k);
       const double part = law_.share(moving, element);

@@ -17,6 +17,8 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
+from .animation import Animation, animate
+from .animation import check_moving_suffix as check_moving_suffix
 from .comparison import plot_comparison
 from .directions import plot_orientations
 from .ensemble import plot_ensemble
@@ -41,6 +43,8 @@ from .trajectory import sticks, without_contact
 
 # Names with `as` are those that the package's own pictures use, too.
 __all__ = [
+    "Animation",
+    "animate",
     "plot_comparison",
     "plot_design_chart",
     "plot_ensemble",

@@ -52,7 +52,7 @@ struct AtPlace {
 };
 
 /// The speed that remains of `speed` after a normal impulse J of `impulse` [m/s]: d|v|/dJ = -mu(|v|). This is a slide
-/// of duration J / g under weight g and no load.
+/// of duration J / g under weight g and no load. Springs in a law, and a pendulum's, take no part in the impulse.
 template <MemorylessLaw Law>
 double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
   if constexpr (SpeedLaw<Law>) {
@@ -62,7 +62,7 @@ double after_impulse(const Law& law, double displacement, Direction direction, d
     advance(general_flows(slider), Segment{impulse / standard_gravity, 0, 0}, state, none);
     return std::abs(state.velocity);
   } else {
-    return std::max(speed - law.resist(displacement, direction) / standard_gravity * impulse, 0.0);
+    return std::max(speed - friction(law, displacement, speed, direction) / standard_gravity * impulse, 0.0);
   }
 }
 
@@ -145,20 +145,8 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
     if (state.mode == Mode::stuck) return false;
     const Direction direction = direction_of(state.mode);
     const double before = std::abs(state.velocity);
-    const auto& law = flows.law_now(state, 1);
-    const double after = after_impulse(law, state.displacement, direction, before, impulse);
-    if constexpr (EnergyObserver<Observer>) {
-      const double taken = (before * before - after * after) / 2;
-      double dissipated = taken;
-      if constexpr (SpringLaw<std::remove_cvref_t<decltype(law)>>) {
-        // The impulse also acts on the springs in the law; their part is work of the ground.
-        const double level = law.resist(state.displacement, direction) / standard_gravity;
-        const double acts = level * impulse > before ? before / level : impulse;
-        dissipated = law.friction(state.displacement, direction) / standard_gravity * acts * (before + after) / 2;
-        observer.slide(Slip{direction, state.displacement, 0, 0, dissipated - taken});
-      }
-      observer.dissipate(dissipated);
-    }
+    const double after = after_impulse(flows.law_now(state, 1), state.displacement, direction, before, impulse);
+    if constexpr (EnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
     state.velocity = sign(direction) * after;
     if (after > 0) return false;
     state.mode = Mode::stuck;
