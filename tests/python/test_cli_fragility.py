@@ -2,7 +2,9 @@
 
 import csv
 import json
+import warnings
 
+import numpy as np
 import pytest
 import stickslip as ss
 from stickslip.cli import main
@@ -37,7 +39,7 @@ def test_the_rows_are_those_of_the_library(capsys, tmp_path):
     assert main([*USUAL, *more, "--separate"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].split()[:2] == ["exceeds", "[m]"]
-    assert f"{fitted(separate=True).median[1]:.3f}" in lines[2]
+    assert f"{fitted(separate=True).median[1]:.3g}" in lines[2]
 
 
 def test_without_levels_the_records_are_a_cloud(capsys, tmp_path):
@@ -73,3 +75,33 @@ def test_what_cannot_be_fitted_is_an_error(capsys, more, message):
     captured = capsys.readouterr()
     assert message in captured.err
     assert captured.out == ""
+
+
+def test_both_components_of_a_station_are_one_record(capsys, tmp_path):
+    rng = np.random.default_rng(5)
+    files = []
+    for station in ("KOB", "TAK", "NIS"):
+        for azimuth in ("090", "000"):
+            file = tmp_path / f"{station}-{azimuth}.csv"
+            smooth = np.ones(1 + 4 * len(files))  # slower ones slide further at the same PGA
+            samples = np.convolve(rng.standard_normal(200), smooth, "same")
+            file.write_text("\n".join(f"{0.02 * i:.2f}, {a:.9g}" for i, a in enumerate(samples)))
+            files.append(str(file))
+    levels = ["--pga", "0.15", "0.2", "0.3", "0.5", "--thresholds", "0.002", "--mu", "0.1"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert main(["fragility", *files, "--units", "m/s^2", *levels, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["records"] == 3
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (["--mu", "0"], "--mu must be positive, got 0"),
+        (["--mu", "0.1", "--years", "10"], "--years goes with --hazard, got 10 without"),
+        (["--mu", "0.1", "--members", "10"], "--members goes with --mu-beta, got 10 without"),
+    ],
+)
+def test_options_without_a_meaning_are_refused(capsys, more, message):
+    assert main(["fragility", "sample:Kobe", "--thresholds", "0.1", *more]) == 2
+    assert message in capsys.readouterr().err

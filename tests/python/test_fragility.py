@@ -312,10 +312,10 @@ def test_an_intensity_is_a_column_a_short_name_or_a_function():
     )
     assert same.median == pytest.approx(by.median, rel=1e-9)
     assert ss.Fragility.fit(t, im="cav", thresholds=0.05).im_unit == "m/s"
-    with pytest.raises(ValueError, match=r"'sa_g' is not.*; the table has year, stripe, .*, cav"):
+    with pytest.raises(ValueError, match=r"'sa_g' is not.*; the table has pgv, pga_g, arias, cav"):
         ss.Fragility.fit(t, im="sa_g", thresholds=0.05)
     alone = simulated(1)
-    with pytest.raises(ValueError, match=r"'pgv' is not.*; the table has stripe, pga_g"):
+    with pytest.raises(ValueError, match=r"'pgv' is not.*; the table has pga_g"):
         ss.Fragility.fit(alone, im="pgv", thresholds=0.05)
     with pytest.raises(ValueError, match=r"needs the ground motions, which a table from a file"):
         ss.Fragility.fit(alone, im=lambda motion: motion.peak_acceleration, thresholds=0.05)
@@ -500,3 +500,60 @@ def test_pelicun_itself_reads_the_curves(tmp_path):
     # Standard errors of 0.005: five of them, 6e-7.
     assert safe == pytest.approx(0.5, abs=0.025)
     assert worst == pytest.approx(f.probability(f.median[0])[1], abs=0.025)
+
+
+def test_a_cloud_that_rarely_slides_has_an_infinite_median_and_says_so():
+    """P(D > 0) is 0.2 at every intensity: no intensity exceeds anything half of the time."""
+    rng = np.random.default_rng(11)
+    records = 400
+    im = np.geomspace(0.1, 1.6, records)
+    d = 0.2 * im**2 * np.exp(0.3 * rng.standard_normal(records))
+    d[rng.random(records) > 0.2] = 0
+    table = table_of(d.reshape(1, -1, 1), im, 1)
+    table.metadata["record"] = np.array([f"r{i}" for i in range(records)])
+    with pytest.warns(
+        RuntimeWarning, match=r"not exceeded half of the time.*the median is infinite"
+    ):
+        f = ss.Fragility.fit(table, im="pga_g", thresholds=0.01, method="cloud")
+    assert math.isinf(f.median[0])
+    assert math.isinf(f.beta[0])
+    assert (f.probability(f.grid()) < 0.5).all()
+    bands = f.bands(samples=200)
+    assert bands.median[0].tolist() == [0.0, math.inf]
+    assert np.isfinite(bands.low).all()
+
+
+def test_bands_of_three_records_say_that_they_are_not_bounded():
+    f = ss.Fragility.fit(simulated(3, 3), im="pga_g", thresholds=0.1)
+    with pytest.warns(RuntimeWarning, match="3 records do not bound bands of 90 %"):
+        f.bands()
+    bands = ss.Fragility.fit(simulated(3, 18), im="pga_g", thresholds=0.1).bands()
+    assert repr(bands).startswith("<Bands: medians ")
+
+
+def test_impact_needs_stops_at_all_sliders():
+    stop = ss.Slider(ss.Coulomb(mu=0.1), stops=ss.Stops(gap=0.05, restitution=0))
+    suite = ss.sample_records().stripes(pga_g=[0.3, 0.9])
+    table = ss.sweep([stop, ss.Coulomb(mu=0.1)], suite)
+    with pytest.raises(ValueError, match="1 of 2 have none: leave them out"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=ss.impact)
+
+
+def test_arguments_of_a_wrong_type_are_named():
+    table = simulated(1)
+    with pytest.raises(TypeError, match=r"table must be a SweepTable.*got str"):
+        ss.Fragility.fit("table", im="pga_g", thresholds=0.1)
+    with pytest.raises(ValueError, match=r"Fragility.fit: thresholds must hold real numbers"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=["a"])
+    with pytest.raises(TypeError, match=r"im must be the name of a column or a function"):
+        ss.Fragility.fit(table, im=3, thresholds=0.1)
+    with pytest.raises(ValueError, match=r"the table has pga_g$"):
+        ss.Fragility.fit(table, im="nothing", thresholds=0.1)
+    with pytest.raises(ValueError, match=r"seed must be from 0 to 2\^64 - 1, got -1"):
+        ss.sweep(
+            ss.Random(ss.Coulomb, mu=ss.Uniform(0.1, 0.2)), ss.sample_records(), members=2, seed=-1
+        )
+    with pytest.raises(ValueError, match=r"a level counts once, got pga_g = 0.2 twice"):
+        ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.2])
+    with pytest.raises(ValueError, match=r"consists of stripes already"):
+        ss.sample_records().stripes(pga_g=[0.2]).stripes(pga_g=[0.4])

@@ -227,3 +227,88 @@ def test_rates_are_a_table_and_a_picture(fragility):
     for line in axes.get_lines()[:2]:
         x, y = line.get_data()
         assert np.trapezoid(y, np.log(x)) == pytest.approx(1, abs=0.01)
+
+
+def test_a_logistic_curve_under_a_steep_hazard_has_no_rate():
+    """The tail of the curve falls as IM^(pi/(sqrt(3) beta)), the hazard rises as IM^-k."""
+    f = ss.Fragility.fit(simulated(5, 400), im="pga_g", thresholds=0.1, method="logit")
+    tail = math.pi / (math.sqrt(3) * f.beta[0])
+    im = np.array([0.01, 1.0])
+    with pytest.raises(ValueError, match=r"has no bound.*use method='lognormal'"):
+        f.rate_of_exceedance(ss.Hazard(im, (im / im[0]) ** -(tail + 0.1)))
+    assert f.rate_of_exceedance(ss.Hazard(im, (im / im[0]) ** -(tail - 1.0))).rate[0] > 0
+
+
+SHORT = "#,,\"investigation_time=1.0, imt='PGA'\"\nlon,lat,depth,poe-0.1,poe-0.2\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("im,rate\n0.1,1e-2\n0.3\n1,1e-4\n", "line 3: needs two columns"),
+        ("0.1 1e-2\n0.3 a\n1 1e-4\n", r"line 2: 'a' is no number"),
+        ("0.1 1e-2 7\n0.3 1e-3 7\n", "line 1: needs two columns"),
+        ("{", "is no JSON document"),
+        ('{"response": [3]}', "has no hazard curve where the JSON"),
+        ('[{"imt": "PGA"}]', "has no hazard curve where the JSON"),
+        (
+            SHORT + "1,2,0,0.1\n",
+            "line 3: has 4 values where the head has 5",
+        ),
+        (
+            SHORT + "1,2,0,0.1,x\n",
+            "line 3: 'x' is no number",
+        ),
+    ],
+)
+def test_a_line_that_does_not_belong_in_a_hazard_file_is_named(tmp_path, text, message):
+    file = tmp_path / "hazard.txt"
+    file.write_text(text)
+    with pytest.raises(ValueError, match=message):
+        ss.read_hazard(file)
+
+
+def test_a_hazard_file_may_have_a_head_and_comments(tmp_path):
+    file = tmp_path / "hazard.txt"
+    file.write_text("PGA [g]; rate\n# from a site study\n0.1; 1e-2\n\n1; 1e-4\n")
+    assert ss.read_hazard(file).rate.tolist() == [1e-2, 1e-4]
+    file.write_bytes(b"\xff\xfe\x00\x80")
+    with pytest.raises(ValueError, match="is not a text file"):
+        ss.read_hazard(file)
+    with pytest.raises(TypeError, match="path must be a path, got int"):
+        ss.read_hazard(3)
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "message"),
+    [
+        (
+            "0.1 1e-2\n1 1e-4\n",
+            {"imt": "PGA"},
+            "imt='PGA' has no meaning for a file of two columns",
+        ),
+        ("0.1 1e-2\n1 1e-4\n", {"site": 0}, "site=0 has no meaning for a file of two columns"),
+        ("[]", {"years": 50}, "years=50 has no meaning for the JSON"),
+        (
+            "lon,lat,depth,poe-0.1\n1,2,0,0.1\n",
+            {"imt": "PGA"},
+            "imt='PGA' has no meaning for a file of O",
+        ),
+    ],
+)
+def test_an_argument_that_a_kind_of_hazard_file_has_no_use_for_is_refused(
+    tmp_path, text, arguments, message
+):
+    file = tmp_path / "hazard.txt"
+    file.write_text(text)
+    with pytest.raises(ValueError, match=message):
+        ss.read_hazard(file, **arguments)
+
+
+def test_units_and_names_of_hazard_and_fragility_must_agree(fragility):
+    with pytest.raises(ValueError, match=r"the hazard curve is in m/s\^2, the fragility in g"):
+        fragility.rate_of_exceedance(ss.Hazard([0.1, 10], [1e-2, 1e-5], name="pga_g", unit="m/s^2"))
+    with pytest.raises(ValueError, match="is of PGA, the fragility of pga_g; give name='pga_g'"):
+        fragility.rate_of_exceedance(ss.Hazard([0.1, 10], [1e-2, 1e-5], name="PGA"))
+    with pytest.raises(ValueError, match="Hazard: im must hold real numbers"):
+        ss.Hazard(["a", "b"], [1e-2, 1e-5])

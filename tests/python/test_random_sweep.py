@@ -112,7 +112,7 @@ def test_what_cannot_be_drawn_is_refused():
     pair = ss.Random(ss.StaticKinetic, mu_static=ss.Uniform(0.4, 0.5), mu_kinetic=0.1)
     with pytest.raises(ValueError, match="'mu_kinetic' must be one of mu_static"):
         pair.correlated("mu_static", "mu_kinetic", 0.5)
-    with pytest.raises(ValueError, match="coefficient must be between -1 and 1, got 1"):
+    with pytest.raises(ValueError, match="coefficient must lie strictly between -1 and 1, got 1"):
         three = ss.Random(lambda a, b, c: ss.Coulomb(mu=a), **dict.fromkeys("abc", MU))
         three.correlated("a", "b", 1)
     with pytest.raises(ValueError, match="the correlations contradict each other"):

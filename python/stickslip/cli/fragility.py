@@ -40,7 +40,7 @@ def add_fragility(commands: argparse._SubParsersAction) -> None:
     add_files(parser)
     add("--mu", type=ratio, required=True, help="coefficient of friction [-]; its median")
     add("--mu-beta", type=number, default=0.0, metavar="B", help="its ln deviation (default 0)")
-    add("--members", type=whole, default=100, metavar="N", help="draws of it (default 100)")
+    add("--members", type=whole, metavar="N", help="draws of it (default 100); with --mu-beta")
     add("--seed", type=whole, default=1, metavar="N", help="random seed (default 1)")
     add("--pga", nargs="+", type=ratios, metavar="G", help="levels of PGA [g] or ranges")
     add(
@@ -64,7 +64,7 @@ def add_fragility(commands: argparse._SubParsersAction) -> None:
         help="hazard curve of PGA [g] and annual rate, or a file of OpenQuake or USGS: prints the"
         " annual rates of exceedance",
     )
-    add("--years", type=number, default=50.0, metavar="T", help="time for --hazard (default 50)")
+    add("--years", type=number, metavar="T", help="time for --hazard (default 50)")
     add("--plot", type=Path, dest="curves", metavar="FILE", help="picture (.png, .pdf, .svg)")
     add("--csv", type=Path, metavar="FILE", help="write the table to a file, with all digits")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
@@ -73,12 +73,21 @@ def add_fragility(commands: argparse._SubParsersAction) -> None:
 
 def _fragility(args: argparse.Namespace) -> str:
     from ..ensemble import Random  # these import NumPy, slowly
+    from ..motions.stations import records_of_names
     from ..motions.suite import Suite
     from ..risk.fragility import Fragility
     from ..risk.hazard import read_hazard
     from ..sweeps import sweep
 
-    check_whole("--members", args.members, 1)
+    if args.members is not None:
+        check_whole("--members", args.members, 1)
+        if not args.mu_beta:
+            raise ValueError(f"--members goes with --mu-beta, got {args.members} without")
+    if args.years is not None and args.hazard is None:
+        raise ValueError(f"--years goes with --hazard, got {args.years:g} without")
+    if not args.mu > 0:
+        raise ValueError(f"--mu must be positive, got {args.mu:g}: nothing holds the block")
+    years = 50.0 if args.years is None else args.years
     check_whole("--seed", args.seed, 0)
     if not 0 <= args.mu_beta < math.inf:
         raise ValueError(f"--mu-beta must be at least 0 and finite, got {args.mu_beta:g}")
@@ -86,7 +95,7 @@ def _fragility(args: argparse.Namespace) -> str:
     drawn: dict[str, Any] = {}
     if args.mu_beta > 0:
         block = Random(Coulomb, mu=Lognormal(median=args.mu, beta=args.mu_beta))
-        drawn = {"members": args.members, "seed": args.seed}
+        drawn = {"members": args.members or 100, "seed": args.seed}
     hazard = read_hazard(args.hazard, imt=None) if args.hazard else None
     batch = Batch(args)
     if args.curves:
@@ -95,7 +104,9 @@ def _fragility(args: argparse.Namespace) -> str:
     said = batch.finish()
     if not motions:
         return json_text({"results": [], **said}) if args.json else ""
-    suite = Suite(motions)
+    # Both components of a station are one record for the intervals.
+    suite = Suite(motions, {"record": records_of_names([motion.name for motion in motions])})
+    records = len(set(suite.metadata["record"].tolist()))
     if args.pga:
         suite = suite.stripes(pga_g=sorted(args.pga))
     f = Fragility.fit(
@@ -105,11 +116,11 @@ def _fragility(args: argparse.Namespace) -> str:
         separate=args.separate,
         method=args.method or ("lognormal" if args.pga else "cloud"),
     )
-    rows = _rows(f, len(motions))
+    rows = _rows(f, records)
     if hazard is not None:
         h = f.rate_of_exceedance(hazard)
-        for row, rate, p in zip(rows, h.rate.tolist(), h.probability(args.years).tolist()):
-            row |= {"rate_per_year": rate, "years": args.years, "probability": p}
+        for row, rate, p in zip(rows, h.rate.tolist(), h.probability(years).tolist()):
+            row |= {"rate_per_year": rate, "years": years, "probability": p}
     written = [str(args.csv)] if args.csv else []
     if args.csv:
         write_csv(args.csv, list(rows[0]), rows)
@@ -117,12 +128,12 @@ def _fragility(args: argparse.Namespace) -> str:
         from ..plotting import save
 
         friction = f"mu = {args.mu:g}" + (f", beta = {args.mu_beta:g}" if args.mu_beta else "")
-        title = f"{len(motions)} records, {friction}"
-        save(f.plot(level=_LEVEL if len(motions) > 1 else None, title=title), args.curves)
+        title = f"{records} record{'s' if records > 1 else ''}, {friction}"
+        save(f.plot(level=_LEVEL if records > 1 else None, title=title), args.curves)
         written.append(str(args.curves))
     if args.json:
         figures = [str(args.curves)] if args.curves else []
-        about = {"records": len(motions), "method": f.method}
+        about = {"records": records, "method": f.method}
         return json_text({**about, "results": rows, **said, "figures": figures})
     return "\n".join([*_lines(rows), *(f"wrote {printable(name)}" for name in written)])
 
@@ -156,11 +167,11 @@ def _lines(rows: list[dict[str, Any]]) -> Iterable[str]:
     years = f"in {rows[0]['years']:g} years" if rated else ""
     yield head + (f"  {'rate [1/year]':>13}  {years:>12}" if rated else "")
     for row in rows:
-        interval = f"{row['median_low_g']:.3f} to {row['median_high_g']:.3f}"
+        interval = f"{row['median_low_g']:.3g} to {row['median_high_g']:.3g}"
         line = (
-            f"{row['threshold_m']:11.4g}  {row['median_g']:10.3f}  {interval:>16}"
+            f"{row['threshold_m']:11.4g}  {row['median_g']:10.3g}  {interval:>16}"
             f"  {row['beta']:4.2f}  {row['beta_records']:7.2f}  {row['beta_parameters']:10.2f}"
-            f"  {row['hclpf_g']:9.3f}"
+            f"  {row['hclpf_g']:9.3g}"
         )
         if rated:
             line += f"  {row['rate_per_year']:13.3g}  {row['probability']:12.3g}"

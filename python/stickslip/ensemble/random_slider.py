@@ -148,7 +148,8 @@ class Random:
         rho = float(coefficient)
         if not -1 < rho < 1:
             raise ValueError(
-                f"Random.correlated: coefficient must be between -1 and 1, got {coefficient}"
+                "Random.correlated: coefficient must lie strictly between -1 and 1, got"
+                f" {coefficient}"
             )
         result = Random(self._kind, **self._parameters)
         a, b = sorted((first, second), key=self.names.index)
@@ -244,6 +245,8 @@ class Random:
         count, number = operator.index(members), operator.index(seed)
         if count < 1:
             raise ValueError(f"Random: members must be at least 1, got {count}")
+        if not 0 <= number < 2**64:
+            raise ValueError(f"Random: seed must be from 0 to 2^64 - 1, got {number}")
         if stratified:
             qmc = optional("scipy.stats.qmc", "risk", "Random.draw")
             cube = qmc.LatinHypercube(max(len(self._drawn), 1), seed=np.random.default_rng(number))

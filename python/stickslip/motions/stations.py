@@ -11,7 +11,7 @@ from .. import _core
 from .._core import GroundMotion
 from .records import Component, changed, direction
 
-__all__ = ["Part", "Station", "stations_of"]
+__all__ = ["Part", "Station", "records_of_names", "stations_of"]
 
 # What a file name may end in: an azimuth, or letters after a mark; KOBE_NIS000, NIS-UP, CPM_090.
 _ENDING = re.compile(
@@ -80,6 +80,31 @@ def stations_of(
         else:
             found += [Station(part.component.motion, [part], answer) for part in group]
     return found
+
+
+def records_of_names(names: Sequence[str]) -> list[str]:
+    """The records of components by their names: a station's two perpendicular ones are one record.
+
+    Two names that differ in an azimuth by 90 degrees, or in N and E, at their end.
+    """
+    ends = [_ENDING.fullmatch(name.replace(", ", " ")) for name in names]
+    groups: dict[str, list[int]] = {}
+    for i, end in enumerate(ends):
+        if end is not None:
+            groups.setdefault(end[1] or end[3], []).append(i)
+    found = list(names)
+    for station, group in groups.items():
+        said = [(ends[i][2] or ends[i][4]).upper() for i in group]  # type: ignore[index]
+        if len(group) == 2 and _are_perpendicular(*said):
+            for i in group:
+                found[i] = station
+    return found
+
+
+def _are_perpendicular(one: str, other: str) -> bool:
+    if one.isdigit() and other.isdigit():
+        return (int(one) - int(other)) % 180 == 90
+    return {one, other} in ({"N", "E"}, {"NS", "EW"}, {"H1", "H2"})
 
 
 def _station(group: Sequence[Part], axis: str, common_length: bool) -> Station | str:

@@ -453,6 +453,13 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
         levels = np.atleast_1d(np.asarray(targets[measure], float))
         if levels.ndim != 1 or not levels.size:
             raise ValueError(f"Suite.stripes: {measure} must be a list of levels, got {levels!r}")
+        if len(np.unique(levels)) < len(levels):
+            twice = next(x for i, x in enumerate(levels) if x in levels[:i])
+            raise ValueError(f"Suite.stripes: a level counts once, got {measure} = {twice:g} twice")
+        if "stripe" in self._metadata:
+            raise ValueError(
+                "Suite.stripes: this suite consists of stripes already; give its levels at once"
+            )
         factors = self._factors("stripes", measure, levels[:, np.newaxis], period, damping)
         count, records = len(levels), len(self)
         columns = {name: np.tile(column, count) for name, column in self._metadata.items()}
@@ -471,7 +478,11 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
     ) -> NDArray[np.float64]:
         """The factors that scale each motion to a level, or, of a column of levels, to each."""
         if (measure == "sa_g") != (period is not None):
-            raise ValueError(f"Suite.{who}: sa_g and period go together, got one of them")
+            raise ValueError(
+                f"Suite.{who}: sa_g needs period= [s], the period of the pseudo-acceleration"
+                if measure == "sa_g"
+                else f"Suite.{who}: period goes with sa_g, got it with {measure}"
+            )
         target = np.asarray(levels, float)
         wrong = target[~(np.isfinite(target) & (target > 0))]
         if wrong.size:

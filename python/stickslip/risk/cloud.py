@@ -16,6 +16,7 @@ from .shifts import deviation_of_draws, shifts
 __all__ = ["Cloud"]
 
 Array = NDArray[np.float64]
+_FAR = math.log(100)  # in ln IM beyond the largest intensity; no curve is known there
 
 
 class Cloud:
@@ -183,21 +184,28 @@ class Cloud:
         return result
 
     def quantile(self, found: dict[str, Array], p: float) -> Array:
-        """The intensity at which the probability is p, shape (B, T), by bisection."""
+        """The intensity at which the probability is p, shape (B, T), by bisection.
+
+        Infinite where no intensity up to a hundred times the largest is enough, as when P(D > 0)
+        hardly grows with the intensity.
+        """
         shape = (len(found["a"]), len(self.data.levels), 1)
-        low, high = np.full(shape, self.x.min() - 20), np.full(shape, self.x.max() + 20)
+        low, high = np.full(shape, self.x.min() - 20), np.full(shape, self.x.max() + _FAR)
+        never = self._at(found, high)[:, :, 0] < p
         for _ in range(60):
             middle = (low + high) / 2
             above = self._at(found, middle) >= p
             low, high = np.where(above, low, middle), np.where(above, middle, high)
-        result: Array = np.exp((low + high) / 2)[:, :, 0]
+        result: Array = np.where(never, np.inf, np.exp((low + high) / 2)[:, :, 0])
         return result
 
     def summary(self, found: dict[str, Array]) -> tuple[Array, Array]:
         """Median, and half the distance of the ln IM at 16 and 84 %, shape (B, T) each."""
         one = float(self._cdf(1.0))
         high, low = self.quantile(found, one), self.quantile(found, 1 - one)
-        return self.quantile(found, 0.5), np.maximum(np.log(high / low) / 2, 1e-3)
+        with np.errstate(invalid="ignore"):  # infinite where neither is reached
+            beta = np.where(np.isinf(high), np.inf, np.log(high / low) / 2)
+        return self.quantile(found, 0.5), np.maximum(beta, 1e-3)
 
     def deviation_of_draws(self) -> Array:
         """Standard deviation over draws of the ln median of each, for each threshold."""

@@ -101,9 +101,19 @@ def intensity_efficiency(
     sigma: list[float] = []
     slope: list[float] = []
 
+    who = "intensity_efficiency"
+
     def add(im: Measure, name: str | None = None) -> None:
-        data = observe(table, im, 2 * censored_below, quantity, "intensity_efficiency")
-        found = Cloud(data, censored_below).regression()
+        data = observe(table, im, 2 * censored_below, quantity, who)
+        try:
+            found = Cloud(data, censored_below).regression()
+        except ValueError as error:
+            text = (
+                str(error)
+                .replace("Fragility.fit: method='cloud'", who)
+                .replace("Fragility.fit", who)
+            )
+            raise ValueError(text) from None
         names.append(name or data.im_name)
         sigma.append(found["sigma"])
         slope.append(found["b"])

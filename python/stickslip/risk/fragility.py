@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, SupportsIndex, overload
@@ -52,6 +53,10 @@ class Bands(NamedTuple):
     beta: NDArray[np.float64]
     hclpf: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        medians = ", ".join(f"{low:.3g} to {high:.3g}" for low, high in self.median)
+        return f"<Bands: medians {medians}; curves at {len(self.im)} intensities>"
+
 
 class Fragility(Tabular):
     """Fragility curves of a sweep, as `fit` returns them, one for each threshold.
@@ -96,6 +101,15 @@ class Fragility(Tabular):
         self.beta_parameters = np.minimum(model.deviation_of_draws(), self.beta)
         self.beta_records = np.sqrt(self.beta**2 - self.beta_parameters**2)
         self.hclpf = model.quantile(self._found, _HCLPF)[0]
+        for label, median in zip(data.labels, self.median):
+            if math.isinf(median):
+                warnings.warn(
+                    f"Fragility.fit: up to 100 times the largest {data.im_name}, {label} is not"
+                    " exceeded half of the time: under 'cloud' the probability of sliding at all"
+                    " does not grow that far; the median is infinite",
+                    RuntimeWarning,
+                    stacklevel=3,
+                )
 
     @classmethod
     def fit(
@@ -154,7 +168,8 @@ class Fragility(Tabular):
         Warns
         -----
         RuntimeWarning
-            Responses failed, and are left out.
+            Responses failed, and are left out; a median is infinite, because under 'cloud' no
+            intensity makes the slider exceed the threshold half of the time.
 
         Examples
         --------
@@ -170,6 +185,11 @@ class Fragility(Tabular):
         -----
         Newton's method, to 1e-9. 72,000 responses with three thresholds take about 50 ms.
         """
+        if not isinstance(table, SweepTable):
+            raise TypeError(
+                f"Fragility.fit: table must be a SweepTable, as sweep returns it, got"
+                f" {type(table).__name__}"
+            )
         if method not in _METHODS:
             raise ValueError(
                 f"Fragility.fit: method must be one of {', '.join(_METHODS)}, got {method!r}"
@@ -242,6 +262,11 @@ class Fragility(Tabular):
         ValueError
             An argument out of range; a single record.
 
+        Warns
+        -----
+        RuntimeWarning
+            So few records that the resamples do not bound the bands: three or fewer for 90 %.
+
         Notes
         -----
         Basic bootstrap intervals of ln median, ln beta, ln HCLPF and the normal score of the
@@ -269,6 +294,13 @@ class Fragility(Tabular):
         found = self._model.estimate(weights)
         wide = math.sqrt(records / (records - 1)) * stats.t.ppf((1 + level) / 2, records - 1)
         ends = [stats.norm.cdf(-wide), stats.norm.cdf(wide)]
+        if ends[0] * count < 1:
+            warnings.warn(
+                f"Fragility.bands: {records} records do not bound bands of {100 * level:g} %: they"
+                f" reach beyond what {count} resamples show, and are at least as wide as given",
+                RuntimeWarning,
+                stacklevel=2,
+            )
 
         def reflected(samples: _Array, estimate: _Array) -> _Array:
             """The interval that lies about the estimate as the samples do, mirrored."""
@@ -277,7 +309,9 @@ class Fragility(Tabular):
             return interval
 
         def of_positive(samples: _Array, estimate: _Array) -> _Array:
-            interval: _Array = np.exp(reflected(np.log(samples), np.log(estimate)))
+            with np.errstate(invalid="ignore"):  # an infinite median
+                interval: _Array = np.exp(reflected(np.log(samples), np.log(estimate)))
+            interval[:, np.isinf(estimate)] = [[0.0], [np.inf]]
             return interval.T
 
         def score(p: _Array) -> _Array:
@@ -302,8 +336,11 @@ class Fragility(Tabular):
 
     def grid(self) -> NDArray[np.float64]:
         """101 intensities over which the curves rise, shape (101,)."""
-        ends = [self._model.quantile(self._found, p) for p in (0.001, 0.999)]
-        return np.geomspace(ends[0].min(), ends[1].max(), 101)
+        low, high = (self._model.quantile(self._found, p) for p in (0.001, 0.999))
+        largest = 2 * self._data.im.max()  # for a curve that never gets there
+        return np.geomspace(
+            min(low.min(), self._data.im.min()), np.where(np.isinf(high), largest, high).max(), 101
+        )
 
     def rate_of_exceedance(self, hazard: Hazard) -> Exceedances:
         """The annual rates at which the thresholds are exceeded, under a hazard curve.

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._core import to_vector
 from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
@@ -74,8 +75,8 @@ class Hazard(Tabular):
         unit: str = "",
         period: float | None = None,
     ) -> None:
-        self.im = np.array(im, float)
-        self.rate = np.array(rate, float)
+        self.im = np.array(to_vector(im, "Hazard: im"))
+        self.rate = np.array(to_vector(rate, "Hazard: rate"))
         self.name, self.unit, self.period = name, unit, period
         if self.im.ndim != 1 or self.im.shape != self.rate.shape or len(self.im) < 2:
             raise ValueError(
@@ -231,9 +232,11 @@ def exceedances(fragility: Fragility, hazard: Hazard) -> Exceedances:
             f" {type(hazard).__name__}"
         )
     if hazard.name and hazard.name != fragility.im:
+        ours = _measure(hazard.name)[0]
+        hint = f"; give name='{ours}'" if ours == fragility.im else ""
         raise ValueError(
             f"Fragility.rate_of_exceedance: the hazard curve is of {hazard.name}, the fragility of"
-            f" {fragility.im}"
+            f" {fragility.im}{hint}"
         )
     periods = (hazard.period, fragility.im_period)
     if None not in periods and not math.isclose(*periods, rel_tol=1e-6):  # type: ignore[arg-type]
@@ -241,6 +244,12 @@ def exceedances(fragility: Fragility, hazard: Hazard) -> Exceedances:
             f"Fragility.rate_of_exceedance: the hazard curve is at a period of {periods[0]:g} s,"
             f" the fragility at {periods[1]:g} s"
         )
+    if hazard.unit and fragility.im_unit and hazard.unit != fragility.im_unit:
+        raise ValueError(
+            f"Fragility.rate_of_exceedance: the hazard curve is in {hazard.unit}, the fragility in"
+            f" {fragility.im_unit}"
+        )
+    _check_bounded(fragility, hazard)
     if fragility.method == "lognormal":
         parts = _lognormal_pieces(fragility, hazard)
     else:
@@ -258,6 +267,23 @@ def exceedances(fragility: Fragility, hazard: Hazard) -> Exceedances:
                 stacklevel=3,
             )
     return Exceedances(fragility, hazard, rate, beyond)
+
+
+def _check_bounded(fragility: Fragility, hazard: Hazard) -> None:
+    """Refuse a logistic curve whose lower tail falls more slowly than the hazard curve rises."""
+    if fragility.method != "logit":
+        return
+    slope = float(hazard.slopes[0])
+    for label, beta in zip(fragility.labels, fragility.beta):
+        tail = math.pi / (math.sqrt(3) * beta)
+        if slope >= tail:
+            raise ValueError(
+                f"Fragility.rate_of_exceedance: the rate for {label} has no bound: below"
+                f" {hazard.im[0]:g} {hazard.unit}".rstrip()
+                + f" the hazard curve rises as IM^-{slope:.3g}, and a logistic curve with beta"
+                f" {beta:.3g} falls only as IM^{tail:.3g}; use method='lognormal', or a hazard"
+                " curve that flattens toward low intensities"
+            )
 
 
 def _ends(hazard: Hazard) -> tuple[Array, Array, Array, Array]:
@@ -334,7 +360,8 @@ def read_hazard(
     ----------
     path : path-like
         A text file with two columns, intensity and annual rate [1/year], separated by commas,
-        semicolons or blanks; lines of text are skipped. OpenQuake's ``hazard_curve-*.csv``. The
+        semicolons or blanks, below lines of text; lines that begin with # or % are skipped.
+        OpenQuake's ``hazard_curve-*.csv``. The
         JSON of the USGS hazard tool.
     imt : str, optional
         The intensity measure of a file with several, such as 'PGA' or 'SA1P0'.
@@ -354,21 +381,43 @@ def read_hazard(
     Raises
     ------
     ValueError
-        A file that is none of these; several measures or sites without a choice; a curve that does
-        not decrease.
+        A file that is none of these; a line that does not belong in it; several measures or sites
+        without a choice, or a choice that the kind of file does not have; a curve that does not
+        decrease.
     OSError
         The file cannot be read.
     """
+    if not isinstance(path, (str, bytes, os.PathLike)):
+        raise TypeError(f"read_hazard: path must be a path, got {type(path).__name__}")
     file = Path(os.fsdecode(path))
-    text = file.read_text(encoding="utf-8-sig")
     try:
+        text = file.read_text(encoding="utf-8-sig")
         if text.lstrip().startswith(("{", "[")):
+            _refuse(site=site, years=years, kind="the JSON of the USGS hazard tool")
             return _from_usgs(text, imt)
         if re.search(r"^lon,lat", text, re.MULTILINE) and "poe-" in text:
+            _refuse(imt=imt, kind="a file of OpenQuake, which has one measure")
             return _from_openquake(text, site, years)
+        _refuse(imt=imt, site=site, kind="a file of two columns")
         return _from_columns(text, years)
+    except UnicodeDecodeError:
+        raise ValueError(f"read_hazard: '{file}': is not a text file") from None
     except ValueError as error:
         raise ValueError(f"read_hazard: '{file}': {error}") from error
+
+
+def _refuse(kind: str, **given: Any) -> None:
+    """Refuse an argument that a kind of file has no use for."""
+    for name, value in given.items():
+        if value is not None:
+            raise ValueError(f"{name}={value!r} has no meaning for {kind}")
+
+
+def _number(cell: str, line: int, text: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        raise ValueError(f"line {line}: {cell!r} is no number, in {text.strip()!r}") from None
 
 
 def _rates(p: Array, years: float) -> Array:
@@ -395,17 +444,27 @@ def _hazard(im: Array, rate: Array, **about: Any) -> Hazard:
     return Hazard(im[usable], rate[usable], **about)
 
 
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
 def _from_columns(text: str, years: float | None) -> Hazard:
-    rows = []
-    for line in text.splitlines():
+    rows: list[list[float]] = []
+    for number, line in enumerate(text.splitlines(), 1):
         cells = [cell for cell in re.split(r"[,;\s]+", line.strip()) if cell]
-        try:
-            row = [float(cell) for cell in cells]
-        except ValueError:
-            continue  # a head or a comment
-        if row and len(row) != 2:
-            raise ValueError(f"needs two columns, intensity and annual rate, got {line.strip()!r}")
-        rows += [row] if row else []
+        if not cells or cells[0].startswith(("#", "%")):
+            continue
+        if not rows and not any(map(_is_number, cells)):
+            continue  # a head
+        if len(cells) != 2:
+            raise ValueError(
+                f"line {number}: needs two columns, intensity and annual rate, got {line.strip()!r}"
+            )
+        rows.append([_number(cell, number, line) for cell in cells])
     if len(rows) < 2:
         raise ValueError(
             "needs two columns, intensity and annual rate, with at least 2 rows of numbers, got"
@@ -439,7 +498,16 @@ def _from_openquake(text: str, site: Any, years: float | None) -> Hazard:
         number = near[0]
     if not 0 <= number < len(rows):
         raise ValueError(f"has {len(rows)} sites, got site={number}")
-    points = [(float(h[4:]), float(c)) for h, c in zip(heads, rows[number]) if h[:4] == "poe-"]
+    row, line = rows[number], begin + 2 + int(number)
+    if len(row) != len(heads):
+        raise ValueError(
+            f"line {line}: has {len(row)} values where the head has {len(heads)} columns"
+        )
+    points = [
+        (float(h[4:]), _number(c, line, ",".join(row)))
+        for h, c in zip(heads, row)
+        if h[:4] == "poe-"
+    ]
     im, p = np.array(points).T
     kind = re.search(r"imt='([^']+)'", about)
     name, unit, factor, period = _measure(kind[1] if kind else "")
@@ -459,7 +527,28 @@ def _measure(imt: str) -> tuple[str, str, float, float | None]:
 
 
 def _from_usgs(text: str, imt: str | None) -> Hazard:
-    document = json.loads(text)
+    try:
+        document = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise ValueError(f"is no JSON document: {error}") from error
+    try:
+        found = _curves_of_usgs(document)
+    except (AttributeError, KeyError, TypeError):  # another document
+        found = {}
+    if not found:
+        raise ValueError("has no hazard curve where the JSON of the USGS hazard tool has one")
+    if imt is None and len(found) > 1:
+        raise ValueError(f"has curves of {', '.join(found)}; give imt=")
+    chosen = next(iter(found)) if imt is None else imt
+    if chosen not in found:
+        raise ValueError(f"has no curve of {chosen}; it has {', '.join(found)}")
+    name, unit, factor, period = _measure(chosen)  # PGV is in cm/s here, too
+    x, y = found[chosen]
+    return _hazard(x * factor, y, name=name, unit=unit, period=period)
+
+
+def _curves_of_usgs(document: Any) -> dict[str, tuple[Array, Array]]:
+    """The total curves of a document, by the name of the measure."""
     found: dict[str, tuple[Array, Array]] = {}
     response = document.get("response") if isinstance(document, dict) else None
     curves = response.get("hazardCurves") if isinstance(response, dict) else response
@@ -474,13 +563,4 @@ def _from_usgs(text: str, imt: str | None) -> Hazard:
                 y = part.get("yvalues") or values.get("ys")
                 if x and y and len(x) == len(y):
                     found[name] = (np.array(x, float), np.array(y, float))
-    if not found:
-        raise ValueError("has no hazard curve where the JSON of the USGS hazard tool has one")
-    if imt is None and len(found) > 1:
-        raise ValueError(f"has curves of {', '.join(found)}; give imt=")
-    chosen = next(iter(found)) if imt is None else imt
-    if chosen not in found:
-        raise ValueError(f"has no curve of {chosen}; it has {', '.join(found)}")
-    name, unit, factor, period = _measure(chosen)  # PGV is in cm/s here, too
-    x, y = found[chosen]
-    return _hazard(x * factor, y, name=name, unit=unit, period=period)
+    return found

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import GroundMotion
+from .._core import GroundMotion, to_vector
 from ..motions.intensity import LEVEL_UNITS, level_of
 from ..sweeps.table import SweepTable
 
@@ -28,6 +28,9 @@ class Event(Enum):
 
 
 impact = Event.impact
+
+# Columns of numbers that no displacement grows with.
+_NO_INTENSITIES = ("year", "stripe", "factor", "sa_period", "latitude", "longitude", "dt")
 
 Measure: TypeAlias = str | Callable[[GroundMotion], float]
 
@@ -78,6 +81,11 @@ def measured(table: SweepTable, im: Measure, who: str) -> tuple[NDArray[np.float
     ValueError
         A measure that the table lacks, or that is not positive and finite for each motion.
     """
+    if not callable(im) and not isinstance(im, str):
+        raise TypeError(
+            f"{who}: im must be the name of a column or a function of a motion, got"
+            f" {type(im).__name__}"
+        )
     if callable(im):
         if not table.motions:
             raise ValueError(
@@ -95,7 +103,11 @@ def measured(table: SweepTable, im: Measure, who: str) -> tuple[NDArray[np.float
         elif name in LEVEL_UNITS and name != "sa_g" and table.motions:
             values = np.array([level_of(motion, name) for motion in table.motions])
         else:
-            numbers = [n for n, c in table.metadata.items() if c.dtype.kind in "iuf"]
+            numbers = [
+                n
+                for n, c in table.metadata.items()
+                if c.dtype.kind in "iuf" and n not in _NO_INTENSITIES
+            ]
             if table.motions:
                 numbers += [n for n in LEVEL_UNITS if n != "sa_g" and n not in numbers]
             raise ValueError(
@@ -152,7 +164,7 @@ def observe(
         limits: tuple[float | Event, ...] = given
         response = _hit(table, who)
     else:
-        limits = tuple(float(one) for one in given)
+        limits = tuple(to_vector(given, f"{who}: thresholds").tolist())
         response = np.abs(getattr(table, _quantity(table, quantity, who)))
         _check_thresholds(table, limits, quantity, who)
     failed = int(np.isnan(response).sum())
@@ -185,8 +197,14 @@ def _quantity(table: SweepTable, quantity: str, who: str) -> str:
 
 def _hit(table: SweepTable, who: str) -> NDArray[np.float64]:
     """1 for each response that hits a stop, 0 for the others, NaN for failures."""
-    if not np.isfinite(table.stop_distance).any():
+    without = int((~np.isfinite(table.stop_distance)).sum())
+    if without == table.stop_distance.size:
         raise ValueError(f"{who}: impact needs sliders with stops, and none has any")
+    if without:
+        raise ValueError(
+            f"{who}: impact needs sliders with stops, and {without} of {table.stop_distance.size}"
+            " have none: leave them out of the sweep"
+        )
     if table.planar:
         hit = table.impacts > 0
     else:
