@@ -9,10 +9,12 @@
 #include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/planar/advance.hpp"
@@ -156,10 +158,8 @@ auto with_slider(const stickslip_slider* s, Work&& work) {
 }
 
 template <class Law>
-void step(const Slider<Law>& slider, Contact contact, const stickslip_segment* segment, stickslip_state* state) {
+void move(const Slider<Law>& slider, Contact contact, const stickslip_segment* segment, State& at) {
   require_pointer(segment, "segment");
-  require_pointer(state, "state");
-  State at = state_of(*state);
   const stickslip_segment& s = *segment;
   const Segment horizontal{s.duration, s.start, s.end};
   NoObserver none;
@@ -168,12 +168,57 @@ void step(const Slider<Law>& slider, Contact contact, const stickslip_segment* s
   else
     advance(slider, detail::load_segment(horizontal, slider.slope(), s.vertical_start, s.vertical_end), at, none,
             contact);
-  state->displacement = at.displacement;
-  state->velocity = at.velocity;
-  state->mode = static_cast<double>(at.mode);
-  state->in_flight = at.in_flight ? 1 : 0;
-  state->gap = at.gap;
-  state->gap_velocity = at.gap_velocity;
+}
+
+void store(const State& at, stickslip_state& state) {
+  state.displacement = at.displacement;
+  state.velocity = at.velocity;
+  state.mode = static_cast<double>(at.mode);
+  state.in_flight = at.in_flight ? 1 : 0;
+  state.gap = at.gap;
+  state.gap_velocity = at.gap_velocity;
+}
+
+template <class Law>
+void step(const Slider<Law>& slider, Contact contact, const stickslip_segment* segment, stickslip_state* state) {
+  require_pointer(state, "state");
+  State at = state_of(*state);
+  move(slider, contact, segment, at);
+  store(at, *state);
+}
+
+MultiPendulum pendulum_of(const stickslip_pendulum& p) {
+  constexpr int most = PendulumMemory::most_elements;
+  detail::require(p.surfaces >= 1 && p.surfaces <= most, "stickslip_pendulum: surfaces must be from 1 to 8",
+                  p.surfaces);
+  if (p.nested != 0 && p.nested != 1) detail::refuse("stickslip_pendulum: nested must be 0 or 1", p.nested);
+  const auto list = [&](const double* values) { return std::vector<double>(values, values + p.surfaces); };
+  std::vector<double> capacities = list(p.capacities);
+  for (double& capacity : capacities) capacity = gap(capacity, "capacities");
+  return MultiPendulum(list(p.radii), list(p.mu), std::move(capacities), p.restitution, p.nested == 1);
+}
+
+// The memory as thirteen doubles: places, then force, direction, and three sets of elements.
+PendulumMemory memory_of(const double* from) {
+  PendulumMemory memory;
+  for (double& place : memory.place) place = *from++;
+  memory.force = *from++;
+  const auto whole = [&](double least, double most) {
+    const double value = *from++;
+    detail::require(value >= least && value <= most, "stickslip_pendulum_state: memory must be that of a former step",
+                    value);
+    return static_cast<int>(value);
+  };
+  memory.direction = static_cast<std::int8_t>(whole(-1, 1));
+  for (std::uint8_t* set : {&memory.moving, &memory.at_forward, &memory.at_backward})
+    *set = static_cast<std::uint8_t>(whole(0, 255));
+  return memory;
+}
+void store(const PendulumMemory& memory, double* to) {
+  for (const double place : memory.place) *to++ = place;
+  for (const double value : {memory.force, static_cast<double>(memory.direction), static_cast<double>(memory.moving),
+                             static_cast<double>(memory.at_forward), static_cast<double>(memory.at_backward)})
+    *to++ = value;
 }
 
 template <class Law>
@@ -259,6 +304,23 @@ int stickslip_step_planar(const stickslip_model* model, const stickslip_planar_s
 int stickslip_advance_planar(const stickslip_slider* slider, const stickslip_planar_segment* segment,
                              stickslip_planar_state* state) {
   return stickslip::step(slider, segment, state);
+}
+
+int stickslip_advance_pendulum(const stickslip_pendulum* pendulum, const stickslip_segment* segment,
+                               stickslip_pendulum_state* state, double* displacements) {
+  using namespace stickslip;
+  return guarded([&] {
+    require_pointer(pendulum, "pendulum");
+    require_pointer(state, "state");
+    const Slider slider(pendulum_of(*pendulum), Mounting{.damping = pendulum->damping});
+    State at = state_of(state->motion);
+    at.pendulum = memory_of(state->memory);
+    move(slider, flag(pendulum->clipped, "clipped") ? Contact::clipped : Contact::flight, segment, at);
+    store(at, state->motion);
+    store(at.pendulum, state->memory);
+    if (displacements != nullptr)
+      for (const double u : slider.law().displacements(at.pendulum)) *displacements++ = u;
+  });
 }
 
 int stickslip_check(const stickslip_slider* slider) {

@@ -73,6 +73,7 @@ template <class Work>
 void for_each_slider(Work&& work) {
   for_each_law([&](const auto& example) {
     for (const Named& on : mountings()) {
+      if (taken_by(example.law, on.mounting) != on.mounting) continue;
       INFO(example.name << ", " << on.name);
       work(example, on, Slider(example.law, on.mounting), ground(11, on.vertical));
     }

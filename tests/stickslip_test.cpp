@@ -371,3 +371,32 @@ TEST_CASE("each thread has its own message") {
   CHECK(other.empty());
   CHECK_THAT(std::string(stickslip_message()), ContainsSubstring("got -1"));
 }
+
+TEST_CASE("the C interface moves a pendulum with several surfaces to the same bits") {
+  const MultiPendulum law({0.4, 2, 2.5}, {0.02, 0.04, 0.08}, {0.2, 0.4, 0.5}, 0.3, true);
+  const Slider slider(law, Mounting{.damping = 0.2});
+  stickslip_pendulum c = {};
+  c.surfaces = 3, c.nested = 1, c.restitution = 0.3, c.damping = 0.2;
+  for (int k = 0; k < 3; ++k) c.radii[k] = law.radii()[k], c.mu[k] = law.mu()[k], c.capacities[k] = law.capacities()[k];
+  stickslip_pendulum_state state = {};
+  State at;
+  for (int i = 0; i < 200; ++i) {
+    const double start = 3 * std::sin(0.7 * i), end = 3 * std::sin(0.7 * (i + 1)), up = 2 * std::cos(0.3 * i);
+    const stickslip_segment segment = {0.1, start, end, up, up};
+    double u[8] = {};
+    REQUIRE(stickslip_advance_pendulum(&c, &segment, &state, u) == STICKSLIP_OK);
+    advance(slider, detail::load_segment(Segment{0.1, start, end}, 0, up, up), at);
+    REQUIRE(state.motion.displacement == at.displacement);
+    REQUIRE(u[2] == law.displacement(at.pendulum, 2));
+  }
+  CHECK(std::abs(at.displacement) > 1e-3);
+  const stickslip_segment segment = {0.1, 0, 0, 0, 0};
+  c.mu[1] = 0.01;
+  const double before = state.motion.displacement;
+  CHECK(stickslip_advance_pendulum(&c, &segment, &state, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK(std::string(stickslip_message()).find("mu[1]") != std::string::npos);
+  CHECK(state.motion.displacement == before);
+  c.mu[1] = 0.04, state.memory[9] = 3;
+  CHECK(stickslip_advance_pendulum(&c, &segment, &state, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+  CHECK(stickslip_advance_pendulum(nullptr, &segment, &state, nullptr) == STICKSLIP_INVALID_ARGUMENT);
+}

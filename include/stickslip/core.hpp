@@ -7,6 +7,7 @@
 #include "stickslip/friction/degrading.hpp"
 #include "stickslip/friction/kumar.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"

@@ -66,7 +66,7 @@ class Slider {
   /// @param mounting  spring, damper, slope and stops
   /// @throws std::invalid_argument naming the value; also if the slider would slide under its own weight without
   ///                  a spring or stop to hold it
-  Slider(Law law, const Mounting& mounting) : law_(std::move(law)), mounting_(mounting) {
+  Slider(Law law, const Mounting& mounting) : law_(std::move(law)), mounting_(with_law(law_, mounting)) {
     mounting_.natural_frequency += 0.0;  // minus zero is zero
     mounting_.damping += 0.0;
     detail::require(std::isfinite(stiffness()) && natural_frequency() >= 0,
@@ -144,6 +144,12 @@ class Slider {
   bool plain() const noexcept { return plain_; }
 
  private:
+  // A law may bring stops of its own, and refuse a mounting.
+  static Mounting with_law(const Law& law, Mounting on) {
+    if constexpr (requires { law.mount(on); }) law.mount(on);
+    return on;
+  }
+
   template <class>
   friend class Slider;
   struct Unchecked {};

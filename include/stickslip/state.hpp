@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "stickslip/pendulum_memory.hpp"
 #include "stickslip/surface_heat.hpp"
 
 namespace stickslip {
@@ -39,6 +40,8 @@ struct State {
   double sliding_distance = 0;
   /// Heat left in the sliding surface. Updated only if the law depends on its temperature (HeatedLaw).
   SurfaceHeat heat{};
+  /// Where the elements of a MultiPendulum are. A state without it has come from the center in one motion.
+  PendulumMemory pendulum{};
 
   /// A state at rest if `velocity` is 0, else one that slides in its direction.
   static State at(double displacement, double velocity) noexcept {

@@ -68,6 +68,24 @@ module stickslip
     real(c_double) :: gap_velocity = 0    ! its rate of change [m/s]
   end type
 
+  !> A friction pendulum with several surfaces.
+  type, bind(c) :: stickslip_pendulum
+    integer(c_int) :: surfaces = 0      ! how many entries below count, 1 to 8; nested 3, 5 or 7
+    integer(c_int) :: nested = 0        ! 1: inner, lower, upper, (lower, upper); 0: elements in series
+    real(c_double) :: radii(8) = 0      ! effective radii [m]
+    real(c_double) :: mu(8) = 0         ! coefficients of friction
+    real(c_double) :: capacities(8) = 0 ! travel to the stop [m]; 0: none
+    real(c_double) :: restitution = 0   ! of the impact where all are at their stops, 0 to 1
+    real(c_double) :: damping = 0       ! of a damper in parallel, per unit mass [1/s]
+    integer(c_int) :: clipped = 0       ! 1: it never leaves the ground
+  end type
+
+  !> Its complete state. By default at rest at its center.
+  type, bind(c) :: stickslip_pendulum_state
+    type(stickslip_state) :: motion
+    real(c_double) :: memory(13) = 0 ! of its elements
+  end type
+
   interface
     !> Check a slider and make a model of it. Returns STICKSLIP_OK or an error; then the model is c_null_ptr.
     integer(c_int) function stickslip_create(slider, model) bind(c)
@@ -118,6 +136,15 @@ module stickslip
     integer(c_int) function stickslip_check(slider) bind(c)
       import
       type(stickslip_slider), intent(in) :: slider
+    end function
+
+    !> Advance a pendulum with several surfaces through one segment. `displacements` receives those of its elements [m].
+    integer(c_int) function stickslip_advance_pendulum(pendulum, segment, state, displacements) bind(c)
+      import
+      type(stickslip_pendulum), intent(in) :: pendulum
+      type(stickslip_segment), intent(in) :: segment
+      type(stickslip_pendulum_state), intent(inout) :: state
+      real(c_double), intent(inout), optional :: displacements(8)
     end function
   end interface
 

@@ -11,7 +11,8 @@
  *     stickslip_advance(&slider, &segment, &state);        nothing to create or destroy: checks the slider at each call
  *
  * The same sliders move in two horizontal directions with stickslip_step_planar and stickslip_advance_planar, which
- * take a stickslip_planar_segment and a stickslip_planar_state.
+ * take a stickslip_planar_segment and a stickslip_planar_state. A pendulum with several surfaces moves with
+ * stickslip_advance_pendulum.
  *
  * Only stickslip_create allocates memory. The only global data are the last message of each thread. No exception leaves
  * these functions.
@@ -85,6 +86,26 @@ typedef struct stickslip_planar_state {
   double gap_velocity;    /* rate of change of the gap, in flight [m/s], finite */
 } stickslip_planar_state;
 
+/* A friction pendulum with several surfaces, in one horizontal direction: a series of elements k with the same force F,
+ * in which F/N = u_k / R_k +- mu_k while element k slides, |u_k| <= d_k, and the displacement is the sum of all u_k. */
+typedef struct stickslip_pendulum {
+  int surfaces;         /* how many of the entries below count: 1 to 8; nested 3, 5 or 7 */
+  int nested;           /* 0: the surfaces are the elements. 1: nested surfaces, from the innermost, which occurs twice,
+                           outward: inner, lower, upper, (lower, upper); a triple pendulum has 3 */
+  double radii[8];      /* effective radii R [m], positive */
+  double mu[8];         /* coefficients of friction, positive and finite */
+  double capacities[8]; /* d, travel to the stop [m], at least 0; 0: none */
+  double restitution;   /* of the impact where all surfaces are at their stops, from 0 to 1 */
+  double damping;       /* c, of a damper in parallel, per unit mass [1/s], finite and at least 0 */
+  int clipped;          /* as in stickslip_slider */
+} stickslip_pendulum;
+
+/* The complete state of a pendulum with several surfaces. All zeros: at rest at its center. */
+typedef struct stickslip_pendulum_state {
+  stickslip_state motion;
+  double memory[13]; /* of its elements: u_k / R_k (of a flat one u_k) of up to eight, then what moved last. Store it */
+} stickslip_pendulum_state;
+
 /* A slider whose numbers have been checked. */
 typedef struct stickslip_model stickslip_model;
 
@@ -138,6 +159,13 @@ int stickslip_step_planar(const stickslip_model* model, const stickslip_planar_s
                           stickslip_planar_state* state);
 int stickslip_advance_planar(const stickslip_slider* slider, const stickslip_planar_segment* segment,
                              stickslip_planar_state* state);
+
+/* Advances a pendulum with several surfaces through one segment, exactly, as stickslip_advance does a slider.
+ *
+ * displacements  receives u_k of the elements at the end, in their order [m], of nested surfaces lower inner, upper
+ * inner, then outward; room for eight. May be null */
+int stickslip_advance_pendulum(const stickslip_pendulum* pendulum, const stickslip_segment* segment,
+                               stickslip_pendulum_state* state, double* displacements);
 
 /* Checks a slider, as stickslip_create does, without making a model. */
 int stickslip_check(const stickslip_slider* slider);

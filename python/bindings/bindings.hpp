@@ -20,6 +20,11 @@ namespace py = pybind11;
 
 namespace stickslip::python {
 
+/// The Python class SurfaceMotion: what an ElementMotion says of the surfaces.
+struct SurfaceMotion {
+  ElementMotion motion;
+};
+
 /// The Python class StaticKinetic.
 using AnyStaticKinetic = std::variant<StaticKinetic<Coulomb>, StaticKinetic<Caster>, StaticKinetic<VelocityDependent>,
                                       StaticKinetic<Degrading>>;
@@ -40,6 +45,8 @@ void bind_velocity_dependent(py::module_& m);
 void bind_stribeck(py::module_& m);
 void bind_degrading(py::module_& m);
 void bind_kumar(py::module_& m);
+void bind_multi_pendulum(py::module_& m);
+void bind_element_motion(py::module_& m);
 void bind_callable_law(py::module_& m);
 void bind_static_kinetic(py::module_& m);
 void bind_stops(py::module_& m);
@@ -196,6 +203,16 @@ inline py::array_t<double> view(std::span<const Vector2> values, py::handle owne
   static_assert(sizeof(Vector2) == 2 * sizeof(double));
   py::array_t<double> array({static_cast<py::ssize_t>(values.size()), py::ssize_t{2}},
                             values.empty() ? nullptr : &values.front().axis, owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// A read-only array of rows of equal length.
+inline py::array_t<double> array_of_rows(const std::vector<std::vector<double>>& values) {
+  const std::size_t columns = values.empty() ? 0 : values.front().size();
+  py::array_t<double> array({static_cast<py::ssize_t>(values.size()), static_cast<py::ssize_t>(columns)});
+  double* to = array.mutable_data();
+  for (const auto& row : values) to = std::copy(row.begin(), row.end(), to);
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }

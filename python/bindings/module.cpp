@@ -48,6 +48,8 @@ PYBIND11_MODULE(_core, m) {
   bind_harmonic_motion(m);
   bind_records(m);
   bind_advance(m);
+  bind_multi_pendulum(m);
+  bind_element_motion(m);
   bind_response(m);
   bind_integrate(m);
   bind_planar_slider(m);

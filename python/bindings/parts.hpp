@@ -45,9 +45,28 @@ inline constexpr auto parts<HarmonicMotion> = std::tuple(&HarmonicMotion::amplit
                                                          &HarmonicMotion::duration, &HarmonicMotion::dt);
 
 template <>
+inline constexpr auto parts<PendulumMemory> = std::tuple(&PendulumMemory::place, &PendulumMemory::force,
+                                                         &PendulumMemory::direction, &PendulumMemory::moving,
+                                                         &PendulumMemory::at_forward, &PendulumMemory::at_backward);
+template <>
 inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::velocity, &State::mode, &State::in_flight,
                                                 &State::gap, &State::gap_velocity, &State::sliding_distance,
-                                                &State::heat);
+                                                &State::heat, &State::pendulum);
+template <>
+inline constexpr auto parts<PendulumLoop::Corner> = std::tuple(&PendulumLoop::Corner::displacement,
+                                                               &PendulumLoop::Corner::force);
+template <>
+inline constexpr auto parts<PendulumLoop> = std::tuple(&PendulumLoop::force, &PendulumLoop::corners,
+                                                       &PendulumLoop::displacement, &PendulumLoop::surfaces,
+                                                       &PendulumLoop::dissipated);
+template <>
+inline constexpr auto parts<ElementMotion> = std::tuple(&ElementMotion::displacement, &ElementMotion::surfaces,
+                                                        &ElementMotion::dissipated, &ElementMotion::sliding_distance,
+                                                        &ElementMotion::peak, &ElementMotion::surface_peak,
+                                                        &ElementMotion::slides, &ElementMotion::stops,
+                                                        &ElementMotion::surface_stops);
+template <>
+inline constexpr auto parts<SurfaceMotion> = std::tuple(&SurfaceMotion::motion);
 template <>
 inline constexpr auto parts<Event> = std::tuple(&Event::time, &Event::displacement, &Event::velocity, &Event::kind);
 template <>

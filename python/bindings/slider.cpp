@@ -157,7 +157,8 @@ acceleration [m/s^2]; on level ground without vertical motion p = -n and N = g. 
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, Law or StaticKinetic
+law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, MultiPendulum, Law or
+    StaticKinetic
     The friction at rest and while sliding.
 natural_frequency : float, optional
     wn of the mass on its spring, without friction [rad/s]; finite and at least 0; 0 means no spring.
@@ -215,7 +216,8 @@ A pendulum whose length is the radius of the cup minus that of the wheel: wn = s
 
 Parameters
 ----------
-law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, Law or StaticKinetic
+law : Coulomb, Caster, VelocityDependent, Stribeck, Degrading, KumarFriction, MultiPendulum, Law or
+    StaticKinetic
 cup_radius : float
     Radius of curvature of the cup [m], positive and finite.
 wheel_radius : float, optional

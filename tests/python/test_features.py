@@ -44,6 +44,7 @@ LAWS = {
     "`KumarFriction`": ss.KumarFriction(
         mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2
     ),
+    "`MultiPendulum`": ss.DoublePendulum([1.5, 3], [0.04, 0.06]),
     "`Law`": ss.Law(resist=resist),
 }
 SPRING = {"period": 2.0}

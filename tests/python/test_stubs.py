@@ -74,6 +74,7 @@ law: (
     | ss.Stribeck
     | ss.Degrading
     | ss.KumarFriction
+    | ss.MultiPendulum
     | ss.Law
     | ss.StaticKinetic
 ) = r.slider.law

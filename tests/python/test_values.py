@@ -19,6 +19,7 @@ BLOCK, WHEEL = ss.Coulomb(slip_level=1.0, backward=1.6), ss.Caster(slip_level=1.
 CART, DAMPER = ss.Slider(WHEEL, 1.3), ss.ViscousSlider(0.5, 2.0)
 ROUND = ss.Coulomb(slip_level=1.0)  # the same in all directions
 PAIR = ss.GroundMotion([0, 5.0, -3.0, 0], dt=0.1, transverse=[0, -2.0, 4.0, 0])
+BEARING = ss.TriplePendulum([0.4, 2, 2], [0.02, 0.04, 0.08], [0.2, 0.4, 0.4])
 EVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], dt=0.1, name="M\u00e9xico")
 UNEVEN = ss.GroundMotion([0.0, 2.0, -2.0, 0.1], times=[0, 0.1, 0.1, 7], interpolation="constant")
 WHITE, BAND = ss.Spectrum.white(s0=1 / 3), ss.Spectrum.band_pass(s0=1.0, low=2.0, high=12.0)
@@ -90,6 +91,15 @@ EXAMPLES = {
             conductivity=float("inf"),
         ),
     ],
+    ss.MultiPendulum: [
+        BEARING,
+        ss.MultiPendulum([1, 2], [0.05, 0.06], [0.1, 0.1]),
+        ss.DoublePendulum([1, 2], [0.05, 0.06], [0.1, 0.1], restitution=0.3),
+        ss.DoublePendulum([1, 2], [0.05, 0.06]),
+    ],
+    ss.PendulumLoop: [BEARING.trace([0.1]), BEARING.trace([0.1, 0.2])],
+    ss.ElementMotion: [ss.integrate(BEARING, motion).elements for motion in (EVEN, EVEN.scaled(2))],
+    ss.SurfaceMotion: [ss.integrate(BEARING, motion).surfaces for motion in (EVEN, EVEN.scaled(2))],
     ss.Law: [ss.Law(resist=math.hypot), ss.Law(resist=math.hypot, hold=math.fsum)],
     ss.SurfaceHeat: [ss.SurfaceHeat(), ss.SurfaceHeat(range(42))],
     ss.StaticKinetic: [
@@ -109,6 +119,7 @@ EXAMPLES = {
         ss.State(1.0, 0.5, 2.0),
         ss.State(1.0, 0.5, heat=ss.SurfaceHeat(range(42))),
         ss.advance(BLOCK, ss.State(), 0.1, 9, vertical_start=-20),
+        ss.advance(BEARING, ss.State(), 0.1, 9),
     ],
     ss.PlanarSlider: [
         ss.PlanarSlider(ROUND),

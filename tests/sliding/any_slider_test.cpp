@@ -62,9 +62,10 @@ TEST_CASE("a slider of any law moves as in its own type", "[any_slider]") {
   std::vector<double> up = gaussian(6, 80, 1, true);
   const GroundMotion shaken = level.with_components({}, up);
   for_each_known_law([&](const auto& law) {
-    const Slider slider(law, bearing);
-    const AnySlider any = known(law, bearing);
-    CHECK(mounting_of(any) == bearing);
+    const Mounting on = taken_by(law, bearing);
+    const Slider slider(law, on);
+    const AnySlider any = known(law, on);
+    CHECK(mounting_of(any) == on);
 
     const Response one = integrate(slider, shaken), other = integrate(any, shaken);
     same_values(one.displacement, other.displacement, one.peak);
@@ -93,6 +94,7 @@ TEST_CASE("a slider of any law moves under harmonic motion as in its own type", 
   const HarmonicMotion motion(2, 7, 3);
   for_each_known_law([&](const auto& law) {
     const Mounting spring{.natural_frequency = 4, .damping = 0.2};
+    if constexpr (std::is_same_v<std::decay_t<decltype(law)>, MultiPendulum>) return;  // its stops are refused
     const Response one = integrate(Slider(law, spring), motion), other = integrate(known(law, spring), motion);
     same_values(one.displacement, other.displacement, one.peak);
     const AnySlider any = known(law, spring);
@@ -102,7 +104,7 @@ TEST_CASE("a slider of any law moves under harmonic motion as in its own type", 
 
 TEST_CASE("a list of sliders of any law is swept and simulated as each alone", "[any_slider]") {
   std::vector<AnySlider> all;
-  for_each_known_law([&](const auto& law) { all.push_back(known(law, bearing)); });
+  for_each_known_law([&](const auto& law) { all.push_back(known(law, taken_by(law, bearing))); });
   const std::vector<GroundMotion> motions{GroundMotion(gaussian(5, 80, 2, true), 0.05)};
   const SweepTable table = sweep(all, motions);
   for (std::size_t i = 0; i < all.size(); ++i) CHECK(table.peak[table.at(i, 0)] == integrate(all[i], motions[0]).peak);

@@ -50,7 +50,7 @@ TEST_CASE("the motion between samples is that of a motion with more samples", "[
   for_each_law([&](const auto& example) {
     for (const Mounting& mounting : mountings()) {
       INFO(example.name << ", natural frequency " << mounting.natural_frequency);
-      const Slider slider(example.law, mounting);
+      const Slider slider(example.law, taken_by(example.law, mounting));
       const IntegrateOptions from{.displacement = 0.01, .velocity = 0.1, .may_end_in_flight = true};
       const Response coarse = integrate(slider, motion, from), fine = integrate(slider, finer, from);
       std::vector<double> times;
@@ -81,9 +81,7 @@ struct Checks final : TrajectoryReader {
     place = last.displacement;
     if (landed) dissipated += (*landed * *landed - arc.start.velocity * arc.start.velocity) / 2;
     landed.reset();
-    const auto energy = [&](const State& at) {
-      return (at.velocity * at.velocity + on.stiffness() * at.displacement * at.displacement) / 2;
-    };
+    const auto energy = [&](const State& at) { return at.velocity * at.velocity / 2 + trajectory.elastic(at); };
     dissipated += arc.work - (energy(last) - energy(arc.start));
     if (arc.rests()) return;
     for (const double part : {0.2, 0.7}) {
@@ -113,7 +111,7 @@ TEST_CASE("the arcs of a trajectory follow each other, and balance forces and en
   for_each_law([&](const auto& example) {
     for (const Mounting& mounting : mountings()) {
       INFO(example.name << ", natural frequency " << mounting.natural_frequency);
-      const Slider slider(example.law, mounting);
+      const Slider slider(example.law, taken_by(example.law, mounting));
       const Response r = integrate(slider, motion, {.displacement = 0.01, .velocity = 0.1, .may_end_in_flight = true});
       const auto one = trajectory(slider, motion, r);
       Checks found(*one);

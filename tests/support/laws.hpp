@@ -75,6 +75,12 @@ inline auto all_laws() {
                 return Degrading({0, 0.02 * l, 0.3 * l}, {1.3 * f, 0.9 * f, 0.5 * f});
               },
               1e-11},
+      Example{"MultiPendulum", MultiPendulum({1.5, 3}, {0.05, 0.12}, {0.3, 0.3}), same,
+              [=](const MultiPendulum&, double l, double t) {
+                const double f = force(l, t);
+                return MultiPendulum({1.5 * t * t, 3 * t * t}, {0.05 * f, 0.12 * f}, {0.3 * l, 0.3 * l});
+              },
+              1e-11},
       Example{"a user's law", Bump{1.2, 0.1}, same,
               [=](const Bump& b, double l, double t) {
                 return Bump{b.slip_level * force(l, t), b.reach * l};
@@ -90,6 +96,16 @@ inline auto all_laws() {
               1e-8},
       Example{"KumarFriction", KumarFriction(liner), same, nullptr, 1e-6},  // heat has its own scales
   };
+}
+
+/// A mounting as a law takes it: a MultiPendulum is a pendulum itself, on level ground, and slides both ways.
+template <class Law>
+Mounting taken_by(const Law&, Mounting mounting) {
+  if constexpr (std::same_as<Law, MultiPendulum>) {
+    mounting.slope_degrees = 0;
+    mounting.one_way = mounting.pendulum = false;
+  }
+  return mounting;
 }
 
 /// Call `work(example)` for each law.

@@ -9,6 +9,7 @@
 #include "stickslip/flow/collocation.hpp"
 #include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/detail/maker.hpp"
+#include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/taylor.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
@@ -22,27 +23,35 @@ namespace stickslip {
 /// If wn^2 + k is negative, the spring pushes away from its center.
 class LinearLevelFlow {
  public:
-  /// @param level  resistance at the start [m/s^2]
-  /// @param slope  k [1/s^2]
-  LinearLevelFlow(double damping, double stiffness, double level, double slope, const Start& start, double duration)
-      : level_(level),
-        slope_(slope),
-        damped_(damping, std::copysign(std::sqrt(std::abs(stiffness + slope)), stiffness + slope)),
-        flow_(damped_, part_of(start, duration, stiffness + slope), reach(duration, stiffness + slope)) {}
+  /// @param slope     k, of the resistance [1/s^2]
+  /// @param friction  the part of the resistance that dissipates, at the start [m/s^2]
+  /// @param wears     and its slope [1/s^2]
+  LinearLevelFlow(double damping, double stiffness, double slope, double friction, double wears, const Start& start,
+                  double duration)
+      : friction_(friction), wears_(wears) {
+    const double k = stiffness + slope;
+    if (k > 0 && !(damping > 0)) {
+      harmonic_.emplace(std::sqrt(k));
+      undamped_.emplace(harmonic_->flow(start, duration));
+    } else {
+      damped_.emplace(damping, std::copysign(std::sqrt(std::abs(k)), k));
+      flow_.emplace(*damped_, part_of(start, duration, k), reach(duration, k));
+    }
+  }
   LinearLevelFlow(const LinearLevelFlow&) = delete;
   LinearLevelFlow& operator=(const LinearLevelFlow&) = delete;
 
-  double horizon() const noexcept { return flow_.horizon(); }
-  double first_stop() const noexcept { return flow_.first_stop(); }
-  Progress at(double t) const noexcept { return flow_.at(t); }
-  Progress at_horizon() const noexcept { return flow_.at_horizon(); }
+  double horizon() const noexcept { return undamped_ ? undamped_->horizon() : flow_->horizon(); }
+  double first_stop() const noexcept { return undamped_ ? undamped_->first_stop() : flow_->first_stop(); }
+  Progress at(double t) const noexcept { return undamped_ ? undamped_->at(t) : flow_->at(t); }
+  Progress at_horizon() const noexcept { return undamped_ ? undamped_->at_horizon() : flow_->at_horizon(); }
 
   /// Work on the damper up to time t [m^2/s^2].
-  double damped_work(double t) const noexcept { return damped_.damping() > 0 ? flow_.damped_work(t) : 0; }
+  double damped_work(double t) const noexcept { return damped_ && damped_->damping() > 0 ? flow_->damped_work(t) : 0; }
   /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const noexcept {
     const double way = t < horizon() ? at(t).distance : at_horizon().distance;
-    return way * (level_ + slope_ / 2 * way);
+    return way * (friction_ + wears_ / 2 * way);
   }
 
  private:
@@ -54,9 +63,12 @@ class LinearLevelFlow {
     return {start.speed, start.acceleration, start.gain_within(reach(duration, stiffness), duration)};
   }
 
-  double level_, slope_;
-  Damped damped_;
-  DampedFlow flow_;
+  double friction_, wears_;
+  // On a spring without a damper, or any other motion.
+  std::optional<Harmonic> harmonic_;
+  std::optional<ClosedForm<Harmonic>> undamped_;
+  std::optional<Damped> damped_;
+  std::optional<DampedFlow> flow_;
 };
 
 /// Makes the flows of a slider whose law has memory, from the law that applies from each state on. The flow has a
@@ -64,6 +76,8 @@ class LinearLevelFlow {
 template <MemoryLaw Law>
 class Remembering : public detail::LawFlows<Law> {
  public:
+  static constexpr bool in_closed_form = form_of<Law> == Form::linear;
+
   explicit Remembering(const Slider<Law>& slider) : detail::LawFlows<Law>(slider.law()), slider_(slider) {}
 
   double pull(double x, double weight) const noexcept { return slider_.mounting().spring().under(weight) * x; }
@@ -74,8 +88,10 @@ class Remembering : public detail::LawFlows<Law> {
   auto flow(Direction direction, const State& state, const SlipStart& start, double duration) const {
     if constexpr (std::same_as<SlipStart, Start> && form_of<Now> == Form::linear) {
       const Now law = slider_.law().at(state);
-      return LinearLevelFlow(slider_.damping(), slider_.stiffness(), law.resist(state.displacement, direction),
-                             law.slope(direction), start, duration);
+      const double slope = law.slope(direction);
+      return LinearLevelFlow(slider_.damping(), slider_.stiffness(), slope,
+                             friction(law, state.displacement, 0, direction), detail::SpringLaw<Now> ? 0 : slope, start,
+                             duration);
     } else {
       now_.emplace(slider_.at(state));
       return TaylorFlow<Now, SlipStart>(*now_, direction, state.displacement, start, duration);

@@ -49,7 +49,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
         level_here_(resist(slider.law(), displacement, start.speed, direction)) {
     // If the level has nearly underflowed, its series does not show how the level rises toward the center: cover at
     // most half of that distance.
-    if (level_here_ <= vanishing && sign(direction) * displacement < 0 &&
+    if (std::abs(level_here_) <= vanishing && sign(direction) * displacement < 0 &&
         resist(slider.law(), 0.0, start.speed, direction) > vanishing)
       horizon_ = std::min(horizon_, time_to_half_way());
     // Under a constant level, the speed then has at most one minimum, which is checked.
@@ -111,12 +111,26 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   /// Work against friction up to time t [m^2/s^2].
   double friction_work(double t) const {
     return integral(t, [&](const Progress& at, double part) {
-      return weight(part) * at.speed *
-             resist(slider_.law(), displacement_ + sign(direction_) * at.distance, at.speed, direction_);
+      return weight(part) * at.speed * friction(slider_.law(), place(at), at.speed, direction_);
     });
   }
 
+  /// As `PowerSeriesFlow::pendulum_work`, also on the springs that a law contains.
+  double pendulum_work(double t) const requires loaded {
+    double work = Base::pendulum_work(t);
+    if constexpr (detail::SpringLaw<Law>)
+      work += integral(t, [&](const Progress& at, double part) {
+        const double pull = resist(slider_.law(), place(at), at.speed, direction_) -
+                            friction(slider_.law(), place(at), at.speed, direction_);
+        return (1 - weight(part)) * at.speed * pull;
+      });
+    return work;
+  }
+
  private:
+  // x [m].
+  double place(const Progress& at) const noexcept { return displacement_ + sign(direction_) * at.distance; }
+
   // A level that changes fast only at low speeds cannot be recognized as such at high speed. The equation of motion
   // must therefore also hold at the minimum of the speed.
   bool balanced_where_slowest() {

@@ -63,7 +63,17 @@ class InvalidLevel : public std::invalid_argument, public NoLevel {
 ///     ahead(state, direction)  // distance in a direction over which that law applies [m], positive; infinite: always
 ///     pass(state, direction)   // moves a state to the end of that distance: x and the sliding distance
 ///
-/// The level must be continuous there.
+/// A law whose memory is more than the sliding distance also defines
+///
+///     slide(state, distance)   // moves the memory of a state, the sliding distance included, in the direction of its
+///                              // mode
+///     begin(state)             // gives a state without memory that of its displacement
+/// and, if its resistance contains springs of its own,
+///
+///     elastic(state)           // energy in them where the normal force is g, per unit mass [m^2/s^2]
+/// and in the law in x and speed
+///
+///     friction(x, direction)   // the part of the resistance that dissipates [m/s^2]
 template <class Law>
 concept MemoryLaw = std::copy_constructible<Law> &&
     requires(const Law& law, const State& state, State& there, Direction direction) {
@@ -124,6 +134,42 @@ decltype(auto) law_at(const Law& law, const AnyState& state, double weight = 1) 
     return law;
 }
 
+namespace detail {
+
+/// Moves the memory of a law over a distance, in the direction of the mode of a state.
+template <MemoryLaw Law>
+void slide(const Law& law, State& state, double distance) {
+  if constexpr (requires { law.slide(state, distance); })
+    law.slide(state, distance);
+  else
+    state.sliding_distance += distance;
+}
+
+/// A state as the event loop carries it, with a memory.
+template <FrictionLaw Law>
+StateOf<Law> with_memory(const Law& law, const State& state) {
+  StateOf<Law> begins(state);
+  if constexpr (requires { law.begin(begins); }) law.begin(begins);
+  return begins;
+}
+
+/// The energy in the springs of a law itself, per unit mass [m^2/s^2].
+template <FrictionLaw Law>
+double elastic(const Law& law, const State& state) {
+  if constexpr (requires { law.elastic(state); })
+    return law.elastic(state);
+  else
+    return 0;
+}
+
+/// A law in x that contains springs.
+template <class Law>
+concept SpringLaw = requires(const Law& law, double x, Direction direction) {
+  { law.friction(x, direction) } -> std::convertible_to<double>;
+};
+
+}  // namespace detail
+
 /// How the resistance varies with x and speed while the slider moves in one direction: this decides how its motion is
 /// computed. A law with memory has the form of the law that applies from a state on.
 enum class Form {
@@ -162,6 +208,16 @@ auto resist(const Law& law, const X& x, const Speed& speed, Direction direction)
     return law.resist(x, speed, direction);
   else
     return law.resist(x, direction);
+}
+
+/// The part of the resistance that dissipates, of any law without memory [m/s^2]: all of it, unless it contains
+/// springs.
+template <MemorylessLaw Law>
+double friction(const Law& law, double x, double speed, Direction direction) {
+  if constexpr (detail::SpringLaw<Law>)
+    return law.friction(x, direction);
+  else
+    return resist(law, x, speed, direction);
 }
 
 /// Largest friction at rest of any law without memory [m/s^2]. It is at least the resistance at zero speed: otherwise a

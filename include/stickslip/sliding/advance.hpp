@@ -147,7 +147,7 @@ void advance_plain(const Slider<Law>& slider, const Segment& segment, State& sta
   if (!finite(segment, state)) [[unlikely]]
     refuse(segment, state);
   check_memory<Law>(state);
-  StateOf<Law> moved(state);
+  StateOf<Law> moved = with_memory(slider.law(), state);
   with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
              [&](const auto& flows) { move(flows, segment, moved, observer); });
   if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
@@ -194,7 +194,8 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
   detail::check_start(slider, state, "advance");
   detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
-  const auto moved = detail::advanced(slider, segment, contact, unusual, detail::StateOf<Law>(state), observer);
+  const auto moved =
+      detail::advanced(slider, segment, contact, unusual, detail::with_memory(slider.law(), state), observer);
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
     detail::refuse_overflow(slider.law(), state);
   detail::store(moved, state);
@@ -237,7 +238,7 @@ void advance(const Slider<Law>& slider, const Piece& segment, State& state, Obse
     detail::refuse(segment, state);
   detail::check_memory<Law>(state);
   const double unusual = std::numeric_limits<double>::quiet_NaN();
-  detail::StateOf<Law> moved(state);
+  detail::StateOf<Law> moved = detail::with_memory(slider.law(), state);
   detail::with_harmonic_flows(slider, segment.omega, unusual,
                               [&](const auto& flows) { detail::move(flows, segment, moved, observer); });
   if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]

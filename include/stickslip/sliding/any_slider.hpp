@@ -10,6 +10,7 @@
 #include "stickslip/friction/degrading.hpp"
 #include "stickslip/friction/function_law.hpp"
 #include "stickslip/friction/kumar.hpp"
+#include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
@@ -32,7 +33,7 @@ class Trajectory;
 ///     const AnySlider slider = Slider(Stribeck(3, 2, 0.05), 1.5);
 ///     const Response response = integrate(slider, motion);
 using AnySlider = std::variant<Slider<Coulomb>, Slider<Caster>, Slider<VelocityDependent>, Slider<Stribeck>,
-                               Slider<Degrading>, Slider<KumarFriction>, Slider<FunctionLaw>,
+                               Slider<Degrading>, Slider<KumarFriction>, Slider<MultiPendulum>, Slider<FunctionLaw>,
                                Slider<StaticKinetic<Coulomb>>, Slider<StaticKinetic<Caster>>,
                                Slider<StaticKinetic<VelocityDependent>>, Slider<StaticKinetic<Degrading>>>;
 

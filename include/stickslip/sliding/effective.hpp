@@ -42,7 +42,7 @@ namespace detail {
 /// Sums the distance slid, and the work on friction and damper, between two times.
 class SwingReader final : public TrajectoryReader {
  public:
-  SwingReader(double stiffness, double from, double to) : stiffness_(stiffness), from_(from), to_(to) {}
+  SwingReader(const Trajectory& trajectory, double from, double to) : trajectory_(trajectory), from_(from), to_(to) {}
 
   void arc(const Arc& arc) override {
     const double middle = std::midpoint(arc.begin, arc.end);
@@ -63,11 +63,10 @@ class SwingReader final : public TrajectoryReader {
   double weight = 0;  // N+/g there
 
  private:
-  double energy(const State& at) const noexcept {
-    return (at.velocity * at.velocity + stiffness_ * at.displacement * at.displacement) / 2;
-  }
+  double energy(const State& at) const noexcept { return at.velocity * at.velocity / 2 + trajectory_.elastic(at); }
 
-  double stiffness_, from_, to_;
+  const Trajectory& trajectory_;
+  double from_, to_;
   std::optional<double> landed_;  // velocity before a landing
 };
 
@@ -91,13 +90,13 @@ class SwingReader final : public TrajectoryReader {
 inline Loop largest_loop(const Trajectory& trajectory) {
   const Mounting& mounting = trajectory.mounting();
   const Response& response = trajectory.response();
-  if (!(mounting.stiffness() > 0))
+  if (!trajectory.has_spring())
     throw std::invalid_argument(
         "effective period and damping: needs a slider on a spring (natural_frequency, period or radius): without one "
         "no force draws the mass back");
   if (!(response.time_sliding > 0)) throw std::invalid_argument("effective period and damping: the slider never slips");
   const double downhill = trajectory.downhill();
-  const double center = downhill / mounting.spring().under(std::cos(mounting.slope()));
+  const double center = downhill > 0 ? downhill / mounting.spring().under(std::cos(mounting.slope())) : 0;
   const std::vector<Event>& events = response.events;
   const auto x_of = [&](const Event& e) { return e.displacement - center; };
   double largest = std::abs(response.displacement.front() - center);
@@ -120,7 +119,7 @@ inline Loop largest_loop(const Trajectory& trajectory) {
   while (turn > 0 && way(turn) >= 0) --turn;
 
   const double end = events[peak].time;
-  detail::SwingReader swing(mounting.stiffness(), events[turn].time, end);
+  detail::SwingReader swing(trajectory, events[turn].time, end);
   trajectory.read(swing, end);
 
   State state = swing.last;

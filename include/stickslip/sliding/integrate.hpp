@@ -83,9 +83,9 @@ bool add_samples(const Law& law, const M& motion, Move&& move, State from, doubl
     if (i + 1 >= 10 * motion.samples()) return false;
     move(step, from);
     if (!(motion.time(i + 1) < rest)) {
-      const SurfaceHeat heat = from.heat;
-      from = State::at(residual, 0);
-      from.heat = heat;
+      from.displacement = residual;
+      from.velocity = 0;
+      from.mode = Mode::stuck;
     }
     response.displacement.push_back(from.displacement);
     response.velocity.push_back(from.velocity);
@@ -104,9 +104,10 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
   require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
           "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
-  State state = State::at(options.displacement, options.velocity);
-  state.sliding_distance = options.sliding_distance;
-  state.heat = options.heat;
+  State start = State::at(options.displacement, options.velocity);
+  start.sliding_distance = options.sliding_distance;
+  start.heat = options.heat;
+  State state(with_memory(slider.law(), start));
   if (state.mode != Mode::stuck)
     require(std::isfinite(resist(law_at(slider.law(), state), state.displacement, std::abs(state.velocity),
                                  direction_of(state.mode))),
@@ -116,7 +117,9 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   response.displacement.resize(motion.samples());
   response.velocity.resize(motion.samples());
   const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
-  const auto elastic = [&] { return slider.stiffness() * state.displacement * state.displacement / 2; };
+  const auto elastic = [&] {
+    return slider.stiffness() * state.displacement * state.displacement / 2 + detail::elastic(slider.law(), state);
+  };
 
   response.temperature.clear();
   if constexpr (HeatedLaw<Law>) response.temperature.resize(motion.samples(), slider.law().temperature(state));

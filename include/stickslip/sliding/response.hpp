@@ -45,7 +45,7 @@ struct Energy {
   double dissipated = 0;  ///< work against friction, the integral of resist N+/g |x'| dt, and its impulses on landing
   double damped = 0;      ///< work on the damper, the integral of c x'^2 dt
   double kinetic = 0;     ///< x'^2 / 2 at the end
-  double elastic = 0;     ///< wn^2 x^2 / 2 at the end
+  double elastic = 0;     ///< wn^2 x^2 / 2 at the end, and what the springs in the law hold
   double impact = 0;      ///< lost on stops, the sum of (1 - restitution^2) x'^2 / 2
 
   /// The imbalance of these terms [m^2/s^2]: round-off.

@@ -93,7 +93,7 @@ class Arc {
       const double s = sign(direction_of(start.mode));
       state.displacement += s * progress.distance;
       state.velocity = s * std::max(progress.speed, 0.0);
-      if (remembers_) state.sliding_distance += progress.distance;
+      if (remember_ != nullptr) remember_(law_, state, progress.distance);
     }
     if (heat_ != nullptr)
       heat_(flow_, t, state.heat);
@@ -111,7 +111,8 @@ class Arc {
   const void* flow_ = nullptr;             // of a slip
   Progress (*at_)(const void* flow, double t) = nullptr;
   void (*heat_)(const void* flow, double t, SurfaceHeat&) = nullptr;
-  bool remembers_ = false;  // whether the law depends on the sliding distance
+  const void* law_ = nullptr;
+  void (*remember_)(const void* law, State&, double distance) = nullptr;  // null for a law without memory
 };
 
 /// Receives the arcs and events of a trajectory in order. At an event the state is that before it, as in Event.
@@ -141,6 +142,11 @@ class Trajectory {
   /// divided by the weight [m/s^2].
   virtual double resist(const State& state, double weight, Direction direction) const = 0;
   virtual double hold(const State& state, double weight, Direction direction) const = 0;
+
+  /// Energy of the spring, and of springs in the law, under the weight, per unit mass [m^2/s^2].
+  virtual double elastic(const State& state) const = 0;
+  /// Whether a spring draws the slider back.
+  virtual bool has_spring() const = 0;
 
   /// Time of a sample of the response [s].
   virtual double time(std::size_t sample) const = 0;
@@ -173,9 +179,13 @@ namespace detail {
 /// Observes the event loop, segment by segment, and shows arcs and events to a reader.
 class Tracer {
  public:
-  /// @param remembers  whether the law depends on the sliding distance
-  Tracer(TrajectoryReader& reader, bool remembers, const State& start)
-      : reader_(reader), state_(start), remembers_(remembers) {}
+  template <FrictionLaw Law>
+  Tracer(TrajectoryReader& reader, const Law& law, const State& start) : reader_(reader), state_(start), law_(&law) {
+    if constexpr (MemoryLaw<Law>)
+      remember_ = [](const void* of, State& state, double distance) {
+        detail::slide(*static_cast<const Law*>(of), state, distance);
+      };
+  }
 
   /// @param begin, end  times of the next segment [s]
   void begin_segment(double begin, double end, const LoadSegment& line) noexcept {
@@ -213,7 +223,8 @@ class Tracer {
     arc.flow_ = flow_;
     arc.at_ = at_;
     arc.heat_ = heat_;
-    arc.remembers_ = remembers_;
+    arc.law_ = law_;
+    arc.remember_ = remember_;
     show(arc);
   }
 
@@ -270,7 +281,8 @@ class Tracer {
 
   TrajectoryReader& reader_;
   State state_;
-  bool remembers_;
+  const void* law_;
+  void (*remember_)(const void*, State&, double) = nullptr;
   double begin_ = 0, end_ = 0;  // of the segment [s]
   double now_ = 0;              // since its beginning [s]
   LoadSegment line_{};
@@ -331,11 +343,12 @@ class TrajectoryOf final : public Trajectory {
       : Trajectory(slider.mounting(), response), slider_(slider), motion_(motion) {}
 
   void read(TrajectoryReader& reader, double until) const override {
-    State state = State::at(response().displacement.front(), response().velocity.front());
-    state.sliding_distance = std::max(response().state.sliding_distance - response().sliding_distance, 0.0);
+    State start = State::at(response().displacement.front(), response().velocity.front());
+    start.sliding_distance = std::max(response().state.sliding_distance - response().sliding_distance, 0.0);
     if constexpr (HeatedLaw<Law>)
-      state.heat = SurfaceHeat::with(slider_.law().half_integral_at(response().temperature.front()));
-    Tracer tracer(reader, MemoryLaw<Law>, state);
+      start.heat = SurfaceHeat::with(slider_.law().half_integral_at(response().temperature.front()));
+    State state(with_memory(slider_.law(), start));
+    Tracer tracer(reader, slider_.law(), state);
     if constexpr (std::same_as<M, GroundMotion>) {
       trace(slider_, motion_.dt(), &motion_, begin(), until, response().contact, state, tracer);
     } else {
@@ -351,6 +364,12 @@ class TrajectoryOf final : public Trajectory {
   }
   double hold(const State& state, double weight, Direction direction) const override {
     return stickslip::hold(law_at(slider_.law(), state, weight), state.displacement, direction);
+  }
+  double elastic(const State& state) const override {
+    return slider_.stiffness() * state.displacement * state.displacement / 2 + detail::elastic(slider_.law(), state);
+  }
+  bool has_spring() const override {
+    return slider_.stiffness() > 0 || requires(const Law& law, const State& state) { law.elastic(state); };
   }
   double time(std::size_t sample) const override { return motion_.time(sample); }
   std::size_t samples() const override { return motion_.samples(); }

@@ -94,7 +94,20 @@ std::string remark_of(const ResponseWithInputs& self) {
   const auto& any = self.slider.cast<const AnySlider&>();
   if (self.response.time_sliding == 0 && py::isinstance<GroundMotion>(self.motion))
     return units_remark(any, self.motion.cast<const GroundMotion&>(), self.response.displacement.front());
+  if (const auto* bearing = std::get_if<Slider<MultiPendulum>>(&any))
+    return angle_remark(bearing->law(), self.response.peak);
   return pendulum_remark(mounting_of(any), self.response.peak);
+}
+
+ElementMotion elements_of(const ResponseWithInputs& self) {
+  return with_inputs(self, [&](const auto& slider, const auto& motion) {
+    const auto* bearing = std::get_if<Slider<MultiPendulum>>(&slider);
+    if (bearing == nullptr)
+      throw std::invalid_argument("elements and surfaces: only a MultiPendulum has them, not " +
+                                  py::repr(self.slider).cast<std::string>());
+    const py::gil_scoped_release released;
+    return element_motion(bearing->law(), *trajectory(slider, motion, self.response));
+  });
 }
 
 Loop loop_of(const ResponseWithInputs& self) {
@@ -270,7 +283,8 @@ wn^2 (1 - N+/g) x x' dt.)")
                     "Work of friction, the integral of resist N+/g |x'| dt, including its impulses on landing.")
       .def_readonly("damped", &Energy::damped, "Work of the damper, the integral of c x'^2 dt.")
       .def_readonly("kinetic", &Energy::kinetic, "x'^2 / 2 at the end.")
-      .def_readonly("elastic", &Energy::elastic, "wn^2 x^2 / 2 at the end.")
+      .def_readonly("elastic", &Energy::elastic,
+                    "wn^2 x^2 / 2 at the end, and the energy in the springs of a `MultiPendulum`.")
       .def_readonly("impact", &Energy::impact, "Energy lost on stops, the sum of (1 - restitution^2) x'^2 / 2.")
       .def_property_readonly("imbalance", &Energy::imbalance, "Residual of the energy balance (round-off).")
       .def("__repr__",
@@ -481,6 +495,14 @@ With Coulomb friction k_eff = wn^2 + slip_level / D. Under vertical motion F has
 slope D and F count from the position where the spring balances the weight. A stop does not count: at one, F is the
 force of spring and friction on arrival. ValueError without a spring, because there is no restoring force; if the slider
 never slips; if |x| is largest at the start, at the end of an unfinished slip, or in flight without a force.)")
+      .def_property_readonly("elements", &elements_of, R"(The motion of the elements of a `MultiPendulum`.
+
+Returns an `ElementMotion`. The motion is integrated again, so keep it. ValueError for other sliders.)")
+      .def_property_readonly(
+          "surfaces", [](const ResponseWithInputs& r) { return SurfaceMotion{elements_of(r)}; },
+          R"(The motion of the surfaces of a `MultiPendulum`, from bottom to top.
+
+Returns a `SurfaceMotion`. The motion is integrated again, so keep it. ValueError for other sliders.)")
       .def_property_readonly(
           "effective_damping", [](const ResponseWithInputs& r) { return loop_of(r).damping(); },
           R"(E_d / (2 pi k_eff D^2) of the same loop, a fraction of critical damping.
@@ -501,6 +523,20 @@ is the area of the loop; with Coulomb friction E_d = 4 slip_level D. What stops 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, `title`,
 and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns the figure, see
 `stickslip.plotting.plot_response`.)")
+      .def(
+          "animate",
+          [](const py::object& self, const py::object& time, double speed, double fps, const py::object& title) {
+            return py::module_::import("stickslip.plotting")
+                .attr("animate")(self, py::arg("time") = time, py::arg("speed") = speed, py::arg("fps") = fps,
+                                 py::arg("title") = title);
+          },
+          py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0, py::arg("fps") = 15.0,
+          py::arg("title") = py::none(),
+          R"(Show the object sliding on its moving floor, with its history below.
+
+Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
+the animation, `fps`, frames in a second, and `title`. Returns an animation: a notebook shows it, its `write` saves it as
+.gif, .mp4 or .html; see `stickslip.plotting.animate`.)")
       .def(
           "plot_hysteresis",
           [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,

@@ -114,6 +114,18 @@ inline std::string pendulum_remark(const Mounting& mounting, double peak) {
          " m up to which a pendulum is linear to 2 %";
 }
 
+/// The same of a pendulum with several surfaces. No element turns farther than in one motion to the peak.
+inline std::string angle_remark(const MultiPendulum& law, double peak) {
+  constexpr double most = 0.2;
+  State state = State::at(peak, 0);
+  law.begin(state);
+  double steepest = 0;
+  for (std::size_t k = 0; k < law.elements().size(); ++k)
+    steepest = std::max(steepest, law.displacement(state.pendulum, static_cast<int>(k)) / law.elements()[k].radius);
+  if (steepest <= most) return "";
+  return "a surface turns by " + digits(steepest) + " rad, beyond the 0.2 up to which a pendulum is linear to 2 %";
+}
+
 struct ResponseWithInputs {
   Response response;
   py::object slider;

@@ -12,7 +12,7 @@ from typing import Any, NoReturn, TextIO
 from .._text import printable
 from .output import write, write_error
 
-__all__ = ["Parser", "number", "numbers", "ratio", "ratios", "text_argument", "whole"]
+__all__ = ["Parser", "StoreAll", "number", "numbers", "ratio", "ratios", "text_argument", "whole"]
 
 _MOST_STEPS = 10_000  # in a range
 
@@ -42,6 +42,7 @@ class Store(argparse.Action):
     """Join repeated lists, with each value of an option once; reject other repeated options."""
 
     given: Any = None
+    each_once = True
 
     def __call__(
         self,
@@ -53,12 +54,18 @@ class Store(argparse.Action):
         if self.nargs in ("+", "*"):
             flat = [v for value in values for v in (value if isinstance(value, tuple) else [value])]
             values = [*(self.given or ()), *flat]
-            if self.option_strings:
+            if self.option_strings and self.each_once:
                 values = list(dict.fromkeys(values))
         elif self.given is not None:
             parser.error(f"{self.option_strings[0]} given twice: {self.given}, then {values}")
         self.given = values
         setattr(namespace, self.dest, values)
+
+
+class StoreAll(Store):
+    """As Store, with equal values kept."""
+
+    each_once = False
 
 
 def text_argument(argument: str) -> str:

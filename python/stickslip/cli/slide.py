@@ -21,7 +21,7 @@ from .. import (
 )
 from .._text import printable
 from .batch import Batch, add_files, add_vertical
-from .output import add_outputs, column, complain
+from .output import add_outputs, check_outputs, column, complain
 from .parser import ratios
 from .slider import (
     add_planar,
@@ -116,6 +116,13 @@ def add_slide(commands: argparse._SubParsersAction) -> None:
     )
     sense("--both", action="store_const", const="both", dest="polarity", help="--polarity both")
     add_outputs(parser)
+    add(
+        "--animate",
+        type=Path,
+        metavar="FILE",
+        help="picture that moves (.gif, .mp4, .html): the object sliding on its shaking floor; one"
+        " record and one slider",
+    )
     parser.set_defaults(horizontal=True, run=_slide)
 
 
@@ -128,8 +135,15 @@ def _slide(args: argparse.Namespace) -> str:
                 f"--plot draws one slider with --planar, got {len(cases)}; stickslip sweep draws"
                 " several"
             )
+    if args.animate and (len(cases) > 1 or args.polarity == "both"):
+        raise ValueError("--animate shows one response: give one slider and one polarity")
     sliders = [(case, any_slider_of(case)) for case in cases]
     batch = Batch(args)
+    if args.animate:
+        from ..plotting import check_moving_suffix
+
+        check_moving_suffix(args.animate)
+        check_outputs([("--animate", args.animate)], batch.inputs)
     rows: list[dict[str, Any]] = []
     slips, remark = False, ""
     both_ways = args.polarity == "both"
@@ -151,6 +165,13 @@ def _slide(args: argparse.Namespace) -> str:
                     remark = remark or ("" if slips else response.remark)
                     both.append(_row(case, file, found.component, slider, response, polarity))
                 rows += [*both, *([_mean(both)] if both_ways else [])]
+        if args.animate and responses:
+            if str(args.animate) in batch.figures:
+                raise ValueError("--animate shows one response, got several records")
+            with batch.reported(file):
+                batch.figures.append(
+                    str(next(iter(responses.values())).animate().write(args.animate))
+                )
         if args.plot and responses:
             with batch.reported(file):
                 batch.save(_figure(responses), place, found)

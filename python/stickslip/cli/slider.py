@@ -8,8 +8,19 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from .. import Caster, Coulomb, PlanarSlider, Slider, StaticKinetic, Stops
-from .parser import number, numbers, ratio, ratios
+from .. import (
+    Caster,
+    Coulomb,
+    DoublePendulum,
+    MultiPendulum,
+    PlanarSlider,
+    QuintuplePendulum,
+    Slider,
+    StaticKinetic,
+    Stops,
+    TriplePendulum,
+)
+from .parser import StoreAll, number, numbers, ratio, ratios
 
 __all__ = [
     "add_contact",
@@ -41,16 +52,54 @@ _VARIED = {
 }
 
 
+class _Surfaces(tuple[float, ...]):
+    """The coefficients of the surfaces of one bearing, where other sliders have one."""
+
+    def __str__(self) -> str:
+        return "/".join(f"{mu:g}" for mu in self)
+
+    def __format__(self, spec: str) -> str:
+        width = spec.partition(".")[0]
+        return f"{self!s:>{width}}" if width.isdigit() else str(self)
+
+
+# The bearings by their number of radii.
+_PENDULUMS: dict[int, Callable[..., MultiPendulum]] = {
+    2: DoublePendulum,
+    3: TriplePendulum,
+    5: QuintuplePendulum,
+}
+
+
 def add_sliders(parser: argparse.ArgumentParser) -> None:
     """Add the options that `variations` reads, except --scale, and --contact."""
     parser.add_argument(
         "--mu",
         nargs="+",
+        action=StoreAll,
         type=ratios,
         required=True,
         help="coefficients of friction [-] or ranges; a repeated value is used once",
     )
     add_slider(parser, ranges=True)
+    parser.add_argument(
+        "--radii",
+        nargs="+",
+        action=StoreAll,
+        type=number,
+        metavar="M",
+        help="pendulum: effective radii of a double bearing (lower, upper), a triple one (inner,"
+        " lower outer, upper outer) or a quintuple one (inner, middle, outer) [m]; --mu then has"
+        " one coefficient for each",
+    )
+    parser.add_argument(
+        "--capacities",
+        nargs="+",
+        action=StoreAll,
+        type=number,
+        metavar="M",
+        help="pendulum: travel of each surface to its stop [m]; default: none",
+    )
     add_contact(parser)
 
 
@@ -66,7 +115,8 @@ def add_slider(parser: argparse.ArgumentParser, ranges: bool = False) -> None:
     length: Callable[[str], Any] = numbers if ranges else number
     part: Callable[[str], Any] = ratios if ranges else ratio
     add = parser.add_argument
-    add("--law", choices=("coulomb", "caster", "one-way"), default="coulomb", help="friction law")
+    laws = ("coulomb", "caster", "one-way", *(("pendulum",) if ranges else ()))
+    add("--law", choices=laws, default="coulomb", help="friction law")
     add(
         "--mu-static",
         type=part,
@@ -142,6 +192,9 @@ def variations(args: argparse.Namespace) -> tuple[list[argparse.Namespace], list
         for name in _VARIED
         for value in [getattr(args, name)]
     }
+    given["mu"] = (
+        [_Surfaces(given["mu"])] if args.law == "pendulum" else list(dict.fromkeys(given["mu"]))
+    )
     every = [
         argparse.Namespace(**{**vars(args), **dict(zip(given, values))})
         for values in itertools.product(*given.values())
@@ -188,6 +241,10 @@ def any_slider_of(args: argparse.Namespace) -> Slider | PlanarSlider:
 def slider_of(args: argparse.Namespace) -> Slider:
     """The slider of the command line on one axis."""
     mu = args.mu
+    if args.law != "pendulum":
+        for option in ("radii", "capacities"):
+            if getattr(args, option, None) is not None:
+                raise ValueError(f"--{option} goes with --law pendulum, got --law {args.law}")
     lengths = {"--reach": args.reach, "--trail": args.trail, "--wheel-width": args.wheel_width}
     given = [option for option, length in lengths.items() if length is not None]
     if args.law != "caster" and given:
@@ -198,18 +255,20 @@ def slider_of(args: argparse.Namespace) -> Slider:
                 "--law caster needs --reach, or --trail and --wheel-width, in meters, got "
                 + (" and ".join(given) or "none")
             )
-        law: Caster | Coulomb | StaticKinetic = (
+        law: Caster | Coulomb | MultiPendulum | StaticKinetic = (
             Caster(mu=mu, reach=args.reach)
             if given == ["--reach"]
             else Caster.from_geometry(mu=mu, trail=args.trail, wheel_width=args.wheel_width)
         )
     else:
-        law = Coulomb(mu=mu)
+        law = Coulomb(mu=mu) if args.law != "pendulum" else _pendulum_of(args)
     # On level ground a level that nothing outgrows, as the tables have it.
     one_way = args.law == "one-way"
     if one_way and args.slope is None and args.mu_static is None:
         law, one_way = Coulomb(mu=mu, backward=math.inf), False
     if args.mu_static is not None:
+        if isinstance(law, MultiPendulum):
+            raise ValueError("--mu-static: a pendulum has one coefficient for each surface")
         if not mu <= args.mu_static < math.inf:
             raise ValueError(
                 f"--mu-static must be finite and at least --mu, {mu:g}, got {args.mu_static:g}"
@@ -220,7 +279,7 @@ def slider_of(args: argparse.Namespace) -> Slider:
         raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
     if ratio is not None and args.period in (None, math.inf):
         raise ValueError(f"--damping-ratio goes with a finite --period, got {ratio:g} without")
-    if args.restitution is not None and args.stop_gap is None:
+    if args.restitution is not None and args.stop_gap is None and args.law != "pendulum":
         raise ValueError(f"--restitution goes with --stop-gap, got {args.restitution:g} without")
     if args.stop_gap is not None and args.restitution is None:
         raise ValueError("--stop-gap needs --restitution, from 0 to 1, got none")
@@ -237,3 +296,16 @@ def slider_of(args: argparse.Namespace) -> Slider:
     if args.period == math.inf:
         return Slider(law, **ground)
     return Slider(law, period=args.period, damping_ratio=ratio, **ground)
+
+
+def _pendulum_of(args: argparse.Namespace) -> MultiPendulum:
+    """The bearing with several surfaces of the command line."""
+    if args.radii is None:
+        raise ValueError("--law pendulum needs --radii, one for each surface, in meters, got none")
+    made = _PENDULUMS.get(len(args.radii))
+    if made is None:
+        raise ValueError(
+            f"--radii takes 2, 3 or 5 radii, of a double, triple or quintuple bearing, got"
+            f" {len(args.radii)}"
+        )
+    return made(args.radii, list(args.mu), args.capacities, args.restitution or 0.0)

@@ -14,6 +14,7 @@ from .._core import (
     GroundMotion,
     KumarFriction,
     Law,
+    MultiPendulum,
     PlanarSlider,
     PoissonPulses,
     Slider,
@@ -88,6 +89,7 @@ AnySlider: TypeAlias = (
     | Stribeck
     | Degrading
     | KumarFriction
+    | MultiPendulum
     | Law
     | StaticKinetic
     | PlanarSlider

@@ -17,6 +17,8 @@ except ImportError as error:
         "stickslip.plotting: plots need matplotlib, which is missing; pip install stickslip[plot]"
     ) from error
 
+from .animation import Animation, animate
+from .animation import check_moving_suffix as check_moving_suffix
 from .comparison import plot_comparison
 from .directions import plot_orientations
 from .ensemble import plot_ensemble
@@ -26,6 +28,7 @@ from .figures import save
 from .fragility import plot_design_chart, plot_exceedances, plot_fragility
 from .ground import plot_ground_motion, plot_response_spectrum
 from .hysteresis import plot_hysteresis
+from .pendulum import plot_pendulum_loop, plot_surfaces
 from .planar import plot_planar_response
 from .response import plot_response, plot_responses
 from .styles import BLUE as BLUE
@@ -40,6 +43,8 @@ from .trajectory import sticks, without_contact
 
 # Names with `as` are those that the package's own pictures use, too.
 __all__ = [
+    "Animation",
+    "animate",
     "plot_comparison",
     "plot_design_chart",
     "plot_ensemble",
@@ -49,10 +54,12 @@ __all__ = [
     "plot_ground_motion",
     "plot_hysteresis",
     "plot_orientations",
+    "plot_pendulum_loop",
     "plot_planar_response",
     "plot_response",
     "plot_response_spectrum",
     "plot_responses",
+    "plot_surfaces",
     "plot_sweep",
     "save",
     "sticks",

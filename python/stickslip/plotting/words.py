@@ -72,6 +72,9 @@ def _law_in_words(law: Mapping[str, Any]) -> Iterator[str]:
     elif law["law"] == "KumarFriction":
         pressure = f"{digits(law['static_pressure'] / 1e6)} MPa"
         yield f"mu {digits(law['mu_ref'])} at reference, {pressure}, heated"
+    elif law["law"] == "MultiPendulum":
+        count = len(law["radii"]) + bool(law.get("nested"))
+        yield f"pendulum of {count} surfaces, mu {', '.join(digits(mu) for mu in law['mu'])}"
     elif law["law"] == "Degrading":
         yield f"slip level {_in_g(law['levels'][0])}"
         if len(law["levels"]) > 1:

@@ -19,6 +19,7 @@ from .._core import (
     GroundMotion,
     KumarFriction,
     Law,
+    MultiPendulum,
     PlanarSlider,
     Slider,
     StaticKinetic,
@@ -46,6 +47,7 @@ _SLIDERS = (
     Stribeck,
     Degrading,
     KumarFriction,
+    MultiPendulum,
     Law,
     StaticKinetic,
 )

@@ -22,6 +22,7 @@ struct Departure {
 ///
 ///     law_now(state, weight)            // the law in x and speed that applies now, under a weight N+/g
 ///     pull(x, weight), drag(speed)      // forces of spring and damper, per unit mass [m/s^2]
+///     push()                            // the largest acceleration that springs in the law give under the weight
 ///     flow(direction, state, start, duration)
 ///                                       // a slip from its start on; over a part of `duration` if it is not known for
 ///                                       // longer. `law_now` applies over a distance `ahead(state, direction)` [m], at
@@ -76,6 +77,12 @@ class LawFlows {
     return departure;
   }
 
+  /// The largest acceleration that springs in the law give [m/s^2].
+  double push() const noexcept {
+    if constexpr (requires { law_.push(); }) return law_.push();
+    return 0;
+  }
+
   template <class AnyState>
   double ahead(const AnyState& state, Direction direction) const {
     if constexpr (MemoryLaw<Law>) return law_.ahead(state, direction);
@@ -86,8 +93,8 @@ class LawFlows {
     if constexpr (MemoryLaw<Law>) law_.pass(state, direction);
   }
   template <class AnyState>
-  void slid(AnyState& state, double distance) const noexcept {
-    if constexpr (MemoryLaw<Law>) state.sliding_distance += distance;
+  void slid(AnyState& state, double distance) const {
+    if constexpr (MemoryLaw<Law>) detail::slide(law_, state, distance);
   }
   template <class Flow, class AnyState>
   void remember(const Flow&, double, AnyState&) const noexcept {}

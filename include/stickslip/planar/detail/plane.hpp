@@ -322,6 +322,7 @@ class Plane {
       state_.mode = pressed ? PlanarMode::along_stop : PlanarMode::sliding;
     } else {
       rest();
+      turned_ = true;  // a slip away from the stop is a rebound, not a reversal
     }
     return left_ > 0 || at_rest();
   }

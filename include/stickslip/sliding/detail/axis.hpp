@@ -103,7 +103,7 @@ class Axis {
     net_ = departure.net;
     const Mode stopped = std::exchange(stopped_, Mode::stuck);
     if (stopped == Mode::stuck) return Resumption::from_rest;
-    return stopped == departure.mode ? Resumption::onward : Resumption::reversed;
+    return stopped == departure.mode || limits_.at_struck_wall() ? Resumption::onward : Resumption::reversed;
   }
 
   [[gnu::always_inline]] auto slide() {
@@ -229,7 +229,10 @@ class Axis {
       speed = 0;
     // Skip infinitely many bounces if their total distance is below round-off and the load is practically constant
     // meanwhile.
-    const double q = s * net_, a = weigh(resist(law_now(), state_.displacement, speed, slide.direction));
+    // Levels that differ are their mean about a shifted load.
+    const double toward = weigh(resist(law_now(), state_.displacement, speed, slide.direction));
+    const double away = weigh(resist(law_now(), state_.displacement, speed, back));
+    const double q = s * net_ - (toward - away) / 2, a = (toward + away) / 2;
     if (speed > 0 && q > a && left_ > 0) {
       const Bounces bounces(speed, q, a, limits_.restitution());
       const double changes = std::abs(slide.start.gain_within(slide.left, slide.left));

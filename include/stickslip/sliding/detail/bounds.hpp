@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/ground/segment.hpp"
@@ -20,6 +21,7 @@ struct Unbounded {
   static constexpr double wall(Direction) noexcept { return never; }
   static constexpr double restitution() noexcept { return 0; }
   static constexpr bool has_struck() noexcept { return false; }
+  static constexpr bool at_struck_wall() noexcept { return false; }
   static constexpr void strike(Direction) noexcept {}
   static constexpr void move(Direction, double) noexcept {}
 };
@@ -47,6 +49,7 @@ class Bounds {
 
   /// Record an impact on the wall in a direction, or a distance slid [m].
   bool has_struck() const noexcept { return from_wall_ >= 0; }
+  bool at_struck_wall() const noexcept { return equal(from_wall_, 0); }
   void strike(Direction direction) noexcept {
     struck_ = direction;
     from_wall_ = 0;
@@ -55,16 +58,16 @@ class Bounds {
     if (has_struck()) from_wall_ += direction == struck_ ? -way : way;
   }
 
-  /// Whether a slider on a spring of stiffness k per unit mass certainly stays between the bounds during a segment of
-  /// duration T. Friction and dampers only reduce the speed, so that |v| <= |v0| + T (|p| + k (|x0| + D)), and the
-  /// distance D from x0 is at most
+  /// Whether a slider on a spring of stiffness k per unit mass, which its law accelerates by at most `push`, certainly
+  /// stays between the bounds during a segment of duration T. Friction and dampers only reduce the speed, so that |v|
+  /// <= |v0| + T (|p| + k (|x0| + D)), and the distance D from x0 is at most
   ///     D = T (|v0| + T/2 (|p| + k |x0|)) / (1 - k T^2 / 2).
   template <class Place>
-  bool out_of_reach(const LoadSegment& segment, double k, const Place& state) const noexcept {
+  bool out_of_reach(const LoadSegment& segment, double k, double push, const Place& state) const noexcept {
     const double nearest = one_way_ ? 0 : std::min(stops_.forward(), stops_.backward());
     if (!(nearest < never)) return true;
     const double x = std::abs(state.displacement), time = segment.duration;
-    const double load = std::max(std::abs(segment.load_start), std::abs(segment.load_end)) + k * x;
+    const double load = std::max(std::abs(segment.load_start), std::abs(segment.load_end)) + k * x + push;
     const double way = time * (std::abs(state.velocity) + time / 2 * load), shrinks = k * time * time / 2;
     return shrinks < 0.5 && x + 2 * way < nearest;
   }

@@ -52,7 +52,7 @@ struct AtPlace {
 };
 
 /// The speed that remains of `speed` after a normal impulse J of `impulse` [m/s]: d|v|/dJ = -mu(|v|). This is a slide
-/// of duration J / g under weight g and no load.
+/// of duration J / g under weight g and no load. Springs in a law, and a pendulum's, take no part in the impulse.
 template <MemorylessLaw Law>
 double after_impulse(const Law& law, double displacement, Direction direction, double speed, double impulse) {
   if constexpr (SpeedLaw<Law>) {
@@ -62,7 +62,7 @@ double after_impulse(const Law& law, double displacement, Direction direction, d
     advance(general_flows(slider), Segment{impulse / standard_gravity, 0, 0}, state, none);
     return std::abs(state.velocity);
   } else {
-    return std::max(speed - law.resist(displacement, direction) / standard_gravity * impulse, 0.0);
+    return std::max(speed - friction(law, displacement, speed, direction) / standard_gravity * impulse, 0.0);
   }
 }
 
@@ -162,7 +162,8 @@ template <FlowMaker Flows, class Place, MotionObserver Observer>
                                            Contact contact, Place& state, Observer& observer) {
   if constexpr (Flows::in_closed_form) {  // other flows cost more than these checks
     const double first = segment.normal_start, last = segment.normal_end;
-    if (!state.in_flight && first >= 0 && last >= 0 && bounds.out_of_reach(segment, flows.pull(1, 1), state)) {
+    if (!state.in_flight && first >= 0 && last >= 0 &&
+        bounds.out_of_reach(segment, flows.pull(1, 1), flows.push(), state)) {
       if (equal(first, standard_gravity) && equal(last, standard_gravity))
         return advance(flows, Segment{segment.duration, -segment.load_start, -segment.load_end}, state, observer);
       const WeighedLoad weighed{segment.duration, segment.load_start, segment.load_end, first / standard_gravity,

@@ -1,0 +1,79 @@
+// The force of a pendulum with several surfaces under an imposed displacement.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/multi_pendulum.hpp"
+#include "stickslip/state.hpp"
+
+namespace stickslip {
+
+/// The force of a MultiPendulum along a slow path of its displacement.
+struct PendulumLoop {
+  /// Where the stiffness or the force changes: at a join, at a stop, and where the path turns.
+  struct Corner {
+    double displacement;  ///< [m]
+    double force;         ///< F/N
+  };
+  std::vector<double> force;    ///< F/N at each point of the path, on arrival
+  std::vector<Corner> corners;  ///< from the start of the first motion on; two at one place: the force jumps
+  std::vector<std::vector<double>> displacement;  ///< of each element at each point [m]
+  std::vector<std::vector<double>> surfaces;      ///< of each surface, from bottom to top, at each point [m]
+  std::vector<double> dissipated;                 ///< work against friction by each element, over the weight [m]
+};
+
+/// Impose a displacement on a bearing that starts at its center.
+/// @param path  displacements, one after the other [m]: finite, within the capacity
+/// @throws std::invalid_argument naming the value
+inline PendulumLoop trace(const MultiPendulum& law, std::span<const double> path) {
+  PendulumLoop loop;
+  const std::size_t count = law.elements().size();
+  loop.displacement.assign(count, {});
+  loop.surfaces.assign(count, {});
+  loop.dissipated.assign(count, 0);
+  const double most = law.capacity();
+  State state;
+  double arrived = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double to = path[i];
+    detail::require(std::isfinite(to) && std::abs(to) <= most * (1 + 0x1p-50),
+                    "trace: path[" + std::to_string(i) + "] must be finite and within the capacity of " +
+                        detail::shortest(most) + " m",
+                    to, "m");
+    const double from = state.displacement;
+    if (to > from || to < from) {
+      const Direction direction = to > from ? Direction::forward : Direction::backward;
+      state.mode = mode_of(direction);
+      loop.corners.push_back({from, law.force(state.pendulum, direction)});
+      for (double left = std::abs(to - from); left > 0;) {
+        const double way = std::min(left, law.ahead(state, direction));
+        const unsigned moving = law.moving(state.pendulum, direction);
+        for (std::size_t k = 0; k < count; ++k)
+          loop.dissipated[k] += law.elements()[k].mu * law.share(moving, static_cast<int>(k)) * way;
+        const double before = law.force_after(state.pendulum, direction, way);
+        law.slide(state, way);
+        state.displacement += sign(direction) * way;
+        left -= way;
+        arrived = before;
+        loop.corners.push_back({left > 0 ? state.displacement : to, before});
+        const double then = law.force(state.pendulum, direction);
+        if (left > 0 && std::abs(then - before) > 0x1p-40 * std::abs(before))
+          loop.corners.push_back({state.displacement, then});
+      }
+      state.displacement = to;
+    }
+    loop.force.push_back(arrived);
+    const std::vector<double> elements = law.displacements(state.pendulum), surfaces = law.surfaces(elements);
+    for (std::size_t k = 0; k < count; ++k) {
+      loop.displacement[k].push_back(elements[k]);
+      loop.surfaces[k].push_back(surfaces[k]);
+    }
+  }
+  return loop;
+}
+
+}  // namespace stickslip

@@ -1,0 +1,98 @@
+"""Pictures of pendulums with several surfaces."""
+
+from __future__ import annotations
+
+from typing import overload
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+
+from .._core import PendulumLoop, Response
+from .figures import one_panel
+from .styles import BLUE, COLORS, GRAY, VERMILION, style
+
+
+@overload
+def plot_pendulum_loop(loop: PendulumLoop, ax: None = None, title: str | None = None) -> Figure: ...
+@overload
+def plot_pendulum_loop(loop: PendulumLoop, ax: Axes, title: str | None = None) -> Axes: ...
+def plot_pendulum_loop(
+    loop: PendulumLoop, ax: Axes | None = None, title: str | None = None
+) -> FigureBase | Axes:
+    """Plot the force of a bearing under an imposed displacement, with its corners.
+
+    At a corner an element joins the motion, comes to its stop, or the path turns.
+
+    Parameters
+    ----------
+    loop : PendulumLoop
+    ax : matplotlib Axes, optional
+        Where to draw; default: a new figure of 6 x 4 inches.
+    title : str, optional
+        Default: 'Force under an imposed displacement'.
+
+    Returns
+    -------
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
+    """
+    with style():
+        figure, axes = one_panel("plot_pendulum_loop", None, ax, 6, 4)
+        x, force = loop.corners.T
+        axes.plot(100 * x, force, color=BLUE)
+        axes.plot(100 * x, force, "o", color=VERMILION, markersize=3.5)
+        axes.axhline(0, color=GRAY, linewidth=0.6)
+        axes.axvline(0, color=GRAY, linewidth=0.6)
+        axes.set_xlabel("displacement [cm]")
+        axes.set_ylabel("force over weight [-]")
+        axes.set_title(title or "Force under an imposed displacement")
+    return figure if ax is None else axes
+
+
+@overload
+def plot_surfaces(response: Response, ax: None = None, title: str | None = None) -> Figure: ...
+@overload
+def plot_surfaces(response: Response, ax: Axes, title: str | None = None) -> Axes: ...
+def plot_surfaces(
+    response: Response, ax: Axes | None = None, title: str | None = None
+) -> FigureBase | Axes:
+    """Plot the displacement of each surface of a `MultiPendulum` over time, from bottom to top.
+
+    Parameters
+    ----------
+    response : Response
+        Of a `MultiPendulum`.
+    ax : matplotlib Axes, optional
+        Where to draw; default: a new figure of 7 x 3.5 inches.
+    title : str, optional
+        Default: 'Displacement of the surfaces'.
+
+    Returns
+    -------
+    matplotlib Figure or Axes
+        The axes if they were given, otherwise the new figure.
+
+    Raises
+    ------
+    ValueError
+        The response of another slider.
+    """
+    motions = response.surfaces
+    with style():
+        figure, axes = one_panel("plot_surfaces", None, ax, 7, 3.5)
+        dashes = ("-", "--", "-.", ":")
+        for k, values in enumerate(np.asarray(motions.displacement)):
+            axes.plot(
+                response.time,
+                100 * values,
+                color=COLORS[k % len(COLORS)],
+                linestyle=dashes[k % len(dashes)],
+                linewidth=1.1,
+                label=f"surface {k + 1}, peak {100 * motions.peak[k]:.3g} cm",
+            )
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("displacement [cm]")
+        axes.set_title(title or "Displacement of the surfaces")
+        axes.legend()
+    return figure if ax is None else axes

@@ -1,0 +1,220 @@
+"""Pendulums with several surfaces: values, elements, loops, every call, messages."""
+
+import json
+import math
+import pickle
+
+import numpy as np
+import pytest
+import stickslip as ss
+
+G = ss.STANDARD_GRAVITY
+TRIPLE = {
+    "radii": [0.3937, 3.7465, 3.7465],
+    "mu": [0.01, 0.04, 0.08],
+    "capacities": [0.0716, 0.5043, 0.5043],
+}
+FIVE = ss.QuintuplePendulum(
+    radii=[0.15, 0.6, 0.7, 1.9, 2.3],
+    mu=[0.015, 0.03, 0.045, 0.07, 0.10],
+    capacities=[0.05, 0.10, 0.12, 0.30, 0.35],
+)
+M = np.arange(401)
+RECORD = 2 * np.sin(0.7 * M) + 1.3 * np.cos(1.9 * M + 0.4)
+QUAKE = ss.GroundMotion(RECORD, dt=0.1)
+SHAKEN = ss.GroundMotion(RECORD, dt=0.1, vertical=2.5 * np.cos(0.5 * M + 0.2))
+
+
+def test_fenz_and_constantinou_s_five_regimes():
+    """Stiffness over weight by regime; their formulas for two equal outer radii, R2 = R3 there.
+
+    Friction forces at the corners from their equations (1) to (20): the first slides at the inner
+    mu; the outer surfaces join at mu2 and mu3; the lower and the upper outer stop.
+    """
+    isolator = ss.TriplePendulum(**TRIPLE)
+    corners = isolator.trace([isolator.capacity * (1 - 1e-9)]).corners
+    (inner, outer, _), (mu1, mu2, mu3) = TRIPLE["radii"], TRIPLE["mu"]
+    x, force = corners.T
+    stiffness = np.diff(force) / np.diff(x)
+    known = [1 / (2 * inner), 1 / (inner + outer), 1 / (2 * outer), 1 / (inner + outer)]
+    assert stiffness[:4] == pytest.approx(known, rel=1e-12)
+    assert x[1] == pytest.approx(2 * inner * (mu2 - mu1), rel=1e-12)
+    assert x[2] == pytest.approx(x[1] + (inner + outer) * (mu3 - mu2), rel=1e-12)
+
+
+def test_the_isolator_of_the_issue_slides_settles_and_says_how_its_surfaces_moved():
+    isolator = ss.TriplePendulum(**TRIPLE)
+    r = ss.integrate(isolator, QUAKE, settle=True)
+    assert r.peak == pytest.approx(0.1418561840578805, rel=1e-12)
+    assert r.residual == pytest.approx(-0.04492939877512182, rel=1e-11)
+    assert r.elements.displacement.shape == (4, len(r.displacement))
+    assert r.surfaces.displacement.shape == (4, len(r.displacement))
+    assert r.elements.displacement.sum(axis=0) == pytest.approx(r.displacement, abs=1e-14)
+    assert r.surfaces.displacement.sum(axis=0) == pytest.approx(r.displacement, abs=1e-14)
+    assert r.elements.dissipated.sum() == pytest.approx(r.energy.dissipated, rel=1e-12)
+    assert abs(r.energy.imbalance) < 1e-12 * r.energy.dissipated
+    assert (r.surfaces.peak >= abs(r.surfaces.displacement).max(axis=1) - 1e-16).all()
+    assert r.elements.slides.tolist()[:2] == [r.elements.slides[0]] * 2
+    assert len(r.impacts) == 0
+    sliding = ss.integrate(isolator, QUAKE)
+    # Nothing but the force of the bearing accelerates the mass.
+    assert np.abs(sliding.force + sliding.acceleration).max() < 1e-12
+
+
+def test_an_element_that_stops_stays_there_until_it_is_pulled_back():
+    lab = ss.TriplePendulum([0.053, 0.435, 0.435], [0.012, 0.036, 0.09], [0.019, 0.064, 0.064])
+    r = ss.integrate(lab, ss.GroundMotion(0.5 * RECORD, dt=0.3))
+    assert r.elements.stops.tolist() == [0, 0, 39, 0]
+    assert r.surfaces.stops.tolist() == [39, 0, 0, 0]
+    assert r.surfaces.peak[0] == 0.064
+    assert (r.elements.peak <= lab.element_capacities).all()
+
+
+@pytest.mark.parametrize("isolator", [ss.TriplePendulum(**TRIPLE), FIVE], ids=["triple", "five"])
+@pytest.mark.parametrize("motion", [QUAKE, SHAKEN], ids=["level", "vertical"])
+def test_every_call_takes_a_pendulum(isolator, motion, tmp_path):
+    r = ss.integrate(isolator, motion, settle=True)
+    assert r.margin > 0
+    assert r.effective_period > 0
+    assert 0 < r.effective_damping < 1
+    assert (ss.response_spectrum(r, [0.2, 1]).values > 0).all()
+    assert eval(json.loads(r.to_json())["slider"], vars(ss)) == ss.Slider(isolator)
+    assert pickle.loads(pickle.dumps(r)) == r
+    assert pickle.loads(pickle.dumps(isolator)) == isolator
+    assert eval(repr(isolator), vars(ss)) == isolator
+    state, n = ss.State(), motion.acceleration
+    up = np.zeros(len(n)) if motion.vertical is None else motion.vertical
+    for i in range(len(n) - 1):
+        state = ss.advance(
+            isolator, state, 0.1, n[i], n[i + 1], vertical_start=up[i], vertical_end=up[i + 1]
+        )
+        state = pickle.loads(pickle.dumps(state)) if i % 100 == 0 else state
+    assert state.displacement == pytest.approx(r.displacement[400], abs=1e-12 * r.peak)
+    assert isolator.element_displacements(state) == pytest.approx(
+        r.elements.displacement[:, 400], abs=1e-12
+    )
+    assert r.at(12.34).displacement == pytest.approx(
+        np.interp(12.34, r.time, r.displacement), abs=0.05
+    )
+    table = ss.sweep([isolator], [motion], settle=True)
+    assert table.peak.max() == pytest.approx(r.peak, rel=1e-12)
+    e = ss.run_ensemble(isolator, [motion], members=2, seed=1)
+    assert e.quantile(0.5).value > 0
+
+
+def test_random_pendulums_keep_what_was_drawn():
+    isolators = ss.Random(
+        ss.DoublePendulum,
+        radii=[1.2, 2.0],
+        mu=[0.03, 0.08],
+        capacities=[0.3, 0.3],
+        restitution=ss.Uniform(0, 0.5),
+    )
+    table = ss.sweep(isolators, [QUAKE], members=3, seed=1)
+    assert np.isfinite(table.peak).all()
+
+
+def test_a_spring_and_a_damper_in_parallel():
+    bare = ss.integrate(ss.Slider(FIVE), QUAKE)
+    damped = ss.integrate(ss.Slider(FIVE, damping=0.8), QUAKE, settle=True)
+    assert damped.peak < bare.peak
+    assert damped.energy.damped > 0
+    assert abs(damped.energy.imbalance) < 1e-11 * damped.energy.input
+    held = ss.integrate(ss.Slider(FIVE, natural_frequency=0.9), QUAKE, settle=True)
+    assert abs(held.energy.imbalance) < 1e-11 * held.energy.input
+
+
+def test_a_remark_beyond_a_fifth_of_a_radian():
+    steep = ss.MultiPendulum([0.05, 0.05], [0.02, 0.02])
+    r = ss.integrate(steep, QUAKE)
+    assert "rad" in r.remark
+    assert ss.integrate(ss.TriplePendulum(**TRIPLE), QUAKE).remark == ""
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: ss.TriplePendulum([1, 2], [0.1, 0.1], [1, 1]), "3 surfaces"),
+        (
+            lambda: ss.TriplePendulum([1, 2, 3], [0.1, 0.1], [1, 1, 1]),
+            "mu must be as many as radii, 3, got 2",
+        ),
+        (lambda: ss.TriplePendulum([1, 0.5, 3], [0.1, 0.1, 0.1]), r"radii\[1\] must be larger"),
+        (lambda: ss.TriplePendulum([1, 2, 3], [0.1, 0.05, 0.1]), r"mu\[1\] must be at least"),
+        (
+            lambda: ss.TriplePendulum([1, 2, 3], [0.1, 0.2, 0.2], [0.01, 1, 1]),
+            r"capacities\[0\] must be at least",
+        ),
+        (lambda: ss.DoublePendulum([1, 2, 3], [0.1] * 3), "radii must hold 2, got 3"),
+        (lambda: ss.MultiPendulum([], []), "radii must hold 1 to 8"),
+        (lambda: ss.MultiPendulum([1] * 9, [0.1] * 9), "radii must hold 1 to 8"),
+        (lambda: ss.MultiPendulum([1], [0.0]), r"mu\[0\] must be positive"),
+        (lambda: ss.MultiPendulum([1], [math.nan]), "mu"),
+        (
+            lambda: ss.MultiPendulum([1], [0.1], [1], restitution=2),
+            "restitution must be from 0 to 1",
+        ),
+        (lambda: ss.Slider(FIVE, slope_degrees=3), "slope_degrees must be 0"),
+        (lambda: ss.Slider(FIVE, one_way=True), "both ways"),
+        (lambda: ss.FrictionPendulum(radius=2, law=FIVE), "already is a pendulum"),
+        (lambda: ss.Slider(FIVE, stops=ss.Stops(gap=9, restitution=0)), "within its own capacity"),
+        (lambda: FIVE.trace([9]), r"path\[0\] must be finite and within the capacity"),
+        (lambda: FIVE.trace([math.nan]), r"path"),
+        (lambda: ss.integrate(FIVE, QUAKE, displacement=9), "between the stops"),
+        (lambda: ss.integrate(FIVE, QUAKE).sensitivity("mu"), "covers"),
+    ],
+)
+def test_messages_name_the_value(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_other_sliders_have_no_elements():
+    r = ss.integrate(ss.Coulomb(mu=0.1), QUAKE)
+    with pytest.raises(ValueError, match="only a MultiPendulum has them"):
+        _ = r.surfaces
+    with pytest.raises(ValueError, match="not defined in all directions"):
+        ss.PlanarSlider(FIVE)
+
+
+def test_pictures_show_the_corners_and_the_surfaces():
+    pytest.importorskip("matplotlib", reason="pictures need matplotlib")
+    from stickslip.plotting import plot_surfaces
+
+    loop = ss.TriplePendulum(**TRIPLE).trace([0.508, -0.508, 0.508])
+    axes = loop.plot().axes[0]
+    assert len(axes.lines[1].get_xdata()) == len(loop.corners)
+    r = ss.integrate(FIVE, QUAKE)
+    assert len(plot_surfaces(r).axes[0].lines) == 6
+    r.plot_hysteresis()
+    assert "pendulum of 6 surfaces" in " ".join(
+        t.get_text() for t in r.plot().axes[0].texts
+    ).replace("\n", " ")
+
+
+def test_the_command_slides_a_triple_pendulum(capsys, tmp_path):
+    from stickslip.cli import main
+
+    file = tmp_path / "quake.csv"
+    file.write_text("\n".join(f"{0.1 * m:.1f}, {n:.17g}" for m, n in enumerate(RECORD)))
+    options = [
+        "--law",
+        "pendulum",
+        "--radii",
+        "0.3937",
+        "3.7465",
+        "3.7465",
+        "--mu",
+        "0.01",
+        "0.04",
+        "0.08",
+    ]
+    assert main(["slide", str(file), "--units", "m/s^2", *options, "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["results"]
+    r = ss.integrate(ss.TriplePendulum(TRIPLE["radii"], TRIPLE["mu"]), QUAKE, settle=True)
+    assert row["peak_m"] == pytest.approx(r.peak, rel=1e-9)
+    assert row["mu"] == TRIPLE["mu"]
+    assert main(["slide", str(file), "--units", "m/s^2", *options]) == 0
+    assert "0.01/0.04/0.08" in capsys.readouterr().out
+    assert main(["slide", str(file), "--units", "m/s^2", "--mu", "0.1", "--radii", "1", "2"]) != 0
+    assert "--radii goes with --law pendulum" in capsys.readouterr().err
