@@ -18,25 +18,6 @@ namespace {
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-void check(const FlexibleSlope& slope) {
-  using detail::require;
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
-  require(std::isfinite(slope.ky_g) && slope.ky_g >= 0, "FlexibleSlope: ky_g must be finite and at least 0", slope.ky_g,
-          "g");
-  require(positive(slope.height), "FlexibleSlope: height must be positive and finite", slope.height, "m");
-  require(positive(slope.shear_velocity), "FlexibleSlope: shear_velocity must be positive and finite",
-          slope.shear_velocity, "m/s");
-  require(std::isfinite(slope.damping_ratio) && slope.damping_ratio >= 0,
-          "FlexibleSlope: damping_ratio must be finite and at least 0", slope.damping_ratio);
-  require(slope.modes >= 1, "FlexibleSlope: modes must be at least 1", slope.modes);
-  if (slope.rock_velocity)
-    require(positive(*slope.rock_velocity), "FlexibleSlope: rock_velocity must be positive and finite",
-            *slope.rock_velocity, "m/s");
-  if (slope.soil && slope.damping_ratio > 0)
-    detail::refuse("FlexibleSlope: with a soil, which has its own damping, damping_ratio must be left out",
-                   slope.damping_ratio);
-}
-
 Structure column(const FlexibleSlope& slope, const SlopeProperties& properties) {
   VectorXd fractions(slope.modes), frequencies(slope.modes);
   for (int j = 0; j < slope.modes; ++j) {
@@ -57,6 +38,25 @@ SlidingStructure on_surface(const FlexibleSlope& slope, const SlopeProperties& p
 }
 
 }  // namespace
+
+void check(const FlexibleSlope& slope) {
+  using detail::require;
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+  require(std::isfinite(slope.ky_g) && slope.ky_g >= 0, "FlexibleSlope: ky_g must be finite and at least 0", slope.ky_g,
+          "g");
+  require(positive(slope.height), "FlexibleSlope: height must be positive and finite", slope.height, "m");
+  require(positive(slope.shear_velocity), "FlexibleSlope: shear_velocity must be positive and finite",
+          slope.shear_velocity, "m/s");
+  require(std::isfinite(slope.damping_ratio) && slope.damping_ratio >= 0,
+          "FlexibleSlope: damping_ratio must be finite and at least 0", slope.damping_ratio);
+  require(slope.modes >= 1, "FlexibleSlope: modes must be at least 1", slope.modes);
+  if (slope.rock_velocity)
+    require(positive(*slope.rock_velocity), "FlexibleSlope: rock_velocity must be positive and finite",
+            *slope.rock_velocity, "m/s");
+  if (slope.soil && slope.damping_ratio > 0)
+    detail::refuse("FlexibleSlope: with a soil, which has its own damping, damping_ratio must be left out",
+                   slope.damping_ratio);
+}
 
 HyperbolicSoil::HyperbolicSoil(double reference_strain) : reference_strain_(reference_strain) {
   detail::require(std::isfinite(reference_strain) && reference_strain > 0,

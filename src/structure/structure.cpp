@@ -22,7 +22,7 @@ struct Structure::Data {
   MatrixXd mass{}, damping{}, stiffness{};
   VectorXd influence{};
   Modes modes{};
-  MatrixXd modal_damping{};
+  MatrixXd modal_damping{}, unit_shapes{};
   bool classical = true, uniform = true;
 };
 
@@ -219,6 +219,7 @@ Structure Structure::from_modes(const VectorXd& mass_fractions, const VectorXd& 
         detail::refuse("Structure.from_modes: " + element("shapes", i, j) + " must be finite", shapes(i, j));
   data->modes.shapes = shapes * data->modes.participation.cwiseInverse().asDiagonal();
   data->influence = VectorXd::Ones(shapes.rows());
+  data->unit_shapes = shapes;
   return Structure(data);
 }
 
@@ -232,6 +233,7 @@ const VectorXd& Structure::influence() const noexcept { return data_->influence;
 bool Structure::uniform_influence() const noexcept { return data_->uniform; }
 const Modes& Structure::modes() const noexcept { return data_->modes; }
 const MatrixXd& Structure::modal_damping() const noexcept { return data_->modal_damping; }
+const MatrixXd& Structure::unit_shapes() const noexcept { return data_->unit_shapes; }
 bool Structure::classical() const noexcept { return data_->classical; }
 
 bool Structure::operator==(const Structure& other) const {

@@ -48,6 +48,9 @@ struct FlexibleSlope {
   SlopeMethod method = SlopeMethod::coupled;
 };
 
+/// @throws std::invalid_argument  naming a value that is out of range
+void check(const FlexibleSlope& slope);
+
 /// The damping ratio that radiation into rock adds.
 /// @param rock, soil  shear-wave velocities [m/s], positive and finite
 double radiation_damping(double rock, double soil);

@@ -78,6 +78,8 @@ class Structure {
   const Modes& modes() const noexcept;
   /// shapes' C shapes, per unit modal mass [1/s].
   const Eigen::MatrixXd& modal_damping() const noexcept;
+  /// The shapes that `from_modes` was given; empty otherwise.
+  const Eigen::MatrixXd& unit_shapes() const noexcept;
   /// Whether `modal_damping` is diagonal, up to round-off.
   bool classical() const noexcept;
 

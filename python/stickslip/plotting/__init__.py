@@ -28,6 +28,7 @@ from .ground import plot_ground_motion, plot_response_spectrum
 from .hysteresis import plot_hysteresis
 from .planar import plot_planar_response
 from .response import plot_response, plot_responses
+from .structure import plot_modes, plot_structure_response
 from .styles import BLUE as BLUE
 from .styles import COLORS as COLORS
 from .styles import GRAY as GRAY
@@ -48,11 +49,13 @@ __all__ = [
     "plot_friction_sweep",
     "plot_ground_motion",
     "plot_hysteresis",
+    "plot_modes",
     "plot_orientations",
     "plot_planar_response",
     "plot_response",
     "plot_response_spectrum",
     "plot_responses",
+    "plot_structure_response",
     "plot_sweep",
     "save",
     "sticks",
