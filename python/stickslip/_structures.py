@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import StructureResponse, build_info
-from ._tables import frame_of, json_text, write_csv
+from ._tables import frame_of, has_floors, json_text, write_csv
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase
@@ -107,11 +107,6 @@ _HISTORIES = {
 }
 
 
-def _has_floors(response: StructureResponse) -> bool:
-    structure = getattr(response.system, "structure", None)
-    return structure is None or structure.floors > 0
-
-
 def _columns(
     response: StructureResponse,
 ) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
@@ -121,7 +116,7 @@ def _columns(
     columns = {"time": response.time, "ground_acceleration": ground}
     columns |= {n: getattr(response, n) for n in _HISTORIES if n != "ground_acceleration"}
     units = {"time": "s"} | _HISTORIES
-    if _has_floors(response):
+    if has_floors(response):
         floors = response.floors
         for i in range(floors.displacement.shape[1]):
             for name, values, unit in (
@@ -163,7 +158,7 @@ def to_json(response: StructureResponse) -> str:
         **columns,
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
     }
-    if _has_floors(response):
+    if has_floors(response):
         floors = response.floors
         document["peak_floor_acceleration"] = floors.peak_acceleration
         document["peak_drift"] = floors.peak_drift

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, overload
+from typing import Any, overload
 
 import numpy as np
 from matplotlib.figure import Figure, FigureBase
 
 from .._core import StructureResponse
-from .._structures import _has_floors
+from .._tables import has_floors
 from .figures import Place, new_figure
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_title, style
 from .words import unit_for
-
-if TYPE_CHECKING:
-    from .._structures import Modes
 
 
 @overload
@@ -44,7 +41,7 @@ def plot_structure_response(
         With these axes: displacement over time and, if the structure has floors, largest absolute
         acceleration and largest drift by floor.
     """
-    floors = response.floors if _has_floors(response) else None
+    floors = response.floors if has_floors(response) else None
     with style():
         figure = figure or new_figure(7, 5.5 if floors is not None else 3)
         if floors is None:
@@ -76,7 +73,7 @@ def plot_structure_response(
         return figure
 
 
-def plot_modes(modes: Modes, figure: FigureBase | None = None, title: str | None = None) -> Figure:
+def plot_modes(modes: Any, figure: FigureBase | None = None, title: str | None = None) -> Figure:
     """Plot the shapes of the first six modes by floor, each with its period.
 
     Parameters
