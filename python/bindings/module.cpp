@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bindings.hpp"
+#include "structure/structure.hpp"
 
 namespace {
 
@@ -56,6 +57,8 @@ PYBIND11_MODULE(_core, m) {
   bind_planar_advance(m);
   bind_planar_response(m);
   bind_planar_integrate(m);
+  bind_structure(m);
+  bind_structure_response(m);
   bind_histories(m);
   bind_planar_histories(m);
   bind_envelope(m);

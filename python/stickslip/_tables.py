@@ -20,7 +20,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ._core import Ensemble, Estimate, Interval, PlanarResponse, Response, build_info
+from ._core import (
+    Ensemble,
+    Estimate,
+    Interval,
+    PlanarResponse,
+    Response,
+    StructureResponse,
+    build_info,
+)
 from ._files import replacing
 from ._optional import optional
 from ._text import printable
@@ -285,6 +293,12 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(one) for one in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def has_floors(response: StructureResponse) -> bool:
+    """Whether `StructureResponse.floors` exists: the column of a slope has its top."""
+    structure = getattr(response.system, "structure", None)
+    return structure is None or structure.floors > 0
 
 
 def response_html(response: Response | PlanarResponse) -> str:

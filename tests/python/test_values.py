@@ -56,6 +56,10 @@ STRIPES = ss.sweep(
 CURVES = [ss.Fragility.fit(STRIPES, im="pga_g", thresholds=t) for t in (0.05, [0.05, 0.1])]
 HAZARD = ss.Hazard([0.01, 0.1, 1, 10], [1, 1e-2, 1e-4, 1e-7], name="pga_g", unit="g")
 
+BUILDING = ss.Structure.shear_building(masses=[2], stiffnesses=[30], damping_ratio=0.05)
+COLUMN = ss.Structure.from_modes(mass_fractions=[0.5], frequencies=[8], damping_ratios=[0.05])
+ON_BASE = ss.integrate(ss.IsolatedStructure(BLOCK, BUILDING, base_mass=1), EVEN)
+
 # Of each class, objects that differ.
 EXAMPLES = {
     ss.Coulomb: [BLOCK, ss.Coulomb(mu=0.2), ss.Coulomb(slip_level=1, backward=float("inf"))],
@@ -135,6 +139,44 @@ EXAMPLES = {
     ss.PlanarResponse: [
         ss.integrate(ss.PlanarSlider(ROUND), PAIR, settle=True),
         ss.integrate(ss.PlanarSlider(ROUND, 1.3), PAIR, settle=True),
+    ],
+    ss.Rayleigh: [ss.Rayleigh(), ss.Rayleigh(alpha=0.1), ss.Rayleigh(beta=0.1)],
+    ss.Structure: [
+        BUILDING,
+        ss.Structure.shear_building(masses=[2], stiffnesses=[30], damping_ratio=0.06),
+        COLUMN,
+    ],
+    ss.IsolatedStructure: [
+        ss.IsolatedStructure(BLOCK, BUILDING, base_mass=1),
+        ss.IsolatedStructure(BLOCK, BUILDING, base_mass=2),
+        ss.IsolatedStructure(BLOCK, COLUMN),
+    ],
+    ss.EquipmentOnFloor: [
+        ss.EquipmentOnFloor(BLOCK, BUILDING, floor=1),
+        ss.EquipmentOnFloor(BLOCK, BUILDING, floor=1, mass=0.1),
+    ],
+    ss.HyperbolicSoil: [
+        ss.HyperbolicSoil(reference_strain=1e-3),
+        ss.HyperbolicSoil(reference_strain=2e-3),
+    ],
+    ss.FlexibleSlope: [
+        ss.FlexibleSlope(ky_g=0.1, height=50, shear_velocity=600),
+        ss.FlexibleSlope(ky_g=0.1, height=50, shear_velocity=600, rock_velocity=900, modes=2),
+        ss.FlexibleSlope(ky_g=0.1, height=50, shear_velocity=600, method="decoupled"),
+        ss.FlexibleSlope(
+            ky_g=0.1,
+            height=50,
+            shear_velocity=600,
+            soil=ss.HyperbolicSoil(reference_strain=1e-3),
+        ),
+    ],
+    ss.StructureResponse: [
+        ON_BASE,
+        ss.integrate(ss.EquipmentOnFloor(BLOCK, BUILDING, floor=1), EVEN),
+    ],
+    ss.Floors: [
+        ON_BASE.floors,
+        ss.integrate(ss.EquipmentOnFloor(BLOCK, BUILDING, floor=1), EVEN).floors,
     ],
     ss.Slider: [
         CART,

@@ -31,6 +31,7 @@ from .hysteresis import plot_hysteresis
 from .pendulum import plot_pendulum_loop, plot_surfaces
 from .planar import plot_planar_response
 from .response import plot_response, plot_responses
+from .structure import plot_modes, plot_structure_response
 from .styles import BLUE as BLUE
 from .styles import COLORS as COLORS
 from .styles import GRAY as GRAY
@@ -53,6 +54,7 @@ __all__ = [
     "plot_friction_sweep",
     "plot_ground_motion",
     "plot_hysteresis",
+    "plot_modes",
     "plot_orientations",
     "plot_pendulum_loop",
     "plot_planar_response",
@@ -60,6 +62,7 @@ __all__ = [
     "plot_response_spectrum",
     "plot_responses",
     "plot_surfaces",
+    "plot_structure_response",
     "plot_sweep",
     "save",
     "sticks",

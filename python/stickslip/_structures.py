@@ -1,0 +1,165 @@
+"""Modes of structures, and tables of their responses."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import StructureResponse, build_info
+from ._tables import frame_of, has_floors, json_text, write_csv
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure, FigureBase
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """The modes of a structure on a fixed base, in order of frequency.
+
+    Attributes
+    ----------
+    frequencies : ndarray, shape (n,)
+        w [rad/s]; 0 for a rigid-body mode.
+    damping_ratios : ndarray, shape (n,)
+        Diagonal of the modal damping, divided by 2 w.
+    participation : ndarray, shape (n,)
+        shape' M influence [kg^(1/2)]; with `from_modes`, the square roots of the mass fractions.
+    effective_masses : ndarray, shape (n,)
+        participation squared [kg]; with `from_modes`, the mass fractions.
+    shapes : ndarray, shape (floors, n)
+        One column per mode, with shape' M shape = 1.
+    """
+
+    frequencies: NDArray[np.float64]
+    damping_ratios: NDArray[np.float64]
+    participation: NDArray[np.float64]
+    effective_masses: NDArray[np.float64]
+    shapes: NDArray[np.float64]
+
+    @property
+    def periods(self) -> NDArray[np.float64]:
+        """2 pi / w [s], shape (n,); infinite for a rigid-body mode."""
+        with np.errstate(divide="ignore"):
+            return 2 * np.pi / self.frequencies
+
+    def to_dataframe(self) -> Any:
+        """Convert to a pandas DataFrame with one row per mode, counted from 1.
+
+        Returns
+        -------
+        DataFrame
+            Columns frequency [rad/s], period [s], damping_ratio, participation, effective_mass and
+            cumulative_mass, the fraction of the mass of all modes up to this one.
+
+        Raises
+        ------
+        ImportError
+            pandas is not installed.
+        """
+        mass = self.effective_masses
+        columns = {
+            "mode": np.arange(1, len(mass) + 1),
+            "frequency": self.frequencies,
+            "period": self.periods,
+            "damping_ratio": self.damping_ratios,
+            "participation": self.participation,
+            "effective_mass": mass,
+            "cumulative_mass": np.cumsum(mass) / np.sum(mass),
+        }
+        units = {"frequency": "rad/s", "period": "s"}
+        return frame_of(columns, units, "Modes.to_dataframe", index="mode")
+
+    def plot(self, *, figure: FigureBase | None = None, title: str | None = None) -> Figure:
+        """Plot the shapes of the first modes by height.
+
+        Parameters
+        ----------
+        figure : matplotlib Figure or SubFigure, optional
+            Where to draw; default: a new figure.
+        title : str, optional
+            Default: none.
+
+        Returns
+        -------
+        matplotlib Figure or SubFigure
+
+        Raises
+        ------
+        ValueError
+            The structure was made by `from_modes` without shapes.
+        """
+        from .plotting import plot_modes
+
+        return plot_modes(self, figure, title)
+
+
+_HISTORIES = {
+    "ground_acceleration": "m/s^2",
+    "displacement": "m",
+    "velocity": "m/s",
+    "base_acceleration": "m/s^2",
+    "demand": "m/s^2",
+}
+
+
+def _columns(
+    response: StructureResponse,
+) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
+    """The time and the histories of a response, and their units."""
+    ground = np.zeros(len(response.time))
+    ground[: len(response.motion.acceleration)] = response.motion.acceleration
+    columns = {"time": response.time, "ground_acceleration": ground}
+    columns |= {n: getattr(response, n) for n in _HISTORIES if n != "ground_acceleration"}
+    units = {"time": "s"} | _HISTORIES
+    if has_floors(response):
+        floors = response.floors
+        for i in range(floors.displacement.shape[1]):
+            for name, values, unit in (
+                ("displacement", floors.displacement, "m"),
+                ("acceleration", floors.acceleration, "m/s^2"),
+            ):
+                columns[f"floor_{i + 1}_{name}"] = values[:, i]
+                units[f"floor_{i + 1}_{name}"] = unit
+    return columns, units
+
+
+def to_dataframe(response: StructureResponse) -> Any:
+    """The histories as a pandas DataFrame; see `StructureResponse.to_dataframe`."""
+    return frame_of(*_columns(response), "StructureResponse.to_dataframe", index="time")
+
+
+def to_csv(response: StructureResponse, path: str | os.PathLike[str]) -> Path:
+    """Write the histories to a file; see `StructureResponse.to_csv`."""
+    return write_csv(*_columns(response), path)
+
+
+_RESULTS = (
+    *("peak", "residual", "sliding_distance", "at_rest", "settled", "margin"),
+    *("peak_base_acceleration", "peak_base_shear"),
+)
+
+
+def to_json(response: StructureResponse) -> str:
+    """The results and histories as JSON; see `StructureResponse.to_json`."""
+    columns, units = _columns(response)
+    events = response.events
+    document = {
+        "stickslip": build_info()["version"],
+        "system": repr(response.system),
+        "motion": response.motion.name,
+        "components": response.components,
+        **{name: getattr(response, name) for name in _RESULTS},
+        "units": units,
+        **columns,
+        "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
+    }
+    if has_floors(response):
+        floors = response.floors
+        document["peak_floor_acceleration"] = floors.peak_acceleration
+        document["peak_drift"] = floors.peak_drift
+    return json_text(document)

@@ -1,0 +1,196 @@
+#include "structure/expansion.hpp"
+
+#include <complex>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace stickslip::detail {
+namespace {
+
+using Bernstein = Polynomial;
+
+// Searches [left, left + width], on which b are the Bernstein coefficients of the polynomial c.
+double search(const double* c, int degree, Bernstein& b, double left, double width, double least) {
+  double bound = 0;
+  for (int k = 0; k <= degree; ++k) bound = std::max(bound, std::abs(b[static_cast<std::size_t>(k)]));
+  if (bound <= least) return least;
+  least = std::max(least, std::max(std::abs(b[0]), std::abs(b[static_cast<std::size_t>(degree)])));
+  int changes = 0, last = 0;
+  double first = 0;
+  for (int k = 1; k <= degree; ++k) {
+    const double step = b[static_cast<std::size_t>(k)] - b[static_cast<std::size_t>(k - 1)];
+    const int sign = (step > 0) - (step < 0);
+    if (sign == 0) continue;
+    if (last == 0) first = sign;
+    changes += last != 0 && sign != last;
+    last = sign;
+  }
+  if (changes == 0 || bound <= least) return least;
+  if (changes == 1) {
+    Polynomial slope{};
+    for (int k = 1; k <= degree; ++k) slope[static_cast<std::size_t>(k - 1)] = k * c[k];
+    const auto f = [&](double u) { return value_at(slope.data(), degree - 1, u); };
+    const double right = left + width;
+    const double u = numerics::root(f, left, first, right, static_cast<double>(last));
+    return std::max(least, std::abs(value_at(c, degree, u)));
+  }
+  if (width < 0x1p-26) return least;
+  Bernstein half;
+  for (int i = 0; i <= degree; ++i) {  // de Casteljau: `b` becomes the second half
+    half[static_cast<std::size_t>(i)] = b[0];
+    for (int k = 0; k < degree - i; ++k)
+      b[static_cast<std::size_t>(k)] = (b[static_cast<std::size_t>(k)] + b[static_cast<std::size_t>(k + 1)]) / 2;
+  }
+  least = search(c, degree, half, left, width / 2, least);
+  return search(c, degree, b, left + width / 2, width / 2, least);
+}
+
+// The order at which the terms of exp(reach) are below 1e-17.
+int order_for(double reach) {
+  double term = 1;
+  int k = 0;
+  while (k < series::highest_order && (k < 4 || term > 1e-17)) term *= reach / ++k;
+  return k;
+}
+
+}  // namespace
+
+double largest_magnitude(const double* c, int degree, double least) {
+  double bound = 0;
+  for (int k = 0; k <= degree; ++k) bound += std::abs(c[k]);
+  if (bound <= least) return least;
+  Bernstein b{};
+  double binomial = 1;
+  for (int k = 0; k <= degree; ++k) {
+    b[static_cast<std::size_t>(k)] = c[k] / binomial;
+    binomial *= static_cast<double>(degree - k) / (k + 1);
+  }
+  for (int i = 1; i <= degree; ++i)
+    for (int k = degree; k >= i; --k) b[static_cast<std::size_t>(k)] += b[static_cast<std::size_t>(k - 1)];
+  return search(c, degree, b, 0, 1, least);
+}
+
+void Expansion::begin(const StructureState& state, const GroundLoad& ground, double left, double h, int order) {
+  order_ = order > 0 ? order : order_for(of_.fastest * h);
+  const double after = left - h;
+  const auto line = [](double from, double to) { return std::array{from, to - from}; };
+  n_ = line(ground.ground(left), after > 0 ? ground.ground(after) : ground.end);
+  weight_ = line(ground.weight(left), after > 0 ? ground.weight(after) : ground.weight_end);
+  x_[0] = state.displacement;
+  v_[0] = state.velocity;
+  std::copy_n(state.modal_displacement.data(), modes_, y_.data());
+  std::copy_n(state.modal_velocity.data(), modes_, rate_.data());
+  friction_.fill(0);
+}
+
+double Expansion::take_demand(int k, double demand) {
+  const double *y = row(y_, k), *rate = row(rate_, k), *stiffness = of_.stiffness.data(), *d = of_.demand.data();
+  double sum = 0;
+  if (of_.classical) {
+    const double* damping = of_.damping.data();
+    for (std::size_t j = 0; j < modes_; ++j) {
+      force_[j] = stiffness[j] * y[j] + damping[j * (modes_ + 1)] * rate[j];
+      sum += d[j] * force_[j];
+    }
+  } else {
+    const auto n = static_cast<Eigen::Index>(modes_);
+    Eigen::Map<Eigen::VectorXd> force(force_.data(), n);
+    force.noalias() = of_.damping * Eigen::Map<const Eigen::VectorXd>(rate, n);
+    for (std::size_t j = 0; j < modes_; ++j) {
+      force_[j] += stiffness[j] * y[j];
+      sum += d[j] * force_[j];
+    }
+  }
+  demand_force_ = sum;
+  const double x = x_[at(k)];
+  double pull = of_.spring.stiffness * x;
+  if (of_.spring.pendulum) pull = of_.spring.stiffness * (weight_[0] * x + (k > 0 ? weight_[1] * x_[at(k - 1)] : 0));
+  pull_[at(k)] = pull;
+  q_[at(k)] = k == 0 ? demand : sum - (k == 1 ? of_.ground_demand * n_[1] : 0) - pull;
+  return q_[at(k)];
+}
+
+void Expansion::next(int k, double acceleration) {
+  a_[at(k)] = acceleration;
+  const double n = k < 2 ? n_[at(k)] : 0;
+  const double *load = of_.load.data(), *reaction = of_.reaction.data(), *jump = of_.jump.data();
+  double* out = row(acceleration_, k);
+  for (std::size_t j = 0; j < modes_; ++j)
+    out[j] = reaction[j] * demand_force_ - force_[j] - load[j] * n - jump[j] * acceleration;
+  if (k == order_) return;
+  const double step = h_ * series::reciprocal[k + 1];
+  v_[at(k + 1)] = step * acceleration;
+  x_[at(k + 1)] = step * v_[at(k)];
+  const double* rate = row(rate_, k);
+  double *next_y = row(y_, k + 1), *next_rate = row(rate_, k + 1);
+  for (std::size_t j = 0; j < modes_; ++j) {
+    next_rate[j] = step * out[j];
+    next_y[j] = step * rate[j];
+  }
+}
+
+Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding) {
+  using Eigen::MatrixXd;
+  const Eigen::Index n = of.modes(), first = sliding ? 2 : 0;
+  MatrixXd flow = MatrixXd::Zero(2 * n + first, 2 * n + first);
+  // y'' = (-1 + reaction demand' - jump demand' / mass) r + ..., r = w^2 y + D y'
+  MatrixXd of_force = of.reaction * of.demand.transpose();
+  of_force.diagonal().array() -= 1;
+  if (sliding) of_force -= of.jump * of.demand.transpose() / of.mass;
+  flow.block(first, first + n, n, n).setIdentity();
+  flow.block(first + n, first, n, n) = of_force * of.stiffness.asDiagonal();
+  flow.block(first + n, first + n, n, n) = of_force * of.damping;
+  if (sliding) {
+    flow(0, 1) = 1;
+    flow(1, 0) = -of.spring.stiffness / of.mass;
+    flow(1, 1) = -of.damper / of.mass;
+    flow.block(1, 2, 1, n) = of.demand.transpose() * of.stiffness.asDiagonal() / of.mass;
+    flow.block(1, 2 + n, 1, n) = of.demand.transpose() * of.damping / of.mass;
+    flow.block(2 + n, 0, n, 1) = of.jump * (of.spring.stiffness / of.mass);
+    flow.block(2 + n, 1, n, 1) = of.jump * (of.damper / of.mass);
+  }
+  return flow;
+}
+
+void set_fastest(ModalInterface& of) {
+  of.fastest = 0;
+  for (const bool sliding : {false, true}) {
+    const Eigen::MatrixXd flow = flow_matrix(of, sliding);
+    if (flow.rows() == 0) continue;
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(flow, false);
+    if (solver.info() != Eigen::Success)
+      throw ConvergenceError("the eigenvalues of the structure on its sliding interface do not converge");
+    of.fastest = std::max(of.fastest, solver.eigenvalues().cwiseAbs().maxCoeff());
+  }
+}
+
+StuckBound::StuckBound(const ModalInterface& of) : stiffness_(of.spring.stiffness), modes_(of.modes()) {
+  using Eigen::Index;
+  const Eigen::MatrixXd flow = flow_matrix(of, false);
+  for (Index i = 0; i < 2 * modes_; ++i)  // a rigid-body mode acts by its velocity only
+    if (i >= modes_ || of.stiffness[i] > 0) kept_.push_back(i);
+  if (kept_.empty()) return;
+  const auto size = static_cast<Index>(kept_.size());
+  Eigen::MatrixXd reduced(size, size);
+  Eigen::VectorXd row(size);
+  for (Index i = 0; i < size; ++i) {
+    const Index from = kept_[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < size; ++j) reduced(i, j) = flow(from, kept_[static_cast<std::size_t>(j)]);
+    row[i] = from < modes_ ? of.demand[from] * of.stiffness[from] : of.demand.dot(of.damping.col(from - modes_));
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(reduced);
+  left_ = solver.eigenvectors().fullPivLu().inverse();
+  weights_ = (row.cast<std::complex<double>>().transpose() * solver.eigenvectors()).cwiseAbs().transpose();
+}
+
+double StuckBound::operator()(double x, const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
+  double bound = std::abs(stiffness_ * x);
+  if (kept_.empty()) return bound;
+  Eigen::VectorXcd state(static_cast<Eigen::Index>(kept_.size()));
+  for (std::size_t i = 0; i < kept_.size(); ++i)
+    state[static_cast<Eigen::Index>(i)] = kept_[i] < modes_ ? y[kept_[i]] : rate[kept_[i] - modes_];
+  return bound + (left_ * state).cwiseAbs().dot(weights_);
+}
+
+}  // namespace stickslip::detail

@@ -1,0 +1,205 @@
+// The motion of a structure with one sliding interface over a short time, as power series.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/flow/power_series.hpp"
+#include "stickslip/friction/law.hpp"
+#include "stickslip/numerics/root.hpp"
+#include "stickslip/series/series.hpp"
+#include "stickslip/structure/response.hpp"
+#include "structure/modal_interface.hpp"
+
+namespace stickslip::detail {
+
+/// Load and weight over a segment, both linear in time.
+struct GroundLoad {
+  double duration;                          ///< [s]
+  double start, end;                        ///< ground acceleration n at both ends [m/s^2]
+  double weight_start = 1, weight_end = 1;  ///< N+/g at both ends
+
+  double ground(double left) const noexcept { return at(start, end, left); }
+  double weight(double left) const noexcept { return at(weight_start, weight_end, left); }
+
+ private:
+  double at(double first, double last, double left) const noexcept { return last + (first - last) * (left / duration); }
+};
+
+using Polynomial = std::array<double, series::highest_order + 1>;
+
+/// The first zero in [0, 1] of a polynomial that is at least 0 just after 0; `never` if there is none. Zeros at 0 are
+/// divided out; if it is negative just after them, the zero is at 0.
+inline double first_zero(const double* c, int degree) {
+  int zeros = 0;
+  while (zeros <= degree && equal(c[zeros], 0)) ++zeros;
+  if (zeros > degree) return never;
+  if (c[zeros] < 0) return 0;
+  return FirstRoot(c + zeros, degree - zeros).find();
+}
+
+inline double value_at(const double* c, int degree, double u) {
+  double value = 0;
+  for (int k = degree; k >= 0; --k) value = value * u + c[k];
+  return value;
+}
+
+/// The largest magnitude of a polynomial on [0, 1], or `least` if that is larger.
+double largest_magnitude(const double* c, int degree, double least);
+
+/// Power series of the motion over a duration h, for time in units of h.
+class Expansion {
+ public:
+  explicit Expansion(const ModalInterface& of)
+      : of_(of),
+        modes_(static_cast<std::size_t>(of.modes())),
+        y_((series::highest_order + 1) * modes_),
+        rate_(y_.size()),
+        acceleration_(y_.size()),
+        force_(modes_) {}
+
+  /// The longest duration of one expansion of linear equations [s]: its terms grow to exp(3) before they fall.
+  double longest() const noexcept { return of_.fastest > 0 ? 3 / of_.fastest : never; }
+
+  /// Expand from a state, stuck or with a law in a direction.
+  /// @param left    time to the end of the segment [s]
+  /// @param h       duration, at most `left` and, for linear equations, `longest`; a law may shorten it
+  /// @param demand  q at the start [m/s^2]
+  template <class Law>
+  void expand(const StructureState& state, const GroundLoad& ground, double left, double h, double demand,
+              const Law& law) {
+    const double s = static_cast<double>(static_cast<int>(state.mode));
+    const Direction direction = state.mode == Mode::backward ? Direction::backward : Direction::forward;
+    for (;;) {
+      h_ = h;
+      series::Coefficients place, speed;
+      auto level = as_series(resist(law, series::Variable{&place}, series::Variable{&speed}, direction));
+      const bool slides = state.mode != Mode::stuck;
+      begin(state, ground, left, h, std::is_same_v<decltype(level), series::Constant> ? 0 : series::highest_order);
+      for (int k = 0; k <= order_; ++k) {
+        double net = take_demand(k, demand);
+        if (slides) {
+          place[k] = x_[at(k)];
+          speed[k] = s * v_[at(k)];
+          level.update(k);
+          level_[at(k)] = level[k];
+          friction_[at(k)] = weight_[0] * level[k] + (k > 0 ? weight_[1] * level_[at(k - 1)] : 0);
+          net = (net - of_.damper * v_[at(k)] - s * friction_[at(k)]) / of_.mass;
+        } else {
+          net = 0;
+        }
+        next(k, net);
+      }
+      if constexpr (std::is_same_v<decltype(level), series::Constant>) return;
+      if (!slides || converges(law, s, direction)) return;
+      h /= 2;
+      if (!(h > 0x1p-60 * ground.duration))
+        throw ConvergenceError("the slip level has no finite power series at x = " + shortest(state.displacement) +
+                               " m, x' = " + shortest(state.velocity) + " m/s");
+    }
+  }
+
+  double duration() const noexcept { return h_; }
+  int order() const noexcept { return order_; }
+  const double* demand() const noexcept { return q_.data(); }           // [m/s^2]
+  const double* velocity() const noexcept { return v_.data(); }         // [m/s]
+  const double* displacement() const noexcept { return x_.data(); }     // [m]
+  const double* acceleration() const noexcept { return a_.data(); }     // x'' [m/s^2]
+  const double* friction() const noexcept { return friction_.data(); }  // F [m/s^2]
+  const std::array<double, 2>& ground() const noexcept { return n_; }
+  const std::array<double, 2>& weight() const noexcept { return weight_; }
+  const double* pull() const noexcept { return pull_.data(); }
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  Rows modal_displacement() const noexcept { return rows(y_); }  // one row per order
+  Rows modal_velocity() const noexcept { return rows(rate_); }
+  Rows modal_acceleration() const noexcept { return rows(acceleration_); }
+
+  /// Distance slid in a direction at a part of h, and x' at it.
+  double distance(double s, double u) const { return s * u * value_at(x_.data() + 1, order_ - 1, u); }
+  double speed(double s, double u) const { return s * value_at(v_.data(), order_, u); }
+
+  /// Keep the first part of the duration only.
+  void restrict_to(double u) {
+    if (equal(u, 1)) return;
+    double power = 1;
+    for (int k = 1; k <= order_; ++k) {
+      power *= u;
+      for (auto* c : {&q_, &v_, &x_, &a_, &friction_, &pull_}) (*c)[at(k)] *= power;
+      double *y = row(y_, k), *rate = row(rate_, k), *acceleration = row(acceleration_, k);
+      for (std::size_t j = 0; j < modes_; ++j) y[j] *= power, rate[j] *= power, acceleration[j] *= power;
+    }
+    n_[1] *= u;
+    weight_[1] *= u;
+    h_ *= u;
+  }
+
+  /// Write the modes at the end of the duration.
+  void end(StructureState& state) const {
+    double *y = state.modal_displacement.data(), *rate = state.modal_velocity.data();
+    const double *last_y = row(y_, order_), *last_rate = row(rate_, order_);
+    for (std::size_t j = 0; j < modes_; ++j) y[j] = last_y[j], rate[j] = last_rate[j];
+    for (int k = order_ - 1; k >= 0; --k) {
+      const double *more_y = row(y_, k), *more_rate = row(rate_, k);
+      for (std::size_t j = 0; j < modes_; ++j) y[j] += more_y[j], rate[j] += more_rate[j];
+    }
+  }
+
+ private:
+  static std::size_t at(int k) noexcept { return static_cast<std::size_t>(k); }
+  double* row(std::vector<double>& of, int k) const noexcept { return of.data() + at(k) * modes_; }
+  const double* row(const std::vector<double>& of, int k) const noexcept { return of.data() + at(k) * modes_; }
+  Rows rows(const std::vector<double>& of) const noexcept {
+    return {of.data(), order_ + 1, static_cast<Eigen::Index>(modes_)};
+  }
+
+  void begin(const StructureState& state, const GroundLoad& ground, double left, double h, int order);
+  double take_demand(int k, double demand);  // q_k; keeps the forces of the modes
+  void next(int k, double acceleration);
+
+  // The last terms are below round-off, and the level at the end is that of its law.
+  template <class Law>
+  bool converges(const Law& law, double s, Direction direction) const {
+    constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
+    double fastest = 0, highest = 0;
+    for (int k = 0; k <= order_; ++k) {
+      fastest = std::max(fastest, std::abs(v_[at(k)]));
+      highest = std::max(highest, std::abs(level_[at(k)]));
+    }
+    const auto last = [&](const Polynomial& c) {
+      return std::max(std::abs(c[at(order_)]), std::abs(c[at(order_ - 1)]));
+    };
+    if (!(last(v_) <= round_off * fastest && last(level_) <= 0x1p-48 * highest)) return false;
+    for (const double u : {0.6, 1.0}) {
+      const double x = value_at(x_.data(), order_, u), v = s * value_at(v_.data(), order_, u);
+      if (v < 0) continue;  // beyond a stop
+      const double level = resist(law, x, v, direction);
+      if (!(std::abs(level - value_at(level_.data(), order_, u)) <= 0x1p-46 * highest)) return false;
+    }
+    return true;
+  }
+
+  static auto as_series(double level) noexcept { return series::Constant{level}; }
+  template <series::Series S>
+  static S as_series(const S& level) noexcept {
+    return level;
+  }
+
+  const ModalInterface& of_;
+  std::size_t modes_;
+  double h_ = 0;
+  int order_ = 0;
+  std::array<double, 2> n_{}, weight_{};
+  Polynomial q_{}, v_{}, x_{}, a_{}, friction_{}, level_{}, pull_{};
+  std::vector<double> y_, rate_, acceleration_;  // order by order
+  std::vector<double> force_;                    // r of the present order
+  double demand_force_ = 0;                      // demand.r of it
+};
+
+}  // namespace stickslip::detail

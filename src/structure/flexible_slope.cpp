@@ -1,0 +1,129 @@
+#include "stickslip/structure/flexible_slope.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "stickslip/error.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/structure/isolated_structure.hpp"
+#include "stickslip/units.hpp"
+
+namespace stickslip {
+namespace {
+
+using Eigen::VectorXd;
+using std::numbers::pi;
+
+Structure column(const FlexibleSlope& slope, const SlopeProperties& properties) {
+  VectorXd fractions(slope.modes), frequencies(slope.modes);
+  for (int j = 0; j < slope.modes; ++j) {
+    const double odd = 2 * j + 1;
+    fractions[j] = 8 / (odd * odd * pi * pi);
+    frequencies[j] = odd * pi * properties.shear_velocity / (2 * slope.height);
+  }
+  // The top of the column moves by (4/pi) (-1)^j / (2 j + 1) times the mode.
+  Eigen::MatrixXd top(1, slope.modes);
+  for (int j = 0; j < slope.modes; ++j) top(0, j) = (j % 2 == 0 ? 4 : -4) / (pi * (2 * j + 1));
+  return Structure::from_modes(fractions, frequencies, VectorXd::Constant(slope.modes, properties.damping_ratio), top);
+}
+
+SlidingStructure on_surface(const FlexibleSlope& slope, const SlopeProperties& properties, double level) {
+  const Slider<Coulomb> slider(Coulomb(level, std::numeric_limits<double>::infinity()));
+  if (slope.method == SlopeMethod::coupled) return IsolatedStructure(slider, column(slope, properties));
+  return DecoupledStructure(slider, column(slope, properties));
+}
+
+}  // namespace
+
+void check(const FlexibleSlope& slope) {
+  using detail::require;
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0; };
+  require(std::isfinite(slope.ky_g) && slope.ky_g >= 0, "FlexibleSlope: ky_g must be finite and at least 0", slope.ky_g,
+          "g");
+  require(positive(slope.height), "FlexibleSlope: height must be positive and finite", slope.height, "m");
+  require(positive(slope.shear_velocity), "FlexibleSlope: shear_velocity must be positive and finite",
+          slope.shear_velocity, "m/s");
+  require(std::isfinite(slope.damping_ratio) && slope.damping_ratio >= 0,
+          "FlexibleSlope: damping_ratio must be finite and at least 0", slope.damping_ratio);
+  require(slope.modes >= 1, "FlexibleSlope: modes must be at least 1", slope.modes);
+  if (slope.rock_velocity)
+    require(positive(*slope.rock_velocity), "FlexibleSlope: rock_velocity must be positive and finite",
+            *slope.rock_velocity, "m/s");
+  if (slope.soil && slope.damping_ratio > 0)
+    detail::refuse("FlexibleSlope: with a soil, which has its own damping, damping_ratio must be left out",
+                   slope.damping_ratio);
+}
+
+HyperbolicSoil::HyperbolicSoil(double reference_strain) : reference_strain_(reference_strain) {
+  detail::require(std::isfinite(reference_strain) && reference_strain > 0,
+                  "HyperbolicSoil: reference_strain must be positive and finite", reference_strain);
+}
+
+double HyperbolicSoil::modulus_ratio(double strain) const {
+  detail::require(std::isfinite(strain) && strain >= 0, "HyperbolicSoil: strain must be finite and at least 0", strain);
+  return 1 / (1 + strain / reference_strain_);
+}
+
+double HyperbolicSoil::damping_ratio(double strain) const {
+  const double ratio = modulus_ratio(strain), g = strain / reference_strain_;
+  // For small g the formula cancels: its series is (4/pi) (g/6 - g^2/12 + g^3/20 - ...).
+  double masing = 0;
+  if (g < 1e-2) {
+    double power = 1, sum = 0;
+    for (int k = 1; k <= 8; ++k) {
+      power *= k == 1 ? g : -g;
+      sum += power / ((k + 1.0) * (k + 2.0));
+    }
+    masing = 4 / pi * sum;
+  } else {
+    masing = 4 / pi * (1 + 1 / g) * (1 - std::log1p(g) / g) - 2 / pi;
+  }
+  return 0.62 * std::pow(ratio, 0.1) * masing + 0.01;
+}
+
+double radiation_damping(double rock, double soil) {
+  for (const double velocity : {rock, soil})
+    detail::require(std::isfinite(velocity) && velocity > 0,
+                    "radiation_damping: velocities must be positive and finite", velocity, "m/s");
+  return std::min(0.55016 * std::pow(rock / soil, -0.9904), 0.20);
+}
+
+SlopeProperties properties(const FlexibleSlope& slope, const GroundMotion& motion) {
+  check(slope);
+  const double radiates = slope.rock_velocity ? radiation_damping(*slope.rock_velocity, slope.shear_velocity) : 0;
+  if (!slope.soil) return {slope.shear_velocity, slope.damping_ratio + radiates};
+  SlopeProperties now{slope.shear_velocity, slope.soil->damping_ratio(0) + radiates};
+  constexpr int most = 200;
+  for (int i = 1; i <= most; ++i) {
+    // A level that it never reaches.
+    const SlidingStructure stuck = on_surface(slope, now, 1e100);
+    const StructureResponse response = integrate(stuck, motion);
+    const double strain = 0.65 * pi / 2 * response.floors.peak_drift[0] / slope.height;
+    const SlopeProperties next{slope.shear_velocity * std::sqrt(slope.soil->modulus_ratio(strain)),
+                               slope.soil->damping_ratio(strain) + radiates, strain, i};
+    const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
+    const bool converged =
+        close(now.shear_velocity, next.shear_velocity) && close(now.damping_ratio, next.damping_ratio);
+    now = next;
+    if (converged) return now;
+  }
+  throw ConvergenceError("FlexibleSlope: the equivalent-linear column does not converge within " +
+                         std::to_string(most) + " iterations, at an effective strain of " +
+                         detail::shortest(now.strain));
+}
+
+SlidingStructure sliding_structure(const FlexibleSlope& slope, const SlopeProperties& properties) {
+  check(slope);
+  return on_surface(slope, properties, slope.ky_g * standard_gravity);
+}
+
+StructureResponse integrate(const FlexibleSlope& slope, const GroundMotion& motion,
+                            const StructureIntegrateOptions& options) {
+  return integrate(sliding_structure(slope, properties(slope, motion)), motion, options);
+}
+
+}  // namespace stickslip

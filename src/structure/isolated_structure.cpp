@@ -1,0 +1,78 @@
+#include "stickslip/structure/isolated_structure.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "stickslip/error.hpp"
+#include "structure/modal_interface.hpp"
+
+namespace stickslip {
+namespace {
+
+using Eigen::VectorXd;
+
+// The floors of a structure on a base that moves with the interface.
+detail::ModalInterface on_base(const Structure& structure, double base_mass) {
+  const Modes& modes = structure.modes();
+  const VectorXd& participation = modes.participation;
+  const bool matrices = structure.has_matrices();
+  // With matrices all modes are there; otherwise masses are fractions of the whole.
+  const double total = matrices ? base_mass + structure.influence().dot(structure.mass() * structure.influence()) : 1;
+  detail::ModalInterface of;
+  of.stiffness = modes.frequencies.cwiseAbs2();
+  of.damping = structure.modal_damping();
+  of.classical = structure.classical();
+  of.demand = participation / total;
+  of.load = participation;
+  of.jump = participation;
+  of.reaction = VectorXd::Zero(structure.size());
+  of.ground_demand = of.mass = base_mass / total;
+  of.coupling = of.input = participation / total;
+  of.modal_mass = 1 / total;
+  of.shapes = modes.shapes;
+  of.influence = structure.influence();
+  of.base_shear = participation;
+  of.base_shear_of_base = participation.squaredNorm();
+  if (matrices && structure.uniform_influence()) of.floor_mass = structure.mass();
+  return of;
+}
+
+// A slider that is driven by the forces on the base, which the structure does not feel.
+detail::ModalInterface decoupled(detail::ModalInterface of) {
+  of.mass = 1;
+  of.jump.setZero();
+  of.driven = true;
+  of.rides = false;
+  return of;
+}
+
+double checked(const Structure& structure, double base_mass) {
+  if (!structure.has_matrices())
+    throw std::invalid_argument("base_mass has no meaning for a structure from_modes, whose mass fractions leave it");
+  detail::require(std::isfinite(base_mass) && base_mass > 0, "base_mass must be positive and finite", base_mass, "kg");
+  return base_mass;
+}
+
+double rest_of(const Structure& structure) {
+  if (structure.has_matrices()) throw std::invalid_argument("a structure with matrices needs a base_mass [kg]");
+  return 1 - structure.modes().effective_masses.sum();
+}
+
+}  // namespace
+
+IsolatedStructure::IsolatedStructure(AnySlider slider, Structure structure, double base_mass)
+    : SlidingStructure(std::move(slider), structure, on_base(structure, checked(structure, base_mass))),
+      base_mass_(base_mass) {}
+
+IsolatedStructure::IsolatedStructure(AnySlider slider, Structure structure)
+    : SlidingStructure(std::move(slider), structure, on_base(structure, rest_of(structure))),
+      base_mass_(rest_of(structure)) {}
+
+DecoupledStructure::DecoupledStructure(AnySlider slider, Structure structure, double base_mass)
+    : SlidingStructure(std::move(slider), structure, decoupled(on_base(structure, checked(structure, base_mass)))) {}
+
+DecoupledStructure::DecoupledStructure(AnySlider slider, Structure structure)
+    : SlidingStructure(std::move(slider), structure, decoupled(on_base(structure, rest_of(structure)))) {}
+
+}  // namespace stickslip

@@ -1,0 +1,175 @@
+#include "structure/recorder.hpp"
+
+#include <algorithm>
+
+namespace stickslip::detail {
+namespace {
+
+// The integral over [0, 1] of a product of polynomials.
+double product_integral(const double* a, int degree_a, const double* b, int degree_b) {
+  double sum = 0;
+  for (int i = 0; i <= degree_a; ++i) {
+    double inner = 0;
+    for (int k = 0; k <= degree_b; ++k) inner += b[k] / (i + k + 1);
+    sum += a[i] * inner;
+  }
+  return sum;
+}
+
+// Powers of the nodes of a Gauss rule. Squares of velocities are polynomials with the amplitudes of exp(6) at most:
+// twelve points integrate them to round-off.
+constexpr int points = 12;
+const Eigen::MatrixXd& powers() {
+  static const Eigen::MatrixXd table = [] {
+    Eigen::MatrixXd result(points, series::highest_order + 1);
+    for (int i = 0; i < points; ++i) {
+      double power = 1;
+      for (int k = 0; k <= series::highest_order; ++k) {
+        result(i, k) = power;
+        power *= numerics::gauss_legendre<points>.nodes[static_cast<std::size_t>(i)];
+      }
+    }
+    return result;
+  }();
+  return table;
+}
+
+}  // namespace
+
+FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stories(of.floor_mass.rows()) {
+  const Eigen::Index n = of.modes();
+  forces = Eigen::MatrixXd::Zero(floors + stories + 1, n);
+  with_base = with_slider = Eigen::VectorXd::Zero(floors + stories + 1);
+  forces.topRows(floors) = of.shapes;
+  with_base.head(floors) = of.influence;
+  if (stories > 0) {
+    Eigen::MatrixXd inertia = of.floor_mass * of.shapes;
+    Eigen::VectorXd with = of.floor_mass * of.influence;
+    for (Eigen::Index i = stories - 2; i >= 0; --i) {
+      inertia.row(i) += inertia.row(i + 1);
+      with[i] += with[i + 1];
+    }
+    forces.middleRows(floors, stories) = inertia;
+    with_base.segment(floors, stories) = with;
+    with_slider.segment(floors, of.slider_floor + 1).setConstant(of.slider_mass);
+  }
+  forces.row(floors + stories) = of.base_shear.transpose();
+  with_base[floors + stories] = of.base_shear_of_base;
+  with_slider[floors + stories] = of.slider_mass;
+  drifts = of.shapes;
+  for (Eigen::Index i = floors - 1; i > 0; --i) drifts.row(i) -= of.shapes.row(i - 1);
+}
+
+StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, double from,
+                                     std::size_t event_limit, const std::function<void()>& progress,
+                                     StructureResponse& response)
+    : of_(of), rows_(rows), response_(response), event_limit_(event_limit), progress_(progress) {
+  response_.peak = std::abs(from);
+  response_.margin = std::numeric_limits<double>::infinity();
+  if (rows_ != nullptr) {
+    peaks_ = Eigen::VectorXd::Zero(rows_->forces.rows());
+    drifts_ = Eigen::VectorXd::Zero(rows_->drifts.rows());
+  }
+}
+
+void StructureRecorder::event(EventKind kind, double time, const InterfacePlace& place) {
+  count_work();
+  if (response_.events.size() >= event_limit_) refuse_more_events(event_limit_, segment_begins_ + time);
+  response_.events.push_back(
+      {std::min(segment_begins_ + time, segment_ends_), place.displacement, place.velocity, kind});
+  response_.peak = std::max(response_.peak, std::abs(place.displacement));  // x is monotonic between events
+}
+
+void StructureRecorder::follow(const Expansion& motion, Mode mode) {
+  count_work();
+  add_work(motion, mode);
+  if (rows_ != nullptr) look(motion);
+}
+
+void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
+  Energy& energy = response_.energy;
+  const double h = motion.duration();
+  const int order = motion.order();
+  const double* v = motion.velocity();
+  if (mode != Mode::stuck) {
+    const double s = static_cast<double>(static_cast<int>(mode));
+    response_.sliding_distance += std::max(motion.distance(s, 1), 0.0);
+    response_.time_sliding += h;
+    const double* friction = motion.friction();
+    int last = order;
+    while (last > 0 && equal(friction[last], 0)) --last;
+    energy.dissipated += s * h * product_integral(friction, last, v, order);
+    if (of_.damper > 0) energy.damped += of_.damper * h * product_integral(v, order, v, order);
+    if (of_.driven) energy.input += h * product_integral(motion.demand(), order, v, order);
+    if (of_.driven || of_.spring.pendulum) {
+      // The part of the load that is not the spring's, or the deviation of a pendulum from its spring.
+      Polynomial part;
+      const double *pull = motion.pull(), *x = motion.displacement();
+      for (int k = 0; k <= order; ++k)
+        part[static_cast<std::size_t>(k)] =
+            (of_.driven ? pull[k] : 0) + (of_.spring.pendulum ? of_.spring.stiffness * x[k] - pull[k] : 0);
+      energy.input += h * product_integral(part.data(), order, v, order);
+    }
+  }
+  if (of_.driven) return;
+  const auto rates = motion.modal_velocity();
+  const auto& n = motion.ground();
+  double work = 0;
+  for (int k = 0; k <= order; ++k) {
+    const double moved = of_.input_base * v[k] + rates.row(k).dot(of_.input);
+    work += moved * (n[0] * series::reciprocal[k + 1] + n[1] / (k + 2));
+  }
+  energy.input -= h * work;
+  if (of_.modes() == 0) return;
+  const Eigen::MatrixXd at = powers().leftCols(order + 1) * rates;
+  const Eigen::MatrixXd damped =
+      of_.classical ? Eigen::MatrixXd(at * of_.damping.diagonal().asDiagonal()) : Eigen::MatrixXd(at * of_.damping);
+  double power = 0;
+  for (int i = 0; i < points; ++i)
+    power += numerics::gauss_legendre<points>.weights[static_cast<std::size_t>(i)] * at.row(i).dot(damped.row(i));
+  energy.damped += h * of_.modal_mass * power;
+}
+
+void StructureRecorder::look(const Expansion& motion) {
+  const int order = motion.order();
+  const auto accelerations = motion.modal_acceleration(), displacements = motion.modal_displacement();
+  Polynomial base;
+  double base_bound = 0;
+  for (int k = 0; k <= order; ++k) {
+    const double value =
+        (k < 2 ? motion.ground()[static_cast<std::size_t>(k)] : 0) + (of_.rides ? motion.acceleration()[k] : 0);
+    base[static_cast<std::size_t>(k)] = value;
+    base_bound += std::abs(value);
+  }
+  if (base_bound > response_.peak_base_acceleration)
+    response_.peak_base_acceleration = largest_magnitude(base.data(), order, response_.peak_base_acceleration);
+  const double* slider = motion.acceleration();
+  double slider_bound = 0;
+  for (int k = 0; k <= order; ++k) slider_bound += std::abs(slider[k]);
+  const auto examine = [&](const Eigen::MatrixXd& rows, const auto& modes, bool forces, Eigen::VectorXd& peaks) {
+    const Eigen::VectorXd bounds = modes.cwiseAbs().colwise().sum();
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const double with_base = forces ? rows_->with_base[i] : 0, with_slider = forces ? rows_->with_slider[i] : 0;
+      if (rows.row(i).cwiseAbs().dot(bounds) + std::abs(with_base) * base_bound + with_slider * slider_bound <=
+          peaks[i])
+        continue;
+      Polynomial value;
+      for (int k = 0; k <= order; ++k)
+        value[static_cast<std::size_t>(k)] =
+            rows.row(i).dot(modes.row(k)) + with_base * base[static_cast<std::size_t>(k)] + with_slider * slider[k];
+      peaks[i] = largest_magnitude(value.data(), order, peaks[i]);
+    }
+  };
+  examine(rows_->forces, accelerations, true, peaks_);
+  examine(rows_->drifts, displacements, false, drifts_);
+}
+
+void StructureRecorder::finish() {
+  if (rows_ == nullptr) return;
+  response_.floors.peak_acceleration = peaks_.head(rows_->floors);
+  response_.floors.peak_drift = drifts_;
+  response_.floors.peak_shear = peaks_.segment(rows_->floors, rows_->stories);
+  response_.peak_base_shear = peaks_[rows_->floors + rows_->stories];
+}
+
+}  // namespace stickslip::detail

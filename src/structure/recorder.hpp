@@ -1,0 +1,81 @@
+// Records the events, the sums and the peaks of the motion of a structure with one sliding interface.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "stickslip/base/min_max.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/structure/response.hpp"
+#include "structure/expansion.hpp"
+#include "structure/motion.hpp"
+
+namespace stickslip::detail {
+
+/// The quantities of the floors, each of which is a row times the modes.
+struct FloorRows {
+  explicit FloorRows(const ModalInterface& of);
+
+  // Of the modal accelerations, plus `with_base` times the acceleration of the base and `with_slider` times x'':
+  // floors, stories (if the masses are known by floor), and the base shear last.
+  Eigen::MatrixXd forces;
+  Eigen::VectorXd with_base, with_slider;
+  Eigen::MatrixXd drifts;  // of the modal displacements
+  Eigen::Index floors, stories;
+};
+
+class StructureRecorder {
+ public:
+  static constexpr std::uint32_t work_per_report = 4096;  // segments, events or expansions
+
+  StructureRecorder(const ModalInterface& of, const FloorRows* rows, double from, std::size_t event_limit,
+                    const std::function<void()>& progress, StructureResponse& response);
+
+  void begin_segment(double begin, double end) noexcept {
+    segment_begins_ = begin;
+    segment_ends_ = end;
+  }
+  void report_progress() const {
+    if (progress_) progress_();
+  }
+
+  void event(EventKind kind, double time, const InterfacePlace& place);
+  void follow(const Expansion& motion, Mode mode);
+  void lose(double energy) noexcept { response_.energy.impact += energy; }
+  void decide(double difference) noexcept { response_.margin = std::min(response_.margin, difference); }
+  /// Writes the peaks of the floors.
+  void finish();
+
+ private:
+  void count_work() {
+    if (++work_ % work_per_report == 0) report_progress();
+  }
+  void add_work(const Expansion& motion, Mode mode);
+  void look(const Expansion& motion);
+
+  const ModalInterface& of_;
+  const FloorRows* rows_;
+  StructureResponse& response_;
+  double segment_begins_ = 0, segment_ends_ = 0;
+  std::size_t event_limit_;
+  std::uint32_t work_ = 0;
+  const std::function<void()>& progress_;
+  Eigen::VectorXd peaks_, drifts_;
+};
+
+/// An observer that records nothing.
+struct NoStructureObserver {
+  void event(EventKind, double, const InterfacePlace&) const noexcept {}
+  void follow(const Expansion&, Mode) const noexcept {}
+  void lose(double) const noexcept {}
+  void decide(double) const noexcept {}
+};
+
+}  // namespace stickslip::detail

@@ -1,0 +1,349 @@
+#include "stickslip/structure/sliding_structure.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "stickslip/error.hpp"
+#include "stickslip/sliding/detail/run.hpp"
+#include "structure/modal_interface.hpp"
+#include "structure/motion.hpp"
+#include "structure/recorder.hpp"
+
+namespace stickslip {
+
+using Eigen::Index;
+
+struct SlidingStructure::Data {
+  AnySlider slider;
+  Structure structure;
+  detail::ModalInterface modal;
+};
+
+namespace {
+
+// Whether the motion of a structure can be expanded under a law.
+template <class Law>
+constexpr bool covered = !HeatedLaw<Law> && form_of<Law> != Form::numeric;
+
+// Calls `use(law)` with the law of the interface.
+template <class Use>
+void with_law(const AnySlider& slider, Use&& use) {
+  std::visit(
+      [&](const auto& one) {
+        if constexpr (covered<std::remove_cvref_t<decltype(one.law())>>)
+          use(one.law());
+        else
+          throw std::invalid_argument(
+              "a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
+              "temperature, are not covered");
+      },
+      slider);
+}
+
+// The parts of a segment between which the normal force changes its sign.
+template <class Move>
+void by_weight(const LoadSegment& segment, Move&& move) {
+  const double g = standard_gravity, first = segment.normal_start, last = segment.normal_end;
+  const detail::GroundLoad whole{segment.duration, -segment.load_start, -segment.load_end, std::max(first, 0.0) / g,
+                                 std::max(last, 0.0) / g};
+  if (!(segment.duration > 0)) return;
+  if ((first >= 0 && last >= 0) || (first <= 0 && last <= 0)) return move(whole, 0.0);
+  const double part = first / (first - last), time = part * segment.duration;
+  const double between = whole.start + part * (whole.end - whole.start);
+  move(detail::GroundLoad{time, whole.start, between, whole.weight_start, 0}, 0.0);
+  move(detail::GroundLoad{segment.duration - time, between, whole.end, 0, whole.weight_end}, time);
+}
+
+// Passes events with times from the start of the whole segment.
+template <class Observer>
+struct WithinStructureSegment {
+  Observer& observer;
+  double begin;  // of the part [s]
+
+  void event(EventKind kind, double time, const detail::InterfacePlace& place) {
+    observer.event(kind, begin + time, place);
+  }
+  void follow(const detail::Expansion& motion, Mode mode) { observer.follow(motion, mode); }
+  void lose(double energy) { observer.lose(energy); }
+  void decide(double difference) { observer.decide(difference); }
+};
+
+template <FrictionLaw Law, class Observer>
+void move(const detail::ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
+          detail::Expansion& expansion, Observer& observer) {
+  by_weight(segment, [&](const detail::GroundLoad& load, double begin) {
+    if (!(load.duration > 0)) return;
+    WithinStructureSegment<Observer> within{observer, begin};
+    detail::StructureMotion<Law, decltype(within)> motion(of, law, load, state, expansion, within);
+    detail::advance(motion, within);
+  });
+}
+
+void check_start(const SlidingStructure& system, const StructureState& state, const char* function) {
+  const Mounting& on = mounting_of(system.slider());
+  const double first = -on.stops.backward(), last = on.stops.forward();
+  if (state.displacement < first || state.displacement > last)
+    detail::refuse(std::string(function) + ": displacement must be between the stops, from " + detail::shortest(first) +
+                       " to " + detail::shortest(last) + " m",
+                   state.displacement, "m");
+  if (on.one_way && state.velocity < 0)
+    detail::refuse(std::string(function) + ": velocity must not point backward on a one-way slider", state.velocity,
+                   "m/s");
+}
+
+// Kinetic and elastic energy per reference mass [m^2/s^2].
+std::pair<double, double> energy_of(const detail::ModalInterface& of, const StructureState& state) {
+  const double x = state.displacement, v = state.velocity;
+  double kinetic = v * v / 2, elastic = of.spring.stiffness * x * x / 2;
+  if (!of.driven) {
+    const double moves = of.coupling.dot(state.modal_velocity);
+    kinetic += v * moves + of.own * moves * moves / 2 + of.modal_mass * state.modal_velocity.squaredNorm() / 2;
+    elastic += of.modal_mass * of.stiffness.dot(state.modal_displacement.cwiseAbs2()) / 2;
+  }
+  return {kinetic, elastic};
+}
+
+bool finite(const StructureState& state) {
+  return std::isfinite(state.displacement) && std::isfinite(state.velocity) && state.modal_displacement.allFinite() &&
+         state.modal_velocity.allFinite();
+}
+
+// Keeps the motion at the samples.
+class Histories {
+ public:
+  Histories(const SlidingStructure& system, StructureResponse& response, std::size_t samples)
+      : system_(system), of_(system.modal()), response_(response) {
+    resize(samples);
+  }
+
+  template <class Law>
+  void keep(std::size_t sample, const Law& law, const StructureState& state, double ground, double weight) {
+    if (sample >= response_.displacement.size()) resize(std::max(sample + 1, 2 * response_.displacement.size()));
+    count_ = std::max(count_, sample + 1);
+    const auto i = static_cast<Index>(sample);
+    response_.displacement[sample] = state.displacement;
+    response_.velocity[sample] = state.velocity;
+    response_.modal_displacement.row(i) = state.modal_displacement.transpose();
+    response_.modal_velocity.row(i) = state.modal_velocity.transpose();
+    const double demand = system_.demand(state, ground, weight);
+    double acceleration = 0;
+    if (state.mode != Mode::stuck) {
+      const Direction direction = direction_of(state.mode);
+      const State at{.displacement = state.displacement, .sliding_distance = state.sliding_distance};
+      const double level = resist(law_at(law, at), state.displacement, std::abs(state.velocity), direction);
+      acceleration = (demand - of_.damper * state.velocity - sign(direction) * detail::weigh(weight, level)) / of_.mass;
+    }
+    response_.interface_demand[i] = demand;
+    response_.base_acceleration[i] = ground + (of_.rides ? acceleration : 0);
+    ground_[i] = ground;
+    acceleration_[i] = acceleration;
+  }
+
+  void finish(const detail::FloorRows* rows) {
+    resize(count_);
+    if (rows == nullptr) return;
+    const auto& y = response_.modal_displacement;
+    Eigen::MatrixXd force = response_.modal_velocity * of_.damping;  // symmetric
+    force += y * of_.stiffness.asDiagonal();
+    const Eigen::VectorXd demand = force * of_.demand;
+    const Eigen::MatrixXd accelerations = demand * of_.reaction.transpose() - force - ground_ * of_.load.transpose() -
+                                          acceleration_ * of_.jump.transpose();
+    const Eigen::MatrixXd forces = accelerations * rows->forces.transpose() +
+                                   response_.base_acceleration * rows->with_base.transpose() +
+                                   acceleration_ * rows->with_slider.transpose();
+    Floors& floors = response_.floors;
+    floors.displacement = y * of_.shapes.transpose();
+    floors.drift = y * rows->drifts.transpose();
+    floors.acceleration = forces.leftCols(rows->floors);
+    floors.shear = forces.middleCols(rows->floors, rows->stories);
+  }
+
+ private:
+  void resize(std::size_t samples) {
+    const auto size = static_cast<Index>(samples);
+    response_.displacement.resize(samples);
+    response_.velocity.resize(samples);
+    response_.modal_displacement.conservativeResize(size, of_.modes());
+    response_.modal_velocity.conservativeResize(size, of_.modes());
+    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &ground_, &acceleration_})
+      values->conservativeResize(size);
+  }
+
+  const SlidingStructure& system_;
+  const detail::ModalInterface& of_;
+  StructureResponse& response_;
+  Eigen::VectorXd ground_{}, acceleration_{};
+  std::size_t count_ = 0;
+};
+
+template <FrictionLaw Law>
+StructureResponse integrate_with(const SlidingStructure& system, const Law& law, const GroundMotion& motion,
+                                 const StructureIntegrateOptions& options) {
+  const detail::ModalInterface& of = system.modal();
+  StructureState state = system.rest();
+  state.displacement = options.displacement;
+  state.velocity = options.velocity;
+  state.mode = State::at(0, options.velocity).mode;
+  state.sliding_distance = options.sliding_distance;
+  check_start(system, state, "integrate");
+
+  StructureResponse response;
+  response.contact = Contact::clipped;
+  if (motion.has_vertical()) response.components = "axis + vertical";
+  std::tie(response.energy.kinetic, response.energy.elastic) = energy_of(of, state);
+  response.energy.initial = response.energy.kinetic + response.energy.elastic;
+  const detail::FloorRows rows(of);
+  const detail::FloorRows* wanted = options.floors ? &rows : nullptr;
+  detail::StructureRecorder recorder(of, wanted, state.displacement, detail::max_events(motion.segments()),
+                                     options.progress, response);
+  detail::Expansion expansion(of);
+  Histories histories(system, response, motion.samples());
+  const detail::LoadPieces pieces(motion, 0);
+  const auto weight = [](double normal) { return std::max(normal, 0.0) / standard_gravity; };
+  const auto keep = [&](std::size_t sample, double load, double normal) {
+    histories.keep(sample, law, state, -load, weight(normal));
+  };
+  const LoadSegment first = pieces.segment(0);
+  keep(0, first.load_start, first.normal_start);
+  recorder.begin_segment(motion.time(0), motion.time(0));
+  if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, {state.displacement, state.velocity});
+  detail::walk(
+      pieces, motion.segments(), detail::StructureRecorder::work_per_report,
+      [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
+        recorder.begin_segment(begin, end);
+        move(of, law, segment, state, expansion, recorder);
+        keep(i + 1, segment.load_end, segment.normal_end);
+      },
+      [&] { recorder.report_progress(); });
+  double end = motion.time(motion.segments());
+
+  if (options.settle) {
+    constexpr std::size_t most_steps = 1'000'000;
+    const detail::StuckBound bound(of);
+    const auto settled = [&] {
+      if (state.mode != Mode::stuck) return false;
+      const State at{.displacement = state.displacement, .sliding_distance = state.sliding_distance};
+      const double x = state.displacement, gap = 0x1p-40;
+      const detail::Bounds bounds(of.stops, of.one_way);
+      const auto holds = [&](Direction direction) {
+        return bounds.bound(direction, x, hold(law_at(law, at), x, direction));
+      };
+      return bound(x, state.modal_displacement, state.modal_velocity) * (1 + gap) <=
+             std::min(holds(Direction::forward), holds(Direction::backward));
+    };
+    const double step = motion.last_step();
+    const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
+    std::size_t i = motion.segments();
+    for (std::size_t steps = 0; !settled(); ++steps, ++i) {
+      if (steps == most_steps)
+        throw ConvergenceError(
+            "integrate: without ground motion the interface does not come to rest within " +
+            std::to_string(most_steps) + " steps of " + detail::shortest(step) +
+            " s; at x = " + detail::shortest(state.displacement) + " m it moves at " +
+            detail::shortest(state.velocity) + " m/s, and the structure can still load it with " +
+            detail::shortest(bound(state.displacement, state.modal_displacement, state.modal_velocity)) +
+            " m/s^2; use settle = false");
+      const double begin = std::exchange(end, motion.time(i + 1));
+      recorder.begin_segment(begin, end);
+      move(of, law, calm, state, expansion, recorder);
+      if (i + 1 < 10 * motion.samples())
+        keep(i + 1, 0, standard_gravity);
+      else
+        response.truncated = true;
+      if (i % detail::StructureRecorder::work_per_report == 0) recorder.report_progress();
+    }
+    response.settled = true;
+  }
+
+  recorder.begin_segment(end, end);
+  recorder.event(EventKind::end, 0, {state.displacement, state.velocity});
+  recorder.finish();
+  histories.finish(wanted);
+  response.residual = state.displacement;
+  std::tie(response.energy.kinetic, response.energy.elastic) = energy_of(of, state);
+  response.state = {.displacement = state.displacement,
+                    .velocity = state.velocity,
+                    .mode = state.mode,
+                    .sliding_distance = state.sliding_distance};
+  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak) || !finite(state))
+    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
+                              detail::shortest(response.peak) + " m), velocity or energy");
+  response.final_state = std::move(state);
+  return response;
+}
+
+}  // namespace
+
+SlidingStructure::SlidingStructure(AnySlider slider, Structure structure, detail::ModalInterface modal) {
+  with_law(slider, [](const auto&) {});
+  const Mounting& on = mounting_of(slider);
+  if (on.slope_degrees > 0)
+    throw std::invalid_argument("a structure slides on level ground, got a slider on a slope of " +
+                                detail::shortest(on.slope_degrees) + " degrees");
+  modal.spring = on.spring();
+  modal.damper = on.damping;
+  modal.stops = on.stops;
+  modal.one_way = on.one_way;
+  detail::set_fastest(modal);
+  data_ = std::make_shared<const Data>(Data{std::move(slider), std::move(structure), std::move(modal)});
+}
+
+const Structure& SlidingStructure::structure() const noexcept { return data_->structure; }
+const AnySlider& SlidingStructure::slider() const noexcept { return data_->slider; }
+double SlidingStructure::interface_mass() const noexcept { return data_->modal.mass; }
+double SlidingStructure::fastest() const noexcept { return data_->modal.fastest; }
+const detail::ModalInterface& SlidingStructure::modal() const noexcept { return data_->modal; }
+
+StructureState SlidingStructure::rest() const {
+  const Index n = data_->modal.modes();
+  return {.modal_displacement = Eigen::VectorXd::Zero(n), .modal_velocity = Eigen::VectorXd::Zero(n)};
+}
+
+double SlidingStructure::demand(const StructureState& state, double ground, double weight) const {
+  const detail::ModalInterface& of = data_->modal;
+  return of.demand.dot(of.stiffness.cwiseProduct(state.modal_displacement) + of.damping * state.modal_velocity) -
+         of.ground_demand * ground - of.spring.under(weight) * state.displacement;
+}
+
+StructureResponse integrate(const SlidingStructure& system, const GroundMotion& motion,
+                            const StructureIntegrateOptions& options) {
+  using detail::require;
+  for (const auto& [value, name, unit] :
+       {std::tuple(options.displacement, "displacement", "m"), std::tuple(options.velocity, "velocity", "m/s")})
+    require(std::isfinite(value), std::string("integrate: ") + name + " must be finite", value, unit);
+  require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
+          "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
+  StructureResponse response;
+  with_law(system.slider(), [&](const auto& law) { response = integrate_with(system, law, motion, options); });
+  return response;
+}
+
+void advance(const SlidingStructure& system, const LoadSegment& segment, StructureState& state) {
+  const Index n = system.modal().modes();
+  if (state.modal_displacement.size() != n || state.modal_velocity.size() != n)
+    throw std::invalid_argument("advance: the state must have " + std::to_string(n) + " modes, got " +
+                                std::to_string(state.modal_displacement.size()) + " displacements and " +
+                                std::to_string(state.modal_velocity.size()) + " velocities; begin with `rest`");
+  for (const double value : {segment.duration, segment.load_start, segment.load_end, segment.normal_start,
+                             segment.normal_end, state.displacement, state.velocity})
+    detail::require(std::isfinite(value), "advance: segment and state must be finite", value);
+  if (!finite(state)) throw std::invalid_argument("advance: the modes of the state must be finite");
+  check_start(system, state, "advance");
+  StructureState moved = state;
+  detail::NoStructureObserver none;
+  detail::Expansion expansion(system.modal());
+  with_law(system.slider(), [&](const auto& law) { move(system.modal(), law, segment, moved, expansion, none); });
+  if (!finite(moved)) throw std::overflow_error("advance: the motion leaves the range of doubles");
+  state = std::move(moved);
+}
+
+void advance(const SlidingStructure& system, const Segment& segment, StructureState& state) {
+  advance(system, detail::load_segment(segment, 0.0), state);
+}
+
+}  // namespace stickslip

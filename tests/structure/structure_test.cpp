@@ -1,0 +1,348 @@
+// Structures with one sliding interface: modes, limits, balances and bad input.
+#include "stickslip/structure/structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "stickslip/core.hpp"
+#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/structure/equipment_on_floor.hpp"
+#include "stickslip/structure/flexible_slope.hpp"
+#include "stickslip/structure/isolated_structure.hpp"
+#include "support/catch.hpp"
+
+using namespace stickslip;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+Eigen::VectorXd list(std::initializer_list<double> values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// The ground motion of the reference values, with `parts` straight lines in place of one.
+GroundMotion motion(int parts = 1) {
+  std::vector<double> n;
+  for (int m = 0; m < 400 * parts; ++m) {
+    const auto at = [](int k) { return 2 * std::sin(0.7 * k) + 1.3 * std::cos(1.9 * k + 0.4); };
+    const int k = m / parts;
+    n.push_back(at(k) + (at(k + 1) - at(k)) * (m % parts) / parts);
+  }
+  n.push_back(2 * std::sin(280.0) + 1.3 * std::cos(760.4));
+  return GroundMotion(n, 0.1 / parts);
+}
+
+Structure building() {
+  return Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), Rayleigh{0.1, 0.002});
+}
+
+Slider<Coulomb> slider(double level = 1, Mounting mounting = {}) { return Slider<Coulomb>(Coulomb(level), mounting); }
+
+double furthest(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = std::abs(static_cast<double>(a.size()) - static_cast<double>(b.size()));
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a building of two equal floors has the golden section in its modes", "[structure]") {
+  const Structure two = Structure::shear_building(list({2, 2}), list({18, 18}), 0.05);
+  // w^2 = (k/m) (3 -+ sqrt 5) / 2
+  const Modes& modes = two.modes();
+  for (const int j : {0, 1}) {
+    const double s = j == 0 ? -1 : 1;
+    CHECK(modes.frequencies[j] == Approx(3 * std::sqrt((3 + s * std::sqrt(5)) / 2)).epsilon(1e-14));
+    CHECK(modes.damping_ratios[j] == Approx(0.05).epsilon(1e-13));
+    const double ratio = modes.shapes(1, j) / modes.shapes(0, j);
+    CHECK(ratio == Approx((1 - s * std::sqrt(5)) / 2).epsilon(1e-13));
+  }
+  CHECK(modes.effective_masses.sum() == Approx(4).epsilon(1e-14));
+  CHECK(two.classical());
+  CHECK((modes.shapes.transpose() * two.mass() * modes.shapes - Eigen::MatrixXd::Identity(2, 2)).norm() < 1e-14);
+  // alpha / (2 w) + beta w / 2
+  const Structure rayleigh = Structure::shear_building(list({2, 2}), list({18, 18}), Rayleigh{0.3, 0.01});
+  for (const int j : {0, 1}) {
+    const double w = modes.frequencies[j];
+    CHECK(rayleigh.modes().damping_ratios[j] == Approx(0.15 / w + 0.005 * w).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a structure is the same in modes and in matrices", "[structure]") {
+  const double base = 1;
+  const Structure matrices = building();
+  const double total = base + matrices.mass().sum();
+  const Modes& modes = matrices.modes();
+  const Structure from = Structure::from_modes(modes.effective_masses / total, modes.frequencies, modes.damping_ratios,
+                                               modes.shapes * modes.participation.asDiagonal());
+  const Mounting spring{.natural_frequency = 2, .damping = 0.4};
+  const auto a = integrate(IsolatedStructure(slider(1, spring), matrices, base), motion());
+  const auto b = integrate(IsolatedStructure(slider(1, spring), from), motion());
+  CHECK(furthest(a.displacement, b.displacement) < 1e-13);
+  CHECK((a.floors.displacement - b.floors.displacement).cwiseAbs().maxCoeff() < 1e-13);
+  CHECK((a.floors.acceleration - b.floors.acceleration).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK((a.floors.peak_acceleration - b.floors.peak_acceleration).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK(a.peak_base_shear == Approx(total * b.peak_base_shear).epsilon(1e-12));
+}
+
+TEST_CASE("limits of a structure on a sliding base", "[structure]") {
+  const auto one = [](double fraction, double frequency, double damping_ratio = 0.05) {
+    return integrate(
+        IsolatedStructure(slider(), Structure::from_modes(list({fraction}), list({frequency}), list({damping_ratio}))),
+        motion());
+  };
+  const Response plain = integrate(slider(), motion());
+  SECTION("a structure without mass") {
+    // Reference: -2.3e-8 at a mass fraction of 1e-6, to two digits.
+    CHECK(std::abs(one(1e-6, 8).residual - plain.residual + 2.3e-8) < 1e-9);
+    CHECK(furthest(one(1e-12, 8).displacement, plain.displacement) < 1e-12);
+  }
+  SECTION("a rigid structure") {
+    // Reference: 9.5e-4 m at 200 rad/s with a mass fraction of 0.8, 8.7e-5 at 2000.
+    const double first = std::abs(one(0.8, 200).residual - plain.residual);
+    const double second = std::abs(one(0.8, 2000).residual - plain.residual);
+    CHECK(first == Approx(9.5e-4).epsilon(0.01));
+    CHECK(second == Approx(8.7e-5).epsilon(0.01));
+  }
+  SECTION("a mass that is split over equal modes") {
+    const auto split = integrate(
+        IsolatedStructure(slider(),
+                          Structure::from_modes(list({0.3, 0.1, 0.3}), list({8, 8, 8}), list({0.05, 0.05, 0.05}))),
+        motion());
+    CHECK(furthest(split.displacement, one(0.7, 8).displacement) < 1e-13);
+  }
+  SECTION("a heavy base") {
+    const auto heavy = integrate(IsolatedStructure(slider(), building(), 1e13), motion());
+    CHECK(furthest(heavy.displacement, plain.displacement) < 1e-11);
+  }
+  SECTION("a slider on a stiff floor, with and without mass") {
+    const Structure stiff = Structure::shear_building(list({1}), list({4e6}), 0.05);
+    for (const double mass : {0.0, 0.5})
+      CHECK(furthest(integrate(EquipmentOnFloor(slider(), stiff, 1, mass), motion()).displacement, plain.displacement) <
+            1e-3);
+  }
+  SECTION("a slider of little mass on a floor") {
+    const auto light = integrate(EquipmentOnFloor(slider(1.5), building(), 2), motion());
+    const auto small = integrate(EquipmentOnFloor(slider(1.5), building(), 2, 1e-12), motion());
+    CHECK(furthest(light.displacement, small.displacement) < 1e-9);
+  }
+}
+
+TEST_CASE("while it is stuck, a structure is an oscillator on the ground, also from a first sample that is not zero",
+          "[structure]") {
+  const double w = 8, z = 0.1, n = 0.5, damped = w * std::sqrt(1 - z * z);
+  const auto r = integrate(IsolatedStructure(slider(100), Structure::from_modes(list({0.5}), list({w}), list({z}),
+                                                                                Eigen::MatrixXd::Ones(1, 1))),
+                           GroundMotion(std::vector<double>(41, n), 0.05));
+  CHECK(r.peak == 0);
+  for (Eigen::Index i = 0; i <= 40; ++i) {
+    const double t = 0.05 * static_cast<double>(i);
+    const double y =
+        -n / (w * w) * (1 - std::exp(-z * w * t) * (std::cos(damped * t) + z * w / damped * std::sin(damped * t)));
+    CHECK(std::abs(r.floors.displacement(i, 0) - y) < 1e-16);
+  }
+  // The largest displacement comes after half a period, between samples.
+  const double peak = n / (w * w) * (1 + std::exp(-z * w * std::numbers::pi / damped));
+  CHECK(r.floors.peak_drift[0] == Approx(peak).epsilon(1e-13));
+}
+
+TEST_CASE("straight lines that are divided change nothing, and peaks lie between samples", "[structure]") {
+  const IsolatedStructure isolated(slider(1, Mounting{.natural_frequency = 2, .damping = 0.2}), building(), 1);
+  const EquipmentOnFloor equipment(slider(1.5), building(), 3, 0.2);
+  for (const SlidingStructure& system : {SlidingStructure(isolated), SlidingStructure(equipment)}) {
+    const auto coarse = integrate(system, motion()), fine = integrate(system, motion(64));
+    CHECK(std::abs(coarse.residual - fine.residual) < 1e-12);
+    CHECK(coarse.peak == Approx(fine.peak).epsilon(1e-12));
+    CHECK(coarse.peak_base_shear == Approx(fine.peak_base_shear).epsilon(1e-11));
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const double drift = fine.floors.drift.col(i).cwiseAbs().maxCoeff();
+      const double acceleration = fine.floors.acceleration.col(i).cwiseAbs().maxCoeff();
+      CHECK(coarse.floors.peak_drift[i] == Approx(fine.floors.peak_drift[i]).epsilon(1e-12));
+      CHECK(coarse.floors.peak_acceleration[i] == Approx(fine.floors.peak_acceleration[i]).epsilon(1e-11));
+      CHECK(coarse.floors.peak_shear[i] == Approx(fine.floors.peak_shear[i]).epsilon(1e-11));
+      // Samples every 1.6 ms miss at most w^2 dt^2 / 8 of the peak of an oscillation, w < 41 rad/s.
+      CHECK(coarse.floors.peak_drift[i] >= drift * (1 - 1e-12));
+      CHECK(coarse.floors.peak_drift[i] <= drift * (1 + 6e-4));
+      CHECK(coarse.floors.peak_acceleration[i] >= acceleration * (1 - 1e-12));
+    }
+  }
+}
+
+TEST_CASE("the energy of a structure is balanced on every mounting", "[structure]") {
+  const auto balanced = [](const SlidingStructure& system, const GroundMotion& ground,
+                           const StructureIntegrateOptions& options = {}) {
+    const auto r = integrate(system, ground, options);
+    CHECK(r.time_sliding > 0);
+    const double scale = r.energy.initial + std::abs(r.energy.input) + r.energy.dissipated;
+    CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * scale);
+  };
+  std::vector<double> up;
+  for (int m = 0; m <= 400; ++m) up.push_back(12 * std::cos(0.5 * m + 0.2));  // lifts the weight, too
+  const GroundMotion lifted = motion().with_components({}, up);
+  Eigen::MatrixXd dashpots = building().damping();
+  dashpots(0, 0) += 6;
+  const Structure complex(building().mass(), dashpots, building().stiffness());
+  CHECK_FALSE(complex.classical());
+  Mounting stops{.natural_frequency = 1.5, .damping = 0.1, .stops = Stops(0.02, 0.7)};
+  Mounting pendulum{.natural_frequency = 2, .pendulum = true};
+  for (const Structure& structure : {building(), complex}) {
+    for (const GroundMotion& ground : {motion(), lifted}) {
+      for (const Mounting& mounting : {Mounting{}, stops, pendulum}) {
+        balanced(IsolatedStructure(slider(1, mounting), structure, 1), ground);
+        balanced(IsolatedStructure(slider(1, mounting), structure, 1), ground, {.velocity = 0.3});
+        balanced(EquipmentOnFloor(slider(1, mounting), structure, 2, 0.3), ground);
+        balanced(EquipmentOnFloor(slider(1, mounting), structure, 2), ground);
+        balanced(DecoupledStructure(slider(0.5, mounting), structure, 1), ground);
+      }
+      const StaticKinetic higher(Coulomb(1, 1.5), 1.4, 1.6);
+      balanced(IsolatedStructure(Slider<StaticKinetic<Coulomb>>(higher), structure, 1), ground);
+      const VelocityDependent fast(0.5, 1.2, 20);
+      balanced(IsolatedStructure(Slider<VelocityDependent>(fast, Mounting{.natural_frequency = 2}), structure, 1),
+               ground);
+    }
+  }
+}
+
+TEST_CASE("friction that depends on speed, on a structure without mass, is that of the slider", "[structure]") {
+  const Slider<VelocityDependent> one(VelocityDependent(0.5, 1.2, 20), Mounting{.natural_frequency = 2});
+  const auto r =
+      integrate(IsolatedStructure(one, Structure::from_modes(list({1e-14}), list({5}), list({0.05}))), motion());
+  const Response plain = integrate(one, motion());
+  CHECK(furthest(r.displacement, plain.displacement) < 1e-11);
+  CHECK(r.energy.dissipated == Approx(plain.energy.dissipated).epsilon(1e-11));
+  const Slider<Degrading> weaker(Degrading({0, 0.3, 2}, {1.5, 0.9, 0.8}));
+  const auto s =
+      integrate(IsolatedStructure(weaker, Structure::from_modes(list({1e-14}), list({5}), list({0.05}))), motion());
+  CHECK(furthest(s.displacement, integrate(weaker, motion()).displacement) < 1e-11);
+}
+
+TEST_CASE("a structure in a user's own loop moves as integrated at once", "[structure]") {
+  const GroundMotion ground = motion();
+  const IsolatedStructure system(slider(1, Mounting{.stops = Stops(0.03, 0.5)}), building(), 1);
+  const auto r = integrate(system, ground);
+  StructureState state = system.rest();
+  double most = 0;
+  for (std::size_t i = 0; i < ground.segments(); ++i) {
+    advance(system, ground.segment(i), state);
+    most = std::max(most, std::abs(state.displacement - r.displacement[i + 1]));
+  }
+  CHECK(most == 0);
+  StructureState other{};
+  CHECK_THROWS_WITH(advance(system, ground.segment(0), other), ContainsSubstring("3 modes, got 0 displacements"));
+}
+
+TEST_CASE("a structure settles when its modes can no longer move the interface", "[structure]") {
+  std::vector<double> n;
+  for (int m = 0; m <= 400; ++m) n.push_back(2 * std::sin(0.7 * m) + 1.3 * std::cos(1.9 * m + 0.4));
+  n.push_back(0);
+  const IsolatedStructure system(slider(0.3), Structure::from_modes(list({0.7}), list({8}), list({0.02})));
+  const auto r = integrate(system, GroundMotion(n, 0.1), {.settle = true});
+  // Computed at 40 digits.
+  CHECK(r.settled);
+  CHECK(std::abs(r.residual + 0.5624000916270817) < 1e-12);
+  CHECK(std::abs(r.events[r.events.size() - 2].time - 40.922798028454106) < 1e-12);
+  CHECK(std::abs(r.energy.dissipated - 2.0576569764342507) < 1e-12);
+  CHECK(r.displacement.size() == 411);  // certified at sample 410
+  // It stays there: two thousand further samples without ground motion.
+  n.resize(2500, 0);
+  CHECK(integrate(system, GroundMotion(n, 0.1)).residual == r.residual);
+  // An undamped structure may move it again at any time.
+  const IsolatedStructure undamped(slider(0.01), Structure::from_modes(list({0.7}), list({8}), list({0.0})));
+  const auto never_at_rest = [&] { return integrate(undamped, GroundMotion({2, -2, 0}, 0.1), {.settle = false}); };
+  CHECK_FALSE(never_at_rest().settled);
+}
+
+TEST_CASE("a flexible slope", "[structure]") {
+  const GroundMotion ground = motion();
+  FlexibleSlope slope{.ky_g = 0.05, .height = 50, .shear_velocity = 600, .damping_ratio = 0.05};
+  SECTION("is a column on a base") {
+    const double w = std::numbers::pi * 600 / 100, fraction = 8 / (std::numbers::pi * std::numbers::pi);
+    const Slider<Coulomb> one_way(Coulomb(0.05 * standard_gravity, std::numeric_limits<double>::infinity()));
+    const Structure column = Structure::from_modes(list({fraction}), list({w}), list({0.05}));
+    CHECK(integrate(slope, ground, {}).displacement ==
+          integrate(IsolatedStructure(one_way, column), ground).displacement);
+    slope.method = SlopeMethod::decoupled;
+    CHECK(integrate(slope, ground, {}).displacement ==
+          integrate(DecoupledStructure(one_way, column), ground).displacement);
+  }
+  SECTION("of many modes slides with multiples of twice its frequency") {
+    slope.modes = 10;
+    const auto system = sliding_structure(slope, properties(slope, ground));
+    // One mode gives 2.2976 w_1, ten 2.00014; the fastest is about 2.4 times the number of modes.
+    CHECK(system.interface_mass() == Approx(2 / (std::numbers::pi * std::numbers::pi * 10)).epsilon(0.01));
+    CHECK(system.fastest() / (std::numbers::pi * 6) == Approx(24).epsilon(0.05));
+  }
+  SECTION("that is stiff is a rigid block") {
+    slope.shear_velocity = 1e5;
+    const Slider<Coulomb> block(Coulomb(0.05 * standard_gravity, std::numeric_limits<double>::infinity()));
+    const double rigid = integrate(block, ground, {.settle = true}).residual;
+    CHECK(integrate(slope, ground).residual == Approx(rigid).epsilon(1e-2));
+  }
+  SECTION("on compliant rock") {
+    CHECK(radiation_damping(2000, 500) == Approx(0.55016 * std::pow(4, -0.9904)).epsilon(1e-15));
+    CHECK(radiation_damping(500, 500) == 0.2);
+    slope.rock_velocity = 2000;
+    CHECK(properties(slope, ground).damping_ratio ==
+          Approx(0.05 + 0.55016 * std::pow(2000.0 / 600, -0.9904)).epsilon(1e-15));
+  }
+  SECTION("of soil is a fixed point of the equivalent-linear iteration") {
+    slope.damping_ratio = 0;
+    slope.soil = HyperbolicSoil(1e-3);
+    const SlopeProperties found = properties(slope, ground);
+    CHECK(found.iterations > 1);
+    CHECK(found.shear_velocity == Approx(600 * std::sqrt(1 / (1 + found.strain / 1e-3))).epsilon(1e-12));
+    FlexibleSlope linear{
+        .ky_g = 1e90, .height = 50, .shear_velocity = found.shear_velocity, .damping_ratio = found.damping_ratio};
+    const auto stuck = integrate(linear, ground, {});
+    CHECK(0.65 * std::numbers::pi / 2 * stuck.floors.peak_drift[0] / 50 == Approx(found.strain).epsilon(1e-11));
+    CHECK(HyperbolicSoil(1e-3).damping_ratio(0) == 0.01);
+    // (4/pi) 2 (1 - ln 2) - 2/pi at the reference strain
+    CHECK(HyperbolicSoil(1e-3).damping_ratio(1e-3) ==
+          Approx(0.01 + 0.62 * std::pow(0.5, 0.1) * (8 / std::numbers::pi * (1 - std::log(2)) - 2 / std::numbers::pi))
+              .epsilon(1e-14));
+    // The series and the formula meet.
+    CHECK(HyperbolicSoil(1).damping_ratio(0.01 * (1 - 1e-9)) ==
+          Approx(HyperbolicSoil(1).damping_ratio(0.01 * (1 + 1e-9))).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("structures refuse bad input by name", "[structure]") {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
+  Eigen::MatrixXd skew = one, negative = one, singular = one;
+  skew(1, 0) = 0.5;
+  negative(1, 1) = -2;
+  singular(1, 1) = 0;
+  const auto made = [](const Eigen::MatrixXd& m, const Eigen::MatrixXd& c, const Eigen::MatrixXd& k) {
+    return Structure(m, c, k);
+  };
+  CHECK_THROWS_WITH(made(skew, one, one), ContainsSubstring("mass must be symmetric, got mass[1, 0] = 0.5"));
+  CHECK_THROWS_WITH(made(singular, one, one),
+                    ContainsSubstring("mass must be positive definite: its smallest eigenvalue, got 0"));
+  CHECK_THROWS_WITH(made(one, negative, one),
+                    ContainsSubstring("damping must be positive semidefinite: its smallest eigenvalue, got -2"));
+  CHECK_THROWS_WITH(made(one, one, negative), ContainsSubstring("stiffness must be positive semidefinite"));
+  CHECK_THROWS_WITH(made(one, one, Eigen::MatrixXd::Zero(2, 2)), ContainsSubstring("must have a stiffness"));
+  CHECK_THROWS_WITH(made(one, Eigen::MatrixXd::Identity(3, 3), one),
+                    ContainsSubstring("damping must be 2 by 2, as the mass matrix, got 3 by 3"));
+  CHECK_THROWS_WITH(Structure::shear_building(list({1, -1}), list({1, 1}), 0.05),
+                    ContainsSubstring("masses[1] must be finite and more than 0, got -1 kg"));
+  CHECK_THROWS_WITH(Structure::shear_building(list({1, 1}), list({1}), 0.05),
+                    ContainsSubstring("stiffnesses must have 2 entries, got 1"));
+  CHECK_THROWS_WITH(Structure::from_modes(list({0.6, 0.4}), list({1, 2}), list({0, 0})),
+                    ContainsSubstring("must be less than 1, because the rest is the base, got 1"));
+  CHECK_THROWS_WITH(EquipmentOnFloor(slider(), building(), 4), ContainsSubstring("floor must be from 1 to 3, got 4"));
+  CHECK_THROWS_WITH(EquipmentOnFloor(slider(), building(), 1, -1),
+                    ContainsSubstring("mass must be finite and at least 0, got -1 kg"));
+  CHECK_THROWS_WITH(IsolatedStructure(slider(), building(), 0),
+                    ContainsSubstring("base_mass must be positive and finite, got 0 kg"));
+  CHECK_THROWS_WITH(IsolatedStructure(slider(), building()), ContainsSubstring("needs a base_mass"));
+  CHECK_THROWS_WITH(IsolatedStructure(slider(3, Mounting{.slope_degrees = 10}), building(), 1),
+                    ContainsSubstring("level ground, got a slider on a slope of 10 degrees"));
+  const IsolatedStructure system(slider(1, Mounting{.stops = Stops(0.1, 0)}), building(), 1);
+  CHECK_THROWS_WITH(integrate(system, motion(), {.displacement = 0.2}), ContainsSubstring("between the stops"));
+  CHECK_THROWS_WITH(integrate(FlexibleSlope{.ky_g = 0.1, .height = 0, .shear_velocity = 1}, motion()),
+                    ContainsSubstring("height must be positive and finite, got 0 m"));
+}
