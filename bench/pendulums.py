@@ -23,7 +23,7 @@ from measure import machine, peer, versions
 G = ss.STANDARD_GRAVITY
 RADII, MU, CAPACITIES = [0.3937, 3.7465, 3.7465], [0.01, 0.04, 0.08], [0.0716, 0.5043, 0.5043]
 ISOLATOR = ss.TriplePendulum(RADII, MU, CAPACITIES)
-YIELDS = ((1, 1e-3), (4, 1e-3), (10, 0.5e-3))  # steps a sample, yield displacement [m]
+YIELDS = ((4, 1e-3), (10, 0.5e-3), (20, 0.25e-3))  # steps a sample, yield displacement [m]
 
 
 def by_opensees(ops, motion: ss.GroundMotion, steps: int, yields: float) -> tuple[float, float]:
@@ -131,7 +131,8 @@ def main() -> None:
         print("openseespy is not installed")
         return
     print(f"openseespy {metadata.version('openseespy')}")
-    chosen = records[:6]
+    # Its element has no last stop.
+    chosen = [r for r in records if not len(ss.integrate(ISOLATOR, r).impacts)]
     exact = [ss.integrate(ISOLATOR, r) for r in chosen]
     mine = seconds(lambda: [ss.integrate(ISOLATOR, r) for r in chosen])
     for steps, yields in YIELDS:
@@ -141,7 +142,7 @@ def main() -> None:
         errors = [100 * abs(p / r.peak - 1) for (p, _), r in zip(found, exact, strict=True)]
         ends = [100 * abs(x - r.residual) / r.peak for (_, x), r in zip(found, exact, strict=True)]
         print(
-            f"OpenSees, {steps} steps a sample, yield {1e3 * yields:g} mm: peak off by"
+            f"OpenSees, {len(chosen)} records, {steps} steps a sample, yield {1e3 * yields:g} mm: peak off by"
             f" {np.nanmedian(errors):.2g} % in the median, {np.nanmax(errors):.2g} % at most;"
             f" end by {np.nanmedian(ends):.2g} and {np.nanmax(ends):.2g} % of the peak;"
             f" {np.isnan(errors).sum()} did not converge; {took / mine:,.0f} times our time"
