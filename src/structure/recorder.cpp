@@ -147,18 +147,15 @@ void StructureRecorder::look(const Expansion& motion) {
   double slider_bound = 0;
   for (int k = 0; k <= order; ++k) slider_bound += std::abs(slider[k]);
   const auto examine = [&](const Eigen::MatrixXd& rows, const auto& modes, bool forces, Eigen::VectorXd& peaks) {
-    const Eigen::VectorXd bounds = modes.cwiseAbs().colwise().sum();
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      const double with_base = forces ? rows_->with_base[i] : 0, with_slider = forces ? rows_->with_slider[i] : 0;
-      if (rows.row(i).cwiseAbs().dot(bounds) + std::abs(with_base) * base_bound + with_slider * slider_bound <=
-          peaks[i])
-        continue;
-      Polynomial value;
-      for (int k = 0; k <= order; ++k)
-        value[static_cast<std::size_t>(k)] =
-            rows.row(i).dot(modes.row(k)) + with_base * base[static_cast<std::size_t>(k)] + with_slider * slider[k];
-      peaks[i] = largest_magnitude(value.data(), order, peaks[i]);
-    }
+    const Eigen::VectorXd most = modes.cwiseAbs().colwise().sum();
+    Eigen::VectorXd bounds = rows.cwiseAbs() * most;
+    if (forces) bounds += rows_->with_base.cwiseAbs() * base_bound + rows_->with_slider * slider_bound;
+    if ((bounds.array() <= peaks.array()).all()) return;
+    Eigen::MatrixXd values = modes * rows.transpose();  // one polynomial per column
+    if (forces)
+      values += Eigen::Map<const Eigen::VectorXd>(base.data(), order + 1) * rows_->with_base.transpose() +
+                Eigen::Map<const Eigen::VectorXd>(slider, order + 1) * rows_->with_slider.transpose();
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) peaks[i] = largest_magnitude(values.col(i).data(), order, peaks[i]);
   };
   examine(rows_->forces, accelerations, true, peaks_);
   examine(rows_->drifts, displacements, false, drifts_);

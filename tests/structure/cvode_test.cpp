@@ -139,7 +139,7 @@ class BuildingByCvode {
 
 }  // namespace
 
-TEST_CASE("CVODE with events finds the same motion of a building on a sliding base", "[structure]") {
+TEST_CASE("CVODE with events finds the same motion of a building on a sliding base", "[structure][long]") {
   std::vector<double> n;
   for (int m = 0; m <= 200; ++m) n.push_back(2 * std::sin(0.7 * m) + 1.3 * std::cos(1.9 * m + 0.4));
   const GroundMotion motion(n, 0.1);

@@ -82,7 +82,7 @@ std::unique_ptr<SlidingStructure> system_of(const StructureCase& one) {
 
 }  // namespace
 
-TEST_CASE("a structure with a sliding interface moves as computed by independent programs", "[structure]") {
+TEST_CASE("a structure with a sliding interface moves as computed by independent programs", "[structure][long]") {
   for (const StructureCase& one : structure_cases()) {
     CAPTURE(one.id);
     const auto system = system_of(one);

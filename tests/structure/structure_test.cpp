@@ -88,7 +88,7 @@ TEST_CASE("a structure is the same in modes and in matrices", "[structure]") {
   CHECK(a.peak_base_shear == Approx(total * b.peak_base_shear).epsilon(1e-12));
 }
 
-TEST_CASE("limits of a structure on a sliding base", "[structure]") {
+TEST_CASE("limits of a structure on a sliding base", "[structure][long]") {
   const auto one = [](double fraction, double frequency, double damping_ratio = 0.05) {
     return integrate(
         IsolatedStructure(slider(), Structure::from_modes(list({fraction}), list({frequency}), list({damping_ratio}))),
@@ -149,7 +149,7 @@ TEST_CASE("while it is stuck, a structure is an oscillator on the ground, also f
   CHECK(r.floors.peak_drift[0] == Approx(peak).epsilon(1e-13));
 }
 
-TEST_CASE("straight lines that are divided change nothing, and peaks lie between samples", "[structure]") {
+TEST_CASE("straight lines that are divided change nothing, and peaks lie between samples", "[structure][long]") {
   const IsolatedStructure isolated(slider(1, Mounting{.natural_frequency = 2, .damping = 0.2}), building(), 1);
   const EquipmentOnFloor equipment(slider(1.5), building(), 3, 0.2);
   for (const SlidingStructure& system : {SlidingStructure(isolated), SlidingStructure(equipment)}) {
@@ -171,7 +171,7 @@ TEST_CASE("straight lines that are divided change nothing, and peaks lie between
   }
 }
 
-TEST_CASE("the energy of a structure is balanced on every mounting", "[structure]") {
+TEST_CASE("the energy of a structure is balanced on every mounting", "[structure][long]") {
   const auto balanced = [](const SlidingStructure& system, const GroundMotion& ground,
                            const StructureIntegrateOptions& options = {}) {
     const auto r = integrate(system, ground, options);
