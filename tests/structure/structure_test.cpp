@@ -310,11 +310,13 @@ TEST_CASE("a flexible slope", "[structure]") {
 }
 
 TEST_CASE("structures refuse bad input by name", "[structure]") {
-  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
-  Eigen::MatrixXd skew = one, negative = one, singular = one;
-  skew(1, 0) = 0.5;
-  negative(1, 1) = -2;
-  singular(1, 1) = 0;
+  const auto square = [](double a, double b, double c, double d) {
+    Eigen::MatrixXd matrix(2, 2);
+    matrix << a, b, c, d;
+    return matrix;
+  };
+  const Eigen::MatrixXd one = square(1, 0, 0, 1), skew = square(1, 0, 0.5, 1), negative = square(1, 0, 0, -2),
+                        singular = square(1, 0, 0, 0);
   const auto made = [](const Eigen::MatrixXd& m, const Eigen::MatrixXd& c, const Eigen::MatrixXd& k) {
     return Structure(m, c, k);
   };
