@@ -218,3 +218,18 @@ def test_the_command_slides_a_triple_pendulum(capsys, tmp_path):
     assert "0.01/0.04/0.08" in capsys.readouterr().out
     assert main(["slide", str(file), "--units", "m/s^2", "--mu", "0.1", "--radii", "1", "2"]) != 0
     assert "--radii goes with --law pendulum" in capsys.readouterr().err
+
+
+def test_a_triple_pendulum_under_kobe(pyslammer_files):
+    """Values of another program, in 34 digits: R.kobe.triple.ex3."""
+    isolator = ss.TriplePendulum(**TRIPLE)
+    quake = ss.sample_record("Kobe")
+    r = ss.integrate(isolator, quake)
+    assert r.peak == pytest.approx(0.4231874439188280956, rel=1e-12)
+    assert r.residual == pytest.approx(-0.0203832981933738733514, abs=1e-13)
+    assert r.displacement[1000] == pytest.approx(-0.112840893632902390, abs=1e-13)
+    assert r.energy.dissipated == pytest.approx(1.980540582395944452994, rel=1e-12)
+    assert r.elements.slides.tolist() == [56, 56, 24, 6]
+    assert r.surfaces.displacement[:, -1].sum() == pytest.approx(r.residual, abs=1e-14)
+    kinds = r.events["kind"]
+    assert [(kinds == k).sum() for k in ("breakaway", "reversal", "arrest")] == [12, 44, 12]
