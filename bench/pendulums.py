@@ -143,8 +143,8 @@ def main() -> None:
         ends = [100 * abs(x - r.residual) / r.peak for (_, x), r in zip(found, exact, strict=True)]
         print(
             f"OpenSees, {len(chosen)} records, {steps} steps a sample, yield {1e3 * yields:g} mm:"
-            f" peak off by {np.nanmedian(errors):.2g} % in the median, {np.nanmax(errors):.2g} % at most;"
-            f" end by {np.nanmedian(ends):.2g} and {np.nanmax(ends):.2g} % of the peak;"
+            f" peak off by {np.nanmedian(errors):.2g} % in the median, {np.nanmax(errors):.2g} % at"
+            f" most; end by {np.nanmedian(ends):.2g} and {np.nanmax(ends):.2g} % of the peak;"
             f" {np.isnan(errors).sum()} did not converge; {took / mine:,.0f} times our time"
         )
 
