@@ -58,7 +58,9 @@ inline constexpr auto parts<PendulumLoop::Corner> = std::tuple(&PendulumLoop::Co
 template <>
 inline constexpr auto parts<PendulumLoop> = std::tuple(&PendulumLoop::force, &PendulumLoop::corners,
                                                        &PendulumLoop::displacement, &PendulumLoop::surfaces,
-                                                       &PendulumLoop::dissipated);
+                                                       &PendulumLoop::dissipated, &PendulumLoop::sliding_distance,
+                                                       &PendulumLoop::slides, &PendulumLoop::stops,
+                                                       &PendulumLoop::surface_stops);
 template <>
 inline constexpr auto parts<ElementMotion> = std::tuple(&ElementMotion::displacement, &ElementMotion::surfaces,
                                                         &ElementMotion::dissipated, &ElementMotion::sliding_distance,

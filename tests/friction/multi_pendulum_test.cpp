@@ -89,6 +89,8 @@ TEST_CASE("the loop of a pendulum with several surfaces has the values of the re
     }
     check_all(elements, v.elements, 2e-16);
     check_all(surfaces, v.surfaces, 4e-16);
+    CHECK(loop.slides == v.slides);
+    CHECK(loop.stops == v.stops);
   }
 }
 

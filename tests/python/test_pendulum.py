@@ -233,3 +233,19 @@ def test_a_triple_pendulum_under_kobe(pyslammer_files):
     assert r.surfaces.displacement[:, -1].sum() == pytest.approx(r.residual, abs=1e-14)
     kinds = r.events["kind"]
     assert [(kinds == k).sum() for k in ("breakaway", "reversal", "arrest")] == [12, 44, 12]
+
+
+def test_a_loop_knows_its_elements_and_surfaces():
+    loop = ss.MultiPendulum([0.5, 2.0], [0.02, 0.09], [0.015, 0.20]).trace(
+        [0.01, 0.05, -0.01, -0.1, 0.2, 0]
+    )
+    assert loop.elements.displacement[:, -1] == pytest.approx([-0.015, 0.015], abs=1e-15)
+    assert loop.elements.slides.tolist() == [4, 4]
+    assert loop.elements.stops.tolist() == loop.surfaces.stops.tolist() == [4, 0]
+    assert loop.elements.dissipated == pytest.approx(G * loop.dissipated)
+    triple = ss.TriplePendulum(**TRIPLE).trace([0.508, -0.508, 0.508, -0.508, 0])
+    # Of another program, from bottom to top.
+    assert triple.surfaces.displacement[:, -1] == pytest.approx(
+        [0.055245, 0.011811, 0.027559, -0.094615], abs=1e-15
+    )
+    assert triple.surfaces.peak == pytest.approx(abs(triple.surfaces.displacement).max(axis=1))

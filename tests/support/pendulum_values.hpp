@@ -2,6 +2,7 @@
 // by power series that agree to 25 digits, and by DOP853 with inverted play operators.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "support/motions.hpp"
@@ -20,6 +21,7 @@ struct LoopValues {
   const char* id;
   Bearing bearing;
   std::vector<double> path, force, dissipated, elements, surfaces;  ///< forces and works over W
+  std::vector<std::size_t> slides, stops;
 };
 
 /// What a bearing does under n_m = factor (2 sin(0.7 m) + 1.3 cos(1.9 m + 0.4)), m = 0 .. 400, `dt` apart, with a_z =
@@ -45,21 +47,27 @@ inline const std::vector<LoopValues> pendulum_loops = {
       0.08451329084745762711864407},
      {0.01761640677966101694915254, 0.01761640677966101694915254, 0.04943959322033898305084746,
       -0.08467240677966101694915254},
-     {0.055245, 0.011811, 0.027559, -0.094615}},
+     {0.055245, 0.011811, 0.027559, -0.094615},
+     {5, 5, 5, 5},
+     {0, 0, 0, 0}},
     {"C.double.stops",
      {false, {1.2, 2.0}, {0.03, 0.08}, {0.09, 0.12}, 0},
      {0.20, -0.20, 0.05, 0.02, 0.12, 0.19, -0.1},
      {0.135, -0.135, 0.076875, -0.008125, 0.09875, 0.13, -0.0925},
      {0.02025, 0.0532},
      {-0.075, -0.025},
-     {-0.075, -0.025}},
+     {-0.075, -0.025},
+     {6, 5},
+     {3, 0}},
     {"C.jump",
      {false, {0.5, 2.0}, {0.02, 0.09}, {0.015, 0.20}, 0},
      {0.01, 0.05, -0.01, -0.1, 0.2, 0},
      {0.04, 0.1075, -0.0875, -0.1325, 0.1825, -0.0825},
      {0.0021, 0.05355},
      {-0.015, 0.015},
-     {-0.015, 0.015}}};
+     {-0.015, 0.015},
+     {4, 4},
+     {4, 0}}};
 
 inline const std::vector<MotionValues> pendulum_motions = {
     {"H.single",

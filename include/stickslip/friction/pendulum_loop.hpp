@@ -24,6 +24,10 @@ struct PendulumLoop {
   std::vector<std::vector<double>> displacement;  ///< of each element at each point [m]
   std::vector<std::vector<double>> surfaces;      ///< of each surface, from bottom to top, at each point [m]
   std::vector<double> dissipated;                 ///< work against friction by each element, over the weight [m]
+  std::vector<double> sliding_distance;           ///< of each element [m]
+  std::vector<std::size_t> slides;                ///< how many times each element began to move in one direction
+  std::vector<std::size_t> stops;                 ///< how many times it came to its stop
+  std::vector<std::size_t> surface_stops;         ///< the same of each surface
 };
 
 /// Impose a displacement on a bearing that starts at its center.
@@ -35,9 +39,15 @@ inline PendulumLoop trace(const MultiPendulum& law, std::span<const double> path
   loop.displacement.assign(count, {});
   loop.surfaces.assign(count, {});
   loop.dissipated.assign(count, 0);
+  loop.sliding_distance.assign(count, 0);
+  loop.slides.assign(count, 0);
+  loop.stops.assign(count, 0);
+  loop.surface_stops.assign(count, 0);
   const double most = law.capacity();
   State state;
   double arrived = 0;
+  unsigned moved = 0;  // the elements that move since the last turn
+  Mode before = Mode::stuck;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double to = path[i];
     detail::require(std::isfinite(to) && std::abs(to) <= most * (1 + 0x1p-50),
@@ -48,20 +58,33 @@ inline PendulumLoop trace(const MultiPendulum& law, std::span<const double> path
     if (to > from || to < from) {
       const Direction direction = to > from ? Direction::forward : Direction::backward;
       state.mode = mode_of(direction);
+      if (state.mode != before) moved = 0;
+      before = state.mode;
       loop.corners.push_back({from, law.force(state.pendulum, direction)});
       for (double left = std::abs(to - from); left > 0;) {
         const double way = std::min(left, law.ahead(state, direction));
         const unsigned moving = law.moving(state.pendulum, direction);
-        for (std::size_t k = 0; k < count; ++k)
-          loop.dissipated[k] += law.elements()[k].mu * law.share(moving, static_cast<int>(k)) * way;
-        const double before = law.force_after(state.pendulum, direction, way);
+        const unsigned begin = moving & ~moved;
+        moved = moving;
+        const double force = law.force_after(state.pendulum, direction, way);
         law.slide(state, way);
         state.displacement += sign(direction) * way;
         left -= way;
-        arrived = before;
-        loop.corners.push_back({left > 0 ? state.displacement : to, before});
+        const PendulumMemory& now = state.pendulum;
+        const unsigned stops = (unsigned{now.at_forward} | unsigned{now.at_backward}) & moving;
+        for (std::size_t k = 0; k < count; ++k) {
+          const double part = law.share(moving, static_cast<int>(k)) * way;
+          if (!(part > 0)) continue;
+          loop.dissipated[k] += law.elements()[k].mu * part;
+          loop.sliding_distance[k] += part;
+          loop.slides[k] += begin >> k & 1;
+          loop.stops[k] += stops >> k & 1;
+          loop.surface_stops[law.surface_of(k)] += stops >> k & 1;
+        }
+        arrived = force;
+        loop.corners.push_back({left > 0 ? state.displacement : to, force});
         const double then = law.force(state.pendulum, direction);
-        if (left > 0 && std::abs(then - before) > 0x1p-40 * std::abs(before))
+        if (left > 0 && std::abs(then - force) > 0x1p-40 * std::abs(force))
           loop.corners.push_back({state.displacement, then});
       }
       state.displacement = to;

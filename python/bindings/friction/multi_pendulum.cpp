@@ -60,6 +60,23 @@ auto of_elements() {
   };
 }
 
+/// The motion of elements and surfaces, whose displacements are largest at the points of the path.
+ElementMotion motion_of(const PendulumLoop& loop) {
+  const auto largest = [](const std::vector<std::vector<double>>& rows) {
+    std::vector<double> most;
+    for (const auto& row : rows) {
+      double one = 0;
+      for (const double value : row) one = std::max(one, std::abs(value));
+      most.push_back(one);
+    }
+    return most;
+  };
+  std::vector<double> work = loop.dissipated;
+  for (double& one : work) one *= standard_gravity;
+  return {loop.displacement,      loop.surfaces, std::move(work), loop.sliding_distance, largest(loop.displacement),
+          largest(loop.surfaces), loop.slides,   loop.stops,      loop.surface_stops};
+}
+
 }  // namespace
 
 void bind_multi_pendulum(py::module_& m) {
@@ -193,11 +210,11 @@ PendulumLoop)")
 
 Straight lines between them are the loop. Where the force jumps there are two at one displacement.)")
       .def_property_readonly(
-          "displacement", [](const PendulumLoop& loop) { return array_of_rows(loop.displacement); },
-          "Of each element at each point of the path [m], shape (elements, points).")
+          "elements", [](const PendulumLoop& loop) { return motion_of(loop); },
+          "The `ElementMotion` along the path; its samples are the points. Its work is for the weight g.")
       .def_property_readonly(
-          "surfaces", [](const PendulumLoop& loop) { return array_of_rows(loop.surfaces); },
-          "Of each surface, from bottom to top, at each point of the path [m], shape (surfaces, points).")
+          "surfaces", [](const PendulumLoop& loop) { return SurfaceMotion{motion_of(loop)}; },
+          "The `SurfaceMotion` along the path, from bottom to top; its samples are the points.")
       .def_property_readonly(
           "dissipated", [](const PendulumLoop& loop) { return to_array(loop.dissipated); },
           "Work against friction by each element, over the weight [m].")
