@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip {
 
 /// The elements of a MultiPendulum at one time. By default all of them are at their centers, where they were installed.

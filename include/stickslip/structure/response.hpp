@@ -1,6 +1,8 @@
 // The response of a structure with one sliding interface to a ground motion.
 #pragma once
 
+#include "stickslip/base/requirements.hpp"  // before Eigen, whose absence would be told first
+
 #include <Eigen/Core>
 
 #include "stickslip/sliding/response.hpp"

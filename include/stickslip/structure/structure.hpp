@@ -1,11 +1,11 @@
 // A linear structure, and its modes on a fixed base.
 #pragma once
 
+#include "stickslip/base/requirements.hpp"  // before Eigen, whose absence would be told first
+
 #include <memory>
 
 #include <Eigen/Core>
-
-#include "stickslip/base/requirements.hpp"
 
 namespace stickslip {
 
