@@ -3,6 +3,7 @@
 import itertools
 import json
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -237,6 +238,25 @@ def test_a_logistic_curve_under_a_steep_hazard_has_no_rate():
     with pytest.raises(ValueError, match=r"has no bound.*use method='lognormal'"):
         f.rate_of_exceedance(ss.Hazard(im, (im / im[0]) ** -(tail + 0.1)))
     assert f.rate_of_exceedance(ss.Hazard(im, (im / im[0]) ** -(tail - 1.0))).rate[0] > 0
+
+
+def test_a_logistic_curve_is_integrated_to_the_end_of_its_tail():
+    """Under IM^-k the rate is k0 theta^-k x/sin(x), x = pi k/t, with the tail's exponent t > k.
+
+    The nearer k is to t, the more of it comes from the smallest intensities.
+    """
+    f = ss.Fragility.fit(simulated(5, 400), im="pga_g", thresholds=[0.1, 0.2], method="logit")
+    tail = math.pi / (math.sqrt(3) * f.beta)
+    for first in (1e-9, 0.01):  # of the hazard curve: below all that matters, or in the tail
+        im = np.array([first, 1.0])
+        for less in (2.0, 0.5, 0.1, 0.001):
+            k = tail.min() - less
+            x = math.pi * k / tail
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # much comes from beyond the points
+                h = f.rate_of_exceedance(ss.Hazard(im, im**-k))
+            # k cancels in t - k to 1e-16 t/less.
+            assert h.rate == pytest.approx(f.median**-k * x / np.sin(x), rel=1e-9)
 
 
 SHORT = "#,,\"investigation_time=1.0, imt='PGA'\"\nlon,lat,depth,poe-0.1,poe-0.2\n"

@@ -274,8 +274,7 @@ def _check_bounded(fragility: Fragility, hazard: Hazard) -> None:
     if fragility.method != "logit":
         return
     slope = float(hazard.slopes[0])
-    for label, beta in zip(fragility.labels, fragility.beta):
-        tail = math.pi / (math.sqrt(3) * beta)
+    for label, beta, tail in zip(fragility.labels, fragility.beta, _logistic_tails(fragility)):
         if slope >= tail:
             raise ValueError(
                 f"Fragility.rate_of_exceedance: the rate for {label} has no bound: below"
@@ -284,6 +283,12 @@ def _check_bounded(fragility: Fragility, hazard: Hazard) -> None:
                 f" {beta:.3g} falls only as IM^{tail:.3g}; use method='lognormal', or a hazard"
                 " curve that flattens toward low intensities"
             )
+
+
+def _logistic_tails(fragility: Fragility) -> Array:
+    """The exponents with which logistic curves fall toward low intensities, shape (T,)."""
+    tails: Array = math.pi / (math.sqrt(3) * fragility.beta)
+    return tails
 
 
 def _ends(hazard: Hazard) -> tuple[Array, Array, Array, Array]:
@@ -328,14 +333,19 @@ def _lognormal_pieces(fragility: Fragility, hazard: Hazard) -> Array:
 def _pieces_by_quadrature(fragility: Fragility, hazard: Hazard) -> Array:
     """The rate from each piece of the hazard curve, shape (T, N + 1), for curves of any form.
 
-    Gauss's rule with 8 points on parts of at most 0.1 in ln IM. The tails end where the curves are
-    below 1e-12, or where the rate has fallen by 1e-16.
+    Gauss's rule with 8 points on parts of at most 0.1 in ln IM. The lower tail ends 10 in ln IM
+    below a probability of 0.001, the upper one where the rate has fallen by 1e-16. Below the lower
+    end a logistic curve is a power of IM, and its share has a closed form; a cloud is normal there.
     """
     low, high, k, h = _ends(hazard)
     grid = np.log(fragility.grid())
     low[0], high[-1] = min(grid[0] - 10, high[0]), max(grid[-1] + 1, low[-1] + 37 / k[-1])
     nodes, weights = np.polynomial.legendre.leggauss(8)
     parts = np.zeros((len(fragility.thresholds), len(k)))
+    if fragility.method == "logit":
+        p = fragility.probability(np.exp(low[:1]))[:, 0]
+        below = k[0] * np.exp(h[0] - k[0] * low[0]) / (_logistic_tails(fragility) - k[0])
+        parts[:, 0] = below * p
     for i in range(len(k)):
         if not high[i] > low[i] or k[i] == 0:
             continue
@@ -343,7 +353,7 @@ def _pieces_by_quadrature(fragility: Fragility, hazard: Hazard) -> Array:
         half = np.diff(edges) / 2
         u = ((edges[:-1] + half)[:, np.newaxis] + half[:, np.newaxis] * nodes).ravel()
         density = k[i] * np.exp(h[i] - k[i] * u) * (half[:, np.newaxis] * weights).ravel()
-        parts[:, i] = fragility.probability(np.exp(u)) @ density
+        parts[:, i] += fragility.probability(np.exp(u)) @ density
     return parts
 
 
