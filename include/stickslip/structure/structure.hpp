@@ -34,9 +34,11 @@ class Structure {
   /// @param mass       M [kg], symmetric and positive definite
   /// @param damping    C [N s/m], symmetric and positive semidefinite; it need not be diagonal in the modes
   /// @param stiffness  K [N/m], symmetric and positive semidefinite, not zero
-  /// @param influence  displacements under a unit displacement of the base; ones if not given
   /// @throws std::invalid_argument  naming the matrix and the entry or the eigenvalue
   Structure(Eigen::MatrixXd mass, Eigen::MatrixXd damping, Eigen::MatrixXd stiffness);
+
+  /// The same with another influence than ones.
+  /// @param influence  displacements under a unit displacement of the base
   Structure(Eigen::MatrixXd mass, Eigen::MatrixXd damping, Eigen::MatrixXd stiffness, Eigen::VectorXd influence);
 
   /// A building of rigid floors, counted from the bottom; stiffness i is that of the story below floor i.
@@ -57,11 +59,13 @@ class Structure {
   /// @param mass_fractions  positive; their sum is less than 1
   /// @param frequencies     w_j [rad/s], positive and finite
   /// @param damping_ratios  z_j, finite and at least 0
-  /// @param shapes          one row per floor and one column per mode: the displacements of the floors are
-  ///                        shapes y. With all modes, each row has the sum 1. Optional
   /// @throws std::invalid_argument  naming the entry
   static Structure from_modes(const Eigen::VectorXd& mass_fractions, const Eigen::VectorXd& frequencies,
                               const Eigen::VectorXd& damping_ratios);
+
+  /// The same with the shapes of the modes.
+  /// @param shapes  one row per floor and one column per mode: the displacements of the floors are shapes y. With all
+  ///                modes, each row has the sum 1
   static Structure from_modes(const Eigen::VectorXd& mass_fractions, const Eigen::VectorXd& frequencies,
                               const Eigen::VectorXd& damping_ratios, const Eigen::MatrixXd& shapes);
 
