@@ -77,6 +77,6 @@ SlidingStructure sliding_structure(const FlexibleSlope& slope, const SlopeProper
 /// Integrate the sliding of a slope. Positive ground acceleration points downhill; x is positive downhill.
 /// @throws as `properties` and as for a SlidingStructure
 StructureResponse integrate(const FlexibleSlope& slope, const GroundMotion& motion,
-                            const StructureIntegrateOptions& options = {.settle = true});
+                            const StructureIntegrateOptions& options = StructureIntegrateOptions::settled());
 
 }  // namespace stickslip

@@ -59,6 +59,13 @@ struct StructureIntegrateOptions {
   std::function<void()> progress{};  ///< called about once per second or more often; may throw to stop the work
   double sliding_distance = 0;       ///< before the start [m], finite and at least 0; used by laws with memory
   bool floors = true;                ///< whether to compute `floors`
+
+  /// Those that settle.
+  static StructureIntegrateOptions settled() {
+    StructureIntegrateOptions options;
+    options.settle = true;
+    return options;
+  }
 };
 
 /// Integrate the motion of a structure with one sliding interface under a ground motion, from rest or from a given
