@@ -105,3 +105,33 @@ def test_both_components_of_a_station_are_one_record(capsys, tmp_path):
 def test_options_without_a_meaning_are_refused(capsys, more, message):
     assert main(["fragility", "sample:Kobe", "--thresholds", "0.1", *more]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_one_record_leaves_the_interval_unbounded(capsys):
+    options = ["--mu", "0.1", "--mu-beta", "0.6", "--pga", "0.1:1.3:0.1", "--thresholds", "0.02"]
+    assert main(["fragility", "sample:Kobe", *options]) == 0
+    assert "0 to inf" in capsys.readouterr().out
+    assert main(["fragility", "sample:Kobe", *options, "--json"]) == 0
+    row = json.loads(capsys.readouterr().out)["results"][0]
+    assert (row["median_low_g"], row["median_high_g"]) == (0.0, None)
+
+
+def test_of_several_measures_the_command_takes_the_pga(capsys, tmp_path):
+    """Files of the hazard tool hold all measures at once; the command is about PGA alone."""
+    file = tmp_path / "hazard.json"
+    curves = [
+        {"imt": {"value": name}, "data": [{"component": "Total", "values": values}]}
+        for name, values in (
+            ("SA1P0", {"xs": [0.1, 1.0, 9.0], "ys": [9e-2, 9e-3, 9e-4]}),
+            ("PGA", {"xs": [0.01, 0.4, 9.0], "ys": [1e-1, 1e-3, 1e-6]}),
+        )
+    ]
+    file.write_text(json.dumps({"response": {"hazardCurves": curves}}))
+    rates = []
+    two = tmp_path / "two.txt"
+    two.write_text("0.01 1e-1\n0.4 1e-3\n9 1e-6\n")
+    for hazard in (file, two):
+        options = ["--mu", "0.1", "--pga", "0.2", "0.4", "0.8", "--thresholds", "0.05"]
+        assert main(["fragility", "sample:all", *options, "--hazard", str(hazard), "--json"]) == 0
+        rates.append(json.loads(capsys.readouterr().out)["results"][0]["rate_per_year"])
+    assert rates[0] == rates[1]

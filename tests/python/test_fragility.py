@@ -3,6 +3,7 @@
 import csv
 import math
 import re
+import warnings
 from xml.etree import ElementTree
 
 import numpy as np
@@ -235,7 +236,9 @@ def test_bands_cover_as_stated():
     covered = np.zeros(4)
     for seed in range(trials):
         f = ss.Fragility.fit(simulated(seed), im="pga_g", thresholds=0.1)
-        b = f.bands(0.9, [0.3], samples=200, seed=seed)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a few have no upper bound of beta
+            b = f.bands(0.9, [0.3], samples=200, seed=seed)
         truth = stats.norm.cdf(math.log(0.3 / 0.4) / 0.4)
         covered += [
             b.median[0, 0] <= 0.4 <= b.median[0, 1],
@@ -527,8 +530,49 @@ def test_bands_of_three_records_say_that_they_are_not_bounded():
     f = ss.Fragility.fit(simulated(3, 3), im="pga_g", thresholds=0.1)
     with pytest.warns(RuntimeWarning, match="3 records do not bound bands of 90 %"):
         f.bands()
-    bands = ss.Fragility.fit(simulated(3, 18), im="pga_g", thresholds=0.1).bands()
+    bands = ss.Fragility.fit(simulated(3, 60), im="pga_g", thresholds=0.1).bands()
     assert repr(bands).startswith("<Bands: medians ")
+
+
+@pytest.mark.parametrize("records", [4, 10])
+def test_bands_without_bounds_are_infinite_and_say_so(records):
+    """A cloud of few records: many resamples fall with the intensity, and have no curve.
+
+    Of 4 records, 4/4^4 = 1.6 % of the resamples hold one record alone, 0.3 % are left out.
+    """
+    suite = ss.Suite([ss.sample_records()[i] for i in range(records)])
+    table = ss.sweep(ss.Coulomb(mu=0.05), suite, settle=True)
+    f = ss.Fragility.fit(table, im="pga_g", thresholds=0.05, method="cloud")
+    with pytest.warns(
+        RuntimeWarning,
+        match=rf"of 1000 resamples of {records} records have no rising curve .* are unbounded",
+    ):
+        bands = f.bands()
+    for interval in (bands.median, bands.beta, bands.hclpf):
+        assert interval.tolist() == [[0.0, math.inf]]
+    assert ((bands.low >= 0) & (bands.low <= bands.high) & (bands.high <= 1)).all()
+
+
+def test_the_dispersion_is_unbounded_where_many_resamples_are_separated():
+    """8 records of one response each: with few different ones an intensity separates them."""
+    f = ss.Fragility.fit(simulated(1, 8), im="pga_g", thresholds=[0.1])
+    with pytest.warns(
+        RuntimeWarning, match=r"have no dispersion for 0\.1 m, .* has no upper bound"
+    ):
+        bands = f.bands()
+    assert 0 < bands.beta[0, 0] < f.beta[0]
+    assert math.isinf(bands.beta[0, 1])
+    assert 0.2 < bands.median[0, 0] < f.median[0] < bands.median[0, 1] < 0.8
+
+
+@pytest.mark.parametrize("method", ["lognormal", "cloud"])
+def test_bands_of_many_records_are_bounded(method):
+    f = ss.Fragility.fit(simulated(4, 60), im="pga_g", thresholds=[0.1], method=method)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        bands = f.bands(samples=200)
+    for interval in (bands.median, bands.beta, bands.hclpf):
+        assert np.isfinite(interval).all()
 
 
 def test_impact_needs_stops_at_all_sliders():
@@ -553,6 +597,26 @@ def test_arguments_of_a_wrong_type_are_named():
         ss.sweep(
             ss.Random(ss.Coulomb, mu=ss.Uniform(0.1, 0.2)), ss.sample_records(), members=2, seed=-1
         )
+    f = ss.Fragility.fit(table, im="pga_g", thresholds=0.1)
+    with pytest.raises(ValueError, match=r"probability: im must hold real numbers, got 'a'"):
+        f.probability("a")
+    with pytest.raises(ValueError, match=r"bands: im must hold real numbers, got \['a'\]"):
+        f.bands(im=["a"])
+    with pytest.raises(TypeError, match=r"bands: level must be a number, got '0.9'"):
+        f.bands("0.9")
+    with pytest.raises(TypeError, match=r"Fragility.bands: seed must be a whole number, got None"):
+        f.bands(seed=None)
+    with pytest.raises(ValueError, match=r"Fragility.bands: seed must be at least 0, got -1"):
+        f.bands(seed=-1)
+    with pytest.raises(TypeError, match=r"Fragility.fit: censored_below must be a number, got 'a"):
+        ss.Fragility.fit(table, im="pga_g", thresholds=0.1, method="cloud", censored_below="a")
+    slid = ss.sweep(ss.Coulomb(mu=0.1), ss.sample_records())
+    with pytest.raises(TypeError, match=r"Fragility.fit: im of a motion must be a number, got 'x'"):
+        ss.Fragility.fit(slid, im=lambda motion: "x", thresholds=0.01)
+    with pytest.raises(ValueError, match=r"JibsonEtAl2000: ky must hold real numbers, got 'a'"):
+        ss.regressions.JibsonEtAl2000().predict(ky="a", Ia=1)
+    with pytest.raises(ValueError, match=r"Suite.stripes: pga_g must hold real numbers, got 'a'"):
+        ss.sample_records().stripes(pga_g="a")
     with pytest.raises(ValueError, match=r"a level counts once, got pga_g = 0.2 twice"):
         ss.sample_records().stripes(pga_g=[0.2, 0.4, 0.2])
     with pytest.raises(ValueError, match=r"consists of stripes already"):

@@ -216,6 +216,48 @@ def test_usgs_curves(tmp_path, first):
         ss.read_hazard(file)
 
 
+def static_usgs(edition, points=1):
+    """A static curve of the hazard tool: no components, one set of rates for each grid point."""
+    return {
+        "metadata": {
+            "edition": {"id": 3, "value": edition, "display": "NSHM"},
+            "latitude": 34.005,
+            "longitude": -118.005,
+            "imt": {"id": 1, "value": "PGA", "display": "Peak Ground Acceleration"},
+            "vs30": {"id": 3, "value": "760"},
+            "xlabel": "Ground Motion (g)",
+            "ylabel": "Annual Frequency of Exceedence",
+            "xvals": [0.1, 0.4, 1.0],
+        },
+        "data": [
+            {"id": i, "datasetid": 6, "latitude": 34 + 0.05 * i, "longitude": -118, "yvals": y}
+            for i, y in zip(range(points), ([1e-2, 1e-3, 0.0], [2e-2, 2e-3, 1e-4]))
+        ],
+    }
+
+
+def test_static_usgs_curves(tmp_path):
+    file = tmp_path / "hazard.json"
+    file.write_text(json.dumps({"status": "success", "response": [static_usgs("E2014R1")]}))
+    assert ss.read_hazard(file) == ss.Hazard([0.1, 0.4], [1e-2, 1e-3], name="pga_g", unit="g")
+
+
+@pytest.mark.parametrize(
+    "curves",
+    [
+        [static_usgs("E2014R1", points=2)],
+        [static_usgs("E2008R3"), static_usgs("E2014R1")],
+        [usgs(True)["response"][0], usgs(True)["response"][0]],
+    ],
+)
+def test_usgs_curves_of_several_editions_or_places_are_refused(tmp_path, curves):
+    """None of them is chosen silently."""
+    file = tmp_path / "hazard.json"
+    file.write_text(json.dumps({"status": "success", "response": curves}))
+    with pytest.raises(ValueError, match="has 2 curves of PGA, of several editions or places"):
+        ss.read_hazard(file)
+
+
 def test_rates_are_a_table_and_a_picture(fragility):
     h = fragility.rate_of_exceedance(power_law(1e-4, 2))
     frame = pytest.importorskip("pandas") and h.to_dataframe()
@@ -332,3 +374,47 @@ def test_units_and_names_of_hazard_and_fragility_must_agree(fragility):
         fragility.rate_of_exceedance(ss.Hazard([0.1, 10], [1e-2, 1e-5], name="PGA"))
     with pytest.raises(ValueError, match="Hazard: im must hold real numbers"):
         ss.Hazard(["a", "b"], [1e-2, 1e-5])
+
+
+def test_a_file_of_openquake_states_its_time(tmp_path):
+    file = tmp_path / "hazard.csv"
+    file.write_text(SHORT + "1,2,0,0.1,0.01\n")
+    assert ss.read_hazard(file, years=1) == ss.read_hazard(file)
+    with pytest.raises(ValueError, match="states investigation_time=1 years, got years=50"):
+        ss.read_hazard(file, years=50)
+
+
+def test_measures_of_openquake_that_have_other_units_or_no_name_here(tmp_path, fragility):
+    file = tmp_path / "hazard.csv"
+    file.write_text(SHORT.replace("PGA", "CAV") + "1,2,0,0.1,0.01\n")
+    hazard = ss.read_hazard(file)  # in g s there
+    assert (hazard.name, hazard.unit) == ("cav", "m/s")
+    assert hazard.im == pytest.approx([0.980665, 1.96133], rel=1e-12)
+    file.write_text(SHORT.replace("PGA", "MMI") + "1,2,0,0.1,0.01\n")
+    hazard = ss.read_hazard(file)
+    assert hazard.name == "MMI"
+    with pytest.raises(ValueError, match="the hazard curve is of MMI, the fragility of pga_g"):
+        fragility.rate_of_exceedance(hazard)
+
+
+def test_arguments_of_hazards_of_a_wrong_type_are_named(tmp_path, fragility):
+    hazard = ss.Hazard([0.1, 10], [1e-2, 1e-5])
+    file = tmp_path / "hazard.csv"
+    file.write_text(SHORT + "1,2,0,0.1,0.01\n")
+    two = tmp_path / "two.txt"
+    two.write_text("0.1 1e-2\n1 1e-4\n")
+    with pytest.raises(TypeError, match=r"Exceedances.probability: years must be a number, got '5"):
+        fragility.rate_of_exceedance(hazard).probability("50")
+    with pytest.raises(ValueError, match=r"Hazard.at: im must hold real numbers, got 'a'"):
+        hazard.at("a")
+    with pytest.raises(TypeError, match="read_hazard: years must be a number, got '50'"):
+        ss.read_hazard(two, years="50")
+    for site in (5.0, "0", (10.0,)):
+        with pytest.raises(
+            TypeError, match=r"read_hazard: site must be a row or \(lon, lat\), got"
+        ):
+            ss.read_hazard(file, site=site)
+    with pytest.raises(TypeError, match="Hazard: period must be a number, got '1'"):
+        ss.Hazard([0.1, 1], [1e-2, 1e-3], period="1")
+    with pytest.raises(TypeError, match="Hazard: name must be a string, got 3"):
+        ss.Hazard([0.1, 1], [1e-2, 1e-3], name=3)

@@ -76,7 +76,7 @@ def _fragility(args: argparse.Namespace) -> str:
     from ..motions.stations import records_of_names
     from ..motions.suite import Suite
     from ..risk.fragility import Fragility
-    from ..risk.hazard import read_hazard
+    from ..risk.hazard import read_pga_hazard
     from ..sweeps import sweep
 
     if args.members is not None:
@@ -96,7 +96,7 @@ def _fragility(args: argparse.Namespace) -> str:
     if args.mu_beta > 0:
         block = Random(Coulomb, mu=Lognormal(median=args.mu, beta=args.mu_beta))
         drawn = {"members": args.members or 100, "seed": args.seed}
-    hazard = read_hazard(args.hazard, imt=None) if args.hazard else None
+    hazard = read_pga_hazard(args.hazard) if args.hazard else None
     batch = Batch(args)
     if args.curves:
         check_outputs([("--plot", args.curves)], batch.inputs)
@@ -142,7 +142,7 @@ def _rows(f: Fragility, records: int) -> list[dict[str, Any]]:
     bands = f.bands(_LEVEL) if records > 1 else None
     rows = []
     for i, threshold in enumerate(f.thresholds):
-        low, high = bands.median[i].tolist() if bands else (math.nan, math.nan)
+        low, high = bands.median[i].tolist() if bands else (0.0, math.inf)
         rows.append(
             {
                 "threshold_m": threshold,

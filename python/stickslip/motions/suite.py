@@ -21,6 +21,7 @@ from .._core import (
     response_spectrum,
 )
 from .._hdf5 import Saved, as_column, read, read_columns, write, write_columns
+from .._numbers import reals
 from .._tabular import Tabular
 from ..runs.progress import Progress
 from .intensity import LEVEL_UNITS, IntensityMeasures, beside, level_of
@@ -450,7 +451,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
                 f" {' and '.join(given) or 'none'}"
             )
         measure = given[0]
-        levels = np.atleast_1d(np.asarray(targets[measure], float))
+        levels = np.atleast_1d(reals(targets[measure], f"Suite.stripes: {measure}"))
         if levels.ndim != 1 or not levels.size:
             raise ValueError(f"Suite.stripes: {measure} must be a list of levels, got {levels!r}")
         if len(np.unique(levels)) < len(levels):

@@ -16,6 +16,7 @@ from .._core import (
     response_spectrum,
     strong_motion,
 )
+from .._numbers import reals
 from ..motions.suite import Suite
 
 __all__ = ["MEASURES", "UNITS", "checked", "measured", "spectral"]
@@ -47,7 +48,7 @@ def checked(who: str, given: dict[str, ArrayLike], stacklevel: int) -> dict[str,
     """The arguments as arrays; each positive and finite, Ts also 0. Warns of other units."""
     arrays = {}
     for name, value in given.items():
-        array = np.asarray(value, float)
+        array = reals(value, f"{who}: {name}")
         wrong = ~np.isfinite(array) | ((array < 0) if name == "Ts" else (array <= 0))
         if wrong.any():
             rule = "at least 0" if name == "Ts" else "positive"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .._numbers import real
 from .._optional import optional
 from .exceedance import Link, fit_parallel
 from .levels import Levels
@@ -16,6 +18,8 @@ from .shifts import deviation_of_draws, shifts
 __all__ = ["Cloud"]
 
 Array = NDArray[np.float64]
+_FLATTEST = 1e-2  # slope of ln D below which a sample counts as flat
+_SHARPEST = 1e-2  # sigma that stands for none
 _FAR = math.log(100)  # in ln IM beyond the largest intensity; no curve is known there
 
 
@@ -44,6 +48,7 @@ class Cloud:
                     "Fragility.fit: impact has no displacement for method='cloud'; use 'lognormal'"
                     " or 'logit'"
                 )
+        censored_below = real(censored_below, "Fragility.fit: censored_below")
         if not 0 < censored_below < data.levels.min():
             raise ValueError(
                 "Fragility.fit: censored_below must be positive and below the lowest threshold,"
@@ -93,6 +98,16 @@ class Cloud:
         a, b, sigma = self._regression(x, parts)
         return {"rise": rise, "cut": cut, "a": a, "b": b, "sigma": sigma}
 
+    @staticmethod
+    def _determined(
+        found: dict[str, Array], parts: dict[str, Array]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Whether samples determine curves that rise, and a scatter above zero, shape (B,) each."""
+        levels = (parts["seen"] > 0).sum(axis=1)
+        all_slide = (parts["slide"] == parts["n"]).all(axis=1)
+        rises = (found["b"] > _FLATTEST) & ((found["rise"] > 0) | all_slide)
+        return (levels > 1) & rises, (levels > 2) & (found["sigma"] > _SHARPEST)
+
     def _regression(self, x: Array, parts: dict[str, Array]) -> tuple[Array, Array, Array]:
         """The censored regression, in Olsen's parameters a/sigma, b/sigma and 1/sigma."""
         seen, y, yy = parts["seen"], parts["y"], parts["yy"]
@@ -107,7 +122,7 @@ class Cloud:
         b = (count * szy - sz * sy) / spread
         a = (sy - b * sz) / np.maximum(count, 1)
         left = yy.sum(axis=1) - a * sy - b * szy
-        sigma = np.sqrt(np.maximum(left / np.maximum(count, 1), 1e-4))
+        sigma = np.maximum(np.sqrt(np.maximum(left, 0) / np.maximum(count, 1)), _SHARPEST)
         if not censored.any():
             return a - b * center, b, sigma
         theta = np.stack([a / sigma, b / sigma, 1 / sigma], axis=1)
@@ -146,15 +161,20 @@ class Cloud:
         found = self._regression(np.log(self.data.im), parts)
         return {name: float(value[0]) for name, value in zip(("a", "b", "sigma"), found)}
 
-    def estimate(self, weights: Array | None = None) -> dict[str, Array]:
-        """The parameters of the two parts, for each row of weights of the records."""
+    def estimate(self, weights: Array | None = None) -> dict[str, NDArray[Any]]:
+        """The parameters of the two parts, for each row of weights of the records.
+
+        With `fitted` and `spread` as in `Exceedance.estimate`, of shape (B,).
+        """
         rows = np.ones((1, self.records)) if weights is None else weights
         size = max(1, int(1e6 / len(self.x)))
-        found: list[dict[str, Array]] = []
+        found: list[dict[str, NDArray[Any]]] = []
         for begin in range(0, len(rows), size):
             some = rows[begin : begin + size]
             parts = {name: some @ values for name, values in self._pooled.items()}
-            found.append(self._fitted(self.x, parts))
+            one: dict[str, NDArray[Any]] = {**self._fitted(self.x, parts)}
+            one["fitted"], one["spread"] = self._determined(one, parts)
+            found.append(one)
         result = {name: np.concatenate([one[name] for one in found]) for name in found[0]}
         if weights is None and (result["b"][0] <= 0 or result["rise"][0] < 0):
             raise ValueError(
@@ -162,7 +182,7 @@ class Cloud:
                 " measure of intensity for them"
             )
         # A resample may be flat or fall: its curve then lies far outside.
-        result["b"] = np.maximum(result["b"], 1e-2)
+        result["b"] = np.maximum(result["b"], _FLATTEST)
         result["rise"] = np.maximum(result["rise"], 0.0)
         return result
 

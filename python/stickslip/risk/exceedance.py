@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,6 +102,15 @@ def fit_parallel(
     return slopes, intercepts - slopes[:, np.newaxis] * center
 
 
+def _outcomes(k: Array, n: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Whether a sample has both outcomes, and whether no intensity separates them, (B, T) each."""
+    some, less = k > 0, k < n[:, np.newaxis, :]
+    both: NDArray[np.bool_] = np.logical_and(some.any(axis=2), less.any(axis=2))
+    last = k.shape[2] - 1 - less[:, :, ::-1].argmax(axis=2)
+    mixed: NDArray[np.bool_] = both & (some.argmax(axis=2) < last)
+    return both, mixed
+
+
 class Exceedance:
     """The binomial model: P(D > threshold | IM) = F((ln IM - ln median)/beta).
 
@@ -160,7 +170,7 @@ class Exceedance:
                 " of zero: it needs more levels between them, or more records"
             )
 
-    def estimate(self, weights: Array | None = None) -> dict[str, Array]:
+    def estimate(self, weights: Array | None = None) -> dict[str, NDArray[Any]]:
         """The median and the dispersion, for each row of weights of the records.
 
         Parameters
@@ -171,15 +181,19 @@ class Exceedance:
         Returns
         -------
         dict
-            `median` and `beta`, shape (B, T).
+            `median` and `beta`, shape (B, T); `fitted`, whether they are known, and `spread`,
+            whether the likelihood has its maximum at a dispersion above zero.
         """
         rows = np.ones((1, self.records)) if weights is None else weights
         size = max(1, int(2e6 / (len(self._k) * len(self.x))))
-        slopes, intercepts = [], []
+        slopes, intercepts, both, spread = [], [], [], []
         for begin in range(0, len(rows), size):
             some = rows[begin : begin + size]
             n = some @ self._n
             k = np.stack([some @ one for one in self._k], axis=1)
+            outcomes, mixed = _outcomes(k, n)
+            both.append(outcomes)
+            spread.append(mixed if self.separate else mixed | mixed.any(axis=1, keepdims=True))
             if self.separate:
                 count, thresholds, levels = k.shape
                 slope, intercept = fit_parallel(
@@ -202,10 +216,16 @@ class Exceedance:
                 " of intensity for them"
             )
         # A resample may lack exceedances or be flat: its curve then lies far outside.
+        fitted = np.concatenate(both) & (slope > _FLATTEST)
         slope = np.maximum(slope, _FLATTEST)
         reach = 20.0
         log_median = np.clip(-intercept / slope, self.x[0] - reach, self.x[-1] + reach)
-        return {"median": np.exp(log_median), "beta": self.link.deviation / slope}
+        return {
+            "median": np.exp(log_median),
+            "beta": self.link.deviation / slope,
+            "fitted": fitted,
+            "spread": np.concatenate(spread),
+        }
 
     def probability(self, found: dict[str, Array], im: Array) -> Array:
         """The curves, shape (B, T, K), at intensities of shape (K,)."""

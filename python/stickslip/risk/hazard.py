@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import to_vector
+from .._core import STANDARD_GRAVITY, to_vector
+from .._numbers import real, reals
 from .._optional import optional
 from .._tables import Columns
 from .._tabular import Tabular
@@ -30,8 +31,14 @@ __all__ = ["Exceedances", "Hazard", "exceedances", "read_hazard"]
 
 Array = NDArray[np.float64]
 _MUCH_BEYOND = 0.1  # share of a rate from beyond the points that is worth a warning
-# Short names and units of the measures in hazard files, and factors: PGV is in cm/s there.
-_MEASURES = {"PGA": ("pga_g", "g", 1.0), "PGV": ("pgv", "m/s", 0.01), "IA": ("arias", "m/s", 1.0)}
+# Short names and units of the measures in hazard files, and factors: PGV is in cm/s there, CAV in
+# g s.
+_MEASURES = {
+    "PGA": ("pga_g", "g", 1.0),
+    "PGV": ("pgv", "m/s", 0.01),
+    "IA": ("arias", "m/s", 1.0),
+    "CAV": ("cav", "m/s", STANDARD_GRAVITY),
+}
 
 
 class Hazard(Tabular):
@@ -77,7 +84,11 @@ class Hazard(Tabular):
     ) -> None:
         self.im = np.array(to_vector(im, "Hazard: im"))
         self.rate = np.array(to_vector(rate, "Hazard: rate"))
-        self.name, self.unit, self.period = name, unit, period
+        for what, text in (("name", name), ("unit", unit)):
+            if not isinstance(text, str):
+                raise TypeError(f"Hazard: {what} must be a string, got {text!r}")
+        self.name, self.unit = name, unit
+        self.period = None if period is None else real(period, "Hazard: period")
         if self.im.ndim != 1 or self.im.shape != self.rate.shape or len(self.im) < 2:
             raise ValueError(
                 "Hazard: im and rate must be two lists of equal length, at least 2, got shapes"
@@ -128,7 +139,7 @@ class Hazard(Tabular):
         -------
         ndarray, of the shape of `im`
         """
-        x = np.asarray(im, float)
+        x = reals(im, "Hazard.at: im")
         if not (x > 0).all():
             raise ValueError(f"Hazard.at: im must be positive, got {np.min(x):g}")
         u, known = np.log(x), np.log(self.im)
@@ -178,6 +189,7 @@ class Exceedances(Tabular):
         -------
         ndarray, shape (T,)
         """
+        years = real(years, "Exceedances.probability: years")
         if not (math.isfinite(years) and years >= 0):
             raise ValueError(
                 f"Exceedances.probability: years must be at least 0 and finite, got {years}"
@@ -371,40 +383,56 @@ def read_hazard(
     path : path-like
         A text file with two columns, intensity and annual rate [1/year], separated by commas,
         semicolons or blanks, below lines of text; lines that begin with # or % are skipped.
-        OpenQuake's ``hazard_curve-*.csv``. The
-        JSON of the USGS hazard tool.
+        OpenQuake's ``hazard_curve-*.csv``. The JSON of the USGS hazard tool: of its hazard
+        services, whose total curve is taken, or of its static curves.
     imt : str, optional
         The intensity measure of a file with several, such as 'PGA' or 'SA1P0'.
     site : int or (lon, lat), optional
         The site of an OpenQuake file with several: its row, from 0, or its coordinates [degrees].
     years : float, optional
         The second column holds probabilities of exceedance in this time [years] instead of rates.
-        OpenQuake's files state it.
+        Also for a file of OpenQuake that does not state its time.
 
     Returns
     -------
     Hazard
         Probabilities p in t years become rates, -ln(1 - p)/t. Points with a probability of 1, or
         with a rate of 0, have no logarithm and are left out. Velocities, which OpenQuake states in
-        cm/s, are in m/s.
+        cm/s, and CAV, in g s there, are in m/s. Measures that have no name here keep that of the
+        file.
 
     Raises
     ------
     ValueError
         A file that is none of these; a line that does not belong in it; several measures or sites
-        without a choice, or a choice that the kind of file does not have; a curve that does not
-        decrease.
+        without a choice, or a choice that the kind of file does not have; several curves of one
+        measure in the JSON of USGS, as of two editions; another time than the file states; a curve
+        that does not decrease.
+    TypeError
+        An argument of a wrong type.
     OSError
         The file cannot be read.
     """
+    return _read(path, imt, site, years)
+
+
+def read_pga_hazard(path: str | os.PathLike[str]) -> Hazard:
+    """As `read_hazard`; of a file with several measures the curve of PGA."""
+    return _read(path, None, None, None, usual="PGA")
+
+
+def _read(path: Any, imt: str | None, site: Any, years: Any, usual: str = "") -> Hazard:
+    """Read a file; `usual` is the measure of a file with several if `imt` is None."""
     if not isinstance(path, (str, bytes, os.PathLike)):
         raise TypeError(f"read_hazard: path must be a path, got {type(path).__name__}")
+    if years is not None:
+        years = real(years, "read_hazard: years")
     file = Path(os.fsdecode(path))
     try:
         text = file.read_text(encoding="utf-8-sig")
         if text.lstrip().startswith(("{", "[")):
             _refuse(site=site, years=years, kind="the JSON of the USGS hazard tool")
-            return _from_usgs(text, imt)
+            return _from_usgs(text, imt, usual)
         if re.search(r"^lon,lat", text, re.MULTILINE) and "poe-" in text:
             _refuse(imt=imt, kind="a file of OpenQuake, which has one measure")
             return _from_openquake(text, site, years)
@@ -420,7 +448,8 @@ def _refuse(kind: str, **given: Any) -> None:
     """Refuse an argument that a kind of file has no use for."""
     for name, value in given.items():
         if value is not None:
-            raise ValueError(f"{name}={value!r} has no meaning for {kind}")
+            shown = f"{value:g}" if isinstance(value, float) else repr(value)
+            raise ValueError(f"{name}={shown} has no meaning for {kind}")
 
 
 def _number(cell: str, line: int, text: str) -> float:
@@ -492,6 +521,8 @@ def _from_openquake(text: str, site: Any, years: float | None) -> Hazard:
     time = float(stated[1]) if stated else years
     if time is None:
         raise ValueError("the file does not state investigation_time; give years=")
+    if years is not None and years != time:
+        raise ValueError(f"the file states investigation_time={time:g} years, got years={years:g}")
     heads, *rows = [row for row in csv.reader(lines[begin:]) if row]
     if not rows:
         raise ValueError("has no site")
@@ -501,10 +532,16 @@ def _from_openquake(text: str, site: Any, years: float | None) -> Hazard:
             raise ValueError(f"has {len(rows)} sites; give site=, a row or (lon, lat)")
         number = 0
     elif not isinstance(site, (int, np.integer)):
+        try:
+            lon, lat = map(real, number, ("lon", "lat"))
+        except (TypeError, ValueError):
+            raise TypeError(
+                f"read_hazard: site must be a row or (lon, lat), got {site!r}"
+            ) from None
         places = np.array([[float(cell) for cell in row[:2]] for row in rows])
-        near = np.flatnonzero(np.abs(places - np.asarray(site, float)).max(axis=1) < 1e-4)
+        near = np.flatnonzero(np.abs(places - [lon, lat]).max(axis=1) < 1e-4)
         if near.size != 1:
-            raise ValueError(f"has {near.size} sites at {tuple(site)} within 1e-4 degrees")
+            raise ValueError(f"has {near.size} sites at {tuple(number)} within 1e-4 degrees")
         number = near[0]
     if not 0 <= number < len(rows):
         raise ValueError(f"has {len(rows)} sites, got site={number}")
@@ -533,10 +570,10 @@ def _measure(imt: str) -> tuple[str, str, float, float | None]:
     if period:
         value = float(period[1] or f"{period[2]}.{period[3]}")
         return "sa_g", "g", 1.0, value
-    return "", "", 1.0, None
+    return imt, "", 1.0, None
 
 
-def _from_usgs(text: str, imt: str | None) -> Hazard:
+def _from_usgs(text: str, imt: str | None, usual: str) -> Hazard:
     try:
         document = json.loads(text)
     except json.JSONDecodeError as error:
@@ -547,19 +584,31 @@ def _from_usgs(text: str, imt: str | None) -> Hazard:
         found = {}
     if not found:
         raise ValueError("has no hazard curve where the JSON of the USGS hazard tool has one")
+    if imt is None and usual in found:
+        imt = usual
     if imt is None and len(found) > 1:
         raise ValueError(f"has curves of {', '.join(found)}; give imt=")
     chosen = next(iter(found)) if imt is None else imt
     if chosen not in found:
         raise ValueError(f"has no curve of {chosen}; it has {', '.join(found)}")
     name, unit, factor, period = _measure(chosen)  # PGV is in cm/s here, too
-    x, y = found[chosen]
+    if len(found[chosen]) > 1:
+        raise ValueError(
+            f"has {len(found[chosen])} curves of {chosen}, of several editions or places; needs a"
+            " file with one"
+        )
+    x, y = found[chosen][0]
     return _hazard(x * factor, y, name=name, unit=unit, period=period)
 
 
-def _curves_of_usgs(document: Any) -> dict[str, tuple[Array, Array]]:
-    """The total curves of a document, by the name of the measure."""
-    found: dict[str, tuple[Array, Array]] = {}
+def _curves_of_usgs(document: Any) -> dict[str, list[tuple[Array, Array]]]:
+    """The total curves of a document, by the name of the measure.
+
+    The hazard services state the intensities as `xvalues` of the metadata and the rates as
+    `yvalues` of each component, or both in `values`; the static curves as `xvals` and `yvals`,
+    without components.
+    """
+    found: dict[str, list[tuple[Array, Array]]] = {}
     response = document.get("response") if isinstance(document, dict) else None
     curves = response.get("hazardCurves") if isinstance(response, dict) else response
     for curve in curves if isinstance(curves, list) else ():
@@ -569,8 +618,8 @@ def _curves_of_usgs(document: Any) -> dict[str, tuple[Array, Array]]:
         for part in curve.get("data", ()):
             if part.get("component", "Total") == "Total":
                 values = part.get("values", {})
-                x = part.get("xvalues") or about.get("xvalues") or values.get("xs")
-                y = part.get("yvalues") or values.get("ys")
+                x = about.get("xvalues") or about.get("xvals") or values.get("xs")
+                y = part.get("yvalues") or part.get("yvals") or values.get("ys")
                 if x and y and len(x) == len(y):
-                    found[name] = (np.array(x, float), np.array(y, float))
+                    found.setdefault(name, []).append((np.array(x, float), np.array(y, float)))
     return found

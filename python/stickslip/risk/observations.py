@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import GroundMotion, to_vector
+from .._numbers import real
 from ..motions.intensity import LEVEL_UNITS, level_of
 from ..sweeps.table import SweepTable
 
@@ -94,7 +95,7 @@ def measured(table: SweepTable, im: Measure, who: str) -> tuple[NDArray[np.float
             )
         name = getattr(im, "__name__", "im")
         name, unit = ("im" if name == "<lambda>" else name), ""
-        values = np.array([float(im(motion)) for motion in table.motions])
+        values = np.array([real(im(motion), f"{who}: im of a motion") for motion in table.motions])
     else:
         name, unit = str(im), LEVEL_UNITS.get(str(im), "")
         column = table.metadata.get(name)

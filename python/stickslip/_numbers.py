@@ -1,0 +1,42 @@
+"""Numbers from arguments, with errors that name the argument."""
+
+from __future__ import annotations
+
+import reprlib
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["real", "reals"]
+
+
+def real(value: Any, what: str) -> float:
+    """A number, from anything but text that converts to one.
+
+    Raises
+    ------
+    TypeError
+        Another type; the message begins with `what`.
+    """
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{what} must be a number, got {reprlib.repr(value)}")
+
+
+def reals(value: ArrayLike, what: str) -> NDArray[np.float64]:
+    """An array of numbers, of any shape.
+
+    Raises
+    ------
+    ValueError
+        Other values; the message begins with `what`.
+    """
+    try:
+        return np.asarray(value, float)
+    except (TypeError, ValueError):
+        pass
+    raise ValueError(f"{what} must hold real numbers, got {reprlib.repr(value)}")
