@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import stickslip as ss
 from measure_refinements import samples, station, triples
-from measured_page import draw, replaced, table
+from measured_page import draw, rewrite, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -259,11 +259,8 @@ def figure() -> Figure:
 
 
 def main() -> None:
-    text = PAGE.read_text(encoding="utf-8")
     found = tables()
-    for new in found.values():
-        text = replaced(text, new)
-    PAGE.write_text(text, encoding="utf-8")
+    rewrite(PAGE, found.values())
     for name in ("pairs", "station"):
         if name not in found:
             print(f"no files of the {name} in $STICKSLIP_RECORDS: their table stays as it is")

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import stickslip as ss
-from measure_refinements import replaced, table, triples
+from measure_refinements import rewrite, table, triples
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
@@ -361,10 +361,7 @@ def main() -> None:
     else:
         print(f"no $STICKSLIP_RECORDS with {PAIRS} and {TRIPLE}: {MEASURED.name} stays as it is")
     rows = stored()
-    text = PAGE.read_text(encoding="utf-8")
-    for new in tables(rows).values():
-        text = replaced(text, new)
-    PAGE.write_text(text, encoding="utf-8")
+    rewrite(PAGE, tables(rows).values())
     draw(rows)
 
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import stickslip as ss
-from measured_page import draw, replaced, table
+from measured_page import draw, rewrite, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -593,11 +593,8 @@ def draw_fits() -> Figure:
 
 
 def main() -> None:
-    text = PAGE.read_text(encoding="utf-8")
     found = tables()
-    for new in found.values():
-        text = replaced(text, new)
-    PAGE.write_text(text, encoding="utf-8")
+    rewrite(PAGE, found.values())
     if "station" not in found:
         print(f"no $STICKSLIP_RECORDS/{STATION}: the table of that station stays as it is")
     draw(PICTURE, draw_fits)

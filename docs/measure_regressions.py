@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import stickslip as ss
-from measured_page import draw, replaced, table
+from measured_page import draw, rewrite, table
 from stickslip import regressions
 
 if TYPE_CHECKING:
@@ -460,10 +460,7 @@ def figure() -> Figure:
 
 
 def main() -> None:
-    text = PAGE.read_text(encoding="utf-8")
-    for new in tables().values():
-        text = replaced(text, new)
-    PAGE.write_text(text, encoding="utf-8")
+    rewrite(PAGE, tables().values())
     draw(PICTURE, figure)
 
 

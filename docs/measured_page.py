@@ -24,6 +24,14 @@ def replaced(text: str, new: str) -> str:
     return "".join([*lines[:begin], new, *lines[end:]])
 
 
+def rewrite(page: Path, tables: Iterable[str]) -> None:
+    """Replace the tables of a page."""
+    text = page.read_text(encoding="utf-8")
+    for new in tables:
+        text = replaced(text, new)
+    page.write_text(text, encoding="utf-8")
+
+
 def draw(picture: Path, drawn: Callable[[], Figure]) -> None:
     """Save a figure in 64 colors."""
     from PIL import Image

@@ -144,7 +144,7 @@ class Slider {
   bool plain() const noexcept { return plain_; }
 
  private:
-  // A law may bring stops of its own, and refuse a mounting.
+  // The law may add stops to a mounting, or refuse it.
   static Mounting with_law(const Law& law, Mounting on) {
     if constexpr (requires { law.mount(on); }) law.mount(on);
     return on;

@@ -19,7 +19,21 @@ inline auto csv_in(const char* module, const char* function) {
   };
 }
 
-/// The documentation of such a method: a sentence, and notes if there are any.
+/// The method that shows a response as a picture that moves, and its documentation.
+inline auto animation() {
+  return [](const py::object& self, const py::object& time, double speed, double fps, const py::object& title) {
+    return py::module_::import("stickslip.plotting")
+        .attr("animate")(self, py::arg("time") = time, py::arg("speed") = speed, py::arg("fps") = fps,
+                         py::arg("title") = title);
+  };
+}
+inline constexpr const char* animation_doc = R"(Show the object sliding on its moving floor, with its history below.
+
+Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
+the animation, `fps`, frames in a second, and `title`. Returns an animation: a notebook shows it, its `write` saves it as
+.gif, .mp4 or .html; see `stickslip.plotting.animate`.)";
+
+/// The documentation of a method that takes a path: a sentence, and notes if there are any.
 inline std::string csv_doc(const std::string& sentence, const std::string& notes = "") {
   return sentence + R"(
 

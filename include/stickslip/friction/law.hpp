@@ -68,10 +68,10 @@ class InvalidLevel : public std::invalid_argument, public NoLevel {
 ///     slide(state, distance)   // moves the memory of a state, the sliding distance included, in the direction of its
 ///                              // mode
 ///     begin(state)             // gives a state without memory that of its displacement
-/// and, if its resistance contains springs of its own,
+/// If its resistance contains springs, it also defines
 ///
 ///     elastic(state)           // energy in them where the normal force is g, per unit mass [m^2/s^2]
-/// and in the law in x and speed
+/// and the law in x and speed defines
 ///
 ///     friction(x, direction)   // the part of the resistance that dissipates [m/s^2]
 template <class Law>

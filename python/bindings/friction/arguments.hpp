@@ -27,6 +27,13 @@ inline std::string level_argument(double level, const std::string& mu_name = "mu
   return level_name + "=" + itself;
 }
 
+/// Numbers as a list of Python.
+inline std::string list_of_numbers(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + detail::shortest(value);
+  return "[" + text + "]";
+}
+
 /// The coefficient of friction of a level [m/s^2]: the one with the fewest digits that gives the level to the last bit.
 inline double mu_of(double level) {
   for (int digits = 1; digits <= 17; ++digits) {

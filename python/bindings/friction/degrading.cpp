@@ -44,12 +44,6 @@ std::vector<double> levels_of(const std::vector<Given>& arguments, const std::st
   return levels;
 }
 
-std::string list_of_numbers(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + detail::shortest(value);
-  return "[" + text + "]";
-}
-
 /// Levels as the argument that gives them back to the bit.
 std::string levels_argument(const std::vector<double>& levels, const std::string& mu_name,
                             const std::string& level_name) {

@@ -16,12 +16,6 @@
 namespace stickslip::python {
 namespace {
 
-std::string numbers(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + detail::shortest(value);
-  return "[" + text + "]";
-}
-
 std::vector<double> capacities_from(const py::object& capacities, std::size_t count, const std::string& who) {
   if (capacities.is_none()) return std::vector<double>(count, std::numeric_limits<double>::infinity());
   return to_vector(capacities, who + ": capacities", "m");
@@ -188,8 +182,8 @@ PendulumLoop)")
         return std::string(triple ? "TriplePendulum"
                            : five ? "QuintuplePendulum"
                                   : "MultiPendulum") +
-               "(radii=" + numbers(law.radii()) + ", mu=" + numbers(law.mu()) +
-               ", capacities=" + numbers(law.capacities()) +
+               "(radii=" + list_of_numbers(law.radii()) + ", mu=" + list_of_numbers(law.mu()) +
+               ", capacities=" + list_of_numbers(law.capacities()) +
                (law.restitution() > 0 ? ", restitution=" + detail::shortest(law.restitution()) : "") +
                (law.nested() && !triple && !five ? ", nested=True" : "") + ")";
       });

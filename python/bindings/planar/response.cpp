@@ -319,20 +319,8 @@ motion is integrated again.)")
 At a maximum of |r|, the remaining distance to the stop; at an impact with the radial velocity v and the radial
 deceleration d, the distance v^2 / (2 d) over which the slider would have continued. Infinite without stops and
 slips.)")
-      .def(
-          "animate",
-          [](const py::object& self, const py::object& time, double speed, double fps, const py::object& title) {
-            return py::module_::import("stickslip.plotting")
-                .attr("animate")(self, py::arg("time") = time, py::arg("speed") = speed, py::arg("fps") = fps,
-                                 py::arg("title") = title);
-          },
-          py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0, py::arg("fps") = 15.0,
-          py::arg("title") = py::none(),
-          R"(Show the object sliding on its moving floor, with its history below.
-
-Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
-the animation, `fps`, frames in a second, and `title`. Returns an animation: a notebook shows it, its `write` saves it as
-.gif, .mp4 or .html; see `stickslip.plotting.animate`.)")
+      .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), animation_doc)
       .def(
           "plot",
           [](const py::object& self, const py::object& figure, const py::object& title, const py::object& time) {

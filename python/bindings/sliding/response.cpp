@@ -523,20 +523,8 @@ is the area of the loop; with Coulomb friction E_d = 4 slip_level D. What stops 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, `title`,
 and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns the figure, see
 `stickslip.plotting.plot_response`.)")
-      .def(
-          "animate",
-          [](const py::object& self, const py::object& time, double speed, double fps, const py::object& title) {
-            return py::module_::import("stickslip.plotting")
-                .attr("animate")(self, py::arg("time") = time, py::arg("speed") = speed, py::arg("fps") = fps,
-                                 py::arg("title") = title);
-          },
-          py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0, py::arg("fps") = 15.0,
-          py::arg("title") = py::none(),
-          R"(Show the object sliding on its moving floor, with its history below.
-
-Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `speed`, seconds of the motion in a second of
-the animation, `fps`, frames in a second, and `title`. Returns an animation: a notebook shows it, its `write` saves it as
-.gif, .mp4 or .html; see `stickslip.plotting.animate`.)")
+      .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
+           py::arg("fps") = 15.0, py::arg("title") = py::none(), animation_doc)
       .def(
           "plot_hysteresis",
           [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,

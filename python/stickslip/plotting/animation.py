@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -53,20 +54,19 @@ class Animation(FuncAnimation):
         """
         file = Path(os.fsdecode(path))
         kind = check_moving_suffix(file)
-        if kind == "html":
-            with replacing(file) as stream:
-                stream.write(self.to_jshtml().encode())
-            return file
         if kind == "mp4" and not FFMpegWriter.isAvailable():
             raise RuntimeError("animate: .mp4 needs the program ffmpeg; .gif and .html do not")
-        writer = PillowWriter if kind == "gif" else FFMpegWriter
-        part = file.with_name(f".{file.stem}.part{file.suffix}")
-        try:
-            self.save(part, writer=writer(fps=1000 / self._interval))
-            part.replace(file)
-        finally:
-            part.unlink(missing_ok=True)
+        with replacing(file) as stream:
+            stream.write(self.to_jshtml().encode() if kind == "html" else self._film(kind))
         return file
+
+    def _film(self, kind: str) -> bytes:
+        """The content of a GIF or an MP4; matplotlib writes either into a file."""
+        writer = PillowWriter if kind == "gif" else FFMpegWriter
+        with tempfile.TemporaryDirectory() as folder:
+            film = Path(folder) / f"film.{kind}"
+            self.save(film, writer=writer(fps=1000 / self._interval))
+            return film.read_bytes()
 
 
 def check_moving_suffix(file: Path) -> str:
@@ -193,12 +193,11 @@ def _on_axis(response: Any, times: NDArray[np.float64], title: str | None) -> tu
         at = ground[i] + x[i]
         floor.set_x(ground[i] - 2 * span)
         mark.set_xdata([ground[i], ground[i]])
-        for _, height, patch in parts:
-            _move(patch, at, height + gap[i])
+        for patch, aside, height in parts:
+            _move(patch, at + aside, height + gap[i])
         for offset, wall in bounds:
             wall.set_x(ground[i] + offset)
-        body = next(patch for place, _, patch in parts if place == "body")
-        body.set_facecolor(BLUE if stuck[i] else VERMILION)
+        parts[0][0].set_facecolor(BLUE if stuck[i] else VERMILION)
         line.set_data(times[: i + 1], length * x[: i + 1])
         dot.set_data([times[i]], [length * x[i]])
         return [floor, mark, line, dot]
@@ -209,13 +208,13 @@ def _on_axis(response: Any, times: NDArray[np.float64], title: str | None) -> tu
 
 def _move(patch: Any, x: float, y: float) -> None:
     if isinstance(patch, Circle):
-        patch.set_center((x + patch.offset, y))
+        patch.set_center((x, y))
     else:
         patch.set_xy((x - patch.get_width() / 2, y))
 
 
-def _object(scene: Axes, slider: Slider, size: float) -> list[tuple[str, float, Any]]:
-    """What slides: names, heights over the floor [m] and patches, centered at x = 0."""
+def _object(scene: Axes, slider: Slider, size: float) -> list[tuple[Any, float, float]]:
+    """What slides, the body first: patches, places beside x and heights over the floor [m]."""
     law = type(getattr(slider.law, "sliding", slider.law)).__name__
     wheels = law == "Caster"
     bearings = slider.natural_frequency > 0 or law == "MultiPendulum"
@@ -224,19 +223,15 @@ def _object(scene: Axes, slider: Slider, size: float) -> list[tuple[str, float, 
     width, height = (1.4 * size, 0.5 * size) if bearings else (0.7 * size, 1.2 * size)
     body = Rectangle((0, 0), width, height, edgecolor=INK, facecolor=BLUE, linewidth=0.8, zorder=4)
     scene.add_patch(body)
-    parts: list[tuple[str, float, Any]] = [("body", foot, body)]
-    for side in (-1, 1):
-        if wheels:
-            wheel: Any = Circle((0, 0), radius, facecolor=GRAY, edgecolor=INK, zorder=5)
-            wheel.offset = side * 0.3 * width
-            parts.append(("wheel", radius, wheel))
-        elif bearings:
-            wheel = Circle((0, 0), 0.08 * size, facecolor=GRAY, edgecolor=INK, zorder=3)
-            wheel.offset = side * 0.35 * width
-            parts.append(("bearing", 0.08 * size, wheel))
-        else:
-            continue
-        scene.add_patch(wheel)
+    parts: list[tuple[Any, float, float]] = [(body, 0.0, foot)]
+    if wheels or bearings:
+        below = radius if wheels else 0.08 * size
+        for aside in (-0.3 * width, 0.3 * width) if wheels else (-0.35 * width, 0.35 * width):
+            foot_of = Circle(
+                (0, 0), below, facecolor=GRAY, edgecolor=INK, zorder=5 if wheels else 3
+            )
+            scene.add_patch(foot_of)
+            parts.append((foot_of, aside, below))
     return parts
 
 

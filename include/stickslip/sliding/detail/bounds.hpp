@@ -60,8 +60,8 @@ class Bounds {
 
   /// Whether a slider on a spring of stiffness k per unit mass, which its law accelerates by at most `push`, certainly
   /// stays between the bounds during a segment of duration T. Friction and dampers only reduce the speed, so that |v|
-  /// <= |v0| + T (|p| + k (|x0| + D)), and the distance D from x0 is at most
-  ///     D = T (|v0| + T/2 (|p| + k |x0|)) / (1 - k T^2 / 2).
+  /// <= |v0| + T (|p| + push + k (|x0| + D)), and the distance D from x0 is at most
+  ///     D = T (|v0| + T/2 (|p| + push + k |x0|)) / (1 - k T^2 / 2).
   template <class Place>
   bool out_of_reach(const LoadSegment& segment, double k, double push, const Place& state) const noexcept {
     const double nearest = one_way_ ? 0 : std::min(stops_.forward(), stops_.backward());
