@@ -14,11 +14,12 @@ from __future__ import annotations
 import itertools
 import math
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import stickslip as ss
+from measured_page import rewrite, table
 
 DOCS = Path(__file__).parent
 LEVEL = 1.0  # of forward sliding [m/s^2], everywhere
@@ -42,12 +43,6 @@ def number(value: float, error: float) -> str:
 def ratio(theory: float, value: float) -> str:
     r = theory / value
     return f"{r:.2g}" if r < 0.095 else f"{r:.2f}"
-
-
-def table(heading: str, rows: Iterable[list[str]]) -> str:
-    """A table of Markdown; `heading` is its first line."""
-    rule = "|" + "---|" * (heading.count("|") - 1)
-    return "\n".join([heading, rule, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
 # ---- excitation
@@ -461,19 +456,10 @@ TABLES = {
 }
 
 
-def replaced(text: str, new: str) -> str:
-    """The page with the table of this heading replaced."""
-    lines = text.splitlines(keepends=True)
-    begin = lines.index(new.splitlines(keepends=True)[0])
-    end = next((i for i in range(begin, len(lines)) if lines[i][0] != "|"), len(lines))
-    return "".join([*lines[:begin], new, *lines[end:]])
-
-
 def main() -> None:
     for name in sys.argv[1:] or TABLES:
         page, heading, rows = TABLES[name]
-        text = (DOCS / page).read_text(encoding="utf-8")
-        (DOCS / page).write_text(replaced(text, table(heading, rows())), encoding="utf-8")
+        rewrite(DOCS / page, [table(heading, rows())])
 
 
 if __name__ == "__main__":

@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import stickslip as ss
-from measure_refinements import rewrite, table, triples
+from measure_refinements import triples
+from measured_page import rewrite, table
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:

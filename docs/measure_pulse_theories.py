@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import stickslip as ss
+from measured_page import rewrite, table
 
 DOCS = Path(__file__).parent
 CHAIN, SUPERPOSITION = DOCS / "pulse_chain.md", DOCS / "pulse_superposition.md"
@@ -155,26 +156,14 @@ def table_of_rare_pulses() -> list[list[str]]:
     return rows
 
 
-def replaced(text: str, heading: str, rows: list[list[str]]) -> str:
-    """The page with the rows of the table of this heading replaced."""
-    lines = text.splitlines()
-    begin = lines.index(heading)
-    end = next((i for i in range(begin, len(lines)) if not lines[i].startswith("|")), len(lines))
-    rule = "|" + "---|" * (heading.count("|") - 1)
-    lines_of_rows = ["| " + " | ".join(row) + " |" for row in rows]
-    new = [heading, rule, *(line.replace("|  |", "| |") for line in lines_of_rows)]
-    return "\n".join([*lines[:begin], *new, *lines[end:]]) + "\n"
-
-
 def main() -> None:
-    for page, heading, table in (
+    for page, heading, rows in (
         (SUPERPOSITION, RARE, table_of_rare_pulses),
         (CHAIN, WEAK, table_of_weak_pulses),
         (CHAIN, EVENTS, table_of_events),
         (CHAIN, PEAKS, table_of_peaks),
     ):
-        text = page.read_text(encoding="utf-8")
-        page.write_text(replaced(text, heading, table()), encoding="utf-8")
+        rewrite(page, [table(heading, rows()).replace("|  |", "| |")])
 
 
 if __name__ == "__main__":

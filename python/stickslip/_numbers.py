@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 import reprlib
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["real", "reals"]
+__all__ = ["real", "reals", "whole_number"]
 
 
 def real(value: Any, what: str) -> float:
@@ -40,3 +41,23 @@ def reals(value: ArrayLike, what: str) -> NDArray[np.float64]:
     except (TypeError, ValueError):
         pass
     raise ValueError(f"{what} must hold real numbers, got {reprlib.repr(value)}")
+
+
+def whole_number(value: SupportsIndex, what: str, least: int, most: int = 2**64 - 1) -> int:
+    """An integer from `least` to `most`.
+
+    Raises
+    ------
+    TypeError
+        Another type; the message begins with `what`, as that of the next.
+    ValueError
+        An integer out of its bounds.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what} must be a whole number, got {value!r}") from None
+    if not least <= number <= most:
+        bound = f"at least {least}" if number < least else f"at most {most}"
+        raise ValueError(f"{what} must be {bound}, got {number}")
+    return number

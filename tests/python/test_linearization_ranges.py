@@ -1,15 +1,13 @@
 """The measured ranges of the linearization theories: tables, sentences and remarks."""
 
-import importlib.util
 import itertools
 import math
 import re
-import sys
 
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT
+from pages import ROOT, measuring
 
 DOCS = ROOT / "docs"
 EL, SL = ss.theory.EquivalentLinearization, ss.theory.StationaryLinearization
@@ -24,15 +22,7 @@ def page(name):
     return words((DOCS / name).read_text(encoding="utf-8"))
 
 
-def load():
-    name = "measure_linearization"
-    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
-    sys.modules[name] = module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-measured = load()
+measured = measuring("measure_linearization")
 SENTENCES = dict(
     re.findall(
         r"char (\w+)\[\] = \"(.*?)\";",

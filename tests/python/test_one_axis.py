@@ -1,13 +1,11 @@
 """docs/one_axis.md: its tables from the measured values, some of these again, and what it says."""
 
-import importlib.util
 import re
-import sys
 
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT, assert_same_picture
+from pages import ROOT, assert_same_picture, measuring
 
 PAGE = ROOT / "docs" / "one_axis.md"
 TEXT = PAGE.read_text(encoding="utf-8")
@@ -16,15 +14,7 @@ WORDS = " ".join(TEXT.split())
 
 @pytest.fixture(scope="module")
 def measured():
-    sys.path.insert(0, str(ROOT / "docs"))  # measure_refinements, which it imports
-    try:
-        name = "measure_one_axis"
-        spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
-        sys.modules[name] = module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        yield module
-    finally:
-        sys.path.remove(str(ROOT / "docs"))
+    return measuring("measure_one_axis")
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import operator
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
@@ -11,6 +10,7 @@ from typing import Any, SupportsIndex
 
 from .. import _core
 from .._core import Ensemble, GroundMotion
+from .._numbers import whole_number
 from .._units import warn_of_units
 from ..runs.parts import check_executor
 from ..runs.progress import Progress, shown
@@ -146,12 +146,12 @@ def run_ensemble(
     Thesis 4.4, 5.4; P. Pebay, Formulas for robust, one-pass parallel computation of covariances and
     arbitrary-order statistical moments, SAND2008-6212 (2008).
     """
-    total = whole_number("members", members, 1)
-    first = whole_number("first_member", first_member, 0)
-    count = 0 if threads is None else whole_number("threads", threads, 1, 2**16)
+    total = whole_number(members, "run_ensemble: members", 1)
+    first = whole_number(first_member, "run_ensemble: first_member", 0)
+    count = 0 if threads is None else whole_number(threads, "run_ensemble: threads", 1, 2**16)
     check_executor("run_ensemble", executor, None if threads is None else count)
     options = {
-        "seed": whole_number("seed", seed, 0),
+        "seed": whole_number(seed, "run_ensemble: seed", 0),
         "dt": 0.0 if dt is None else _positive("dt", dt),
         "settle": settle,
         "contact": contact,
@@ -180,24 +180,6 @@ def run_ensemble(
     if whole.members <= 2**20 and not whole.peak.any():
         warn_of_units("run_ensemble", sliders, motions, options["seed"])
     return whole
-
-
-def whole_number(
-    name: str,
-    value: SupportsIndex,
-    least: int,
-    most: int = 2**64 - 1,
-    who: str = "run_ensemble",
-) -> int:
-    """An integer argument within its bounds."""
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise TypeError(f"{who}: {name} must be a whole number, got {value!r}") from None
-    if not least <= number <= most:
-        bound = f"at least {least}" if number < least else f"at most {most}"
-        raise ValueError(f"{who}: {name} must be {bound}, got {number}")
-    return number
 
 
 def _positive(name: str, value: float) -> float:

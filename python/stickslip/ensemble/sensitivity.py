@@ -6,8 +6,8 @@ from typing import SupportsIndex
 
 from .. import _core
 from .._core import EnsembleSensitivity
+from .._numbers import whole_number
 from ..runs.progress import Progress, shown
-from .run import whole_number
 from .sources import AnyMotions, AnySliders
 
 
@@ -88,7 +88,7 @@ def ensemble_sensitivity(
     """
 
     def checked(name: str, value: SupportsIndex, least: int, most: int = 2**64 - 1) -> int:
-        return whole_number(name, value, least, most, who="ensemble_sensitivity")
+        return whole_number(value, f"ensemble_sensitivity: {name}", least, most)
 
     if isinstance(sliders, _core.PlanarSlider):
         raise TypeError(

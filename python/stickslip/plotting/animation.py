@@ -225,13 +225,11 @@ def _object(scene: Axes, slider: Slider, size: float) -> list[tuple[Any, float, 
     scene.add_patch(body)
     parts: list[tuple[Any, float, float]] = [(body, 0.0, foot)]
     if wheels or bearings:
-        below = radius if wheels else 0.08 * size
-        for aside in (-0.3 * width, 0.3 * width) if wheels else (-0.35 * width, 0.35 * width):
-            foot_of = Circle(
-                (0, 0), below, facecolor=GRAY, edgecolor=INK, zorder=5 if wheels else 3
-            )
-            scene.add_patch(foot_of)
-            parts.append((foot_of, aside, below))
+        below, beside, layer = (radius, 0.3, 5) if wheels else (0.08 * size, 0.35, 3)
+        for aside in (-beside * width, beside * width):
+            roller = Circle((0, 0), below, facecolor=GRAY, edgecolor=INK, zorder=layer)
+            scene.add_patch(roller)
+            parts.append((roller, aside, below))
     return parts
 
 
