@@ -53,4 +53,5 @@
 #include "stickslip/theory/slowly_varying_parameters.hpp"
 #include "stickslip/theory/stationary_linearization.hpp"
 #include "stickslip/theory/theory.hpp"
+#include "stickslip/theory/transport.hpp"
 #include "stickslip/theory/white_noise.hpp"

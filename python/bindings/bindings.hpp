@@ -97,6 +97,7 @@ void bind_pulse_response(py::module_& m);
 void bind_displacement_distribution(py::module_& m);
 void bind_pulse_superposition(py::module_& m);
 void bind_pulse_chain(py::module_& m);
+void bind_transport(py::module_& m);
 void bind_thesis(py::module_& m);
 void bind_build_info(py::module_& m);
 

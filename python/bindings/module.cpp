@@ -95,6 +95,7 @@ PYBIND11_MODULE(_core, m) {
   bind_displacement_distribution(m);
   bind_pulse_superposition(m);
   bind_pulse_chain(m);
+  bind_transport(m);
   in(compiled.c_str());
   bind_run_ensemble(m);
   bind_run_ensemble_sensitivity(m);

@@ -314,11 +314,12 @@ std::size_t hash_of(const T& value) {
 }
 
 /// A class of immutable objects, which compare by content and can be hashed, copied and pickled.
-template <MadeOfParts T>
-py::class_<T> value_class(py::module_& m, const char* name, std::string doc) {
+/// @tparam Bases  bound classes from which it is derived
+template <MadeOfParts T, class... Bases>
+py::class_<T, Bases...> value_class(py::module_& m, const char* name, std::string doc) {
   doc.insert(std::min(doc.find("\n\n"), doc.size()),
              "\n\nObjects compare by content; they can be hashed, copied and pickled.");
-  py::class_<T> type(m, name, doc.c_str());
+  py::class_<T, Bases...> type(m, name, doc.c_str());
   type.def(
           "__eq__",
           [](const T& self, const py::object& other) -> py::object {  // `const T&` would convert a law to a slider

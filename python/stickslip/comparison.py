@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import (
+    ConvergenceError,
     Ensemble,
     GaussianExcitation,
     Moments,
@@ -387,7 +388,9 @@ def compare(
     Notes
     -----
     Takes as long as `run_ensemble`, plus some milliseconds for each theory; up to ten seconds for
-    a caster under pulses.
+    a caster under pulses, and for `Transport` with a spring. Give the motions of an ensemble a line
+    at zero frequency and a long period (`zero_frequency=True`, `period=`) if they are to be those
+    of a continuous process, as the theories assume.
     """
     default = PLANAR_THEORIES if isinstance(slider, PlanarSlider) else THEORIES
     asked = {t.name: t for t in (default if theories is None else map(_checked, theories))}
@@ -414,7 +417,7 @@ def compare(
         if answer:
             try:
                 predictions[name] = _predicted(asked[name], slider, excitation, time)
-            except ValueError as error:  # found only by the computation
+            except (ValueError, ConvergenceError) as error:  # found only by the computation
                 refused[name] = str(error)
         elif answer.excitation:
             refused[name] = answer.reason

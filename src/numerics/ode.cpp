@@ -3,7 +3,6 @@
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
-#include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
@@ -13,17 +12,13 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 
+#include "numerics/sundials.hpp"
 #include "stickslip/error.hpp"
 
-#if SUNDIALS_VERSION_MAJOR < 6
-#error "stickslip needs SUNDIALS 6 or newer"
-#endif
 #if SUNDIALS_VERSION_MAJOR >= 7 && defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // ERKStep's functions have a second name since 7.1
 #endif
@@ -31,41 +26,10 @@
 namespace stickslip::detail {
 namespace {
 
-static_assert(std::is_same_v<sunrealtype, double>, "stickslip needs SUNDIALS of double precision");
+using sundials::Context, sundials::LinearSolver, sundials::made, sundials::make_context, sundials::Matrix,
+    sundials::NonlinearSolver, sundials::Vector;
 
 constexpr long steps_a_beat = 1000;
-
-template <class Handle, auto destroy>
-struct Destroy {
-  void operator()(Handle handle) const { destroy(handle); }
-};
-template <class Handle, auto destroy>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy<Handle, destroy>>;
-
-template <class Pointer>
-Pointer made(Pointer pointer) {
-  if (pointer == nullptr) throw std::bad_alloc();
-  return pointer;
-}
-
-// Error messages go into exceptions, not to the terminal.
-SUNContext make_context() {
-  SUNContext context = nullptr;
-#if SUNDIALS_VERSION_MAJOR >= 7
-  if (SUNContext_Create(SUN_COMM_NULL, &context) != 0) throw std::bad_alloc();
-  SUNContext_ClearErrHandlers(context);
-#else
-  if (SUNContext_Create(nullptr, &context) != 0) throw std::bad_alloc();
-#endif
-  return context;
-}
-
-void free_context(SUNContext context) { SUNContext_Free(&context); }
-using Context = Owned<SUNContext, &free_context>;
-using Vector = Owned<N_Vector, &N_VDestroy>;
-using Matrix = Owned<SUNMatrix, &SUNMatDestroy>;
-using LinearSolver = Owned<SUNLinearSolver, &SUNLinSolFree>;
-using NonlinearSolver = Owned<SUNNonlinearSolver, &SUNNonlinSolFree>;
 
 // SUNDIALS's serial vectors are designed for many components: with three, an operation mostly distinguishes special
 // cases. The operations that CVODE performs tens of times per step are plain loops here, which saves a third of all

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "numerics/fftw_plan.hpp"
 #include "stickslip/error.hpp"
@@ -173,6 +174,49 @@ DisplacementDistribution::DisplacementDistribution(const detail::Slips& slips, s
     sum += mass;
   }
   below_[nodes] = sum;
+}
+
+DisplacementDistribution::DisplacementDistribution(const detail::CharacteristicSamples& samples, double error,
+                                                   std::string remark)
+    : remark_(std::move(remark)), atom_(0), count_(std::numeric_limits<double>::infinity()), error_(error) {
+  const double width = samples.half_width;
+  step_ = 2 * width / static_cast<double>(nodes);
+  displacement_.resize(nodes);
+  density_.resize(nodes);
+  below_.resize(nodes + 1);
+  // The last waves are damped: where the series ends, it would ripple over the whole window.
+  std::vector<std::complex<double>> values = samples.values;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    values[j] *= std::exp(-30 * std::pow((static_cast<double>(j) + 0.5) / static_cast<double>(values.size()), 12));
+  double sum = 0, powers[5] = {};
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const double y = -width + step_ * (static_cast<double>(i) + 0.5);
+    const std::complex<double> turn = std::polar(1.0, -std::numbers::pi / width * y);
+    std::complex<double> wave = std::polar(1.0, -std::numbers::pi / width * y / 2);
+    double density = 0;
+    for (const std::complex<double>& value : values) {
+      density += (value * wave).real();
+      wave *= turn;
+    }
+    displacement_[i] = samples.center + y;
+    density_[i] = std::max(density / width, 0.0);
+    below_[i] = sum;
+    sum += density_[i] * step_;
+    double power = density / width * step_;
+    for (double& one : powers) one += power, power *= y;
+  }
+  below_[nodes] = sum;
+  // Exactly 1: round-off, and where the series, which ends, is negative.
+  for (double& mass : below_) mass /= sum;
+  for (double& density : density_) density /= sum;
+  const double total = powers[0];
+  for (double& one : powers) one /= total;
+  const double mean = powers[1], variance = powers[2] - mean * mean;
+  cumulants_[0] = samples.center + mean;
+  cumulants_[1] = variance;
+  cumulants_[2] = powers[3] - 3 * mean * powers[2] + 2 * mean * mean * mean;
+  cumulants_[3] = powers[4] - 4 * mean * powers[3] + 6 * mean * mean * powers[2] - 3 * mean * mean * mean * mean -
+                  3 * variance * variance;
 }
 
 double DisplacementDistribution::skewness() const noexcept {

@@ -115,6 +115,7 @@ THEORY_REASONS = {
     "j": r"with a damper",
     "k": r"covers Coulomb friction",
     "l": r"both ways|mirrored slip",
+    "m": r"level must be positive",
 }
 
 
@@ -215,6 +216,7 @@ PULSES = ss.PoissonPulses(rate=0.5, half_width=0.5, sigma=1.0, duration=20.0)
 
 THEORIES = {
     "`WhiteNoise`": (theory.WhiteNoise(), NOISE),
+    "`Transport`": (theory.Transport(), NOISE),
     "`EquivalentLinearization`": (theory.EquivalentLinearization(), NOISE),
     "`StationaryLinearization`": (theory.StationaryLinearization(), SHAKING),
     "`PulseSuperposition`": (theory.PulseSuperposition(), PULSES),

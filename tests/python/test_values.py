@@ -48,6 +48,9 @@ LINEARIZED = [
 DRAWN = thesis.Thesis(members=100)
 FIGURES = [DRAWN.figure(number) for number in ("4.3", "A.2", "Table 5.1")]
 STATEMENTS = [s for figure in FIGURES for s in figure.statements]
+CARRIED = [
+    theory.Transport(tolerance=0.2).predict(BLOCK, level, [1.0, 2.0]) for level in (0.3, 0.5)
+]
 RARE = ss.PoissonPulses(rate=0.01, half_width=1, sigma=2, duration=100)
 
 STRIPES = ss.sweep(
@@ -346,8 +349,14 @@ EXAMPLES = {
         theory.PulseSuperposition().distribution(BLOCK, RARE, 50),
         theory.PulseSuperposition().distribution(BLOCK, RARE, 60),
         theory.PulseChain().distribution(BLOCK, RARE, 50),
+        CARRIED[0].displacement(2),
     ],
     theory.PulseChain: [theory.PulseChain(), theory.PulseChain(refined=True)],
+    theory.Transport: [theory.Transport(), theory.Transport(tolerance=0.1)],
+    theory.TransportPrediction: CARRIED,
+    theory.TransportCost: [one.cost for one in CARRIED],
+    theory.TransportStationary: [one.stationary for one in CARRIED],
+    theory.TransportPeak: [CARRIED[0].peak(t) for t in (1, 2)],
     theory.PulseResponse: [
         theory.pulse_response(BLOCK, 2, 0.1),
         theory.viscous_pulse_response(1, 2, 0.1, times=[]),
@@ -543,8 +552,8 @@ for module in (ss, harmonic, theory, thesis):
         for name, member in vars(kind).items():
             if type(member) is property:
                 check(kind, name, lambda: getattr(make(), name))
-        for name in dir(kind):
-            if not name.startswith("__") and type(vars(kind)[name]).__name__ == "instancemethod":
+        for name, member in vars(kind).items():
+            if not name.startswith("__") and type(member).__name__ == "instancemethod":
                 check(kind, name + "()", lambda: getattr(make(), name)(*[1] * 2))
                 check(kind, name + "()", lambda: getattr(make(), name)())
 

@@ -27,6 +27,13 @@ struct Slips {
   double least = 0, greatest = 0;  ///< bounds that x exceeds with a probability below 1e-13 each [m]
 };
 
+/// A characteristic function E[exp(i u (x - center))] at u = (j + 1/2) pi / half_width, j = 0, 1, ..., of a law that
+/// lies within half_width of the center and has a density.
+struct CharacteristicSamples {
+  double center = 0, half_width = 1;  ///< [m]
+  std::vector<std::complex<double>> values{};
+};
+
 /// Slips of gamma-distributed lengths: in each direction the density is proportional to |d|^(k-1) exp(-|d| / theta),
 /// with a common k and one theta per direction.
 /// @param count    expected number, at least 0
@@ -47,13 +54,15 @@ namespace stickslip::theory {
 /// This is the program that the thesis outlines at the end of 5.3: moments, characteristic function, density. There
 /// is an atom at x = 0, the probability exp(-int nu) that nothing slips; the rest has a density. Made by
 /// `PulseSuperposition::distribution` from what single pulses do; `PulseChain::distribution` fits slips of
-/// gamma-distributed lengths to four cumulants and the atom.
+/// gamma-distributed lengths to four cumulants and the atom. `TransportPrediction::displacement` has the characteristic
+/// function itself, of a law without an atom.
 ///
-/// The density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes` points of a
-/// window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their number and
-/// mean kept. Atom and cumulants are accurate to 1e-12; the tabulated variance is up to 2e-4 too large for up to 1e5
-/// slips expected, which moves probabilities by some 3e-5; quantiles are to that and to one step of the grid. Slips of
-/// vanishing length are frequent: near x = 0 the density may grow as x^-1/2, and there it is a mean over a step.
+/// Of slips the density is the Fourier transform of the characteristic function less the atom, by FFT over `nodes`
+/// points of a window beyond which x lies with a probability below 2e-13. The slips are laid on that grid with their
+/// number and mean kept. Atom and cumulants are accurate to 1e-12; the tabulated variance is up to 2e-4 too large for
+/// up to 1e5 slips expected, which moves probabilities by some 3e-5; quantiles are to that and to one step of the grid.
+/// Slips of vanishing length are frequent: near x = 0 the density may grow as x^-1/2, and there it is a mean over a
+/// step.
 ///
 /// Reference: thesis 5.3, (5.21) to (5.28); W. Feller, An Introduction to Probability Theory and Its Applications,
 /// vol. 2 (1971), XVII.2; P. Embrechts and M. Frei, Math. Methods Oper. Res. 69 (2009), 497-508 (by FFT).
@@ -67,13 +76,20 @@ class DisplacementDistribution {
   /// @param remark  the remark of the theory
   explicit DisplacementDistribution(const detail::Slips& slips, std::string remark = {});
 
+  /// A law with a density, from its characteristic function by its Fourier series.
+  /// @param error  of its probabilities
+  DisplacementDistribution(const detail::CharacteristicSamples& samples, double error, std::string remark = {});
+
+  /// A bound on the numerical error of probabilities; 0 if they have only the errors stated above.
+  double error() const noexcept { return error_; }
+
   /// What the theory says of parameters outside its range of validity; empty within it.
   const std::string& remark() const noexcept { return remark_; }
 
   /// The probability that nothing slips, exp(-`slips()`): the probability of exactly x = 0.
   double atom() const noexcept { return atom_; }
 
-  /// Expected number of slips.
+  /// Expected number of slips; infinite for a law without an atom.
   double slips() const noexcept { return count_; }
 
   double mean() const noexcept { return cumulants_[0]; }      ///< [m]
@@ -106,7 +122,7 @@ class DisplacementDistribution {
   double smooth_cdf(double x) const;
 
   std::string remark_;
-  double atom_ = 1, count_ = 0;
+  double atom_ = 1, count_ = 0, error_ = 0;
   double cumulants_[4] = {};
   double step_ = 0;
   std::vector<double> displacement_{}, density_{};

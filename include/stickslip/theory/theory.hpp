@@ -27,7 +27,7 @@ struct Coverage {
 ///
 ///     name()                                the name, with the options that distinguish its variants
 ///     covers(slider, excitation)            a Coverage, from the slider and the excitation alone, in microseconds
-///     predict(slider, excitation, times)    Moments at `times` [s] from rest on
+///     predict(slider, excitation, times)    Moments at `times` [s] from rest on, or a class derived from them
 ///
 /// `covers` accepts any slider and excitation. If it returns false, `predict` does not compile or throws
 /// std::invalid_argument with the same reason. If it returns true, `predict` may still throw for conditions that only
@@ -39,7 +39,7 @@ template <class T, class S, class E>
 concept Theory = requires(const T& theory, const S& slider, const E& excitation, std::span<const double> times) {
   { theory.name() } -> std::convertible_to<std::string>;
   { theory.covers(slider, excitation) } -> std::same_as<Coverage>;
-  { theory.predict(slider, excitation, times) } -> std::same_as<Moments>;
+  { theory.predict(slider, excitation, times) } -> std::convertible_to<Moments>;
 };
 
 }  // namespace stickslip::theory

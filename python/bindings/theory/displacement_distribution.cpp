@@ -10,7 +10,7 @@ namespace stickslip::python {
 template <>
 inline constexpr auto parts<DisplacementDistribution> = std::tuple(&DisplacementDistribution::theory,
                                                                    &DisplacementDistribution::slider,
-                                                                   &DisplacementDistribution::pulses,
+                                                                   &DisplacementDistribution::source,
                                                                    &DisplacementDistribution::time);
 
 void bind_displacement_distribution(py::module_& m) {
@@ -22,11 +22,12 @@ expected number of slips per length, E[exp(iux)] = exp(int (exp(iud) - 1) nu(d) 
 dd: thesis 5.3, (5.21) to (5.28). There is an atom at x = 0, the probability exp(-int nu) of no slip; the rest has a
 density, the Fourier transform of the characteristic function minus the atom. `PulseSuperposition.distribution` computes
 it from the response to single pulses; `PulseChain.distribution` fits slips of gamma-distributed lengths to four
-cumulants and the atom.
+cumulants and the atom. `TransportPrediction.displacement` carries the characteristic function itself, of a law without
+an atom; then `error` bounds the numerical error of probabilities.
 
 Notes
 -----
-Computed by FFT over 131072 points of a window that x leaves with a probability below 2e-13. Atom and cumulants are
+Of slips it is computed by FFT over 131072 points of a window that x leaves with a probability below 2e-13. Atom and cumulants are
 accurate to 1e-12. The tabulated variance is up to 2e-4 too large for up to 1e5 expected slips, which changes
 probabilities by some 3e-5; quantiles are accurate to that and to one step of the grid. Very short slips are frequent:
 near x = 0 the density may grow as x^-1/2, and is averaged over a step there.
@@ -38,7 +39,10 @@ W. Feller, An Introduction to Probability Theory and Its Applications, vol. 2 (1
                              "Parameters outside the range of the theory and the errors to expect; empty within it.")
       .def_property_readonly("atom", &DisplacementDistribution::atom,
                              "Probability of no slip, exp(-slips), that is, of exactly x = 0.")
-      .def_property_readonly("slips", &DisplacementDistribution::slips, "Expected number of slips.")
+      .def_property_readonly("slips", &DisplacementDistribution::slips,
+                             "Expected number of slips; infinite for a law without an atom.")
+      .def_property_readonly("error", &DisplacementDistribution::error,
+                             "Bound on the numerical error of probabilities; 0 of sums of slips.")
       .def_property_readonly("mean", &DisplacementDistribution::mean, "Mean [m].")
       .def_property_readonly("variance", &DisplacementDistribution::variance, "Variance [m^2].")
       .def_property_readonly("skewness", &DisplacementDistribution::skewness, "Skewness; NaN if nothing ever slips.")
@@ -112,8 +116,10 @@ Raises
 ValueError
     A value that is not finite.)")
       .def("__repr__", [](const DisplacementDistribution& d) {
-        return "<DisplacementDistribution: " + detail::shortest(d.slips()) + " slips expected, atom " +
-               detail::shortest(d.atom()) + ", std " + detail::shortest(std::sqrt(d.variance())) + " m>";
+        const std::string slips = std::isfinite(d.slips()) ? detail::shortest(d.slips()) + " slips expected, atom " +
+                                                                 detail::shortest(d.atom())
+                                                           : "error of probabilities " + detail::shortest(d.error());
+        return "<DisplacementDistribution: " + slips + ", std " + detail::shortest(std::sqrt(d.variance())) + " m>";
       });
 }
 

@@ -9,36 +9,58 @@
 
 namespace stickslip::python {
 
-/// Theories that predict distributions.
-using DistributionTheory = std::variant<theory::PulseSuperposition, theory::PulseChain>;
+/// Theories that predict distributions, and what excites the slider.
+using DistributionTheory = std::variant<theory::PulseSuperposition, theory::PulseChain, theory::Transport>;
+using DistributionSource = std::variant<double, Spectrum, theory::ShapingFilter, GaussianExcitation, PoissonPulses>;
 
-inline const Slider<Coulomb>& coulomb_of(const AnySlider& slider) {
+inline const Slider<Coulomb>& coulomb_of(
+    const AnySlider& slider,
+    const char* refusal = "PulseChain: covers Coulomb friction; PulseSuperposition covers other laws") {
   if (const auto* block = std::get_if<Slider<Coulomb>>(&slider)) return *block;
-  throw std::invalid_argument("PulseChain: covers Coulomb friction; PulseSuperposition covers other laws");
+  throw std::invalid_argument(refusal);
 }
 
 inline theory::DisplacementDistribution distribution_of(const theory::PulseSuperposition& by, const AnySlider& any,
-                                                        const PoissonPulses& pulses, double at) {
-  return with_position_law(any, "PulseSuperposition", [&](const auto& s) { return by.distribution(s, pulses, at); });
+                                                        const DistributionSource& pulses, double at) {
+  return with_position_law(any, "PulseSuperposition",
+                           [&](const auto& s) { return by.distribution(s, std::get<PoissonPulses>(pulses), at); });
 }
 
 inline theory::DisplacementDistribution distribution_of(const theory::PulseChain& by, const AnySlider& any,
-                                                        const PoissonPulses& pulses, double at) {
-  return by.distribution(coulomb_of(any), pulses, at, &check_for_interrupt);
+                                                        const DistributionSource& pulses, double at) {
+  return by.distribution(coulomb_of(any), std::get<PoissonPulses>(pulses), at, &check_for_interrupt);
+}
+
+/// The noise that `Transport` covers.
+inline theory::TwoStateNoise two_state_noise(const DistributionSource& noise) {
+  return std::visit(
+      []<class Source>(const Source& any) -> theory::TwoStateNoise {
+        if constexpr (std::convertible_to<const Source&, theory::TwoStateNoise>)
+          return any;
+        else
+          throw std::invalid_argument("Transport: covers white noise and noise from a filter of two states");
+      },
+      noise);
+}
+
+inline theory::DisplacementDistribution distribution_of(const theory::Transport& by, const AnySlider& any,
+                                                        const DistributionSource& noise, double at) {
+  return by.displacement(coulomb_of(any, "Transport: covers Coulomb friction"), two_state_noise(noise), at,
+                         &check_for_interrupt);
 }
 
 struct DisplacementDistribution : theory::DisplacementDistribution {
-  DisplacementDistribution(DistributionTheory by, AnySlider any, PoissonPulses excitation, double at)
+  DisplacementDistribution(DistributionTheory by, AnySlider any, DistributionSource excitation, double at)
       : theory::DisplacementDistribution(
             std::visit([&](const auto& t) { return distribution_of(t, any, excitation, at); }, by)),
         theory(by),
         slider(std::move(any)),
-        pulses(std::move(excitation)),
+        source(std::move(excitation)),
         time(at) {}
 
   DistributionTheory theory;
   AnySlider slider;
-  PoissonPulses pulses;
+  DistributionSource source;
   double time;  // [s]
 };
 

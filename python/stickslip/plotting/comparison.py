@@ -28,9 +28,9 @@ def _theory_style(place: int) -> dict[str, Any]:
     Parameters
     ----------
     place : int
-        Place among the theories of the plot, from 0; styles repeat after 210.
+        Place among the theories of the plot, from 0; styles repeat after 231.
     """
-    colors = (*COLORS, "#882255", "#999933", "#332288", "#661100")  # four of Tol's muted ones
+    colors = (*COLORS, "#882255", "#999933", "#332288", "#661100", "#888888")  # mostly Tol's muted
     return {
         "color": colors[place % len(colors)],
         "linestyle": ("--", "-.", ":")[place % 3],

@@ -1,0 +1,165 @@
+"""Measures the errors of the transport operator against simulation, for docs/transport.md.
+
+    python docs/measure_transport.py [MEMBERS]
+
+rewrites the tables of that page. Takes some ten minutes with the default of 400,000 members.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import stickslip as ss
+from measured_page import rewrite, table
+
+PAGE = Path(__file__).parent / "transport.md"
+MEMBERS = 400_000
+LAST = 60.0  # wg t
+DT = 0.05  # of the simulation, wg dt: at a tenth of the theory's step
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A block or an isolated floor in the units of its level a and the ground's frequency wg."""
+
+    damping: float  # of the ground
+    strength: float  # rms acceleration over a
+    backward: float = 1.0  # level over a
+    frequency: float = 0.0  # of the spring over wg
+    content: bool = True  # of the ground at zero frequency
+
+    @property
+    def slider(self) -> ss.Slider:
+        law = ss.Coulomb(slip_level=1.0, backward=self.backward)
+        return ss.Slider(law, natural_frequency=self.frequency or None)
+
+    @property
+    def filter(self) -> ss.theory.ShapingFilter:
+        """White noise through the ground, or through its damper alone."""
+        z, rms = self.damping, self.strength
+        spring = 1.0 if self.content else 0.0
+        s0 = rms**2 * 2 * z / (math.pi * (spring + 4 * z * z))
+        return ss.theory.ShapingFilter(s0, [(0, 2 * z, spring, 2 * z, 1)])
+
+    def spectrum(self) -> ss.Spectrum:
+        f = self.filter
+        if self.content:
+            return ss.Spectrum.kanai_tajimi(s0=f.s0, frequency=1.0, damping=self.damping)
+        return ss.Spectrum.from_function(f, high=math.inf)
+
+    @property
+    def name(self) -> str:
+        level = {1.0: "equal", math.inf: "one-way"}.get(self.backward, f"1 : {self.backward:.2g}")
+        spring = f"{self.frequency:.2g}" if self.frequency else "none"
+        ground = "" if self.content else ", none at 0"
+        return f"{self.damping:.2g}{ground} | {self.strength:.2g} | {level} | {spring}"
+
+
+TABLE = [
+    Setting(0.6, 0.5),
+    Setting(0.6, 1),
+    Setting(0.3, 1.5),
+    Setting(0.6, 3),
+    Setting(0.4, 6),
+    Setting(0.5, 1.5, backward=1.5),
+    Setting(0.5, 1.5, backward=math.inf),
+    Setting(0.5, 2, frequency=0.3),
+    Setting(0.4, 0.8, frequency=0.5),
+    Setting(0.3, 1.5, frequency=1),
+    Setting(0.4, 1.2, frequency=2),
+    Setting(0.4, 1.5, backward=1.5, frequency=0.7),
+]
+
+
+def drawn(count: int, seed: int = 1) -> Iterator[Setting]:
+    """Settings at random, half of them with a spring."""
+    rng = np.random.default_rng(seed)
+    for i in range(count):
+        backward = float(rng.choice([1.0, 1.0, rng.uniform(1.1, 2.5), math.inf]))
+        yield Setting(
+            rng.uniform(0.25, 0.9),
+            0.7 * 8 ** rng.random(),
+            backward if i % 2 == 0 or math.isfinite(backward) else 1.0,
+            0.0 if i % 2 == 0 else 0.3 * 7 ** rng.random(),
+        )
+
+
+def simulated(setting: Setting, members: int, seed: int = 1) -> ss.Ensemble:
+    samples = round(LAST / DT) + 1
+    excitation = ss.GaussianExcitation(
+        setting.spectrum(),
+        DT,
+        samples,
+        random_amplitudes=True,
+        zero_frequency=True,
+        period=4 * samples,
+    )
+    return ss.run_ensemble(setting.slider, excitation, members=members, seed=seed, dt=LAST / 4)
+
+
+def ratio(value: float, value_error: float, over: float, over_error: float) -> tuple[str, bool]:
+    """Theory over simulation with both errors, and whether they cover the difference: the stated
+    error and three standard errors."""
+    part = value / over
+    text = f"{part:.3f} ± {value_error / over:.3f} ({1e3 * part * over_error / over:.0f})"
+    return text, abs(value - over) <= value_error + 3 * over_error
+
+
+def row(setting: Setting, members: int) -> tuple[list[str], list[bool]]:
+    ensemble = simulated(setting, members)
+    theory = ss.theory.Transport().predict(setting.slider, setting.filter, [LAST / 4, LAST])
+    cells, covered = [setting.name], []
+    for statistic in ("displacement_variance", "velocity_variance"):
+        for k, at in ((0, 1), (1, 4)):
+            text, holds = ratio(
+                getattr(theory, statistic)[k],
+                getattr(theory.error, statistic)[k],
+                getattr(ensemble, statistic)[at],
+                getattr(ensemble, statistic + "_error")[at],
+            )
+            covered.append(holds)
+            cells.append(text)
+    if setting.backward != 1:
+        text, holds = ratio(
+            theory.displacement_mean[1],
+            theory.error.displacement_mean[1],
+            ensemble.displacement_mean[4],
+            ensemble.displacement_mean_error[4],
+        )
+        covered.append(holds)
+        cells.append(text)
+    else:
+        cells.append("")
+    return [*cells, f"{theory.cost.nodes:,}", f"{theory.cost.seconds:.1f} s"], covered
+
+
+HEADING = (
+    "| damping | rms / a | levels | wn / wg | E x², wg t = 15 | 60 | E x'², 15 | 60 | E x, 60 |"
+    " nodes | time |"
+)
+COVERAGE = "| settings | values | within the stated error and 3 standard errors |"
+
+
+def main(members: int) -> None:
+    rows = []
+    for setting in TABLE:
+        cells, _ = row(setting, members)
+        rows.append(cells)
+        print(" | ".join(cells), flush=True)
+    holds: list[bool] = []
+    count = 40
+    for setting in drawn(count):
+        cells, covered = row(setting, members // 4)
+        holds += covered
+        print(" | ".join(cells), covered, flush=True)
+    coverage = [[str(count), str(len(holds)), f"{sum(holds)} ({100 * np.mean(holds):.0f} %)"]]
+    rewrite(PAGE, [table(HEADING, rows), table(COVERAGE, coverage)])
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else MEMBERS)

@@ -1,0 +1,205 @@
+// The transport operator: a theory that carries the probability of the state, for blocks and springs under noise.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "stickslip/excitation/gaussian.hpp"
+#include "stickslip/excitation/spectrum.hpp"
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/statistics/moments.hpp"
+#include "stickslip/statistics/tally.hpp"
+#include "stickslip/theory/displacement_distribution.hpp"
+#include "stickslip/theory/shaping_filter.hpp"
+#include "stickslip/theory/theory.hpp"
+
+namespace stickslip::theory {
+
+/// Stationary ground acceleration that is white, or white noise through a filter of two states: the noise that
+/// `Transport` covers. A Gaussian process, stationary from time zero on, not periodic, with its spectrum down to zero
+/// frequency.
+class TwoStateNoise {
+ public:
+  /// White noise of the two-sided level s0 [m^2/s^3], positive and finite.
+  TwoStateNoise(double s0) : filter_(s0) {}
+
+  /// @throws std::invalid_argument unless the spectrum is white or Kanai and Tajimi's
+  TwoStateNoise(const Spectrum& spectrum);
+
+  /// @throws std::invalid_argument  more than two states, or a section with white noise of its own (b2 not 0)
+  TwoStateNoise(const ShapingFilter& filter);
+
+  /// The spectrum of an excitation. White noise whose samples are held, without correction for the interpolation, is
+  /// independent from sample to sample, and is predicted as sampled.
+  /// @throws std::invalid_argument also with an envelope
+  TwoStateNoise(const GaussianExcitation& excitation);
+
+  /// Of no or one section.
+  const ShapingFilter& filter() const noexcept { return filter_; }
+
+  bool white() const noexcept { return filter_.sections().empty(); }
+
+  /// How long each value is held [s]; 0 for continuous noise.
+  double held() const noexcept { return held_; }
+
+  /// What distinguishes the motions of the excitation from this noise; empty if nothing does.
+  const std::string& remark() const noexcept { return remark_; }
+
+ private:
+  ShapingFilter filter_;
+  double held_ = 0;
+  std::string remark_{};
+};
+
+/// Means over the stationary motion; the error of each is numerical.
+struct TransportStationary {
+  Estimate displacement_mean;      ///< [m]; NaN without a spring
+  Estimate displacement_variance;  ///< [m^2]; infinite without a spring
+  Estimate velocity_mean;          ///< [m/s]
+  Estimate velocity_variance;      ///< [m^2/s^2]
+  Estimate growth_rate;            ///< of the displacement variance [m^2/s]; 0 with a spring
+  Estimate rest;                   ///< fraction of time at rest; 0 under continuous white noise
+};
+
+/// The work of a prediction: the finest grid, its steps, and the time of all grids.
+struct TransportCost {
+  std::size_t nodes = 0;
+  std::size_t steps = 0;
+  double seconds = 0;
+};
+
+class Transport;
+
+/// The largest |x| from rest up to a time, by absorbing walls at -L and L: an exact step is lost if its path crosses
+/// one. Values have a numerical error, by one refinement of step and grid; in the table of docs/transport.md it covers
+/// the difference from simulation down to probabilities of 0.01.
+class TransportPeak {
+ public:
+  TransportPeak(const Transport& theory, const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time);
+
+  double time() const noexcept { return time_; }
+
+  /// P(max |x| > level).
+  /// @param level     [m], positive and finite
+  /// @param progress  called regularly; may throw to stop the work; optional
+  /// @throws std::invalid_argument naming the value
+  /// Takes 5 to 20 s.
+  Estimate exceedance(double level, const std::function<void()>& progress = {}) const;
+
+  /// The level that max |x| does not exceed with a probability [m].
+  /// @param probability  from 0.01 to 0.999
+  /// @throws std::invalid_argument naming the value
+  /// @throws ConvergenceError  no such level within a factor of 1000 of the rms displacement: the slider hardly slides
+  /// Takes 10 to 30 s: `exceedance`, at a level found with a coarse grid.
+  Estimate quantile(double probability, const std::function<void()>& progress = {}) const;
+
+ private:
+  double tolerance_;
+  Slider<Coulomb> slider_;
+  TwoStateNoise noise_;
+  double time_;
+};
+
+/// The prediction of `Transport`: moments by time. Their errors are numerical, what steps and grids contribute, by
+/// refinement.
+class TransportPrediction : public Moments {
+ public:
+  TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
+                      const Slider<Coulomb>& slider, const TwoStateNoise& noise);
+
+  const TransportCost& cost() const noexcept { return cost_; }
+
+  /// The stationary motion, `Transport::stationary`.
+  TransportStationary stationary(const std::function<void()>& progress = {}) const;
+
+  /// The distribution of the displacement at a time, `Transport::displacement`.
+  DisplacementDistribution displacement(double at, const std::function<void()>& progress = {}) const;
+
+  /// The peak up to a time.
+  /// @param end  [s], positive and finite
+  /// @throws std::invalid_argument naming the value
+  TransportPeak peak(double end) const;
+
+ private:
+  TransportCost cost_;
+  double tolerance_;
+  Slider<Coulomb> slider_;
+  TwoStateNoise noise_;
+};
+
+/// The transport operator. Over a step the load is held at its value in the middle, and the step has two exact parts:
+/// S, the slider's own motion under a constant load, and Z, the step of the filter,
+///
+///     (T f)(x, v, z) = (Z f)(S(x, v; n(z)), z),     p_(k+1) = T' p_k,
+///
+/// of second order in the step. Functions of the state are represented by their values at nodes, probability by
+/// the adjoint: docs/transport.md derives it and tabulates its errors. Moments are those of `p`; growth is the solution
+/// of a linear system for the stationary `p` and for `p` times displacement. Each value is extrapolated from two steps
+/// (white noise: more); its error is that of the extrapolation, plus the change when degrees and windows of the grid
+/// are refined. Steps and grids are refined until the errors of the variances at the last time and of the growth rate
+/// are below the tolerance.
+///
+/// Covers Coulomb friction with equal, unequal and one-way levels, with or without a spring and a damper, under white
+/// noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero frequency.
+class Transport {
+ public:
+  /// @param tolerance  relative, from 1e-8 to 0.3
+  /// @throws std::invalid_argument naming the value
+  explicit Transport(double tolerance = 1e-2);
+
+  double tolerance() const noexcept { return tolerance_; }
+
+  std::string name() const { return "Transport"; }
+
+  template <FrictionLaw Law, class E>
+  Coverage covers(const Slider<Law>& slider, const E& excitation) const {
+    return detail::coverage<TwoStateNoise>(excitation,
+                                           "Transport: covers white noise and noise from a filter of two states",
+                                           [&](const TwoStateNoise& noise) {
+                                             if constexpr (std::same_as<Law, Coulomb>)
+                                               check(slider, noise);
+                                             else
+                                               throw std::invalid_argument("Transport: covers Coulomb friction");
+                                           });
+  }
+
+  /// Moments from rest on.
+  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional
+  /// @param noise   stationary from time zero on
+  /// @param times   [s], finite, at least 0, increasing
+  /// @param progress  called regularly; may throw to stop the work; optional
+  /// @throws std::invalid_argument naming what is not covered or the rejected value
+  /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its error
+  /// Takes 0.05 to 0.5 s for a block, 1 to 10 s with a spring.
+  TransportPrediction predict(const Slider<Coulomb>& slider, const TwoStateNoise& noise, std::span<const double> times,
+                              const std::function<void()>& progress = {}) const;
+
+  /// The stationary motion.
+  /// @throws as `predict`
+  TransportStationary stationary(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+                                 const std::function<void()>& progress = {}) const;
+
+  /// The distribution of the displacement at a time, from its characteristic function, which is carried like the
+  /// moments: p <- T'(exp(i k X) p). Its `error` bounds the numerical error of probabilities.
+  /// @param slider  as for `predict`
+  /// @param noise   as for `predict`
+  /// @param time  [s], positive and finite
+  /// @throws std::invalid_argument naming the value
+  /// @throws ConvergenceError  the characteristic function does not vanish at high wave numbers: many
+  ///                           displacements are close to 0
+  /// Takes 1 to 20 s.
+  DisplacementDistribution displacement(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+                                        const std::function<void()>& progress = {}) const;
+
+ private:
+  void check(const Slider<Coulomb>& slider, const TwoStateNoise& noise) const;
+
+  double tolerance_;
+};
+
+}  // namespace stickslip::theory

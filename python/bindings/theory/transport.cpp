@@ -1,0 +1,339 @@
+#include "stickslip/theory/transport.hpp"
+
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "parts.hpp"
+#include "theory/displacement_distribution.hpp"
+#include "theory/theory.hpp"
+
+namespace stickslip::python {
+namespace {
+
+using theory::Transport;
+using theory::TransportCost;
+using theory::TransportStationary;
+
+const Slider<Coulomb>& block_of(const AnySlider& slider) {
+  return coulomb_of(slider, "Transport: covers Coulomb friction");
+}
+
+/// A prediction with what it was made of. The stationary motion is computed once.
+struct TransportPrediction : Moments {
+  TransportPrediction(const Transport& by, AnySlider any, DistributionSource excitation, Moments moments,
+                      const TransportCost& work)
+      : Moments(std::move(moments)), theory(by), slider(std::move(any)), noise(std::move(excitation)), cost(work) {}
+
+  Moments moments() const { return *this; }
+
+  Transport theory;
+  AnySlider slider;
+  DistributionSource noise;
+  TransportCost cost;
+  std::shared_ptr<std::optional<TransportStationary>> stationary =
+      std::make_shared<std::optional<TransportStationary>>();
+};
+
+TransportPrediction predict(const Transport& self, const AnySlider& slider, const DistributionSource& excitation,
+                            const py::object& times) {
+  const std::vector<double> at = to_vector(times, "Transport: times", "s");
+  const py::gil_scoped_release released;
+  const theory::TransportPrediction found =
+      self.predict(block_of(slider), two_state_noise(excitation), at, &check_for_interrupt);
+  return {self, slider, excitation, found, found.cost()};
+}
+
+TransportStationary stationary(const Transport& self, const AnySlider& slider, const DistributionSource& excitation) {
+  const py::gil_scoped_release released;
+  return self.stationary(block_of(slider), two_state_noise(excitation), &check_for_interrupt);
+}
+
+/// The peak with what it was made of.
+struct TransportPeak {
+  Transport theory;
+  AnySlider slider;
+  DistributionSource noise;
+  double time;
+
+  theory::TransportPeak peak() const { return {theory, block_of(slider), two_state_noise(noise), time}; }
+};
+
+TransportPeak peak_of(const TransportPrediction& self, double time) {
+  TransportPeak peak{self.theory, self.slider, self.noise, time};
+  peak.peak();
+  return peak;
+}
+
+Estimate exceedance(const TransportPeak& self, double level) {
+  const py::gil_scoped_release released;
+  return self.peak().exceedance(level, &check_for_interrupt);
+}
+
+Estimate peak_quantile(const TransportPeak& self, double probability) {
+  const py::gil_scoped_release released;
+  return self.peak().quantile(probability, &check_for_interrupt);
+}
+
+DisplacementDistribution displacement_of(const TransportPrediction& self, double time) {
+  const py::gil_scoped_release released;
+  return {self.theory, self.slider, self.noise, time};
+}
+
+TransportStationary stationary_of(const TransportPrediction& self) {
+  if (!*self.stationary) *self.stationary = stationary(self.theory, self.slider, self.noise);
+  return **self.stationary;
+}
+
+/// The errors as values.
+Moments errors_of(const TransportPrediction& self) {
+  Moments errors = self;
+  for (Estimates Moments::*figure : {&Moments::displacement_mean, &Moments::displacement_variance, &Moments::covariance,
+                                     &Moments::velocity_mean, &Moments::velocity_variance}) {
+    Estimates& one = errors.*figure;
+    one.value.assign(one.error.size(), 0);
+    std::swap(one.value, one.error);
+  }
+  errors.growth_rate = {self.growth_rate.error, 0};
+  errors.remark.clear();
+  return errors;
+}
+
+}  // namespace
+
+template <>
+inline constexpr auto parts<Transport> = std::tuple(&Transport::tolerance);
+template <>
+inline constexpr auto parts<TransportCost> = std::tuple(&TransportCost::nodes, &TransportCost::steps,
+                                                        &TransportCost::seconds);
+template <>
+inline constexpr auto parts<TransportStationary> = std::tuple(&TransportStationary::displacement_mean,
+                                                              &TransportStationary::displacement_variance,
+                                                              &TransportStationary::velocity_mean,
+                                                              &TransportStationary::velocity_variance,
+                                                              &TransportStationary::growth_rate,
+                                                              &TransportStationary::rest);
+template <>
+inline constexpr auto parts<TransportPrediction> = std::tuple(&TransportPrediction::theory,
+                                                              &TransportPrediction::slider, &TransportPrediction::noise,
+                                                              &TransportPrediction::moments,
+                                                              &TransportPrediction::cost);
+
+template <>
+inline constexpr auto parts<TransportPeak> = std::tuple(&TransportPeak::theory, &TransportPeak::slider,
+                                                        &TransportPeak::noise, &TransportPeak::time);
+
+void bind_transport(py::module_& m) {
+  value_class<TransportCost>(m, "TransportCost", R"(The work of a prediction by `Transport`.)")
+      .def_readonly("nodes", &TransportCost::nodes, "Nodes of the finest grid.")
+      .def_readonly("steps", &TransportCost::steps, "Steps to the last time, with the longest step.")
+      .def_readonly("seconds", &TransportCost::seconds, "Time of all grids [s].")
+      .def("__repr__", [](const TransportCost& cost) {
+        return "<TransportCost: " + std::to_string(cost.nodes) + " nodes, " + std::to_string(cost.steps) + " steps, " +
+               detail::shortest(cost.seconds) + " s>";
+      });
+
+  value_class<TransportStationary>(m, "TransportStationary", R"(The stationary motion, by `Transport`.
+
+Each value is an `Estimate`, whose `error` is numerical: what steps and grids contribute, by refinement.)")
+      .def_readonly("displacement_mean", &TransportStationary::displacement_mean,
+                    "Mean of x [m]; NaN without a spring.")
+      .def_readonly("displacement_variance", &TransportStationary::displacement_variance,
+                    "Variance of x [m^2]; infinite without a spring.")
+      .def_readonly("velocity_mean", &TransportStationary::velocity_mean, "Mean of x' [m/s].")
+      .def_readonly("velocity_variance", &TransportStationary::velocity_variance, "Variance of x' [m^2/s^2].")
+      .def_readonly("growth_rate", &TransportStationary::growth_rate,
+                    "Growth of the variance of x [m^2/s]; 0 with a spring.")
+      .def_readonly("rest", &TransportStationary::rest,
+                    "Fraction of time at rest; 0 under continuous white noise. Filtered noise crosses a level "
+                    "infinitely often, so that it converges with the root of the step: its error is some percent.")
+      .def("__repr__", [](const TransportStationary& s) {
+        return "<TransportStationary: variance of x' " + detail::shortest(s.velocity_variance.value) + " m^2/s^2, " +
+               (std::isfinite(s.displacement_variance.value)
+                    ? "of x " + detail::shortest(s.displacement_variance.value) + " m^2>"
+                    : "growth rate " + detail::shortest(s.growth_rate.value) + " m^2/s>");
+      });
+
+  value_class<TransportPeak>(m, "TransportPeak", R"(The largest abs(x) from rest up to a time, by `Transport`.
+
+By absorbing walls at -L and L, with x on the grid: an exact step is lost if its path crosses one. Values have a
+numerical error, by one refinement of step and grid.)")
+      .def_readonly("time", &TransportPeak::time, "Time [s].")
+      .def("exceedance", &exceedance, py::arg("level"), R"(Probability that the peak exceeds a level.
+
+Parameters
+----------
+level : float
+    Level [m], positive and finite.
+
+Returns
+-------
+Estimate
+    Probability and its numerical error.
+
+Raises
+------
+ValueError
+    A level out of range.
+
+Notes
+-----
+Takes 2 to 20 s.)")
+      .def("quantile", &peak_quantile, py::arg("probability"),
+           R"(Level that the peak does not exceed with a probability.
+
+Parameters
+----------
+probability : float
+    From 0.01 to 0.999.
+
+Returns
+-------
+Estimate
+    Level and its numerical error [m].
+
+Raises
+------
+ValueError
+    A probability out of range.
+ConvergenceError
+    No such level within a factor of 1000 of the rms displacement: the slider hardly slides.
+
+Notes
+-----
+Takes 3 to 30 s: one `exceedance`, at a level found with a coarse grid.)")
+      .def("__repr__",
+           [](const TransportPeak& p) { return "<TransportPeak up to " + detail::shortest(p.time) + " s>"; });
+
+  value_class<TransportPrediction, Moments>(m, "TransportPrediction", R"(Moments by time, by `Transport`.
+
+They are `Moments`, whose errors are numerical: what steps and grids contribute, by refinement.)")
+      .def_property_readonly("error", &errors_of, "The errors, as Moments: `error.displacement_variance` [m^2] etc.")
+      .def_property_readonly(
+          "cost", [](const TransportPrediction& self) { return self.cost; }, "The work, as TransportCost.")
+      .def_property_readonly("stationary", &stationary_of, R"(The stationary motion, as TransportStationary.
+
+Computed at the first use: as `Transport.stationary`.)")
+      .def("displacement", &displacement_of, py::arg("time"), R"(Distribution of the displacement at a time.
+
+From its characteristic function, which is carried like the moments: p <- T'(exp(i k X) p).
+
+Parameters
+----------
+time : float
+    Time [s], positive and finite.
+
+Returns
+-------
+DisplacementDistribution
+    `error` bounds the numerical error of probabilities. There is no atom.
+
+Raises
+------
+ValueError
+    A time out of range.
+ConvergenceError
+    The characteristic function does not vanish at high wave numbers: many displacements are close to 0.
+
+Notes
+-----
+Takes 1 to 10 s without a spring, up to 60 s with one.)")
+      .def("peak", &peak_of, py::arg("time"), R"(The largest abs(x) from rest up to a time.
+
+Parameters
+----------
+time : float
+    Time [s], positive and finite.
+
+Returns
+-------
+TransportPeak
+
+Raises
+------
+ValueError
+    A time out of range.)")
+      .def("__repr__", [](const TransportPrediction& self) {
+        return "<TransportPrediction at " + std::to_string(self.time.size()) + " times" +
+               (self.remark.empty() ? "" : ": " + self.remark) + ">";
+      });
+
+  auto type = value_class<Transport>(m, "Transport", R"(The transport operator: carries the probability of the state.
+
+Over a step h the load is held at its value in the middle, and the step has two exact parts: S, the slider's own motion
+under a constant load, and Z, the step of the filter::
+
+    (T f)(x, v, z) = (Z f)(S(x, v; n(z)), z),    p_(k+1) = T' p_k
+
+Functions of the state are represented by their values at nodes, probability by the adjoint T'. Moments are those of p;
+the growth rate is the solution of a linear system. The error is of second order in h; each value is extrapolated from
+two steps (under white noise from three to six), and its error is that of the extrapolation plus the change when degrees
+and windows of the grid are refined. docs/transport.md has the derivation and a table of errors.
+
+Covers Coulomb friction with equal, unequal and one-way levels, with or without a spring and a damper, under white noise
+and noise from a filter of two states: Kanai and Tajimi's, or one without content at zero frequency. A
+`GaussianExcitation` stands for its spectrum as a continuous Gaussian process, stationary at t = 0, not periodic, with
+its content at zero frequency; white noise with constant, uncorrected interpolation is predicted as sampled.
+
+Parameters
+----------
+tolerance : float, optional
+    Relative, from 1e-8 to 0.3: steps and grids are refined until the errors of both variances at the last time, and of
+    the growth rate, are below it.
+
+Raises
+------
+ValueError
+    A tolerance out of range.)");
+  type.def(py::init<double>(), py::kw_only(), py::arg("tolerance") = 1e-2)
+      .def_property_readonly("tolerance", &Transport::tolerance, "Relative.")
+      .def("predict", &predict, py::arg("slider"), py::arg("excitation"), py::arg("times"),
+           R"(Predict moments by time, from rest.
+
+Parameters
+----------
+slider : Slider or Coulomb
+    Positive levels, which may differ; the backward one may be infinite. Spring and damper are optional.
+excitation : float, Spectrum, ShapingFilter or GaussianExcitation
+    A number is the level S0 of white noise [m^2/s^3]. Filters of at most two states.
+times : array_like
+    Times [s], shape (T,), finite, at least 0, increasing.
+
+Returns
+-------
+TransportPrediction
+    `remark` says how the motions of a `GaussianExcitation` differ from the process.
+
+Raises
+------
+ValueError
+    An input that the theory does not cover; a value out of range.
+ConvergenceError
+    The tolerance is not reached with the largest grid; the message has the best value and its error.
+
+Notes
+-----
+Takes 0.05 to 1 s for a block, 1 to 10 s with a spring.)")
+      .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
+
+Parameters
+----------
+slider : Slider or Coulomb
+    As for `predict`.
+excitation : float, Spectrum, ShapingFilter or GaussianExcitation
+    As for `predict`.
+
+Returns
+-------
+TransportStationary
+
+Raises
+------
+ValueError, ConvergenceError
+    As for `predict`.)")
+      .def("__repr__",
+           [](const Transport& t) { return "Transport(tolerance=" + detail::shortest(t.tolerance()) + ")"; });
+  def_theory(type);
+}
+
+}  // namespace stickslip::python

@@ -1,0 +1,152 @@
+#include "theory/transport/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "numerics/bicgstab.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+using Vector = Chain::Vector;
+using Parity = Chain::Parity;
+
+Eigen::Map<const Vector> vector(std::span<const double> x) { return {x.data(), static_cast<Eigen::Index>(x.size())}; }
+
+/// Solves x - T'x + start (sum of x) = b, or without the last term.
+Vector solve(const Chain& chain, const Vector& b, Parity parity, bool conserving, Vector x,
+             const std::function<void()>& progress) {
+  const auto multiply = [&](std::span<const double> from, std::span<double> to) {
+    if (progress) progress();
+    const auto p = vector(from);
+    Eigen::Map<Vector> result(to.data(), p.size());
+    result = p - chain.carry(p, parity);
+    if (conserving) result += chain.start() * p.sum();
+  };
+  const auto size = static_cast<std::size_t>(b.size());
+  // Strong shaking forgets slowly: the residual must be far below the error.
+  solve_bicgstab(multiply, {b.data(), size}, {x.data(), size}, 1e-12, "Transport");
+  return x;
+}
+
+}  // namespace
+
+std::vector<MotionMoments> moments_from_rest(const Chain& chain, bool sprung, std::size_t steps,
+                                             const std::function<void()>& progress) {
+  const Parity other = chain.mirrored() ? Parity::odd : Parity::even;
+  std::vector<MotionMoments> found(1);
+  found.reserve(steps + 1);
+  Vector p = chain.start(), q = Vector::Zero(p.size());  // p times x
+  double x = 0, xx = 0;
+  MotionMoments growth;
+  while (found.size() <= steps) {
+    if (progress) progress();
+    const Chain::Means now = chain.means(p);
+    MotionMoments next{now.x, now.xx, now.xv, now.v, now.vv};
+    if (!sprung) {
+      const Chain::Means by_x = chain.means(q);
+      next = {x + now.x, xx + now.xx + 2 * by_x.x, now.xv + by_x.v, now.v, now.vv};
+      x = next.x, xx = next.xx;
+      q = chain.carry(q, p, 0, other);
+    }
+    if (chain.mirrored()) next.x = next.v = 0;
+    next.xx -= next.x * next.x, next.xv -= next.x * next.v, next.vv -= next.v * next.v;
+    const Vector carried = chain.carry(p);
+    const double change = (carried - p).lpNorm<1>();
+    p = carried;
+    const MotionMoments& last = found.back();
+    const MotionMoments grown{next.x - last.x, next.xx - last.xx, next.xv - last.xv, next.v - last.v,
+                              next.vv - last.vv};
+    found.push_back(next);
+    const bool even = change < 1e-7 && std::abs(grown.xx - growth.xx) <= 1e-7 * std::abs(sprung ? next.xx : grown.xx);
+    growth = grown;
+    if (!even) continue;
+    while (found.size() <= steps) {
+      next.x += sprung ? 0 : grown.x;
+      next.xx += sprung ? 0 : grown.xx;
+      found.push_back(next);
+    }
+  }
+  return found;
+}
+
+double survival(const Chain& chain, std::size_t steps, const std::function<void()>& progress) {
+  Vector p = chain.start();
+  for (std::size_t k = 0; k < steps; ++k) {
+    if (progress) progress();
+    p = chain.carry(p);
+  }
+  return p.sum();
+}
+
+std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung, std::size_t steps,
+                                                 std::span<const double> waves, const std::function<void()>& progress) {
+  std::vector<std::complex<double>> found;
+  if (sprung) {
+    Vector p = chain.start();
+    for (std::size_t k = 0; k + 1 < steps; ++k) {
+      if (progress) progress();
+      p = chain.carry(p);
+    }
+    for (const double wave : waves) found.push_back(chain.characteristic(p, wave));
+    return found;
+  }
+  for (const double wave : waves) {
+    const Chain::Turn turn(chain, wave);
+    Chain::Complex p{chain.start(), Vector::Zero(chain.start().size())};
+    for (std::size_t k = 0; k < steps; ++k) {
+      if (progress) progress();
+      p = chain.carry(p, turn);
+    }
+    found.emplace_back(p.re.sum(), chain.mirrored() ? 0 : p.im.sum());
+  }
+  return found;
+}
+
+StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest,
+                                   const std::function<void()>& progress) {
+  Vector guess = chain.start();
+  // A spring forgets the start in some periods.
+  for (int k = 0; sprung && k < 100; ++k) guess = chain.carry(guess);
+  const Vector p = solve(chain, chain.start(), Parity::even, true, guess, progress);
+  StationaryMotion found;
+  found.outside = chain.outside(p);
+  const Chain::Means now = chain.means(p);
+  MotionMoments& m = found.moments = {now.x, now.xx, now.xv, now.v, now.vv};
+  const double drift = chain.mirrored() ? 0 : now.x;  // in a step, without a spring
+  if (chain.mirrored()) m.x = m.v = 0;
+  if (sprung) {
+    m.xx -= m.x * m.x;
+    m.xv = 0;
+  } else {
+    // The weights times the displacement less its mean: those of the increments before, carried.
+    const Parity parity = chain.mirrored() ? Parity::odd : Parity::even;
+    Vector b = chain.carry(Vector::Zero(p.size()), p, drift, parity);
+    if (!chain.mirrored()) b -= chain.start() * b.sum();  // 0 but for round-off
+    const Vector q = solve(chain, b, parity, !chain.mirrored(), b, progress);
+    const Chain::Means by_x = chain.means(q);
+    m.xx = (now.xx - drift * drift + 2 * (by_x.x - drift * q.sum())) / chain.step();
+    m.x = 0;
+    m.xv = m.xx / 2;
+  }
+  m.vv -= m.v * m.v;
+  if (with_rest) found.rest = chain.below(p, 0, true) - chain.below(p, 0, false);
+  return found;
+}
+
+double between(const std::vector<MotionMoments>& moments, double MotionMoments::*figure, double place) {
+  const std::size_t points = std::min<std::size_t>(6, moments.size());
+  const double from = std::clamp(std::floor(place) - 2, 0.0, static_cast<double>(moments.size() - points));
+  const auto first = static_cast<std::size_t>(from);
+  double value = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    double weight = 1;
+    for (std::size_t j = 0; j < points; ++j)
+      if (j != i) weight *= (place - from - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
+    value += weight * moments[first + i].*figure;
+  }
+  return value;
+}
+
+}  // namespace stickslip::detail

@@ -1,0 +1,44 @@
+// Moments of a chain: by time from rest, and stationary.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "theory/transport/chain.hpp"
+
+namespace stickslip::detail {
+
+/// Means and central moments of displacement and velocity.
+struct MotionMoments {
+  double x = 0, xx = 0, xv = 0, v = 0, vv = 0;
+};
+
+/// Central moments at the ends of steps, from rest: the first at time 0. Once they grow evenly the rest is continued.
+/// @param sprung  whether x is part of the state
+std::vector<MotionMoments> moments_from_rest(const Chain& chain, bool sprung, std::size_t steps,
+                                             const std::function<void()>& progress);
+
+/// The probability that no wall has been reached after some steps from rest.
+double survival(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
+
+/// E[exp(i wave x)] after some steps from rest, at least one, for each wave.
+std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung, std::size_t steps,
+                                                 std::span<const double> waves, const std::function<void()>& progress);
+
+/// The stationary motion; without a spring `xx` is the growth rate of the variance of x.
+struct StationaryMotion {
+  MotionMoments moments;
+  double rest = 0;  ///< probability of rest
+  double outside = 0;
+};
+
+StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest,
+                                   const std::function<void()>& progress);
+
+/// The value at `place` (in steps) between values at whole numbers of steps, by a polynomial through six of them.
+double between(const std::vector<MotionMoments>& moments, double MotionMoments::*figure, double place);
+
+}  // namespace stickslip::detail

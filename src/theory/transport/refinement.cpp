@@ -1,0 +1,171 @@
+#include "theory/transport/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "stickslip/error.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+using std::numbers::pi;
+
+/// Panels from 0 to `end` whose widths grow from `first` to `widest`.
+std::vector<double> graded(double first, double widest, double end) {
+  std::vector<double> edges{0};
+  for (double width = std::min(first, widest); edges.back() < end; width = std::min(1.7 * width, widest))
+    edges.push_back(edges.back() + width);
+  return edges;
+}
+
+}  // namespace
+
+TransportProblem::TransportProblem(const Slider<Coulomb>& slider, const theory::TwoStateNoise& noise)
+    : slider_(slider.law(), slider.natural_frequency(), slider.damping()), held_(noise.held()) {
+  power_ = pi * noise.filter()(slider_.natural_frequency());
+  if (noise.white())
+    s0_ = noise.filter().s0();
+  else
+    filtered_.emplace(noise.filter());
+}
+
+double TransportProblem::level() const noexcept { return std::min(slider_.law().forward(), slider_.law().backward()); }
+
+double TransportProblem::first_step() const noexcept {
+  if (held_ > 0) return held_;
+  const double wn = slider_.natural_frequency();
+  if (filtered_) return wn > 0 ? std::min(0.4 / filtered_->frequency, 0.8 / wn) : 0.3 / filtered_->frequency;
+  return std::min(0.08 * power_ / (level() * level()), wn > 0 ? 0.25 / wn : 1e300);
+}
+
+TransportProblem::Window TransportProblem::first_window() const noexcept {
+  const double v = std::max(1.4 * power_ / level(), filtered_ ? 0.5 * filtered_->rms / filtered_->frequency : 0);
+  return {sprung() ? v / slider_.natural_frequency() : 0, v};
+}
+
+TransportProblem::Steps TransportProblem::steps_to(double time) const {
+  const double step = first_step();
+  if (!(time > 0)) return {step, 0};
+  const double count = held_ > 0 ? std::ceil(time / step - 1e-9) : std::max(8.0, std::ceil(time / step));
+  require(count < 1e6, "Transport: the last time must be less than a million steps, of " + shortest(step) + " s; it",
+          time, "s");
+  return {held_ > 0 ? step : time / count, static_cast<std::size_t>(count)};
+}
+
+Panels TransportProblem::velocities(double step, std::size_t degree, double rms, double reach) const {
+  const Coulomb& law = slider_.law();
+  const double end = std::max(reach * rms, filtered_ ? 0.4 * reach * filtered_->rms / filtered_->frequency : 0.0);
+  const auto side = [&](double against) {
+    // A held white load changes the velocity by this much; slips that end within the step have corners at 2 a h.
+    const double kick = white() ? std::sqrt(2 * pi * s0_ * (held_ > 0 ? held_ : step)) : 0;
+    std::vector<double> edges = graded(white() ? kick / 2 : against * step, std::max(2 * rms, end / 8), end);
+    const double corner = 2 * against * step;
+    if (white() && corner < end) {
+      const auto next = std::ranges::lower_bound(edges, corner);
+      if (*next > corner) edges.insert(next, corner);
+    }
+    return edges;
+  };
+  std::vector<double> edges;
+  if (!Chain::mirrors(slider_) && std::isfinite(law.backward())) {
+    edges = side(law.backward());
+    std::ranges::reverse(edges);
+    for (double& edge : edges) edge = -edge;
+    edges.pop_back();
+  }
+  const std::vector<double> forward = side(law.forward());
+  edges.insert(edges.end(), forward.begin(), forward.end());
+  return {edges, degree};
+}
+
+Chain TransportProblem::chain(double step, std::size_t fineness, const Window& window, double wall) const {
+  constexpr std::size_t hiddens[] = {7, 9, 13, 17, 21};
+  constexpr double speeds[] = {10, 12, 15, 19, 24}, displacements[] = {6.2, 7.2, 8.4, 9.6, 11};  // over their rms
+  const bool with_x = sprung() || std::isfinite(wall);
+  const std::size_t degree = 3 + fineness, hidden = hiddens[fineness] - (with_x ? 2 : 0);
+  Panels x, v = velocities(step, degree, window.v, speeds[fineness]);
+  if (std::isfinite(wall)) {
+    std::vector<double> edges;
+    for (const double part : {0.0, 0.2, 0.4, 0.6, 0.75, 0.87, 0.95, 1.0}) {
+      edges.push_back(part * wall);
+      if (part > 0) edges.insert(edges.begin(), -part * wall);
+    }
+    x = {edges, degree};
+  } else if (sprung()) {
+    const auto panels = static_cast<double>(window.x_panels);
+    std::vector<double> edges;
+    for (double i = -panels / 2; i <= panels / 2; ++i)
+      edges.push_back(displacements[fineness] * window.x * 2 * i / panels);
+    x = {edges, degree};
+  }
+  if (!filtered_) return {slider_, x, v, LoadGrid(std::sqrt(2 * pi * s0_ / (held_ > 0 ? held_ : step))), step, wall};
+
+  // Panels in the load: two between the levels, where the slider stays at rest, and two beyond each.
+  const double forward = slider_.law().forward(), backward = slider_.law().backward(), rms = filtered_->rms;
+  const auto beyond = [&](double level) { return std::max(4.5 * rms, level + 2.5 * rms); };
+  std::vector<double> edges{-beyond(forward), -(beyond(forward) + forward) / 2, -forward};
+  if (std::isfinite(backward)) {
+    edges.insert(edges.end(),
+                 {(backward - forward) / 2, backward, (beyond(backward) + backward) / 2, beyond(backward)});
+  } else {
+    for (int i = 1; i <= 4; ++i) edges.push_back(-forward + (4.5 * rms + forward) * i / 4);
+  }
+  return {slider_, x, v, LoadGrid(*filtered_, {edges, degree + 1}, hidden, step), step, wall};
+}
+
+Refined refine(const TransportProblem& problem, const TransportProblem::Window& window, double first_step,
+               const Accuracy& accuracy, const std::function<Figures(const Chain&)>& compute, double wall) {
+  constexpr std::size_t most_nodes = 8'000'000;
+  const bool one_way = !std::isfinite(problem.slider().law().backward());
+  Refined result;
+  std::map<std::pair<std::size_t, std::size_t>, Figures> found;
+  const auto with = [&](std::size_t halvings, std::size_t fineness) -> const Figures& {
+    auto [at, is_new] = found.try_emplace({halvings, fineness});
+    if (is_new) {
+      const Chain chain = problem.chain(std::ldexp(first_step, -static_cast<int>(halvings)), fineness, window, wall);
+      result.nodes = std::max(result.nodes, chain.size());
+      at->second = compute(chain);
+    }
+    return at->second;
+  };
+  for (std::size_t level = 0; level < accuracy.levels; ++level) {
+    const std::size_t fineness = level + 1;
+    // The steps. The error of white noise has the powers 1, 3/2, 2, ... of the step, with one-way sliding, which
+    // reflects the velocity at 0, from 1/2 on; that of filtered noise has the power 2.
+    std::size_t first = 0, last = 0;
+    if (!(problem.held() > 0))
+      first = problem.white() ? 0 : level, last = problem.white() ? level + 2 + (one_way ? 1 : 0) : level + 1;
+    std::vector<Figures> column;
+    for (std::size_t k = first; k <= last; ++k) column.push_back(with(k, fineness));
+    Figures before = column.back();
+    for (std::size_t stage = 1; stage <= last - first; ++stage) {
+      const double ratio = std::exp2(problem.white() ? (one_way ? 0 : 0.5) + 0.5 * static_cast<double>(stage) : 2.0);
+      for (std::size_t k = 0; k + stage <= last - first; ++k)
+        column[k] = (ratio * column[k + 1] - column[k]) / (ratio - 1);
+      if (stage + 1 == last - first) before = column[1];
+    }
+    result.value = column.front();
+    result.error = (result.value - before).cwiseAbs();
+    for (const Eigen::Index i : accuracy.slow) {
+      if (last == first) break;
+      // Filtered noise crosses a level infinitely often: the error is of the order of the root of the step. Successive
+      // halvings change it by 1.3 to 1.9 times less.
+      const double now = with(last, fineness)[i], change = now - with(last - 1, fineness)[i];
+      result.value[i] = now + change / 0.6;
+      result.error[i] = std::abs(change);
+    }
+    const std::size_t same = problem.white() ? last : first;
+    result.error += (with(same, fineness) - with(same, fineness - 1)).cwiseAbs();
+    if (std::ranges::all_of(accuracy.judged, [&](Eigen::Index i) {
+          return result.error[i] <= accuracy.tolerance * std::abs(result.value[i]);
+        }))
+      break;
+    if (4 * result.nodes > most_nodes) break;
+  }
+  return result;
+}
+
+}  // namespace stickslip::detail

@@ -1,0 +1,86 @@
+// Figures of the transport operator by refinement of step and grid together, with their errors.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/slider.hpp"
+#include "stickslip/theory/transport.hpp"
+#include "theory/transport/chain.hpp"
+
+namespace stickslip::detail {
+
+/// A slider, a noise, and the scales of its motion.
+class TransportProblem {
+ public:
+  TransportProblem(const Slider<Coulomb>& slider, const theory::TwoStateNoise& noise);
+
+  const Slider<Coulomb>& slider() const noexcept { return slider_; }
+  bool sprung() const noexcept { return slider_.stiffness() > 0; }
+
+  /// How long each value of the noise is held [s]; 0 for continuous noise.
+  double held() const noexcept { return held_; }
+  bool white() const noexcept { return !filtered_; }
+
+  /// A step with which errors are some percent [s].
+  double first_step() const noexcept;
+
+  /// The window of a grid.
+  struct Window {
+    double x = 0, v = 0;        ///< rms, estimated
+    std::size_t x_panels = 10;  ///< even; with a spring
+  };
+  Window first_window() const noexcept;
+
+  /// @param fineness  of the grid, from 0
+  /// @param wall      as of `Chain`; x is then part of the state, also without a spring
+  Chain chain(double step, std::size_t fineness, const Window& window,
+              double wall = std::numeric_limits<double>::infinity()) const;
+
+  /// How steps from rest to a time are counted: the longest step, which divides the time unless the noise is held.
+  struct Steps {
+    double step;
+    std::size_t count;
+  };
+  /// @throws std::invalid_argument for a million steps and more
+  Steps steps_to(double time) const;
+
+ private:
+  double level() const noexcept;
+  Panels velocities(double step, std::size_t degree, double rms, double reach) const;
+
+  Slider<Coulomb> slider_;
+  std::optional<FilterStates> filtered_;
+  double s0_ = 0;     // of white noise
+  double power_ = 0;  // that the noise gives to a free mass, per unit mass: half the growth of E[v^2] [m^2/s^3]
+  double held_;
+};
+
+/// What is computed with one chain: all figures, in any units.
+using Figures = Eigen::VectorXd;
+
+struct Accuracy {
+  double tolerance;                  ///< relative
+  std::vector<Eigen::Index> judged;  ///< the figures whose errors must be below it
+  std::size_t levels = 4;            ///< of refinement, at most
+  std::vector<Eigen::Index> slow{};  ///< probabilities of rest, whose error is not of second order in the step
+};
+
+struct Refined {
+  Figures value, error;
+  std::size_t nodes = 0;  ///< of the finest grid
+};
+
+/// The figures as the step goes to zero. Their errors are the last change of the extrapolation, plus the change from
+/// the grid before. Ends at the largest grid, also if the errors are larger than they must be.
+/// @param compute  the figures of a chain
+Refined refine(const TransportProblem& problem, const TransportProblem::Window& window, double first_step,
+               const Accuracy& accuracy, const std::function<Figures(const Chain&)>& compute,
+               double wall = std::numeric_limits<double>::infinity());
+
+}  // namespace stickslip::detail

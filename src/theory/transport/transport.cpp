@@ -1,0 +1,312 @@
+#include "stickslip/theory/transport.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "stickslip/base/equal.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/numerics/root.hpp"
+#include "stickslip/theory/noise.hpp"
+#include "theory/theory_moments.hpp"
+#include "theory/transport/motion.hpp"
+#include "theory/transport/refinement.hpp"
+
+namespace stickslip::theory {
+namespace {
+
+using detail::Chain;
+using detail::Figures;
+using detail::MotionMoments;
+using detail::Refined;
+using detail::require;
+using detail::StationaryMotion;
+using detail::TransportProblem;
+
+using Progress = std::function<void()>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+ShapingFilter exact_filter(const Spectrum& spectrum) {
+  if (!std::holds_alternative<Spectrum::White>(spectrum.form()) &&
+      !std::holds_alternative<Spectrum::KanaiTajimi>(spectrum.form()))
+    throw std::invalid_argument(
+        "Transport: covers the spectra of white noise and of filters of two states, such as Kanai and Tajimi's; a "
+        "filter for another is fitted by ShapingFilter.of(spectrum, order=2)");
+  return ShapingFilter::of(spectrum);
+}
+
+constexpr double MotionMoments::*all[] = {&MotionMoments::x, &MotionMoments::xx, &MotionMoments::xv, &MotionMoments::v,
+                                          &MotionMoments::vv};
+
+/// The stationary figures: those of MotionMoments, and the probability of rest.
+Figures stationary_figures(const Chain& chain, const TransportProblem& problem, bool with_rest,
+                           const Progress& progress) {
+  const StationaryMotion motion = stationary_motion(chain, problem.sprung(), with_rest, progress);
+  Figures figures(6);
+  for (std::size_t i = 0; i < 5; ++i) figures[static_cast<Eigen::Index>(i)] = motion.moments.*all[i];
+  figures[5] = motion.rest;
+  return figures;
+}
+
+/// The window of the grid, from coarse chains whose windows are adapted to what they find.
+/// @param rms  of a coarse chain
+template <class Rms>
+TransportProblem::Window adapted(const TransportProblem& problem, double step, const Rms& rms) {
+  TransportProblem::Window window = problem.first_window();
+  for (int pass = 0; pass < 12; ++pass) {
+    const TransportProblem::Window found = rms(problem.chain(step, 0, window));
+    const auto fits = [](double is, double was) { return is < 1.15 * was && was < 1.3 * is; };
+    const bool fit = fits(found.v, window.v) && (!problem.sprung() || fits(found.x, window.x));
+    window = found;
+    if (fit) break;
+  }
+  return window;
+}
+
+/// The window of a motion from rest; without a spring that of the stationary velocity.
+TransportProblem::Window window_from_rest(const TransportProblem& problem, double step, std::size_t steps,
+                                          const Progress& progress) {
+  return adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
+    if (!problem.sprung()) return {0, std::sqrt(stationary_figures(chain, problem, false, progress)[4])};
+    double x = 0, v = 0;
+    for (const MotionMoments& m : moments_from_rest(chain, true, std::max<std::size_t>(steps, 8), progress)) {
+      x = std::max(x, m.xx + m.x * m.x);
+      v = std::max(v, m.vv + m.v * m.v);
+    }
+    return {std::sqrt(x), std::sqrt(v)};
+  });
+}
+
+void require_accuracy(const Refined& refined, double tolerance, Eigen::Index i, const char* noun) {
+  if (refined.error[i] <= tolerance * std::abs(refined.value[i])) return;
+  throw ConvergenceError("Transport: " + std::string(noun) + " is " + detail::shortest(refined.value[i]) +
+                         " with an error of " + detail::shortest(refined.error[i]) + " on the finest grid, of " +
+                         std::to_string(refined.nodes) + " nodes; the tolerance must be larger, got " +
+                         detail::shortest(tolerance));
+}
+
+}  // namespace
+
+TwoStateNoise::TwoStateNoise(const ShapingFilter& filter) : filter_(filter) {
+  require(filter.order() <= 2,
+          "Transport: covers filters of two states; each further one would multiply some 1e4 nodes by 10. The order "
+          "of the filter",
+          filter.order());
+  if (!white())
+    require(detail::equal(filter.sections().front().b2, 0),
+            "Transport: a filter must not pass white noise, b2 must be 0", filter.sections().front().b2);
+}
+
+TwoStateNoise::TwoStateNoise(const Spectrum& spectrum) : TwoStateNoise(exact_filter(spectrum)) {}
+
+TwoStateNoise::TwoStateNoise(const GaussianExcitation& excitation) : TwoStateNoise(excitation.spectrum()) {
+  if (white()) (void)WhiteLevel(excitation);  // which refuses what is not white noise down to zero frequency
+  const GaussianOptions& options = excitation.options();
+  if (options.envelope) throw std::invalid_argument("Transport: covers stationary noise, the envelope must be None");
+  if (white() && options.interpolation == Interpolation::constant && !options.correct_interpolation)
+    held_ = excitation.dt();
+  if (!options.zero_frequency && filter_(0) > 0)
+    remark_ = "The motions have no line at zero frequency (zero_frequency is False), which this theory has.";
+}
+
+Transport::Transport(double tolerance) : tolerance_(tolerance) {
+  require(tolerance >= 1e-8 && tolerance <= 0.3, "Transport: tolerance must be from 1e-8 to 0.3", tolerance);
+}
+
+void Transport::check(const Slider<Coulomb>& slider, const TwoStateNoise&) const {
+  detail::require_one_level(slider, "Transport");
+  const Coulomb& law = slider.law();
+  require(law.forward() > 0 && std::isfinite(law.forward()),
+          "Transport: the forward slip level must be positive and finite", law.forward(), "m/s^2");
+  require(law.backward() > 0, "Transport: the backward slip level must be positive", law.backward(), "m/s^2");
+}
+
+TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+                                       std::span<const double> times, const Progress& progress) const {
+  check(slider, noise);
+  detail::check_times("Transport", times);
+  const auto started = std::chrono::steady_clock::now();
+  Moments moments = detail::moments_at(times);
+  moments.remark = noise.remark();
+  const TransportProblem problem(slider, noise);
+  const double last = times.empty() ? 0 : times.back();
+  const auto [step, steps] = problem.steps_to(last);
+  const bool sprung = problem.sprung();
+  const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
+  const std::size_t count = times.size();
+  const auto compute = [&](const Chain& chain) {
+    Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count + 1));
+    const auto parts = static_cast<std::size_t>(std::lround(step / chain.step()));
+    const auto history = moments_from_rest(chain, sprung, steps * parts, progress);
+    for (std::size_t k = 0; k < count && last > 0; ++k)
+      for (std::size_t i = 0; i < 5; ++i)
+        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history, all[i], times[k] / chain.step());
+    if (!sprung) figures[figures.size() - 1] = stationary_figures(chain, problem, false, progress)[1];
+    return figures;
+  };
+  const auto end = static_cast<Eigen::Index>(5 * count);
+  std::vector<Eigen::Index> judged;
+  if (last > 0) judged = {end - 4, end - 1};
+  if (!sprung) judged.push_back(end);
+  const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = judged}, compute);
+  Estimates Moments::*const estimates[] = {&Moments::displacement_mean, &Moments::displacement_variance,
+                                           &Moments::covariance, &Moments::velocity_mean, &Moments::velocity_variance};
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < 5; ++i) {
+      const auto at = static_cast<Eigen::Index>(5 * k + i);
+      (moments.*estimates[i]).value[k] = refined.value[at];
+      (moments.*estimates[i]).error[k] = refined.error[at];
+    }
+  moments.growth_rate = {0, 0};
+  if (!sprung) moments.growth_rate = {refined.value[refined.value.size() - 1], refined.error[refined.error.size() - 1]};
+  constexpr const char* nouns[] = {"the variance of the displacement at the last time",
+                                   "the variance of the velocity at the last time", "the growth rate"};
+  for (std::size_t i = 0; i < judged.size(); ++i)
+    require_accuracy(refined, tolerance_, judged[i], nouns[last > 0 ? i : 2]);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, noise};
+}
+
+TransportPrediction::TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
+                                         const Slider<Coulomb>& slider, const TwoStateNoise& noise)
+    : Moments(std::move(moments)), cost_(cost), tolerance_(theory.tolerance()), slider_(slider), noise_(noise) {}
+
+TransportPeak TransportPrediction::peak(double end) const { return {Transport(tolerance_), slider_, noise_, end}; }
+
+TransportPeak::TransportPeak(const Transport& theory, const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+                             double time)
+    : tolerance_(theory.tolerance()), slider_(slider), noise_(noise), time_(time) {
+  require(time > 0 && std::isfinite(time), "TransportPeak: time must be positive and finite", time, "s");
+}
+
+Estimate TransportPeak::exceedance(double level, const Progress& progress) const {
+  require(level > 0 && std::isfinite(level), "TransportPeak: level must be positive and finite", level, "m");
+  const TransportProblem problem(slider_, noise_);
+  const auto [step, steps] = problem.steps_to(time_);
+  const auto window = window_from_rest(problem, step, steps, progress);
+  const Refined refined = refine(
+      problem, window, step, {.tolerance = tolerance_, .judged = {0}, .levels = 1},
+      [&, first = step, count = steps](const Chain& chain) {
+        const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+        return Figures::Constant(1, 1 - detail::survival(chain, count * parts, progress));
+      },
+      level);
+  return {refined.value[0], refined.error[0]};
+}
+
+Estimate TransportPeak::quantile(double probability, const Progress& progress) const {
+  require(probability >= 0.01 && probability <= 0.999, "TransportPeak: probability must be from 0.01 to 0.999",
+          probability);
+  const TransportProblem problem(slider_, noise_);
+  const auto [step, steps] = problem.steps_to(time_);
+  const auto window = window_from_rest(problem, step, steps, progress);
+  const auto rms =
+      std::sqrt(moments_from_rest(problem.chain(step, 0, window), problem.sprung(), steps, progress).back().xx);
+  // ln P(peak > level) of the coarse grid over ln(level), less that wanted.
+  const double wanted = std::log1p(-probability);
+  const auto excess = [&, h = step, count = steps](double ln_level) {
+    const Chain chain = problem.chain(h, 0, window, std::exp(ln_level));
+    return std::log(std::max(1 - detail::survival(chain, count, progress), 1e-12)) - wanted;
+  };
+  double low = std::log(rms), at_low = excess(low), high = low, at_high = at_low;
+  while (at_low < 0 && std::exp(low) > 1e-3 * rms) high = low, at_high = at_low, at_low = excess(low -= 0.4);
+  while (at_high > 0 && std::exp(high) < 1e3 * rms) low = high, at_low = at_high, at_high = excess(high += 0.4);
+  if (!(at_low > 0 && at_high < 0))
+    throw ConvergenceError("TransportPeak: no level within a factor of 1000 of the rms displacement, " +
+                           detail::shortest(rms) + " m, has the probability " + detail::shortest(probability));
+  const double coarse = numerics::root(excess, low, at_low, high, at_high, 1e-3);
+  const double slope = (excess(coarse + 0.02) - excess(coarse - 0.02)) / 0.04;
+  const Estimate there = exceedance(std::exp(coarse), progress);
+  const double level = std::exp(coarse - (std::log(there.value) - wanted) / slope);
+  return {level, level * there.error / there.value / std::abs(slope)};
+}
+
+DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+                                                 const Progress& progress) const {
+  check(slider, noise);
+  require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
+  const TransportProblem problem(slider, noise);
+  const auto [step, steps] = problem.steps_to(time);
+  const bool sprung = problem.sprung();
+  auto window = window_from_rest(problem, step, steps, progress);
+  // With a spring the grid resolves waves that turn by up to 2.5 rad over a panel, of some 0.4 rms.
+  window.x_panels = 36;
+  const Chain coarse = problem.chain(step, 0, window);
+  const MotionMoments last = moments_from_rest(coarse, sprung, steps, progress).back();
+  // The window: one that held less would fold the tails back.
+  detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
+  const std::size_t most = sprung ? 20 : 60;
+  constexpr double vanishing = 1e-5;
+  std::vector<double> waves;
+  double size = 1;
+  while (waves.size() < most && size > vanishing) {
+    waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
+    size = std::abs(characteristic(coarse, sprung, steps, std::span(waves).last(1), progress)[0]);
+  }
+  if (size > 0.05)
+    throw ConvergenceError("Transport: the characteristic function of the displacement at " + detail::shortest(time) +
+                           " s must vanish at high wave numbers, is " + detail::shortest(size) + " at " +
+                           detail::shortest(waves.back()) + " 1/m: many displacements are close to 0");
+  const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1},
+                                 [&, first = step, count = steps](const Chain& chain) {
+                                   const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+                                   const auto values = characteristic(chain, sprung, count * parts, waves, progress);
+                                   Figures figures(2 * static_cast<Eigen::Index>(values.size()));
+                                   for (Eigen::Index j = 0; j < figures.size(); j += 2) {
+                                     figures[j] = values[static_cast<std::size_t>(j / 2)].real();
+                                     figures[j + 1] = values[static_cast<std::size_t>(j / 2)].imag();
+                                   }
+                                   return figures;
+                                 });
+  double error = size;
+  for (std::size_t j = 0; j < waves.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(2 * j);
+    samples.values.push_back(std::complex<double>(refined.value[at], refined.value[at + 1]) *
+                             std::polar(1.0, -waves[j] * samples.center));
+    error += 2 * std::hypot(refined.error[at], refined.error[at + 1]) / (waves[j] * samples.half_width);
+  }
+  return {samples, error, noise.remark()};
+}
+
+DisplacementDistribution TransportPrediction::displacement(double at, const Progress& progress) const {
+  return Transport(tolerance_).displacement(slider_, noise_, at, progress);
+}
+
+TransportStationary TransportPrediction::stationary(const Progress& progress) const {
+  return Transport(tolerance_).stationary(slider_, noise_, progress);
+}
+
+TransportStationary Transport::stationary(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+                                          const Progress& progress) const {
+  check(slider, noise);
+  const TransportProblem problem(slider, noise);
+  const double step = problem.first_step();
+  const bool sprung = problem.sprung(), rests = !problem.white() || problem.held() > 0;
+  const auto window = adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
+    const Figures found = stationary_figures(chain, problem, false, progress);
+    return {sprung ? std::sqrt(found[1] + found[0] * found[0]) : 0, std::sqrt(found[4] + found[3] * found[3])};
+  });
+  const Refined refined =
+      refine(problem, window, step, {.tolerance = tolerance_, .judged = {1, 4}, .slow = {5}},
+             [&](const Chain& chain) { return stationary_figures(chain, problem, rests, progress); });
+  require_accuracy(refined, tolerance_, 1, sprung ? "the variance of the displacement" : "the growth rate");
+  require_accuracy(refined, tolerance_, 4, "the variance of the velocity");
+  const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.error[i]}; };
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  return {sprung ? figure(0) : Estimate{unknown, 0},
+          sprung ? figure(1) : Estimate{infinity, 0},
+          figure(3),
+          figure(4),
+          sprung ? Estimate{0, 0} : figure(1),
+          figure(5)};
+}
+
+}  // namespace stickslip::theory

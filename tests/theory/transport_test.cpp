@@ -1,0 +1,199 @@
+#include "stickslip/theory/transport.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "stickslip/theory/white_noise.hpp"
+#include "theory/transport/chain.hpp"
+#include "theory/transport/load_grid.hpp"
+#include "theory/transport/panels.hpp"
+
+using namespace stickslip;
+using std::numbers::pi;
+using theory::ShapingFilter;
+using theory::Transport;
+
+namespace {
+
+/// Kanai and Tajimi's filter of the given rms acceleration; frequency 1 rad/s unless given.
+ShapingFilter kanai_tajimi(double zeta, double rms, double frequency = 1) {
+  const double s0 = rms * rms * 2 * zeta / (pi * frequency * (1 + 4 * zeta * zeta));
+  return ShapingFilter(s0,
+                       {{0, 2 * zeta * frequency, frequency * frequency, 2 * zeta * frequency, frequency * frequency}});
+}
+
+}  // namespace
+
+TEST_CASE("panels reproduce polynomials of their degree, and mirror each other") {
+  const detail::Panels panels({-2, -0.5, 0, 0.5, 2}, 4);
+  CHECK(panels.size() == 17);
+  for (std::size_t i = 0; i < panels.size(); ++i) CHECK(panels.node(i) == -panels.node(16 - i));
+  CHECK(panels.node(panels.node_at(0)) == 0);
+  const auto f = [](double x) { return 1 + x * (2 - x * (1 + x * (0.5 - x))); };
+  for (const double x : {-2.0, -1.3, -0.5, -1e-17, 0.0, 0.3, 0.5 + 1e-15, 1.999, 2.0}) {
+    const auto at = panels.at(x);
+    double value = 0, sum = 0;
+    for (std::size_t k = 0; k <= 4; ++k) {
+      value += at.weights[k] * f(panels.node(at.first + k));
+      sum += at.weights[k];
+    }
+    CHECK(value == Approx(f(x)).epsilon(1e-14));
+    CHECK(sum == Approx(1).epsilon(1e-14));
+  }
+  CHECK(panels.at(5).first == 12);  // constant beyond the ends
+  CHECK(panels.at(5).weights[4] == 1);
+}
+
+TEST_CASE("the step of a filter has the moments of its exact solution") {
+  // E[u v] of a pair a step apart is the transition matrix, and the stationary noise stays stationary.
+  const detail::FilterStates noise(kanai_tajimi(0.4, 2.0, 3.0));
+  CHECK(noise.rms == Approx(2).epsilon(1e-14));
+  const double step = 0.15;
+  const detail::LoadGrid grid(noise, detail::Panels({-11, -6, -1, 0, 1, 6, 11}, 6), 9, step);
+  const Eigen::VectorXd& p = grid.stationary();
+  CHECK(p.sum() == Approx(1).epsilon(1e-14));
+  const auto mean = [&](const Eigen::VectorXd& weights, auto&& f) {
+    double sum = 0;
+    for (std::size_t i = 0; i < grid.loads(); ++i)
+      for (std::size_t j = 0; j < grid.hidden(); ++j)
+        sum += weights[static_cast<Eigen::Index>(i * grid.hidden() + j)] * f(grid.load(i));
+    return sum;
+  };
+  CHECK(mean(p, [](double n) { return n * n; }) == Approx(4).epsilon(1e-6));
+  CHECK(mean(p, [](double n) { return n * n * n * n; }) == Approx(48).epsilon(1e-5));
+  const Eigen::VectorXd later = grid.adjoint_step() * (grid.adjoint_step() * p);
+  CHECK(later.sum() == Approx(1).epsilon(1e-13));
+  CHECK(mean(later, [](double n) { return n * n; }) == Approx(4).epsilon(1e-6));
+  Eigen::VectorXd times_load = p;
+  for (std::size_t i = 0; i < grid.loads(); ++i)
+    times_load.segment(static_cast<Eigen::Index>(i * grid.hidden()), static_cast<Eigen::Index>(grid.hidden())) *=
+        grid.load(i);
+  const double correlation = mean(grid.adjoint_step() * times_load, [](double n) { return n; });
+  CHECK(correlation == Approx(4 * noise.transition(step)(0, 0)).epsilon(1e-6));
+  // By Euler steps: the transition solves dE/dt = rate E.
+  Eigen::Matrix2d e = Eigen::Matrix2d::Identity();
+  for (int i = 0; i < 100'000; ++i) e += noise.rate * e * (step / 1e5);
+  CHECK((e - noise.transition(step)).norm() < 1e-5);
+}
+
+TEST_CASE("probability is conserved over hundreds of steps") {
+  const detail::FilterStates noise(kanai_tajimi(0.5, 1.5));
+  const Slider block(Coulomb(1.0)), sprung(Coulomb(1.0, 1.7), 0.8);
+  const detail::Panels load({-6.75, -3, -1, 0, 1, 3, 6.75}, 4), v({0, 0.3, 0.8, 2, 5, 12}, 4);
+  const detail::Panels both({-12, -5, -2, -0.8, -0.3, 0, 0.3, 0.8, 2, 5, 12}, 3), x({-8, -4, 0, 4, 8}, 3);
+  const detail::Chain one(block, {}, v, {noise, load, 7, 0.3}, 0.3), other(sprung, x, both, {noise, load, 5, 0.3}, 0.3);
+  for (const auto* chain : {&one, &other}) {
+    Eigen::VectorXd p = chain->start();
+    for (int k = 0; k < 300; ++k) p = chain->carry(p);
+    CHECK(std::abs(p.sum() - 1) < 1e-12);
+  }
+  CHECK(one.mirrored());
+  CHECK(!other.mirrored());
+}
+
+TEST_CASE("growth and variance under white noise converge to the exact moments") {
+  // R = 10 pi^3, V = 2 pi^2 for a = S0 = 1, thesis (3.48), (3.49).
+  const auto exact = theory::WhiteNoise::coulomb(1, 1);
+  const std::vector<double> times{3, 30};
+  const Moments expected = exact.predict(times);
+  for (const double tolerance : {1e-2, 1e-4}) {
+    const auto found = Transport(tolerance).predict(Slider(Coulomb(1.0)), 1.0, times);
+    CHECK(found.growth_rate.value == Approx(exact.growth_rate()).epsilon(tolerance));
+    CHECK(std::abs(found.growth_rate.value - exact.growth_rate()) <= found.growth_rate.error);
+    CHECK(found.velocity_variance.value[1] == Approx(expected.velocity_variance.value[1]).epsilon(tolerance));
+    CHECK(found.displacement_variance.value[1] == Approx(expected.displacement_variance.value[1]).epsilon(tolerance));
+    CHECK(found.covariance.value[1] == Approx(expected.covariance.value[1]).epsilon(10 * tolerance));
+    for (const double mean : found.displacement_mean.value) CHECK(mean == 0);
+  }
+}
+
+TEST_CASE("unequal and one-way levels under white noise drift as they must") {
+  for (const double backward : {1.5, std::numeric_limits<double>::infinity()}) {
+    const theory::WhiteNoise exact(Coulomb(1.0, backward), 0.7);
+    const std::vector<double> times{5, 20};
+    const Moments expected = exact.predict(times);
+    const auto found = Transport().predict(Slider(Coulomb(1.0, backward)), 0.7, times);
+    CHECK(found.growth_rate.value == Approx(exact.growth_rate()).epsilon(0.01));
+    for (const std::size_t k : {0U, 1U}) {
+      CHECK(found.displacement_mean.value[k] == Approx(expected.displacement_mean.value[k]).epsilon(0.01));
+      CHECK(found.velocity_mean.value[k] == Approx(expected.velocity_mean.value[k]).epsilon(0.01));
+      CHECK(found.displacement_variance.value[k] == Approx(expected.displacement_variance.value[k]).epsilon(0.01));
+      CHECK(found.velocity_variance.value[k] == Approx(expected.velocity_variance.value[k]).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("a prediction scales with the units of length and time") {
+  const std::vector<double> times{2, 7}, scaled{2 / 5.0, 7 / 5.0};
+  const auto one = Transport(0.05).predict(Slider(Coulomb(1.0), 0.7), kanai_tajimi(0.5, 1.2), times);
+  const auto other = Transport(0.05).predict(Slider(Coulomb(0.3), 3.5), kanai_tajimi(0.5, 0.36, 5.0), scaled);
+  const double length = 0.3 / 25, speed = 0.3 / 5;
+  for (const std::size_t k : {0U, 1U}) {
+    CHECK(other.displacement_variance.value[k] ==
+          Approx(length * length * one.displacement_variance.value[k]).epsilon(1e-9));
+    CHECK(other.velocity_variance.value[k] == Approx(speed * speed * one.velocity_variance.value[k]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a spring with little friction and a damper is the linear oscillator") {
+  // Under white noise of level S0: E[x'^2] = pi S0 / c, E[x^2] = pi S0 / (c wn^2). Friction of level a takes the power
+  // a E|x'|, so that it changes the variance by some a / (c rms x').
+  const double s0 = 1, wn = 2, c = 0.8, a = 1e-3;
+  const auto found = Transport(0.02).stationary(Slider(Coulomb(a), wn, c), s0);
+  CHECK(found.velocity_variance.value == Approx(pi * s0 / c).epsilon(0.02 + 2 * a / (c * std::sqrt(pi / c))));
+  CHECK(found.displacement_variance.value == Approx(pi * s0 / (c * wn * wn)).epsilon(0.022));
+  CHECK(found.rest.value == 0);
+}
+
+TEST_CASE("a soft spring leaves the block alone, and a stiff one holds it") {
+  const ShapingFilter filter = kanai_tajimi(0.6, 1.0);
+  const std::vector<double> times{10};
+  const auto free = Transport(0.03).predict(Slider(Coulomb(1.0)), filter, times);
+  const auto soft = Transport(0.03).predict(Slider(Coulomb(1.0), 0.01), filter, times);
+  CHECK(soft.displacement_variance.value[0] ==
+        Approx(free.displacement_variance.value[0])
+            .epsilon(0.002)
+            .margin(soft.displacement_variance.error[0] + free.displacement_variance.error[0]));
+  CHECK(soft.velocity_variance.value[0] ==
+        Approx(free.velocity_variance.value[0])
+            .epsilon(0.002)
+            .margin(soft.velocity_variance.error[0] + free.velocity_variance.error[0]));
+}
+
+TEST_CASE("white noise that is held is predicted as sampled") {
+  // From rest, a first value n held for dt leaves the block at rest if |n| < a, and moves it by (|n| - a) dt^2 / 2.
+  const double dt = 0.5, a = 1, deviation = std::sqrt(2 * pi / dt), y = a / deviation;
+  GaussianOptions options;
+  options.interpolation = Interpolation::constant;
+  options.correct_interpolation = false;
+  options.zero_frequency = true;
+  const GaussianExcitation held(Spectrum::white(1), dt, 101, options);
+  CHECK(theory::TwoStateNoise(held).held() == dt);
+  const std::vector<double> times{dt};
+  const auto found = Transport(1e-4).predict(Slider(Coulomb(a)), held, times);
+  const double density = std::exp(-y * y / 2) / std::sqrt(2 * pi), beyond = std::erfc(y / std::numbers::sqrt2) / 2;
+  const double square = 2 * deviation * deviation * ((1 + y * y) * beyond - y * density);  // E[(|n| - a)+^2]
+  CHECK(found.velocity_variance.value[0] == Approx(square * dt * dt).epsilon(1e-10));
+  CHECK(found.displacement_variance.value[0] == Approx(square * dt * dt * dt * dt / 4).epsilon(1e-10));
+}
+
+TEST_CASE("what is not covered is refused with the reason") {
+  const Transport theory;
+  const Slider block(Coulomb(1.0));
+  CHECK(theory.covers(block, 1.0));
+  CHECK(theory.covers(block, kanai_tajimi(0.5, 1)));
+  CHECK(theory.covers(block, Spectrum::kanai_tajimi(1, 10, 0.5)));
+  CHECK(theory.covers(Slider(Coulomb(1.0, 2.0), 3, 0.1), 1.0));
+  const auto why = [&](const auto& slider, const auto& excitation) { return theory.covers(slider, excitation).reason; };
+  using Catch::Contains;
+  CHECK_THAT(why(Slider(Coulomb(0.0)), 1.0), Contains("forward slip level must be positive and finite, got 0"));
+  CHECK_THAT(why(block, Spectrum::clough_penzien(1, 10, 0.5, 2, 0.5)), Contains("filters of two states"));
+  CHECK_THAT(why(block, ShapingFilter(1, {{1, 0, 1, 1, 1}})), Contains("b2 must be 0, got 1"));
+  CHECK_THAT(why(Slider(Coulomb(1.0), Mounting{.one_way = true}), 1.0), Contains("slide both ways"));
+  CHECK_THROWS_WITH(Transport(0.5), Contains("tolerance must be from 1e-8 to 0.3, got 0.5"));
+  CHECK_THROWS_WITH(theory.predict(block, 1.0, std::vector<double>{2, 1}), Contains("times must increase"));
+}
