@@ -1,8 +1,8 @@
 // Makes one self-contained page of the compiled library, the modules and the style sheet: `node web/build.js`.
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
 
 import { toText } from "./page/packed.js";
 
@@ -42,12 +42,13 @@ const parts = {
   LICENSES: [
     `stickslip\n\n${text(new URL("../LICENSE", import.meta.url))}`,
     `uPlot, which draws the plots\n\n${text(new URL("../licenses/uPlot.txt", import.meta.url))}`,
+    `fzstd, which unpacks the library\n\n${text(new URL("../licenses/fzstd.txt", import.meta.url))}`,
     "Highway, whose headers are compiled in, is under the Apache License 2.0 (https://www.apache.org/licenses/LICENSE-2.0); " +
       "Emscripten's libraries, musl and libc++, are under the MIT License and the Apache License 2.0 with LLVM exceptions.",
   ]
     .join("\n\n")
     .replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c] ?? c),
-  LIBRARY: toText(gzipSync(readFileSync(new URL("stickslip.wasm", build)), { level: 9 })),
+  LIBRARY: toText(execFileSync("zstd", ["--ultra", "-22", "--stdout", fileURLToPath(new URL("stickslip.wasm", build))])),
   WORKER: inScript(bundled("worker.js")),
   PAGE: inScript(bundled("main.js")),
 };

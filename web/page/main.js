@@ -1,5 +1,7 @@
 // The page: what it shows, and what its reader does.
 
+import { decompress } from "fzstd";
+
 import { latest, startWorker } from "./client.js";
 import { csv, download } from "./csv.js";
 import { color, CurvePlot, levelLine, LinePlot, shade } from "./plots.js";
@@ -949,8 +951,7 @@ async function start() {
   showForm();
   showGenerator();
   const packed = fromText((element("library").textContent ?? "").trim());
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  await worker.load(await new globalThis.Response(stream).arrayBuffer());
+  await worker.load(/** @type {Uint8Array<ArrayBuffer>} */ (decompress(packed)));
   generate();
 }
 

@@ -28,7 +28,7 @@ let library;
 
 /** What the page calls; each answer is cloned. */
 const calls = {
-  /** @param {ArrayBuffer} bytes */
+  /** @param {Uint8Array<ArrayBuffer>} bytes */
   async load(bytes) {
     library = await Library.load(bytes);
   },
