@@ -21,6 +21,10 @@ template <class Range, class Rule>
 auto count_if(const Range& range, Rule rule) {
   return std::count_if(std::begin(range), std::end(range), rule);
 }
+template <class Range, class Value>
+auto find(Range&& range, const Value& value) {
+  return std::find(std::begin(range), std::end(range), value);
+}
 template <class Range, class Rule>
 auto find_if(Range&& range, Rule rule) {
   return std::find_if(std::begin(range), std::end(range), rule);

@@ -33,6 +33,7 @@
 #include "stickslip/ground/intensity_measures.hpp"
 #include "stickslip/ground/orientation.hpp"
 #include "stickslip/ground/records.hpp"
+#include "stickslip/ground/response_spectrum.hpp"
 #include "stickslip/ground/station.hpp"
 #include "stickslip/ground/strong_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
@@ -366,6 +367,16 @@ STICKSLIP_EXPORT(measures) int measures(int number) {
       answer[9] = strong.duration_5_75;
     } catch (const std::invalid_argument&) {  // no acceleration, or a straight line
     }
+    return 0;
+  });
+}
+
+/// The pseudo-accelerations [m/s^2] of a motion at the periods [s] in the input: a response spectrum.
+STICKSLIP_EXPORT(response_spectrum) int response_spectrum(int number, double damping) {
+  return guarded([&] {
+    std::vector<double> periods(given.size() / sizeof(double));
+    std::memcpy(periods.data(), given.data(), periods.size() * sizeof(double));
+    answer = stickslip::response_spectrum(of(number).motion, std::move(periods), {damping}).values;
     return 0;
   });
 }

@@ -236,6 +236,18 @@ export class Library {
     return /** @type {Measures} */ ({ dt, duration, pga, pgv, pgd, cav, arias, mean_period, d5_95, d5_75 });
   }
 
+  /**
+   * The largest acceleration of linear oscillators under a motion: wn^2 max |x| [m/s^2].
+   * @param {number} id
+   * @param {Float64Array} periods  [s]
+   * @param {number} damping        ratio
+   */
+  responseSpectrum(id, periods, damping) {
+    this.#giveView(periods);
+    this.#checked(this.#wasm.response_spectrum(id, damping));
+    return this.#numbers();
+  }
+
   /** @param {Settings} settings */
   #values(settings) {
     const values = /** @type {any} */ (settings);

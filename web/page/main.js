@@ -6,7 +6,19 @@ import { latest, startWorker } from "./client.js";
 import { csv, download } from "./csv.js";
 import { color, CurvePlot, levelLine, LinePlot, shade } from "./plots.js";
 import { drawScene } from "./scene.js";
-import { applies, command, completed, FIELDS, fromLink, LAWS, python, toLink } from "./settings.js";
+import {
+  applies,
+  command,
+  completed,
+  FIELDS,
+  fromLink,
+  LAWS,
+  PERIODS,
+  python,
+  spectrumCommand,
+  spectrumPython,
+  toLink,
+} from "./settings.js";
 import { GENERATORS, recorded } from "./sources.js";
 import { fromText } from "./packed.js";
 import { statistics } from "./statistics.js";
@@ -49,6 +61,7 @@ function make(tag, properties = {}, ...children) {
 }
 
 const GRAVITY = 9.80665;
+const NO_COMMAND = "The command has no option for this; the lines in Python give the same numbers.";
 const KINDS = ["breakaway", "reversal", "arrest", "end", "impact", "liftoff", "landing"];
 const worker = startWorker(element("worker").textContent ?? "");
 
@@ -96,7 +109,8 @@ function makePlots() {
     displacement: new LinePlot(element("plot-displacement"), ["displacement", "pinned"], onCursor),
     hysteresis: new CurvePlot(element("plot-hysteresis"), "force"),
     path: new CurvePlot(element("plot-path"), "displacement"),
-    spectrum: new LinePlot(element("plot-spectrum"), ["displacement", "velocity"], null),
+    sliding: new LinePlot(element("plot-sliding"), ["displacement", "velocity"], (i) => readSpectrum("sliding", i), "number"),
+    response: new LinePlot(element("plot-response"), ["acceleration"], (i) => readSpectrum("response", i), "logarithm"),
   };
 }
 
@@ -148,24 +162,25 @@ function changed() {
   document.body.dataset.state = "busy";
   history.replaceState(null, "", `#${linkText()}`);
   update();
-  updateSpectrum();
+  updateSliding();
+  updateResponseSpectrum();
   updatePath();
   if (!element("many").hidden) slideMany();
 }
 
-// ---- the sliding spectrum
+// ---- spectra
 
 /** @type {{key: string, mus: Float64Array, peak: Float64Array, residual: Float64Array} | null} */
-let spectrum = null;
+let sliding = null;
 const [LEVELS, PART] = [100, 4];
 
 /** In parts, while nothing else is asked: it does not depend on mu, so that a moving slider can wait for it. */
-const updateSpectrum = latest(async () => {
+const updateSliding = latest(async () => {
   const row = selected;
   if (!row?.motion) return;
   const [full, id] = problemOf(settings, row.motion);
   const key = `${id} ${JSON.stringify({ ...full, mu: 0 })}`;
-  if (spectrum?.key !== key) {
+  if (sliding?.key !== key) {
     const highest = Math.max((row.motion.measures.pga * Math.abs(full.scale)) / GRAVITY, 0.01);
     const mus = Float64Array.from({ length: LEVELS }, (_, i) => ((i + 1) / LEVELS) * highest);
     const [peak, residual] = [new Float64Array(LEVELS), new Float64Array(LEVELS)];
@@ -177,9 +192,9 @@ const updateSpectrum = latest(async () => {
       peak.set(part.peak, i);
       residual.set(part.residual, i);
     }
-    spectrum = { key, mus, peak, residual };
+    sliding = { key, mus, peak, residual };
   }
-  showSpectrum();
+  showSliding();
 });
 
 /** Until the response to the last change is drawn, and some time more. */
@@ -188,11 +203,11 @@ async function untilIdle() {
     await new Promise((resolve) => setTimeout(resolve, 20));
 }
 
-function showSpectrum() {
-  if (!spectrum) return;
-  const { mus, peak, residual } = spectrum;
-  element("title-spectrum").textContent = `Sliding spectrum: peak and residual (dashed) [${unit("length").name}] over \u03bc`;
-  plots.spectrum.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], {
+function showSliding() {
+  if (!sliding) return;
+  const { mus, peak, residual } = sliding;
+  element("title-sliding").textContent = `Sliding spectrum: peak and residual (dashed) [${unit("length").name}] over \u03bc`;
+  plots.sliding.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], {
     after: (u, ctx) => {
       const x = u.valToPos(settings.mu, "x", true) / devicePixelRatio;
       ctx.strokeStyle = color("level");
@@ -202,6 +217,91 @@ function showSpectrum() {
       ctx.stroke();
     },
   });
+}
+
+/** Of the motion as it was recorded. @type {{key: string, row: Row, values: Float64Array} | null} */
+let spectrum = null;
+
+/** The damping ratio of a response spectrum. */
+const zeta = () => Number(others.zeta ?? 0.05);
+
+const updateResponseSpectrum = latest(async () => {
+  const row = selected;
+  if (!row?.motion) return;
+  const [{ id }, damping] = [row.motion, zeta()];
+  const key = `${id} ${damping}`;
+  if (spectrum?.key !== key) {
+    await untilIdle();
+    const values = await worker.responseSpectrum(id, PERIODS, damping).catch(() => null);
+    if (row !== selected || !values) return;
+    spectrum = { key, row, values };
+  }
+  showResponseSpectrum();
+});
+
+/** @returns {Float64Array}  of the scaled motion [m/s^2] */
+const spectralAccelerations = () => (spectrum?.values ?? new Float64Array()).map((value) => value * Math.abs(settings.scale));
+
+function showResponseSpectrum() {
+  if (!spectrum) return;
+  const { row } = spectrum;
+  element("title-response").textContent =
+    `Response spectrum: pseudo-acceleration [${unit("acceleration").name}] over the period [s]`;
+  const values = spectralAccelerations();
+  element("figure-response").dataset.si = JSON.stringify([...values]);
+  plots.response.show(PERIODS, [inUnits(values, "acceleration")]);
+  const source = row.source(false);
+  element("response-command").textContent = spectrumCommand(source, zeta(), settings.scale) ?? NO_COMMAND;
+  element("response-python").textContent = spectrumPython(source, zeta(), settings.scale);
+}
+
+/** The point of each spectrum whose values are shown. */
+const points = { sliding: 0, response: 0 };
+
+/**
+ * @param {keyof typeof points} which
+ * @param {number | null} index
+ */
+function readSpectrum(which, index) {
+  if (index === null) return;
+  points[which] = index;
+  const at = (/** @type {Float64Array | undefined} */ values) => values?.[index] ?? NaN;
+  element(`read-${which}`).textContent =
+    which === "sliding"
+      ? `\u03bc = ${digits(at(sliding?.mus))}: peak ${shown(at(sliding?.peak), "length")}, ` +
+        `residual ${shown(at(sliding?.residual), "length")}`
+      : `T = ${digits(at(PERIODS))} s: ${shown(at(spectralAccelerations()), "acceleration")}`;
+}
+
+/**
+ * @param {keyof typeof points} which
+ * @param {number} step
+ */
+function moveOnSpectrum(which, step) {
+  const xs = which === "sliding" ? (sliding?.mus ?? new Float64Array()) : PERIODS;
+  const index = Math.min(xs.length - 1, Math.max(0, points[which] + step));
+  plots[which].point(xs[index] ?? 0);
+  readSpectrum(which, index);
+}
+
+function downloadSliding() {
+  if (!sliding || !selected) return;
+  const { mus, peak, residual } = sliding;
+  const lines = Array.from(mus, (mu, i) => [mu, peak[i] ?? NaN, residual[i] ?? NaN]);
+  const comment = `stickslip: ${selected.label}; ${toLink({ ...completed(settings), mu: NaN })}`;
+  download(`${fileName(selected)}_sliding_spectrum.csv`, csv(["mu", "peak_m", "residual_m"], lines, [comment]), "text/csv");
+}
+
+function downloadResponse() {
+  if (!spectrum) return;
+  const values = spectralAccelerations();
+  const lines = Array.from(PERIODS, (period, i) => [period, values[i] ?? NaN]);
+  const comments = [
+    `stickslip: ${spectrum.row.label}; damping ratio ${zeta()}; scale ${settings.scale}`,
+    ...described(groundNumbers(spectrum.row)),
+  ];
+  const header = ["period_s", "pseudo_acceleration_m_s2"];
+  download(`${fileName(spectrum.row)}_response_spectrum.csv`, csv(header, lines, comments), "text/csv");
 }
 
 // ---- the path in the plane
@@ -296,13 +396,14 @@ function showMany() {
 }
 
 function downloadMany() {
-  const header = ["record", "pga_m_s2", ...COLUMNS.map(([head]) => `${head.replace(" ", "_")}_m`)];
+  const ground = ["pga_m_s2", "pgv_m_s", "arias_m_s", "d5_95_s", "tm_s"];
+  const header = ["record", ...ground, ...COLUMNS.map(([head]) => `${head.replace(" ", "_")}_m`)];
   const lines = pairs.map((pair) => [
     pair.row.label,
-    (pair.row.motion?.measures.pga ?? NaN) * Math.abs(settings.scale),
+    ...groundNumbers(pair.row).map(([, value]) => value),
     ...COLUMNS.map(([, of]) => of(pair)),
   ]);
-  const ends = manyStatistics().map(([head, values]) => [head, "", ...values]);
+  const ends = manyStatistics().map(([head, values]) => [head, ...ground.map(() => ""), ...values]);
   download("records.csv", csv(header, [...lines, ...ends], [`stickslip: ${toLink(completed(settings))}`]), "text/csv");
 }
 
@@ -323,7 +424,7 @@ function view(many) {
 function show(s, row) {
   const source = row.source(s.vertical === 1);
   element("command").textContent =
-    command(s, source) ?? "The command has no option for this; the lines in Python give the same numbers.";
+    command(s, source) ?? NO_COMMAND;
   element("python").textContent = python(s, source);
   element("pinned").textContent = pinned ? `Compared with ${toLink(completed(pinned.settings)).replaceAll("&", ", ")} (dashed).` : "";
   element("output").classList.toggle("empty", response === null);
@@ -382,7 +483,7 @@ function show(s, row) {
   element("title-hysteresis").textContent = `Force over the weight [g] over displacement [${length.name}]`;
   plots.hysteresis.show(inUnits(displacement, "length"), force.map((value) => value / GRAVITY));
   showNumbers();
-  showSpectrum();
+  showSliding();
   element("report").textContent = report(s, row);
   element("time").max = String(time.at(-1) ?? 1);
   setTime(Math.min(now, time.at(-1) ?? 0));
@@ -424,15 +525,36 @@ function sticks(events, end) {
   return intervals;
 }
 
+/** @typedef {[string, number, Quantity, string]} Line  name, value in SI units, quantity, SI unit */
+
+/**
+ * @param {Row} row
+ * @param {number} times  the scale of the motion
+ * @returns {Line[]}
+ */
+function groundNumbers({ motion }, times = settings.scale) {
+  if (!motion) return [];
+  const { pga, pgv, arias, d5_95, mean_period } = motion.measures;
+  return [
+    ["PGA", pga * Math.abs(times), "acceleration", "m/s^2"],
+    ["PGV", pgv * Math.abs(times), "velocity", "m/s"],
+    ["Arias intensity", arias * times ** 2, "velocity", "m/s"],
+    ["D5-95", d5_95, "time", "s"],
+    ["Tm", mean_period, "time", "s"],
+  ];
+}
+
+/** Comments of a table. @param {Line[]} lines */
+const described = (lines) => lines.map(([name, value, , si]) => `${name}${si ? ` [${si}]` : ""}: ${value}`);
+
 /**
  * @param {Response | null} of
  * @param {number} times  the scale of the motion
- * @returns {[string, number, Quantity, string][]}  name, value in SI units, quantity, SI unit
+ * @returns {Line[]}
  */
 function numbers(of = response, times = settings.scale) {
   if (!of || !selected?.motion) return [];
   const { summary } = of;
-  const { measures } = selected.motion;
   return [
     ["peak", summary.peak, "length", "m"],
     ["residual", summary.residual, "length", "m"],
@@ -441,11 +563,7 @@ function numbers(of = response, times = settings.scale) {
     ["slips", summary.slips, "none", ""],
     ["impacts", summary.impacts, "none", ""],
     ["lift-offs", summary.liftoffs, "none", ""],
-    ["PGA", measures.pga * Math.abs(times), "acceleration", "m/s^2"],
-    ["PGV", measures.pgv * Math.abs(times), "velocity", "m/s"],
-    ["Arias intensity", measures.arias * times ** 2, "velocity", "m/s"],
-    ["D5-95", measures.d5_95, "time", "s"],
-    ["Tm", measures.mean_period, "time", "s"],
+    ...groundNumbers(selected, times),
     ["events", summary.events, "none", ""],
     ["energy imbalance over input", summary.imbalance / (summary.input || 1), "none", ""],
     ["margin of the closest decision", Math.min(summary.margin, summary.impact_margin), "none", ""],
@@ -882,17 +1000,32 @@ function listen() {
     play(false);
     setTime(Number(element("time").value));
   };
-  for (const figure of document.querySelectorAll("figure[tabindex]"))
-    /** @type {HTMLElement} */ (figure).onkeydown = (event) => {
-      const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -50, PageDown: 50 }[event.key];
-      if (step === undefined || !response) return;
+  for (const figure of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("figure[tabindex]"))) {
+    const { spectrum } = figure.dataset;
+    figure.onkeydown = (event) => {
+      const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -1, PageDown: 1 }[event.key];
+      if (step === undefined || event.target !== figure || !response) return;
       event.preventDefault();
+      const far = event.key.startsWith("Page");
+      if (spectrum === "sliding" || spectrum === "response") return moveOnSpectrum(spectrum, far ? 10 * step : step);
       const last = response.time.length - 1;
-      const index = Math.min(last, Math.max(0, indexAt(response.time, now) + step));
+      const index = Math.min(last, Math.max(0, indexAt(response.time, now) + (far ? 50 * step : step)));
       setTime(response.time[index] ?? 0);
     };
+  }
+  const damping = element("zeta");
+  damping.value = String(zeta());
+  damping.oninput = () => {
+    const valid = damping.value !== "" && Number(damping.value) >= 0 && Number(damping.value) < 2;
+    damping.setCustomValidity(valid ? "" : "out of range");
+    if (!valid) return;
+    others.zeta = damping.value;
+    changed();
+  };
   element("csv").onclick = downloadCsv;
   element("svg").onclick = downloadSvg;
+  element("sliding-csv").onclick = downloadSliding;
+  element("response-csv").onclick = downloadResponse;
   element("many-csv").onclick = downloadMany;
   element("reading-cancel").onclick = () => (readingStopped = true);
   element("many-cancel").onclick = () => (cancelled = true);
@@ -935,7 +1068,7 @@ function downloadCsv() {
   );
   const comments = [
     `stickslip: ${selected.label}; ${toLink(completed(settings))}`,
-    ...numbers().map(([name, value, , si]) => `${name}${si ? ` [${si}]` : ""}: ${value}`),
+    ...described(numbers()),
   ];
   const header = ["time_s", "ground_acceleration_m_s2", "velocity_m_s", "displacement_m", "force_m_s2"];
   download(`${fileName(selected)}.csv`, csv(header, rows, comments), "text/csv");

@@ -12,7 +12,7 @@ export const color = (name) => getComputedStyle(document.documentElement).getPro
 const HEIGHT = 150;
 const FONT = "12px system-ui, sans-serif";
 
-/** @param {boolean} time */
+/** @param {boolean} time  whether that over which the lines are drawn is the time */
 const axes = (time) => {
   // Functions, because the colors change with the mode.
   const common = {
@@ -29,7 +29,7 @@ const axes = (time) => {
   ];
 };
 
-/** A picture of lines over time, whose cursor the pictures over time share; or over another number. */
+/** A picture of lines over time, whose cursor all pictures over time share; or over another number. */
 export class LinePlot {
   /** @type {uPlot} */
   #plot;
@@ -42,9 +42,10 @@ export class LinePlot {
   /**
    * @param {HTMLElement} container
    * @param {string[]} strokes  names of the colors; the second line is dashed
-   * @param {((index: number | null) => void) | null} onCursor  null if it is not over time
+   * @param {(index: number | null) => void} onCursor
+   * @param {"time" | "number" | "logarithm"} [over]  that over which the lines are drawn
    */
-  constructor(container, strokes, onCursor) {
+  constructor(container, strokes, onCursor, over = "time") {
     this.#container = container;
     const draw = (/** @type {() => Draw} */ what) => (/** @type {uPlot} */ u) => {
       const { ctx, bbox } = u;
@@ -63,14 +64,13 @@ export class LinePlot {
         height: HEIGHT,
         padding: [8, 12, 0, 0],
         legend: { show: false },
-        scales: { x: { time: false } },
-        axes: axes(onCursor !== null),
+        scales: { x: { time: false, distr: over === "logarithm" ? 3 : 1 } },
+        axes: axes(over === "time"),
         cursor: {
-          show: onCursor !== null,
           y: false,
-          drag: { x: true, y: false },
+          drag: { x: over === "time", y: false },
           points: { size: 6 },
-          ...(onCursor ? { sync: { key: "time" } } : {}),
+          ...(over === "time" ? { sync: { key: "time" } } : {}),
         },
         series: [
           {},
@@ -84,7 +84,7 @@ export class LinePlot {
         hooks: {
           drawClear: [draw(() => this.#before)],
           draw: [draw(() => this.#after)],
-          setCursor: [(/** @type {uPlot} */ u) => onCursor?.(u.cursor.idx ?? null)],
+          setCursor: [(/** @type {uPlot} */ u) => onCursor(u.cursor.idx ?? null)],
         },
       },
       [[], ...strokes.map(() => [])],
@@ -93,7 +93,7 @@ export class LinePlot {
   }
 
   /**
-   * @param {Float64Array} time
+   * @param {Float64Array} time     or the other number
    * @param {Float64Array[]} lines  as long, or empty
    * @param {{before?: Draw, after?: Draw, range?: [number, number]}} [more]  drawn below and above the line, in CSS pixels; the
    *   least range of values
@@ -117,7 +117,7 @@ export class LinePlot {
     });
   }
 
-  /** @param {number} time  where the cursor goes */
+  /** @param {number} time  or the other number, where the cursor goes */
   point(time) {
     this.#plot.setCursor({ left: this.#plot.valToPos(time, "x"), top: 0 }, false);
   }

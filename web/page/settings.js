@@ -126,6 +126,59 @@ export function fromLink(text) {
 export const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
 
 /**
+ * The words that name a record to the command.
+ * @param {Source} source  of a file
+ */
+function record({ file, units, dt, component }) {
+  return [
+    quoted(file ?? ""),
+    ...(units ? ["--units", quoted(units)] : []),
+    ...(dt ? ["--dt", dt] : []),
+    ...(component ? ["--component", quoted(component)] : []),
+  ];
+}
+
+/** @param {Source} source */
+const imports = (source, needsNumbers = false) => [
+  ...(needsNumbers || source.python.some((line) => line.includes("np.")) ? ["import numpy as np"] : []),
+  "import stickslip as ss",
+  "",
+  ...source.python,
+];
+
+/** The periods of a response spectrum [s], those of `stickslip spectrum`. */
+export const PERIODS = Float64Array.from({ length: 100 }, (_, i) => 10 ** (i / 33 - 2));
+
+/**
+ * The command that gives the response spectrum of a motion; null if no file holds it.
+ * @param {Source} source
+ * @param {number} damping
+ * @param {number} scale
+ * @returns {string | null}
+ */
+export function spectrumCommand(source, damping, scale) {
+  if (source.file === null) return null;
+  const words = ["stickslip spectrum", ...record(source), "--damping", damping];
+  if (scale !== 1) words.push(`--scale=${scale}`);
+  return [...words, "--csv response_spectrum.csv"].join(" ");
+}
+
+/**
+ * The Python lines that give the response spectrum.
+ * @param {Source} source
+ * @param {number} damping
+ * @param {number} scale
+ */
+export function spectrumPython(source, damping, scale) {
+  const motion = `motion${scale === 1 ? "" : `.scaled(${scale})`}`;
+  return [
+    ...imports(source, true),
+    `spectrum = ss.response_spectrum(${motion}, np.geomspace(0.01, 10, 100), damping=${damping})`,
+    "print(spectrum.values)",
+  ].join("\n");
+}
+
+/**
  * The command that gives the same numbers; null if it has no option for a setting.
  * @param {Settings} settings
  * @param {Source} source
@@ -134,12 +187,9 @@ export const quoted = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text
 export function command(settings, source) {
   const law = LAWS[settings.law]?.name ?? "";
   if (source.file === null || law === "speed" || law === "degrading" || settings.pendulum) return null;
-  const words = ["stickslip slide", quoted(source.file), "--mu", settings.mu];
+  const words = ["stickslip slide", ...record(source), "--mu", settings.mu];
   if (law !== "coulomb") words.push("--law", law);
-  if (source.units) words.push("--units", quoted(source.units));
-  if (source.dt) words.push("--dt", source.dt);
   if (settings.vertical) words.push("--station");
-  if (source.component) words.push("--component", quoted(source.component));
   for (const [option, value] of /** @type {[string, number][]} */ ([
     ["--reach", settings.reach],
     ["--mu-static", settings.mu_static],
@@ -182,10 +232,7 @@ export function python(s, source) {
   if (!Number.isNaN(s.stop_gap)) mounting.push(`stops=ss.Stops(gap=${s.stop_gap}, restitution=${s.restitution})`);
   const contact = s.vertical && s.clipped ? ', contact="clipped"' : "";
   return [
-    ...(source.python.some((line) => line.includes("np.")) ? ["import numpy as np"] : []),
-    "import stickslip as ss",
-    "",
-    ...source.python,
+    ...imports(source),
     `slider = ss.Slider(${mounting.join(", ")})`,
     `response = ss.integrate(slider, motion${s.scale === 1 ? "" : `.scaled(${s.scale})`}, settle=True${contact})`,
     "print(response.peak, response.residual)",

@@ -135,6 +135,15 @@ const calls = {
   },
 
   /**
+   * @param {number} id
+   * @param {Float64Array} periods
+   * @param {number} damping
+   */
+  responseSpectrum(id, periods, damping) {
+    return library.responseSpectrum(id, periods, damping);
+  },
+
+  /**
    * Peak and magnitude of the residual [m] with the record as it is and reversed.
    * @param {number} id
    * @param {Settings} settings

@@ -109,7 +109,7 @@ test("dropped files slide as the native library has it", async () => {
   await open("mu=0.1");
   await drop("three.csv");
   compare(await table(), answers.components[0]);
-  assert.match(await textOf("command"), /^stickslip slide three\.csv --mu 0\.1 --component N00E$/);
+  assert.match(await textOf("command"), /^stickslip slide three\.csv --component N00E --mu 0\.1$/);
   await page.waitForSelector("#figure-path[data-si]");
   const path = await page.$eval("#figure-path", (one) => JSON.parse(/** @type {HTMLElement} */ (one).dataset.si ?? ""));
   compare(Object.fromEntries(Object.entries(path)), Object.fromEntries(Object.entries(answers.path)));
@@ -139,15 +139,12 @@ test("the command and the Python lines give the numbers of the page", async () =
     await open(settings);
     await drop("three.csv");
     const { peak, residual } = await table();
-    const lines = `${await textOf("python")}\nprint(repr(response.peak), repr(response.residual))`;
-    const printed = execFileSync(python, ["-W", "ignore", "-c", lines], { cwd: samples, encoding: "utf8" });
-    const [p = NaN, r = NaN] = (printed.trim().split("\n").at(-1) ?? "").split(" ").map(Number);
+    const lines = await printed(await textOf("python"), "print(repr(response.peak), repr(response.residual))");
+    const [p = NaN, r = NaN] = lines.split(" ").map(Number);
     compare({ peak: peak ?? NaN, residual: residual ?? NaN }, { peak: p, residual: r });
-    const command = await textOf("command");
-    if (!command.startsWith("stickslip")) continue;
-    const words = command.split(" ").slice(1);
-    const json = execFileSync(python, ["-W", "ignore", "-m", "stickslip", ...words, "--json"], { cwd: samples, encoding: "utf8" });
-    const [row] = JSON.parse(json).results;
+    const line = await textOf("command");
+    if (!line.startsWith("stickslip")) continue;
+    const [row] = JSON.parse(command(`${line} --json`)).results;
     compare({ peak: peak ?? NaN, residual: residual ?? NaN }, { peak: row.peak_m, residual: row.residual_m });
   }
   assert.deepEqual(complaints, []);
@@ -229,6 +226,49 @@ async function downloaded(button, ending) {
   return text;
 }
 
+test("response spectrum: panel, CSV, command and Python, by keys", async () => {
+  await open("mu=0.1&scale=-2");
+  await drop("three.csv");
+  await page.waitForSelector("#figure-response[data-si]");
+  const expected = answers.spectrum.map((/** @type {number} */ value) => 2 * value);
+  const compareAll = (/** @type {number[]} */ found) => {
+    assert.equal(found.length, expected.length);
+    compare(Object.fromEntries(Object.entries(found)), Object.fromEntries(Object.entries(expected)));
+  };
+  compareAll(await page.$eval("#figure-response", (one) => JSON.parse(/** @type {HTMLElement} */ (one).dataset.si ?? "")));
+
+  const lines = (await downloaded("#response-csv", ".csv")).trim().split("\n");
+  assert.ok(lines.includes(`# Arias intensity [m/s]: ${(await table())["Arias intensity"]}`));
+  const rows = lines.filter((line) => !line.startsWith("#")).map((line) => line.split(","));
+  assert.deepEqual(rows.shift(), ["period_s", "pseudo_acceleration_m_s2"]);
+  compareAll(rows.map(([, value]) => Number(value)));
+
+  const python = await printed(await textOf("response-python"), "print([float(value) for value in spectrum.values])");
+  compareAll(JSON.parse(python));
+  const json = command(`${(await textOf("response-command")).replace(/ --csv.*/, "")} --json --periods 1`);
+  const second = JSON.parse(json).results[0];
+  assert.equal(second.damping_ratio, 0.05);
+
+  await page.focus("#figure-response");
+  for (let i = 0; i < 7; ++i) await page.keyboard.press("PageDown");
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowLeft"); // point 66, of 1 s
+  const shown = Number(((expected[66] ?? NaN) / 9.80665).toPrecision(4));
+  assert.equal(await textOf("read-response"), `T = 1 s: ${shown} g`);
+  assert.ok(Math.abs(second.pseudo_acceleration_m_s2 - (expected[66] ?? NaN)) < 1e-12);
+  assert.deepEqual(complaints, []);
+});
+
+/** What lines of Python print. @param {...string} lines */
+const printed = async (...lines) =>
+  execFileSync(python, ["-W", "ignore", "-c", lines.join("\n")], { cwd: samples, encoding: "utf8" })
+    .trim()
+    .split("\n")
+    .at(-1) ?? "";
+
+/** What a command prints. @param {string} line */
+const command = (line) =>
+  execFileSync(python, ["-W", "ignore", "-m", "stickslip", ...line.split(" ").slice(1)], { cwd: samples, encoding: "utf8" });
+
 test("many records: both ways, with mean, median and deviation", async () => {
   await open("mu=0.1");
   await drop("three.csv");
@@ -242,11 +282,12 @@ test("many records: both ways, with mean, median and deviation", async () => {
   );
   const lines = (await downloaded("#many-csv", ".csv")).trim().split("\n");
   assert.equal(lines.length, 1 + 1 + 3 + 3);
-  const peaks = lines.slice(2, 5).map((line) => Number(line.split(",")[2]));
+  const peak = lines[1]?.split(",").indexOf("peak_normal_m") ?? -1;
+  const peaks = lines.slice(2, 5).map((line) => Number(line.split(",")[peak]));
   const mean = peaks.reduce((sum, value) => sum + value, 0) / 3;
   assert.equal(lines[5]?.split(",")[0], "mean");
-  assert.ok(Math.abs(Number(lines[5]?.split(",")[2]) - mean) < 1e-12);
-  assert.equal(Number(lines[6]?.split(",")[2]), peaks.sort((a, b) => a - b)[1]);
+  assert.ok(Math.abs(Number(lines[5]?.split(",")[peak]) - mean) < 1e-12);
+  assert.equal(Number(lines[6]?.split(",")[peak]), peaks.sort((a, b) => a - b)[1]);
   assert.deepEqual(complaints, []);
 });
 
@@ -265,7 +306,7 @@ test("two settings side by side, SVG, and a paragraph", async () => {
   assert.match(await textOf("report"), /^A mass held by friction \(Coulomb, \u03bc = 0\.1\) .* reaches 57\.13 cm/);
   const picture = await downloaded("#svg", ".svg");
   assert.match(picture, /^<svg .*<path d="M[\d.,L-]+" fill="none".*<\/svg>$/s);
-  await page.waitForFunction(() => document.querySelector("#title-spectrum")?.textContent?.startsWith("Sliding spectrum"));
+  await page.waitForFunction(() => document.querySelector("#title-sliding")?.textContent?.startsWith("Sliding spectrum"));
   assert.deepEqual(complaints, []);
 });
 

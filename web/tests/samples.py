@@ -87,6 +87,7 @@ def main() -> None:
     plane = ss.integrate(ss.PlanarSlider(ss.Slider(ss.Coulomb(mu=MU[0]))), horizontal, settle=True)
     answers = {
         "many": [both_ways(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
+        "spectrum": ss.response_spectrum(first, np.geomspace(0.01, 10, 100), 0.05).values.tolist(),
         "path": [plane.peak, *plane.residual.tolist()],
         "components": [numbers(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
         "first": {str(mu): numbers(first, mu) for mu in MU},
