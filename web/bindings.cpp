@@ -27,7 +27,9 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
+#include "stickslip/friction/stribeck.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/intensity_measures.hpp"
@@ -37,6 +39,7 @@
 #include "stickslip/ground/station.hpp"
 #include "stickslip/ground/strong_motion.hpp"
 #include "stickslip/planar/integrate.hpp"
+#include "stickslip/planar/margins.hpp"
 #include "stickslip/planar/slider.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/forces.hpp"
@@ -81,17 +84,31 @@ int guarded(Work&& work) {
   }
 }
 
+/// The most surfaces of a bearing.
+constexpr std::size_t most_surfaces = 5;
+
 /// What the page chooses; the names are those of the command's options. NaN is an option that is not given.
 struct Settings {
-  enum Law { coulomb, caster, one_way, speed, degrading };
-  double law, mu, mu_static, reach, mu_fast, rate, mu_residual, distance;
-  double period, damping_ratio, pendulum, slope, stop_gap, restitution;
+  enum Law { coulomb, caster, one_way, speed, degrading, stribeck, pendulum };
+  double law, mu, mu_static, reach, mu_fast, rate, mu_residual, distance, stribeck_speed, exponent;
+  double period, damping_ratio, spring_pendulum, slope, stop_gap, restitution;
   double vertical, clipped, scale;
+  double radii[most_surfaces], mus[most_surfaces], capacities[most_surfaces];
 };
 
 constexpr const char* setting_names =
-    "law mu mu_static reach mu_fast rate mu_residual distance period damping_ratio pendulum slope stop_gap restitution "
-    "vertical clipped scale";
+    "law mu mu_static reach mu_fast rate mu_residual distance stribeck_speed exponent period damping_ratio pendulum "
+    "slope "
+    "stop_gap restitution vertical clipped scale radii.0 radii.1 radii.2 radii.3 radii.4 mus.0 mus.1 mus.2 mus.3 mus.4 "
+    "capacities.0 capacities.1 capacities.2 capacities.3 capacities.4";
+
+/// Those that the input begins with.
+Settings given_settings() {
+  Settings settings;
+  if (given.size() < sizeof settings) throw std::invalid_argument("wrong number of settings");
+  std::memcpy(&settings, given.data(), sizeof settings);
+  return settings;
+}
 
 bool is(double flag) { return flag > 0; }
 
@@ -100,7 +117,7 @@ Mounting mounting_of(const Settings& s) {
   if (!std::isnan(s.period)) {
     detail::require(std::isfinite(s.period) && s.period > 0, "period must be positive and finite", s.period, "s");
     on.natural_frequency = 2 * std::numbers::pi / s.period;
-    on.pendulum = is(s.pendulum);
+    on.pendulum = is(s.spring_pendulum);
     if (!std::isnan(s.damping_ratio)) {
       detail::require(std::isfinite(s.damping_ratio) && s.damping_ratio >= 0,
                       "damping ratio must be finite and at least 0", s.damping_ratio);
@@ -110,6 +127,25 @@ Mounting mounting_of(const Settings& s) {
   if (!std::isnan(s.slope)) on.slope_degrees = s.slope;
   if (!std::isnan(s.stop_gap)) on.stops = Stops(s.stop_gap, std::isnan(s.restitution) ? 0 : s.restitution);
   return on;
+}
+
+/// The bearing with several surfaces, whose largest coefficient is mu.
+MultiPendulum bearing_of(const Settings& s) {
+  const auto listed = [](const double(&values)[most_surfaces]) {
+    return std::vector<double>(values,
+                               std::find_if(values, values + most_surfaces, [](double v) { return std::isnan(v); }));
+  };
+  std::vector<double> radii = listed(s.radii), mus = listed(s.mus), capacities = listed(s.capacities);
+  if (radii.size() != 2 && radii.size() != 3 && radii.size() != 5)
+    throw std::invalid_argument("radii must be 2, 3 or 5, of a double, triple or quintuple bearing, got " +
+                                std::to_string(radii.size()));
+  if (!mus.empty())
+    if (const double most = *std::max_element(mus.begin(), mus.end()); most != s.mu)
+      for (double& mu : mus) mu *= s.mu / most;
+  if (capacities.empty()) capacities.assign(radii.size(), std::numeric_limits<double>::infinity());
+  const bool nested = radii.size() > 2;
+  return {std::move(radii), std::move(mus), std::move(capacities), std::isnan(s.restitution) ? 0 : s.restitution,
+          nested};
 }
 
 /// Calls `use(law, mounting)` with the law of the settings.
@@ -135,6 +171,10 @@ void with_law(const Settings& s, Use&& use) {
       return sticky(Coulomb::from_friction(s.mu));
     case Settings::speed:
       return sticky(VelocityDependent(s.mu * g, s.mu_fast * g, s.rate));
+    case Settings::stribeck:
+      return use(Stribeck(s.mu_static * g, s.mu * g, s.stribeck_speed, static_cast<int>(s.exponent)), on);
+    case Settings::pendulum:
+      return use(bearing_of(s), on);
     case Settings::degrading:
       return sticky(Degrading({0, s.distance}, {s.mu * g, s.mu_residual * g}));
   }
@@ -153,17 +193,11 @@ GroundMotion driven(const Settings& s, const GroundMotion& record) {
 
 struct Summary {
   double peak, residual, sliding_distance, time_sliding, slips, impacts, liftoffs, at_rest;
-  double events, samples, end, input, imbalance, margin, impact_margin, pga;
+  double events, samples, end, input, imbalance, margin, impact_margin, pga, hold;
 };
 constexpr const char* summary_names =
     "peak residual sliding_distance time_sliding slips impacts liftoffs at_rest events samples end input imbalance "
-    "margin impact_margin pga";
-
-double count(EventKind kind) {
-  double total = 0;
-  for (const Event& event : response.events) total += event.kind == kind ? 1 : 0;
-  return total;
-}
+    "margin impact_margin pga hold";
 
 /// The response up to the final rest, or to the end of the motion if it never rests, as the command reports it.
 template <class Law>
@@ -208,30 +242,71 @@ Margins read(const Trajectory& trajectory) {
   return reader.margins.margins;
 }
 
+double size(double residual) { return residual; }
+double size(Vector2 residual) { return norm(residual); }
+
+/// Answers with the summary of a response on one axis or in the plane.
+template <class Found>
+void summarize(const Found& found, const Margins& margin, bool at_rest, double pga, double hold) {
+  const auto count = [&](EventKind kind) {
+    double total = 0;
+    for (const auto& event : found.events) total += event.kind == kind ? 1 : 0;
+    return total;
+  };
+  const Summary summary{found.peak,
+                        size(found.residual),
+                        found.sliding_distance,
+                        found.time_sliding,
+                        count(EventKind::breakaway) + count(EventKind::reversal),
+                        count(EventKind::impact),
+                        count(EventKind::liftoff),
+                        at_rest ? 1.0 : 0.0,
+                        static_cast<double>(found.events.size()),
+                        static_cast<double>(found.displacement.size()),
+                        found.events.back().time,
+                        found.energy.input,
+                        found.energy.imbalance(),
+                        margin.load,
+                        margin.impact,
+                        pga,
+                        hold};
+  answer.resize(sizeof summary / sizeof(double));
+  std::memcpy(answer.data(), &summary, sizeof summary);
+}
+
 template <class Law>
 void slide(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
   const Slider<Law> slider(law, mounting);
   response = settled(slider, motion, clipped, std::move(response));
   const Margins margin = read(*trajectory(slider, motion, response));
-  const Energy& energy = response.energy;
-  const Summary summary{response.peak,
-                        response.residual,
-                        response.sliding_distance,
-                        response.time_sliding,
-                        count(EventKind::breakaway) + count(EventKind::reversal),
-                        count(EventKind::impact),
-                        count(EventKind::liftoff),
-                        response.state.mode == Mode::stuck ? 1.0 : 0.0,
-                        static_cast<double>(response.events.size()),
-                        static_cast<double>(response.displacement.size()),
-                        response.events.back().time,
-                        energy.input,
-                        energy.imbalance(),
-                        margin.load,
-                        margin.impact,
-                        motion.peak_acceleration()};
-  answer.resize(sizeof summary / sizeof(double));
-  std::memcpy(answer.data(), &summary, sizeof summary);
+  const double held = hold(law_at(law, State{}), 0, Direction::forward);
+  summarize(response, margin, response.state.mode == Mode::stuck, motion.peak_acceleration(), held);
+}
+
+/// Slides in the plane; answers with the summary, and then the components of the displacement at each sample.
+template <class Law>
+void slide_in_plane(const Law& law, const Mounting& mounting, const GroundMotion& motion, bool clipped) {
+  if constexpr (IsotropicLaw<Law>) {
+    const PlanarSlider<Law> slider(law, mounting);
+    PlanarIntegrateOptions options;
+    options.contact = clipped ? Contact::clipped : Contact::flight;
+    PlanarResponse found;
+    try {
+      options.settle = true;
+      found = integrate(slider, motion, options);
+    } catch (const ConvergenceError&) {
+      options.settle = false;
+      found = integrate(slider, motion, options);
+    }
+    double pga = 0;
+    for (std::size_t i = 0; i < motion.samples(); ++i)
+      pga = std::max(pga, std::hypot(motion.acceleration()[i], motion.transverse()[i]));
+    summarize(found, margins(slider, motion, found), found.state.mode == PlanarMode::stuck, pga,
+              detail::hold_at(slider, PlanarState{}));
+    for (const Vector2& place : found.displacement) answer.insert(answer.end(), {place.axis, place.transverse});
+  } else {
+    throw std::invalid_argument("in the plane friction must be the same in all directions");
+  }
 }
 
 std::vector<double> copy_of(std::span<const double> values) { return {values.begin(), values.end()}; }
@@ -289,19 +364,21 @@ STICKSLIP_EXPORT(read) int read(double dt, int gaps) {
   });
 }
 
-/// Keeps a motion whose samples [m/s^2] are the input: of the axis, and with `vertical` as many of the vertical
-/// component.
-STICKSLIP_EXPORT(make) int make(double dt, int vertical) {
+/// Keeps a motion whose samples [m/s^2] are the input: of the axis, and as many of each other component that there is.
+STICKSLIP_EXPORT(make) int make(double dt, int transverse, int vertical) {
   return guarded([&] {
-    std::vector<double> axis(given.size() / sizeof(double)), up;
-    std::memcpy(axis.data(), given.data(), axis.size() * sizeof(double));
-    if (vertical != 0) {
-      const auto middle = axis.begin() + static_cast<std::ptrdiff_t>(axis.size() / 2);
-      up.assign(middle, axis.end());
-      axis.erase(middle, axis.end());
-    }
-    const GroundMotion motion(std::move(axis), dt);
-    return keep({vertical != 0 ? motion.with_components({}, std::move(up)) : motion});
+    const std::size_t parts = 1 + (transverse != 0 ? 1 : 0) + (vertical != 0 ? 1 : 0);
+    const std::size_t samples = given.size() / sizeof(double) / parts;
+    std::size_t next = 0;
+    const auto part = [&](bool is_there) {
+      std::vector<double> values(is_there ? samples : 0);
+      std::memcpy(values.data(), given.data() + next * samples * sizeof(double), values.size() * sizeof(double));
+      next += is_there ? 1 : 0;
+      return values;
+    };
+    const GroundMotion motion(part(true), dt);
+    std::vector<double> across = part(transverse != 0), up = part(vertical != 0);
+    return keep({parts > 1 ? motion.with_components(std::move(across), std::move(up)) : motion});
   });
 }
 
@@ -385,9 +462,7 @@ STICKSLIP_EXPORT(response_spectrum) int response_spectrum(int number, double dam
 /// @return 0; `numbers` is the summary, and `history` has the histories
 STICKSLIP_EXPORT(slide) int slide(int number) {
   return guarded([&] {
-    Settings settings;
-    if (given.size() != sizeof settings) throw std::invalid_argument("slide: wrong number of settings");
-    std::memcpy(&settings, given.data(), sizeof settings);
+    const Settings settings = given_settings();
     driving = driven(settings, of(number).motion);
     with_law(settings, [&](const auto& law, const Mounting& on) { slide(law, on, *driving, is(settings.clipped)); });
     return 0;
@@ -397,9 +472,8 @@ STICKSLIP_EXPORT(slide) int slide(int number) {
 /// Peaks and magnitudes of residuals [m] for each mu in the input, after the settings: a sliding spectrum.
 STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
   return guarded([&] {
-    Settings settings;
+    Settings settings = given_settings();
     std::vector<double> mus((given.size() - sizeof settings) / sizeof(double));
-    std::memcpy(&settings, given.data(), sizeof settings);
     std::memcpy(mus.data(), given.data() + sizeof settings, mus.size() * sizeof(double));
     const GroundMotion motion = driven(settings, of(number).motion);
     answer.clear();
@@ -421,28 +495,16 @@ STICKSLIP_EXPORT(spectrum) int spectrum(int number) {
   });
 }
 
-/// Slides a Coulomb slider in the plane under both horizontal components; the input is the settings.
-/// @return 0; `numbers` is the peak [m], its time [s], the residual along both axes [m], the sliding distance [m], the
-///         energy imbalance over the input, and then x and y at each sample [m]
+/// Slides in the plane under both horizontal components; the input is the settings.
+/// @return 0; `numbers` is the summary, whose residual is a distance, and then x and y at each sample [m]
 STICKSLIP_EXPORT(path) int path(int number) {
   return guarded([&] {
-    Settings settings;
-    std::memcpy(&settings, given.data(), sizeof settings);
+    const Settings settings = given_settings();
     const GroundMotion& record = of(number).motion;
     GroundMotion motion = is(settings.vertical) ? record : record.with_components(copy_of(record.transverse()));
     if (settings.scale != 1) motion = motion.scaled(settings.scale);
-    PlanarIntegrateOptions options;
-    options.contact = is(settings.clipped) ? Contact::clipped : Contact::flight;
-    options.settle = true;
-    const PlanarSlider slider(Coulomb::from_friction(settings.mu), mounting_of(settings));
-    const PlanarResponse found = integrate(slider, motion, options);
-    answer = {found.peak,
-              found.peak_time,
-              found.residual.axis,
-              found.residual.transverse,
-              found.sliding_distance,
-              found.energy.imbalance() / (found.energy.input > 0 ? found.energy.input : 1)};
-    for (const Vector2& place : found.displacement) answer.insert(answer.end(), {place.axis, place.transverse});
+    with_law(settings,
+             [&](const auto& law, const Mounting& on) { slide_in_plane(law, on, motion, is(settings.clipped)); });
     return 0;
   });
 }

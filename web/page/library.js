@@ -3,14 +3,18 @@
 /**
  * What a slider is; the names are those of the command's options, SI units; NaN is not given.
  * @typedef {Object} Settings
- * @property {number} law            0 Coulomb, 1 caster, 2 one-way, 3 speed-dependent, 4 degrading
- * @property {number} mu             coefficient of friction; of the laws 3 and 4 that at rest and that of a new surface
+ * @property {number} law            0 Coulomb, 1 caster, 2 one-way, 3 speed-dependent, 4 degrading, 5 Stribeck, 6 the bearing
+ *   with several surfaces
+ * @property {number} mu             coefficient of friction: at rest for the law 3, of a new surface for 4, at high speed for 5,
+ *   the largest of all surfaces for 6
  * @property {number} mu_static
  * @property {number} reach          [m]
  * @property {number} mu_fast
  * @property {number} rate           [s/m]
  * @property {number} mu_residual
  * @property {number} distance       [m]
+ * @property {number} stribeck_speed  at which the static friction has fallen by 63 % of the difference [m/s]
+ * @property {number} exponent
  * @property {number} period         [s]
  * @property {number} damping_ratio
  * @property {number} pendulum       1: the spring is a pendulum
@@ -20,6 +24,9 @@
  * @property {number} vertical       1: the vertical component acts
  * @property {number} clipped        1: the slider never leaves the ground
  * @property {number} scale          factor on the ground acceleration
+ * @property {readonly number[]} radii       of 2, 3 or 5 surfaces [m]
+ * @property {readonly number[]} mus         their coefficients, in the ratios of which mu is the largest
+ * @property {readonly number[]} capacities  their travels to the stops [m]; empty for none
  */
 
 /**
@@ -39,7 +46,8 @@
  * @property {number} imbalance         of the energy [m^2/s^2]
  * @property {number} margin
  * @property {number} impact_margin
- * @property {number} pga               of the scaled motion [m/s^2]
+ * @property {number} pga               of the scaled motion; in the plane, of both components together [m/s^2]
+ * @property {number} hold              what friction holds at the start [m/s^2]
  */
 
 /**
@@ -177,15 +185,17 @@ export class Library {
   /**
    * @param {Float64Array} acceleration  [m/s^2]
    * @param {number} dt                  [s]
-   * @param {Float64Array} [vertical]    [m/s^2], as many
+   * @param {{transverse?: Float64Array, vertical?: Float64Array}} [others]  [m/s^2], as many, or none
    * @returns {number} the number of the motion
    */
-  make(acceleration, dt, vertical = new Float64Array()) {
-    const both = new Float64Array(acceleration.length + vertical.length);
-    both.set(acceleration);
-    both.set(vertical, acceleration.length);
-    this.#giveView(both);
-    return this.#checked(this.#wasm.make(dt, vertical.length > 0 ? 1 : 0));
+  make(acceleration, dt, { transverse = new Float64Array(), vertical = new Float64Array() } = {}) {
+    const n = acceleration.length;
+    const all = new Float64Array(n + transverse.length + vertical.length);
+    all.set(acceleration);
+    all.set(transverse, n);
+    all.set(vertical, n + transverse.length);
+    this.#giveView(all);
+    return this.#checked(this.#wasm.make(dt, transverse.length / n, vertical.length / n));
   }
 
   /**
@@ -251,7 +261,18 @@ export class Library {
   /** @param {Settings} settings */
   #values(settings) {
     const values = /** @type {any} */ (settings);
-    return Float64Array.from(this.#settings, (name) => Number(values[name]));
+    return Float64Array.from(this.#settings, (name) => {
+      const [key = "", place] = name.split(".");
+      return Number(place === undefined ? values[key] : values[key][Number(place)]);
+    });
+  }
+
+  /**
+   * @param {Float64Array} numbers
+   * @returns {Summary}
+   */
+  #named(numbers) {
+    return /** @type {any} */ (Object.fromEntries(this.#summary.map((name, i) => [name, numbers[i]])));
   }
 
   /**
@@ -262,8 +283,7 @@ export class Library {
   slide(id, settings) {
     this.#giveView(this.#values(settings));
     this.#checked(this.#wasm.slide(id));
-    const numbers = this.#numbers();
-    return /** @type {any} */ (Object.fromEntries(this.#summary.map((name, i) => [name, numbers[i]])));
+    return this.#named(this.#numbers());
   }
 
   /**
@@ -285,21 +305,19 @@ export class Library {
   }
 
   /**
-   * A Coulomb slider in the plane, under both horizontal components.
+   * In the plane, under both horizontal components.
    * @param {number} id
-   * @param {Settings} settings  of the law only mu counts
-   * @returns {{peak: number, residual: [number, number], axis: Float64Array, transverse: Float64Array}}  [m]
+   * @param {Settings} settings
+   * @returns {{summary: Summary, axis: Float64Array, transverse: Float64Array}}  the residual is a distance; displacements at the
+   *   samples [m]
    */
   path(id, settings) {
     this.#giveView(this.#values(settings));
     this.#checked(this.#wasm.path(id));
-    const [peak = NaN, , x = NaN, y = NaN, , , ...places] = this.#numbers();
-    return {
-      peak,
-      residual: [x, y],
-      axis: Float64Array.from({ length: places.length / 2 }, (_, i) => places[2 * i] ?? NaN),
-      transverse: Float64Array.from({ length: places.length / 2 }, (_, i) => places[2 * i + 1] ?? NaN),
-    };
+    const [numbers, first] = [this.#numbers(), this.#summary.length];
+    const every = (/** @type {number} */ from) =>
+      Float64Array.from({ length: (numbers.length - first) / 2 }, (_, i) => numbers[from + 2 * i] ?? NaN);
+    return { summary: this.#named(numbers), axis: every(first), transverse: every(first + 1) };
   }
 
   /**

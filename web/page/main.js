@@ -12,7 +12,11 @@ import {
   completed,
   FIELDS,
   fromLink,
+  given,
   LAWS,
+  listed,
+  pathCommand,
+  pathPython,
   PERIODS,
   python,
   spectrumCommand,
@@ -25,7 +29,8 @@ import { statistics } from "./statistics.js";
 import { svg } from "./svg.js";
 import { digits, unitOf } from "./units.js";
 
-/** @import { Settings } from "./library.js" */
+/** @import { Settings, Summary } from "./library.js" */
+/** @import { Field } from "./settings.js" */
 /** @import { Motion, Response } from "./worker.js" */
 /** @import { Source } from "./sources.js" */
 /** @import { Choice, Quantity } from "./units.js" */
@@ -160,6 +165,7 @@ function changed() {
   lastChange = performance.now();
   ++changes;
   document.body.dataset.state = "busy";
+  element("figure-path").dataset.state = "busy";
   history.replaceState(null, "", `#${linkText()}`);
   update();
   updateSliding();
@@ -306,22 +312,46 @@ function downloadResponse() {
 
 // ---- the path in the plane
 
+/** @type {{row: Row, summary: Summary, time: Float64Array, axis: Float64Array, transverse: Float64Array} | null} */
+let path = null;
+
 const updatePath = latest(async () => {
-  const id = selected?.motion?.planarId ?? null;
+  const row = selected;
+  const id = row?.motion?.planarId ?? null;
   const full = completed(settings);
-  const possible = id !== null && LAWS[full.law]?.name === "coulomb" && Number.isNaN(full.mu_static);
-  const found = possible ? await worker.path(id, full).catch(() => null) : null;
-  element("figure-path").hidden = found === null;
-  if (!found) return;
-  const [peak, residual] = [found.peak, Math.hypot(...found.residual)];
+  let trouble = "";
   const figure = element("figure-path");
-  figure.dataset.si = JSON.stringify([found.peak, ...found.residual]);
-  element("title-path").textContent =
-    `Path in the plane [${unit("length").name}], friction along the velocity: largest distance ` +
-    `${shown(peak, "length")}, residual ${shown(residual, "length")}`;
+  const change = changes;
+  const refuse = (/** @type {Error} */ error) => ((trouble = error.message), null);
+  const found = id === null ? null : await worker.path(id, full).catch(refuse);
+  if (row !== selected) return;
+  figure.hidden = id === null;
+  element("path").hidden = found === null;
+  path = row && found ? { row, ...found } : null;
+  element("title-path").textContent = path
+    ? `Path in the plane [${unit("length").name}], friction along the velocity`
+    : `No path in the plane: ${trouble}`;
+  if (!path || !row?.motion) return;
   plots.path.resize();
-  plots.path.show(inUnits(found.axis, "length"), inUnits(found.transverse, "length"), true);
+  plots.path.show(inUnits(path.axis, "length"), inUnits(path.transverse, "length"), true);
+  element("path-numbers").tBodies[0].replaceChildren(...pathNumbers().map((line) => tableRow(line)));
+  const hasVertical = row.motion.verticalId !== null;
+  element("path-command").textContent = pathCommand(full, row.source(false), hasVertical) ?? NO_COMMAND;
+  const even = !Number.isNaN(row.motion.measures.dt);
+  element("path-python").textContent = pathPython(full, row.source(true), hasVertical, even);
+  if (change === changes) figure.dataset.state = "shown";
 });
+
+/** @returns {Line[]} */
+const pathNumbers = () => (path ? [...slideNumbers(path.summary), ...certificate(path.summary)] : []);
+
+function downloadPath() {
+  if (!path) return;
+  const { row, time, axis, transverse } = path;
+  const lines = Array.from(time, (t, i) => [t, axis[i] ?? NaN, transverse[i] ?? NaN]);
+  const comments = [`stickslip: ${row.label}, in the plane; ${toLink(completed(settings))}`, ...described(pathNumbers())];
+  download(`${fileName(row)}_path.csv`, csv(["time_s", "axis_m", "transverse_m"], lines, comments), "text/csv");
+}
 
 // ---- many records
 
@@ -441,7 +471,7 @@ function show(s, row) {
   const [length, speed, ground] = [unit("length"), unit("velocity"), unit("acceleration")];
 
   element("title-acceleration").textContent = `Ground acceleration [${ground.name}]`;
-  const levels = slipLevels(s).map((level) => level / ground.size);
+  const levels = slipLevels(s, summary).map((level) => level / ground.size);
   plots.acceleration.show(time, [inUnits(padded(acceleration, 0), "acceleration")], {
     after: (u, ctx) =>
       levels.forEach((level, i) =>
@@ -492,9 +522,10 @@ function show(s, row) {
 /**
  * The ground accelerations at which the slider at x = 0 starts to slide forward and backward [m/s^2].
  * @param {Settings} s
+ * @param {Summary} summary
  */
-function slipLevels({ mu, mu_static, slope, law }) {
-  const held = Number.isNaN(mu_static) ? mu : mu_static;
+function slipLevels({ slope, law }, { hold }) {
+  const held = hold / GRAVITY;
   const angle = ((Number.isNaN(slope) ? 0 : slope) * Math.PI) / 180;
   const [c, d] = [Math.cos(angle), Math.sin(angle)];
   const forward = (-GRAVITY * (held * c - d)) / (c + held * d);
@@ -547,6 +578,24 @@ function groundNumbers({ motion }, times = settings.scale) {
 /** Comments of a table. @param {Line[]} lines */
 const described = (lines) => lines.map(([name, value, , si]) => `${name}${si ? ` [${si}]` : ""}: ${value}`);
 
+/** @param {Summary} summary  @returns {Line[]} */
+const slideNumbers = (summary) => [
+  ["peak", summary.peak, "length", "m"],
+  ["residual", summary.residual, "length", "m"],
+  ["sliding distance", summary.sliding_distance, "length", "m"],
+  ["time sliding", summary.time_sliding, "time", "s"],
+  ["slips", summary.slips, "none", ""],
+  ["impacts", summary.impacts, "none", ""],
+  ["lift-offs", summary.liftoffs, "none", ""],
+];
+
+/** How far to trust a response. @param {Summary} summary  @returns {Line[]} */
+const certificate = (summary) => [
+  ["events", summary.events, "none", ""],
+  ["energy imbalance over input", summary.imbalance / (summary.input || 1), "none", ""],
+  ["margin of the closest decision", Math.min(summary.margin, summary.impact_margin), "none", ""],
+];
+
 /**
  * @param {Response | null} of
  * @param {number} times  the scale of the motion
@@ -554,20 +603,18 @@ const described = (lines) => lines.map(([name, value, , si]) => `${name}${si ? `
  */
 function numbers(of = response, times = settings.scale) {
   if (!of || !selected?.motion) return [];
-  const { summary } = of;
-  return [
-    ["peak", summary.peak, "length", "m"],
-    ["residual", summary.residual, "length", "m"],
-    ["sliding distance", summary.sliding_distance, "length", "m"],
-    ["time sliding", summary.time_sliding, "time", "s"],
-    ["slips", summary.slips, "none", ""],
-    ["impacts", summary.impacts, "none", ""],
-    ["lift-offs", summary.liftoffs, "none", ""],
-    ...groundNumbers(selected, times),
-    ["events", summary.events, "none", ""],
-    ["energy imbalance over input", summary.imbalance / (summary.input || 1), "none", ""],
-    ["margin of the closest decision", Math.min(summary.margin, summary.impact_margin), "none", ""],
-  ];
+  return [...slideNumbers(of.summary), ...groundNumbers(selected, times), ...certificate(of.summary)];
+}
+
+/**
+ * @param {Line} line
+ * @param {...HTMLElement} more
+ */
+function tableRow([name, value, quantity], ...more) {
+  const row = make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, shown(value, quantity)), ...more);
+  row.dataset.name = name;
+  row.dataset.si = String(value);
+  return row;
 }
 
 function showNumbers() {
@@ -576,13 +623,7 @@ function showNumbers() {
     ...(compared.length ? [make("tr", {}, make("th"), make("td", {}, "now"), make("td", {}, "compared"))] : []),
   );
   element("numbers").tBodies[0].replaceChildren(
-    ...numbers().map(([name, value, quantity], i) => {
-      const also = compared[i] ? [make("td", {}, shown(compared[i][1], quantity))] : [];
-      const row = make("tr", {}, make("th", { scope: "row" }, name), make("td", {}, shown(value, quantity)), ...also);
-      row.dataset.name = name;
-      row.dataset.si = String(value);
-      return row;
-    }),
+    ...numbers().map((line, i) => tableRow(line, ...(compared[i] ? [make("td", {}, shown(compared[i][1], line[2]))] : []))),
   );
   if (response && !response.summary.at_rest)
     element("numbers").tBodies[0].append(
@@ -599,17 +640,17 @@ function report(s, row) {
   if (!response || !row.motion) return "";
   const { summary } = response;
   const law = LAWS[s.law]?.label ?? "";
-  const given = FIELDS.filter(({ key }) => key !== "scale" && !Number.isNaN(s[key])).map(
-    ({ key, label, unit: in_ }) => `${label} ${s[key]}${in_ ? ` ${in_}` : ""}`,
+  const details = FIELDS.filter((field) => field.key !== "scale" && applies(field, s) && given(s, field.key)).map(
+    (field) => `${field.label} ${entered(field, s)}${field.unit ? ` ${field.unit}` : ""}`,
   );
-  if (s.pendulum) given.push("the spring being a pendulum");
+  if (s.pendulum) details.push("the spring being a pendulum");
   const scaled = s.scale === 1 ? "" : `, scaled by ${s.scale}`;
   const ground = `${row.label} (PGA ${shown(summary.pga, "acceleration")}${s.vertical ? ", with its vertical component" : ""}${scaled})`;
   const rest = summary.at_rest
     ? `comes to rest with a residual displacement of ${shown(summary.residual, "length")}`
     : `has not come to rest at the end of the record, where its displacement is ${shown(summary.residual, "length")}`;
   return (
-    `A mass held by friction (${law}, \u03bc = ${s.mu}${given.length ? `; ${given.join("; ")}` : ""}) was subjected to the ground motion ` +
+    `A mass held by friction (${law}, \u03bc = ${s.mu}${details.length ? `; ${details.join("; ")}` : ""}) was subjected to the ground motion ` +
     `${ground}. It slides ${shown(summary.sliding_distance, "length")} in ${summary.slips} slips; its displacement relative to the ` +
     `ground reaches ${shown(summary.peak, "length")}, and it ${rest}. Computed with stickslip, event by event; the energy ` +
     `balance closes to ${digits(Math.abs(summary.imbalance / (summary.input || 1)))} of the work of the ground, and the closest ` +
@@ -626,7 +667,7 @@ function downloadSvg() {
     {
       title: `Ground acceleration [${ground.name}]`,
       lines: [{ values: inUnits(acceleration, "acceleration"), stroke: "#56616c" }],
-      levels: slipLevels(completed(settings)).map((value) => ({ ...level, value: value / ground.size })),
+      levels: slipLevels(completed(settings), summary).map((value) => ({ ...level, value: value / ground.size })),
     },
     {
       title: `Velocity relative to the ground [${speed.name}]`,
@@ -887,7 +928,7 @@ function showGenerator() {
   element("generator-name").value = generator?.name ?? "";
   element("generator-values").replaceChildren(
     ...(generator?.parameters ?? []).map((one) =>
-      numberInput(one.label, one.unit, others[one.key] ?? String(one.value), "", (text) => {
+      entry(one.label, one.unit, others[one.key] ?? String(one.value), "", (text) => {
         const value = Number(text);
         if (text === "" || !(value >= one.min && value <= one.max)) return false;
         others[one.key] = text;
@@ -905,8 +946,8 @@ function showGenerator() {
  * @param {string} hint
  * @param {(text: string) => boolean} onInput  returns whether the text is valid
  */
-function numberInput(label, unitName, value, hint, onInput) {
-  const input = make("input", { type: "number", step: "any", value, title: hint });
+function entry(label, unitName, value, hint, onInput, type = "number") {
+  const input = make("input", { type, step: "any", value, title: hint });
   input.oninput = () => input.setCustomValidity(onInput(input.value) ? "" : "out of range");
   return make("label", { title: hint }, make("span", {}, label), input, make("small", {}, unitName));
 }
@@ -921,18 +962,40 @@ function showForm() {
   showFields();
 }
 
+/**
+ * A setting as its field holds it.
+ * @param {Field} field
+ * @param {Settings} s
+ */
+function entered({ key }, s) {
+  const value = s[key];
+  if (typeof value !== "number") return value.join(" ");
+  return Number.isNaN(value) ? "" : String(value);
+}
+
+/**
+ * @param {Field} field
+ * @param {string} text
+ * @returns {boolean}  whether it is valid
+ */
+function enter({ key }, text) {
+  const values = listed(text);
+  const isList = typeof settings[key] !== "number";
+  if (!values.every(Number.isFinite) || (!isList && values.length > 1)) return false;
+  if (key === "mus" && values.length) setMu(Math.max(...values));
+  /** @type {any} */ (settings)[key] = isList ? values : (values[0] ?? NaN);
+  changed();
+  if (FIELDS.some((one) => one.needs?.includes(key))) refreshDependents();
+  return true;
+}
+
 function showFields() {
   const full = completed(settings);
-  element("pendulum").disabled = Number.isNaN(full.period);
+  element("pendulum").disabled = Number.isNaN(full.period) || LAWS[full.law]?.name === "pendulum";
   element("fields").replaceChildren(
     ...FIELDS.filter((field) => applies(field, full)).map((field) => {
-      const value = full[field.key];
-      return numberInput(field.label, field.unit, Number.isNaN(value) ? "" : String(value), field.hint, (text) => {
-        settings[field.key] = text === "" ? NaN : Number(text);
-        changed();
-        if (FIELDS.some((one) => one.needs === field.key)) refreshDependents();
-        return true;
-      });
+      const type = typeof full[field.key] === "number" ? "number" : "text";
+      return entry(field.label, field.unit, entered(field, full), field.hint, (text) => enter(field, text), type);
     }),
   );
 }
@@ -951,7 +1014,14 @@ function setMu(mu) {
   settings.mu = mu;
   if (document.activeElement !== element("mu")) element("mu").value = String(mu);
   element("mu-slider").value = String(mu);
+  if (settings.mus.length || LAWS[settings.law]?.name === "pendulum") showOthers();
   changed();
+}
+
+/** The coefficients of the surfaces, which follow mu, unless they are being entered. */
+function showOthers() {
+  const input = element("fields").querySelectorAll("input")[1];
+  if (input && document.activeElement !== input) input.value = completed(settings).mus.join(" ");
 }
 
 function listen() {
@@ -1026,6 +1096,7 @@ function listen() {
   element("svg").onclick = downloadSvg;
   element("sliding-csv").onclick = downloadSliding;
   element("response-csv").onclick = downloadResponse;
+  element("path-csv").onclick = downloadPath;
   element("many-csv").onclick = downloadMany;
   element("reading-cancel").onclick = () => (readingStopped = true);
   element("many-cancel").onclick = () => (cancelled = true);

@@ -53,23 +53,22 @@ export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler 
       ctx.fillStyle = ink;
       ctx.fillRect(side * (settings.stop_gap * scale + box / 2) - (side < 0 ? 5 : 0), -26, 5, 26);
     }
-  if (!Number.isNaN(settings.period)) {
-    ctx.strokeStyle = ink;
-    if (settings.pendulum) {
-      ctx.beginPath();
-      ctx.moveTo(-width / 2, -14);
-      ctx.quadraticCurveTo(0, 14, width / 2, -14);
-      ctx.stroke();
-    } else {
-      const [from, to] = [-width / 2 + 8, at - box / 2];
-      ctx.fillRect(from - 4, -box * 0.7, 4, box * 0.7);
-      ctx.beginPath();
-      ctx.moveTo(from, -box / 3);
-      for (let turn = 0; turn <= 12; ++turn)
-        ctx.lineTo(from + ((to - from) * (turn + 0.5)) / 13, -box / 3 + (turn % 2 ? 6 : -6));
-      ctx.lineTo(to, -box / 3);
-      ctx.stroke();
-    }
+  ctx.strokeStyle = ink;
+  if (settings.pendulum || settings.radii.length) {
+    ctx.beginPath();
+    ctx.moveTo(-width / 2, -14);
+    ctx.quadraticCurveTo(0, 14, width / 2, -14);
+    ctx.stroke();
+  }
+  if (!Number.isNaN(settings.period) && !settings.pendulum) {
+    const [from, to] = [-width / 2 + 8, at - box / 2];
+    ctx.fillRect(from - 4, -box * 0.7, 4, box * 0.7);
+    ctx.beginPath();
+    ctx.moveTo(from, -box / 3);
+    for (let turn = 0; turn <= 12; ++turn)
+      ctx.lineTo(from + ((to - from) * (turn + 0.5)) / 13, -box / 3 + (turn % 2 ? 6 : -6));
+    ctx.lineTo(to, -box / 3);
+    ctx.stroke();
   }
   // Where it began.
   ctx.strokeStyle = pale;

@@ -14,6 +14,8 @@ export const NOT_GIVEN = Object.freeze({
   rate: NaN,
   mu_residual: NaN,
   distance: NaN,
+  stribeck_speed: NaN,
+  exponent: NaN,
   period: NaN,
   damping_ratio: NaN,
   pendulum: 0,
@@ -23,6 +25,9 @@ export const NOT_GIVEN = Object.freeze({
   vertical: 0,
   clipped: 0,
   scale: 1,
+  radii: Object.freeze([]),
+  mus: Object.freeze([]),
+  capacities: Object.freeze([]),
 });
 
 /** The friction laws, in the order of their numbers. */
@@ -32,34 +37,56 @@ export const LAWS = /** @type {const} */ ([
   { name: "one-way", label: "one-way (Newmark)" },
   { name: "speed", label: "speed-dependent" },
   { name: "degrading", label: "degrading" },
+  { name: "stribeck", label: "Stribeck" },
+  { name: "pendulum", label: "multi-surface pendulum" },
 ]);
+
+/** @typedef {"radii" | "mus" | "capacities"} List  a setting of several numbers */
 
 /**
  * @typedef {Object} Field
  * @property {keyof Settings} key
  * @property {string} label
  * @property {string} unit
- * @property {number} [value]     where the law needs it and the link has none
+ * @property {number | readonly number[]} [value]  where the law needs it and the link has none
  * @property {string[]} [laws]    that have it; all if not given
- * @property {keyof Settings} [needs]  the setting without which it has no meaning
+ * @property {(keyof Settings)[]} [needs]  the settings without any of which it has no meaning
  * @property {string} hint
  */
 
+const SINGLE = LAWS.map(({ name }) => /** @type {string} */ (name)).filter((name) => name !== "pendulum");
+
 /** The numbers beside mu, in the order of the form. @type {readonly Field[]} */
 export const FIELDS = Object.freeze([
+  { key: "radii", label: "radii", unit: "m", value: [0.3937, 3.7465, 3.7465], laws: ["pendulum"], hint: "effective; lower and upper, or inner, lower and upper outer, or inner, two middle, two outer" },
+  { key: "mus", label: "\u03bc of each", unit: "", value: [0.01, 0.04, 0.08], laws: ["pendulum"], hint: "of the surfaces; the slider is the largest and scales all" },
+  { key: "capacities", label: "capacities", unit: "m", laws: ["pendulum"], hint: "travel of each surface to its stop; empty for none" },
   { key: "reach", label: "reach", unit: "m", value: 0.05, laws: ["caster"], hint: "distance over which the level falls" },
   { key: "mu_fast", label: "\u03bc fast", unit: "", value: 0.15, laws: ["speed"], hint: "at high speed; \u03bc is that at rest" },
   { key: "rate", label: "rate", unit: "s/m", value: 20, laws: ["speed"], hint: "of the change with the speed" },
   { key: "mu_residual", label: "\u03bc residual", unit: "", value: 0.05, laws: ["degrading"], hint: "after the distance" },
   { key: "distance", label: "distance", unit: "m", value: 0.1, laws: ["degrading"], hint: "slid until \u03bc is residual" },
-  { key: "mu_static", label: "\u03bc static", unit: "", hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "degrading"] },
+  { key: "mu_static", label: "\u03bc static", unit: "", value: 0.15, laws: ["stribeck"], hint: "at rest, at least \u03bc, which is that at high speed" },
+  { key: "stribeck_speed", label: "speed", unit: "m/s", value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
+  { key: "exponent", label: "exponent", unit: "", value: 1, laws: ["stribeck"], hint: "a whole number from 1 to 31" },
+  { key: "mu_static", label: "\u03bc static", unit: "", hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
   { key: "period", label: "period", unit: "s", hint: "of the mass on its spring; empty without a spring" },
-  { key: "damping_ratio", label: "damping ratio", unit: "", needs: "period", hint: "of a damper beside the spring" },
-  { key: "slope", label: "slope", unit: "degrees", hint: "of the ground; downhill is forward" },
+  { key: "damping_ratio", label: "damping ratio", unit: "", needs: ["period"], hint: "of a damper beside the spring" },
+  { key: "slope", label: "slope", unit: "degrees", laws: SINGLE, hint: "of the ground; downhill is forward" },
   { key: "stop_gap", label: "stop gap", unit: "m", hint: "from the start to a stop, both ways" },
-  { key: "restitution", label: "restitution", unit: "", value: 0.5, needs: "stop_gap", hint: "speed after an impact over that before" },
+  { key: "restitution", label: "restitution", unit: "", value: 0.5, needs: ["stop_gap", "capacities"], hint: "speed after an impact over that before" },
   { key: "scale", label: "scale", unit: "", value: 1, hint: "factor on the ground acceleration" },
 ]);
+
+/**
+ * Whether a setting has a value.
+ * @param {Settings} settings
+ * @param {keyof Settings} key
+ */
+export const given = (settings, key) => {
+  const value = settings[key];
+  return typeof value === "number" ? !Number.isNaN(value) : value.length > 0;
+};
 
 /**
  * Whether a field has a meaning with these settings.
@@ -68,7 +95,17 @@ export const FIELDS = Object.freeze([
  */
 export function applies(field, settings) {
   const law = LAWS[settings.law]?.name ?? "";
-  return (field.laws?.includes(law) ?? true) && (field.needs === undefined || !Number.isNaN(settings[field.needs]));
+  return (field.laws?.includes(law) ?? true) && (field.needs?.some((key) => given(settings, key)) ?? true);
+}
+
+/**
+ * Coefficients in given ratios whose largest is mu; products of twelve digits.
+ * @param {readonly number[]} mus
+ * @param {number} mu
+ */
+function scaled(mus, mu) {
+  const most = Math.max(...mus);
+  return mus.map((one) => (one === most ? mu : Number(((one * mu) / most).toPrecision(12))));
 }
 
 /**
@@ -77,14 +114,24 @@ export function applies(field, settings) {
  * @returns {Settings}
  */
 export function completed(settings) {
+  /** @type {any} */
   const result = { ...settings };
   for (const field of FIELDS) {
-    if (!applies(field, result)) result[field.key] = NaN;
-    else if (Number.isNaN(result[field.key]) && field.value !== undefined) result[field.key] = field.value;
+    const { key, value } = field;
+    if (!FIELDS.some((one) => one.key === key && applies(one, result))) result[key] = NOT_GIVEN[key] instanceof Array ? [] : NaN;
+    else if (applies(field, result) && !given(result, key) && value !== undefined) result[key] = value;
   }
-  if (Number.isNaN(result.period)) result.pendulum = 0;
+  result.mus = scaled(result.mus, result.mu);
+  if (Number.isNaN(result.period) || LAWS[result.law]?.name === "pendulum") result.pendulum = 0;
   return result;
 }
+
+/**
+ * The numbers that a reader enters.
+ * @param {string} text
+ * @returns {number[]}  NaN where it is not a number
+ */
+export const listed = (text) => text.split(/[\s,;]+/).filter((word) => word !== "").map(Number);
 
 /**
  * As the part of a link after `#`.
@@ -92,13 +139,14 @@ export function completed(settings) {
  * @param {Record<string, string>} [others]
  */
 export function toLink(settings, others = {}) {
-  const given = new URLSearchParams();
+  const words = new URLSearchParams();
   for (const [key, value] of Object.entries(settings)) {
-    if (Number.isNaN(value) || (key !== "law" && value === /** @type {any} */ (NOT_GIVEN)[key])) continue;
-    given.set(key, key === "law" ? (LAWS[value]?.name ?? "") : String(value));
+    if (key === "law") words.set(key, LAWS[settings.law]?.name ?? "");
+    else if (value instanceof Array) value.length && words.set(key, value.join(" "));
+    else if (!Number.isNaN(value) && value !== /** @type {any} */ (NOT_GIVEN)[key]) words.set(key, String(value));
   }
-  for (const [key, value] of Object.entries(others)) given.set(key, value);
-  return given.toString();
+  for (const [key, value] of Object.entries(others)) words.set(key, value);
+  return words.toString();
 }
 
 /**
@@ -114,6 +162,7 @@ export function fromLink(text) {
   for (const [key, value] of new URLSearchParams(text)) {
     if (key === "law") settings.law = Math.max(0, LAWS.findIndex((law) => law.name === value));
     else if (!(key in NOT_GIVEN)) others[key] = value;
+    else if (settings[key] instanceof Array) settings[key] = listed(value).filter(Number.isFinite);
     else if (value.trim() !== "" && Number.isFinite(Number(value))) settings[key] = Number(value);
   }
   return { settings, others };
@@ -178,6 +227,8 @@ export function spectrumPython(source, damping, scale) {
   ].join("\n");
 }
 
+const COMMAND_LAWS = ["coulomb", "caster", "one-way", "pendulum"];
+
 /**
  * The command that gives the same numbers; null if it has no option for a setting.
  * @param {Settings} settings
@@ -186,9 +237,11 @@ export function spectrumPython(source, damping, scale) {
  */
 export function command(settings, source) {
   const law = LAWS[settings.law]?.name ?? "";
-  if (source.file === null || law === "speed" || law === "degrading" || settings.pendulum) return null;
-  const words = ["stickslip slide", ...record(source), "--mu", settings.mu];
+  if (source.file === null || !COMMAND_LAWS.includes(law) || settings.pendulum) return null;
+  const words = ["stickslip slide", ...record(source), "--mu", ...(law === "pendulum" ? settings.mus : [settings.mu])];
   if (law !== "coulomb") words.push("--law", law);
+  for (const key of /** @type {const} */ (["radii", "capacities"]))
+    if (settings[key].length) words.push(`--${key}`, ...settings[key]);
   if (settings.vertical) words.push("--station");
   for (const [option, value] of /** @type {[string, number][]} */ ([
     ["--reach", settings.reach],
@@ -206,11 +259,22 @@ export function command(settings, source) {
 }
 
 /**
- * The Python lines that give the same numbers.
- * @param {Settings} s
+ * The command for the path in the plane, where the vertical component of the file acts if it has one; or null.
+ * @param {Settings} settings
  * @param {Source} source
+ * @param {boolean} hasVertical
  */
-export function python(s, source) {
+export function pathCommand(settings, source, hasVertical) {
+  if (LAWS[settings.law]?.name !== "coulomb" || (hasVertical && !settings.vertical)) return null;
+  const line = command({ ...settings, vertical: 0 }, source);
+  return line && `${line} --planar${settings.vertical && settings.clipped ? " --contact clipped" : ""}`;
+}
+
+/**
+ * The expression of the slider in Python.
+ * @param {Settings} s
+ */
+function slider(s) {
   const law = LAWS[s.law]?.name ?? "";
   let oneWay = law === "one-way";
   let friction = `ss.Coulomb(mu=${s.mu})`;
@@ -218,11 +282,18 @@ export function python(s, source) {
   if (law === "speed") friction = `ss.VelocityDependent(mu_slow=${s.mu}, mu_fast=${s.mu_fast}, rate=${s.rate})`;
   if (law === "degrading")
     friction = `ss.Degrading(distance=[0, ${s.distance}], mu=[${s.mu}, ${s.mu_residual}])`;
+  if (law === "stribeck")
+    friction = `ss.Stribeck(mu_static=${s.mu_static}, mu_kinetic=${s.mu}, velocity=${s.stribeck_speed}, exponent=${s.exponent})`;
+  if (law === "pendulum") {
+    const name = { 2: "Double", 3: "Triple", 5: "Quintuple" }[s.radii.length] ?? "Multi";
+    const stops = s.capacities.length ? `, capacities=[${s.capacities.join(", ")}], restitution=${s.restitution}` : "";
+    friction = `ss.${name}Pendulum(radii=[${s.radii.join(", ")}], mu=[${s.mus.join(", ")}]${stops})`;
+  }
   if (oneWay && Number.isNaN(s.slope) && Number.isNaN(s.mu_static)) {
     friction = `ss.Coulomb(mu=${s.mu}, backward=float("inf"))`;
     oneWay = false;
   }
-  if (!Number.isNaN(s.mu_static)) friction = `ss.StaticKinetic(${friction}, mu_static=${s.mu_static})`;
+  if (!Number.isNaN(s.mu_static) && law !== "stribeck") friction = `ss.StaticKinetic(${friction}, mu_static=${s.mu_static})`;
   const mounting = [friction];
   if (!Number.isNaN(s.period)) mounting.push(`period=${s.period}`);
   if (!Number.isNaN(s.damping_ratio)) mounting.push(`damping_ratio=${s.damping_ratio}`);
@@ -230,11 +301,46 @@ export function python(s, source) {
   if (!Number.isNaN(s.slope)) mounting.push(`slope_degrees=${s.slope}`);
   if (oneWay) mounting.push("one_way=True");
   if (!Number.isNaN(s.stop_gap)) mounting.push(`stops=ss.Stops(gap=${s.stop_gap}, restitution=${s.restitution})`);
+  return `ss.Slider(${mounting.join(", ")})`;
+}
+
+/**
+ * @param {Settings} s
+ * @param {string} sliding  the name of what slides
+ */
+function integration(s, sliding) {
   const contact = s.vertical && s.clipped ? ', contact="clipped"' : "";
+  return `response = ss.integrate(${sliding}, motion${s.scale === 1 ? "" : `.scaled(${s.scale})`}, settle=True${contact})`;
+}
+
+/**
+ * The Python lines that give the same numbers.
+ * @param {Settings} s
+ * @param {Source} source
+ */
+export function python(s, source) {
   return [
     ...imports(source),
-    `slider = ss.Slider(${mounting.join(", ")})`,
-    `response = ss.integrate(slider, motion${s.scale === 1 ? "" : `.scaled(${s.scale})`}, settle=True${contact})`,
+    `slider = ${slider(s)}`,
+    integration(s, "slider"),
+    "print(response.peak, response.residual)",
+  ].join("\n");
+}
+
+/**
+ * The Python lines for the path in the plane.
+ * @param {Settings} s
+ * @param {Source} station
+ * @param {boolean} hasVertical
+ * @param {boolean} even  whether the time step is the same throughout
+ */
+export function pathPython(s, station, hasVertical, even) {
+  const time = even ? "motion.dt" : "times=motion.time";
+  return [
+    ...imports(station),
+    ...(hasVertical && !s.vertical ? [`motion = ss.GroundMotion(motion.acceleration, ${time}, transverse=motion.transverse)`] : []),
+    `slider = ss.PlanarSlider(${slider(s)})`,
+    integration(s, "slider"),
     "print(response.peak, response.residual)",
   ].join("\n");
 }

@@ -122,7 +122,9 @@ const calls = {
    * @param {Settings} settings
    */
   path(id, settings) {
-    return library.path(id, settings);
+    const found = library.path(id, settings);
+    const more = found.axis.length - library.times(id).length;
+    return { ...found, time: library.times(id, more) };
   },
 
   /**

@@ -76,10 +76,13 @@ async function drop(...names) {
   await settled();
 }
 
-/** The table, in SI units. @returns {Promise<Record<string, number>>} */
-const table = async () =>
+/** Waits for the path in the plane of the present settings. */
+const pathShown = () => page.waitForFunction(() => document.querySelector("#figure-path[data-state=shown]"), { timeout: 60_000 });
+
+/** A table, in SI units. @returns {Promise<Record<string, number>>} */
+const table = async (id = "numbers") =>
   Object.fromEntries(
-    await page.$$eval("#numbers tr[data-name]", (rows) =>
+    await page.$$eval(`#${id} tr[data-name]`, (rows) =>
       rows.map((row) => [/** @type {HTMLElement} */ (row).dataset.name, Number(/** @type {HTMLElement} */ (row).dataset.si)]),
     ),
   );
@@ -110,9 +113,8 @@ test("dropped files slide as the native library has it", async () => {
   await drop("three.csv");
   compare(await table(), answers.components[0]);
   assert.match(await textOf("command"), /^stickslip slide three\.csv --component N00E --mu 0\.1$/);
-  await page.waitForSelector("#figure-path[data-si]");
-  const path = await page.$eval("#figure-path", (one) => JSON.parse(/** @type {HTMLElement} */ (one).dataset.si ?? ""));
-  compare(Object.fromEntries(Object.entries(path)), Object.fromEntries(Object.entries(answers.path)));
+  await pathShown();
+  compare(await table("path-numbers"), answers.path);
   await choose("(N90E)");
   compare(await table(), answers.components[1]);
   await choose("(N00E)");
@@ -135,6 +137,9 @@ test("the command and the Python lines give the numbers of the page", async () =
     "mu=0.2&law=one-way&mu_static=0.25",
     "mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1",
     "mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&scale=-1.5",
+    "mu=0.1&law=stribeck&mu_static=0.12&stribeck_speed=0.1&exponent=2",
+    "mu=0.08&law=pendulum&mus=0.01 0.04 0.08",
+    "mu=0.1&law=pendulum&radii=0.4 0.9&mus=0.05 0.1&capacities=0.3 0.3&restitution=0.2",
   ]) {
     await open(settings);
     await drop("three.csv");
@@ -147,6 +152,33 @@ test("the command and the Python lines give the numbers of the page", async () =
     const [row] = JSON.parse(command(`${line} --json`)).results;
     compare({ peak: peak ?? NaN, residual: residual ?? NaN }, { peak: row.peak_m, residual: row.residual_m });
   }
+  assert.deepEqual(complaints, []);
+});
+
+test("the path in the plane: all laws that can, its command and its Python lines, CSV", async () => {
+  for (const settings of [
+    "mu=0.12&mu_static=0.15&vertical=1&slope=3",
+    "mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1",
+    "mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&stop_gap=0.2&restitution=0.3",
+    "mu=0.1&law=stribeck&mu_static=0.12&stribeck_speed=0.1&exponent=2&scale=0.8",
+  ]) {
+    await open(settings);
+    await drop("three.csv");
+    await pathShown();
+    const { peak = NaN, residual = NaN } = await table("path-numbers");
+    const lines = await printed(await textOf("path-python"), "print(repr([response.peak, *response.residual.tolist()]))");
+    const [p = NaN, x = NaN, y = NaN] = JSON.parse(lines);
+    compare({ peak, residual }, { peak: p, residual: Math.hypot(x, y) });
+    const line = await textOf("path-command");
+    if (!line.startsWith("stickslip")) continue;
+    const [row] = JSON.parse(command(`${line} --json`)).results;
+    compare({ peak, residual }, { peak: row.peak_m, residual: row.residual_m });
+    const rows = (await downloaded("#path-csv", ".csv")).trim().split("\n");
+    const [, last, across] = (rows.at(-1) ?? "").split(",").map(Number);
+    compare({ x: last ?? NaN, y: across ?? NaN }, { x, y });
+  }
+  await page.select("#law", "1"); // casters
+  await page.waitForFunction(() => document.querySelector("#title-path")?.textContent?.startsWith("No path in the plane"));
   assert.deepEqual(complaints, []);
 });
 

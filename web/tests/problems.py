@@ -6,14 +6,18 @@ python web/tests/problems.py 1000 > build/web/problems.json
 import json
 import math
 import sys
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import stickslip as ss
 
-LAWS = ("coulomb", "caster", "one-way", "speed", "degrading")
+LAWS = ("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum")
+PLANAR = ("coulomb", "speed", "degrading", "stribeck")
+PENDULUMS = {2: ss.DoublePendulum, 3: ss.TriplePendulum, 5: ss.QuintuplePendulum}
 
 
-def settings(rng: np.random.Generator) -> dict[str, float]:
+def settings(rng: np.random.Generator) -> dict[str, Any]:
     """Settings of the page; absent ones are not given."""
 
     def chance(probability: float) -> bool:
@@ -28,17 +32,34 @@ def settings(rng: np.random.Generator) -> dict[str, float]:
         given["reach"] = float(rng.uniform(0.02, 0.5))
     if LAWS[law] == "speed":
         given |= {"mu_fast": mu * float(rng.uniform(0.5, 2)), "rate": float(rng.uniform(1, 60))}
-        given.pop("mu_static", None)
     if LAWS[law] == "degrading":
         given |= {
             "mu_residual": mu * float(rng.uniform(0.3, 1)),
             "distance": float(rng.uniform(0.01, 0.3)),
         }
+    if LAWS[law] == "stribeck":
+        given |= {
+            "mu_static": mu * float(rng.uniform(1, 2)),
+            "stribeck_speed": float(rng.uniform(0.01, 0.2)),
+            "exponent": float(rng.integers(1, 4)),
+        }
+    if LAWS[law] == "pendulum":
+        given.pop("mu_static", None)
+        surfaces = int(rng.choice([2, 3, 5]))
+        radii = np.cumsum(rng.uniform(0.3, 1.5, size=surfaces))
+        mus = np.sort(rng.uniform(0.1, 1, size=surfaces))
+        given |= {"radii": radii.tolist(), "mus": (mu * mus / mus[-1]).tolist(), "capacities": []}
+        given["mu"] = given["mus"][-1]
+        if chance(0.5):
+            given |= {
+                "capacities": (0.4 * radii).tolist(),
+                "restitution": float(rng.uniform(0, 0.9)),
+            }
     if chance(0.5):
         given["period"] = float(rng.uniform(0.5, 5))
         if chance(0.5):
             given["damping_ratio"] = float(rng.uniform(0, 0.3))
-        given["pendulum"] = float(chance(0.5))
+        given["pendulum"] = float(LAWS[law] != "pendulum" and chance(0.5))
     elif LAWS[law] in ("coulomb", "one-way") and chance(0.3):
         given["slope"] = math.degrees(math.atan(mu)) * float(rng.uniform(0, 0.95))
     if chance(0.2):
@@ -51,7 +72,7 @@ def settings(rng: np.random.Generator) -> dict[str, float]:
     return given
 
 
-def slider(given: dict[str, float]) -> ss.Slider:
+def slider(given: dict[str, Any]) -> ss.Slider:
     """The slider of the settings, as the page writes it in Python."""
     mu, law = given["mu"], LAWS[int(given["law"])]
     mounting = {}
@@ -62,11 +83,25 @@ def slider(given: dict[str, float]) -> ss.Slider:
         friction = ss.VelocityDependent(mu_slow=mu, mu_fast=given["mu_fast"], rate=given["rate"])
     elif law == "degrading":
         friction = ss.Degrading(distance=[0.0, given["distance"]], mu=[mu, given["mu_residual"]])
+    elif law == "stribeck":
+        friction = ss.Stribeck(
+            mu_static=given["mu_static"],
+            mu_kinetic=mu,
+            velocity=given["stribeck_speed"],
+            exponent=given["exponent"],
+        )
+    elif law == "pendulum":
+        friction = PENDULUMS[len(given["radii"])](
+            given["radii"],
+            given["mus"],
+            given["capacities"] or None,
+            given["restitution"] if given["capacities"] else 0.0,
+        )
     elif one_way and "slope" not in given and "mu_static" not in given:
         friction, one_way = ss.Coulomb(mu=mu, backward=math.inf), False
     else:
         friction = ss.Coulomb(mu=mu)
-    if "mu_static" in given:
+    if "mu_static" in given and law != "stribeck":
         friction = ss.StaticKinetic(friction, mu_static=given["mu_static"])
     if "period" in given:
         mounting = {"period": given["period"], "damping_ratio": given.get("damping_ratio")}
@@ -80,7 +115,7 @@ def slider(given: dict[str, float]) -> ss.Slider:
 
 
 def motion(rng: np.random.Generator, vertical: bool) -> ss.GroundMotion:
-    """Filtered noise, of which a slider slides in some parts only."""
+    """Filtered noise in two or three directions, of which a slider slides in some parts only."""
     samples = int(rng.integers(200, 1500))
     dt = float(rng.choice([0.005, 0.01, 0.02]))
 
@@ -91,7 +126,8 @@ def motion(rng: np.random.Generator, vertical: bool) -> ss.GroundMotion:
         return size * rise * smooth / np.abs(smooth).max()
 
     size = float(rng.uniform(1, 8))
-    return ss.GroundMotion(noise(size), dt, vertical=noise(0.7 * size) if vertical else None)
+    axis, up, transverse = noise(size), noise(0.7 * size), noise(0.8 * size)
+    return ss.GroundMotion(axis, dt, transverse=transverse, vertical=up if vertical else None)
 
 
 def finite(value: float) -> float | None:
@@ -99,40 +135,52 @@ def finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def answer(block: ss.Slider | ss.PlanarSlider, ground: ss.GroundMotion, contact: str) -> dict:
+    """What the page computes; in the plane, the residual is a distance."""
+    try:
+        response = ss.integrate(block, ground, settle=True, contact=contact)
+    except ss.ConvergenceError:
+        response = ss.integrate(block, ground, contact=contact)
+    return {
+        "peak": response.peak,
+        "residual": float(np.linalg.norm(response.residual)),
+        "sliding_distance": response.sliding_distance,
+        "time_sliding": response.time_sliding,
+        "input": response.energy.input,
+        "end": float(response.events["time"][-1]),
+        "events": len(response.events),
+        "slips": response.slips,
+        "samples": len(response.displacement),
+        "margin": finite(min(response.margin, response.impact_margin)),
+        "last": np.ravel(response.displacement[-1]).tolist(),
+    }
+
+
+def answer_or_error(make: Callable[[], ss.Slider | ss.PlanarSlider], *how: Any) -> dict:
+    try:
+        return answer(make(), *how)
+    except ValueError as error:
+        return {"error": str(error)}
+
+
 def problem(number: int) -> dict:
     rng = np.random.default_rng([20260101, number])
     given = settings(rng)
     ground = motion(rng, bool(given["vertical"]))
-    found: dict = {
+    contact = "clipped" if given["clipped"] else "flight"
+    scaled = ground.scaled(given["scale"])
+    axis = ss.GroundMotion(scaled.acceleration, scaled.dt, vertical=scaled.vertical)
+    planar = LAWS[int(given["law"])] in PLANAR
+    return {
         "settings": given,
         "dt": ground.dt,
         "acceleration": ground.acceleration.tolist(),
+        "transverse": ground.transverse.tolist(),
         "vertical": None if ground.vertical is None else ground.vertical.tolist(),
-    }
-    options = {"contact": "clipped" if given["clipped"] else "flight"}
-    scaled = ground.scaled(given["scale"])
-    try:
-        block = slider(given)
-        try:
-            response = ss.integrate(block, scaled, settle=True, **options)
-        except ss.ConvergenceError:
-            response = ss.integrate(block, scaled, **options)
-    except ValueError as error:
-        return found | {"error": str(error)}
-    return found | {
-        "answer": {
-            "peak": response.peak,
-            "residual": response.residual,
-            "sliding_distance": response.sliding_distance,
-            "time_sliding": response.time_sliding,
-            "input": response.energy.input,
-            "end": float(response.events["time"][-1]),
-            "events": len(response.events),
-            "slips": response.slips,
-            "samples": response.displacement.size,
-            "margin": finite(min(response.margin, response.impact_margin)),
-            "last": float(response.displacement[-1]),
-        },
+        "axis": answer_or_error(lambda: slider(given), axis, contact),
+        "plane": answer_or_error(lambda: ss.PlanarSlider(slider(given)), scaled, contact)
+        if planar
+        else None,
     }
 
 

@@ -15,56 +15,91 @@ const DIGITS = 1e-10;
 /** A decision nearer than this hangs on round-off. */
 const DECIDED = 1e-9;
 
-test(`${problems.length} random problems agree with the native library`, (context) => {
-  let undecided = 0;
-  let refused = 0;
-  let worst = 0;
-  problems.forEach((/** @type {any} */ problem, /** @type {number} */ number) => {
-    const settings = { ...NOT_GIVEN, ...problem.settings };
-    const id = library.make(
-      Float64Array.from(problem.acceleration),
-      problem.dt,
-      problem.vertical ? Float64Array.from(problem.vertical) : undefined,
-    );
-    if (problem.error !== undefined) {
-      refused++;
-      assert.throws(() => library.slide(id, settings), { message: problem.error }, `problem ${number}`);
-      library.discard(id);
-      return;
-    }
-    const summary = library.slide(id, settings);
-    const last = library.history("displacement").at(-1);
-    const { peak, residual } = library.spectrum(id, settings, Float64Array.of(settings.mu));
-    assert.deepEqual([peak[0], residual[0]], [summary.peak, Math.abs(summary.residual)]);
-    library.discard(id);
-    const { answer } = problem;
-    const nearest = Math.min(summary.margin, summary.impact_margin);
-    const margin = answer.margin ?? Infinity;
-    if (!(Math.min(margin, nearest) > DECIDED)) {
-      undecided++;
-      return;
-    }
-    for (const name of ["events", "slips", "samples"])
-      assert.equal(/** @type {any} */ (summary)[name], answer[name], `${name} of problem ${number}`);
-    assert.ok(nearest === margin || Math.abs(nearest - margin) <= 1e-9, `margin of problem ${number}: ${nearest}, natively ${margin}`);
-    for (const [name, scale] of [
+/**
+ * Whether round-off decides: some decision is nearer than it.
+ * @param {any} found
+ * @param {any} answer
+ */
+const undecided = (found, answer) => !(Math.min(found.margin, found.impact_margin, answer.margin ?? Infinity) > DECIDED);
+
+/**
+ * The largest difference from the native answer, relative to the sizes of the response.
+ * @param {any} found
+ * @param {any} answer
+ */
+const difference = (found, answer) =>
+  Math.max(
+    ...[
       ["peak", answer.peak],
       ["residual", answer.peak],
-      ["last", answer.peak],
       ["sliding_distance", answer.sliding_distance],
-      ["time_sliding", answer.end],
-      ["end", answer.end],
       ["input", Math.max(answer.input, answer.sliding_distance)],
-    ]) {
-      const found = name === "last" ? last : /** @type {any} */ (summary)[name];
-      const off = Math.abs(found - answer[name]) / (scale || 1);
-      worst = Math.max(worst, off);
-      assert.ok(off <= DIGITS, `${name} of problem ${number}: ${found}, natively ${answer[name]}`);
-    }
-  });
-  context.diagnostic(
-    `largest relative difference ${worst.toExponential(1)}; ${undecided} undecided to round-off, ${refused} refused alike`,
+    ].map(([name, scale]) => Math.abs(Math.abs(found[name]) - Math.abs(answer[name])) / (scale || 1)),
+    ...answer.last.map((/** @type {number} */ native, /** @type {number} */ i) => Math.abs(found.last[i] - native) / (answer.peak || 1)),
   );
-  // More than a hundredth of the problems would be another kind of problem.
-  assert.ok(undecided <= problems.length / 100, `${undecided} of ${problems.length} are not decided`);
-});
+
+/** The same of the times. @param {any} found  @param {any} answer */
+const delay = (found, answer) =>
+  Math.max(...["end", "time_sliding"].map((name) => Math.abs(found[name] - answer[name]))) / answer.end;
+
+for (const where of /** @type {const} */ (["axis", "plane"])) {
+  const chosen = problems.filter((/** @type {any} */ one) => one[where]);
+  test(`${chosen.length} random problems agree with the native library, ${where}`, (context) => {
+    let [close, refused, sensitive, worst, latest] = [0, 0, 0, 0, 0];
+    for (const problem of chosen) {
+      const named = `problem ${problems.indexOf(problem)}, ${where}`;
+      const id = library.make(Float64Array.from(problem.acceleration), problem.dt, {
+        transverse: Float64Array.from(problem.transverse),
+        vertical: Float64Array.from(problem.vertical ?? []),
+      });
+      const settings = { ...NOT_GIVEN, ...problem.settings };
+      const slide = (factor = 1) => {
+        const scaled = { ...settings, scale: factor * settings.scale };
+        if (where === "plane") {
+          const { summary, axis, transverse } = library.path(id, scaled);
+          return { ...summary, last: [axis.at(-1), transverse.at(-1)] };
+        }
+        const summary = library.slide(id, scaled);
+        return { ...summary, last: [library.history("displacement").at(-1)] };
+      };
+      const answer = problem[where];
+      if (answer.error !== undefined) {
+        refused++;
+        assert.throws(slide, { message: answer.error }, named);
+        continue;
+      }
+      const found = slide();
+      if (undecided(found, answer)) {
+        close++;
+        continue;
+      }
+      for (const name of ["events", "slips", "samples"])
+        assert.equal(/** @type {any} */ (found)[name], answer[name], `${name} of ${named}`);
+      const [off, late] = [difference(found, answer), delay(found, answer)];
+      if (where === "axis") {
+        const { peak, residual } = library.spectrum(id, settings, Float64Array.of(settings.mu));
+        assert.deepEqual([peak[0], residual[0]], [found.peak, Math.abs(found.residual)]);
+        const [margin, native] = [Math.min(found.margin, found.impact_margin), answer.margin ?? Infinity];
+        assert.ok(margin === native || Math.abs(margin - native) <= 1e-9, `margin of ${named}: ${margin}, natively ${native}`);
+        assert.ok(off <= DIGITS && late <= DIGITS, `${named} differs by ${off}, its times by ${late}`);
+        [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
+      } else if (off <= DIGITS) {
+        [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
+      } else {
+        // A slider that nearly stops turns fast: such a path magnifies a change of the ground by an ulp or two.
+        const change = Math.max(...[1 + 2 ** -50, 1 - 2 ** -50].map((factor) => difference(slide(factor), { ...answer, ...found })));
+        assert.ok(off <= 10 * change, `${named} differs by ${off}, and by ${change} where the ground changes by an ulp or two`);
+        sensitive++;
+      }
+      library.discard(id);
+    }
+    // An arrest in the plane is where a speed vanishes quickly, which its time shows less exactly than its place.
+    assert.ok(latest <= (where === "axis" ? DIGITS : 1e-8), `times differ by ${latest} of the duration`);
+    context.diagnostic(
+      `largest relative difference ${worst.toExponential(1)}, of times ${latest.toExponential(1)}; ${close} undecided to ` +
+        `round-off, ${sensitive} sensitive to it, ${refused} refused alike`,
+    );
+    // More than a hundredth of the problems would be another kind of problem.
+    assert.ok(close <= chosen.length / 100 && sensitive <= chosen.length / 100);
+  });
+}

@@ -88,7 +88,15 @@ def main() -> None:
     answers = {
         "many": [both_ways(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
         "spectrum": ss.response_spectrum(first, np.geomspace(0.01, 10, 100), 0.05).values.tolist(),
-        "path": [plane.peak, *plane.residual.tolist()],
+        "path": {
+            "peak": plane.peak,
+            "residual": float(np.hypot(*plane.residual)),
+            "sliding distance": plane.sliding_distance,
+            "time sliding": plane.time_sliding,
+            "slips": plane.slips,
+            "events": len(plane.events),
+            "margin of the closest decision": min(plane.margin, plane.impact_margin),
+        },
         "components": [numbers(ss.read_record(three, component=i), MU[0]) for i in (1, 2)],
         "first": {str(mu): numbers(first, mu) for mu in MU},
         "vertical": numbers(ss.read_station(three, along=first.orientation), MU[0]),
