@@ -1,4 +1,4 @@
-// Files as they are dropped: alone, in gzip files and in zip archives.
+// Files as they are dropped: alone, in gzip files, and in zip and tar archives.
 
 /**
  * @typedef {Object} PlainFile
@@ -8,6 +8,7 @@
 
 const LARGEST = 64 << 20; // bytes of a record: 500,000 samples of three components take 20 MB
 const DEEPEST = 4; // archives within archives
+const BLOCK = 512; // of a tar archive
 
 /**
  * @param {Uint8Array} bytes
@@ -57,7 +58,7 @@ async function* readAll(stream) {
  * @param {string} name
  * @returns {Member[]}
  */
-function membersOf(bytes, name) {
+function membersOfZip(bytes, name) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const damaged = new Error(`read_record: ${name}: damaged zip archive`);
   try {
@@ -87,6 +88,39 @@ function membersOf(bytes, name) {
 }
 
 /**
+ * The files in a tar archive (POSIX.1-2001, pax and ustar; long names of GNU).
+ * @param {Uint8Array} bytes
+ * @param {string} name
+ * @returns {Member[]}
+ */
+function membersOfTar(bytes, name) {
+  const text = (/** @type {number} */ from, /** @type {number} */ size) =>
+    new TextDecoder().decode(bytes.subarray(from, from + size)).replace(/\0.*$/s, "");
+  const members = [];
+  let longer = ""; // the name of the next member, where its own field is too short
+  for (let at = 0; at + BLOCK <= bytes.length && bytes[at] !== 0; ) {
+    const size = Number(`0o${text(at + 124, 12).trim() || "0"}`);
+    const [start, kind] = [at + BLOCK, text(at + 156, 1)];
+    if (!(size >= 0) || start + size > bytes.length) throw new Error(`read_record: ${name}: damaged tar archive`);
+    const prefix = isTar(bytes.subarray(at)) && bytes[at + 263] === 0x30 ? text(at + 345, 155) : "";
+    const called = longer || (prefix && `${prefix}/`) + text(at, 100);
+    longer = "";
+    if (kind === "L") longer = text(start, size);
+    else if (kind === "x") longer = /^\d+ path=(.*)$/m.exec(text(start, size))?.[1] ?? "";
+    else if ((kind === "" || kind === "0") && !/(^|\/)\._/.test(called))
+      members.push({ name: called, method: 0, packed: bytes.subarray(start, start + size) });
+    at = start + Math.ceil(size / BLOCK) * BLOCK;
+  }
+  return members;
+}
+
+/** @param {Uint8Array} bytes */
+const isZip = (bytes) => bytes[0] === 0x50 && bytes[1] === 0x4b && (bytes[2] === 3 || bytes[2] === 5);
+
+/** @param {Uint8Array} bytes */
+const isTar = (bytes) => new TextDecoder().decode(bytes.subarray(257, 262)) === "ustar";
+
+/**
  * The files that a dropped one stands for: itself, or those in it.
  * @param {string} name
  * @param {Uint8Array} bytes
@@ -98,8 +132,8 @@ export async function* unpacked(name, bytes, depth = 0) {
     if (depth > DEEPEST) throw new Error(`read_record: ${name}: archives within archives, more than ${DEEPEST} deep`);
     if (bytes[0] === 0x1f && bytes[1] === 0x8b) {
       yield* unpacked(name, await inflated(bytes, "gzip", name), depth + 1);
-    } else if (bytes[0] === 0x50 && bytes[1] === 0x4b && (bytes[2] === 3 || bytes[2] === 5)) {
-      for (const { name: member, method, packed } of membersOf(bytes, name)) {
+    } else if (isZip(bytes) || isTar(bytes)) {
+      for (const { name: member, method, packed } of (isZip(bytes) ? membersOfZip : membersOfTar)(bytes, name)) {
         const inside = `${name}::${member}`;
         try {
           if (method !== 0 && method !== 8)

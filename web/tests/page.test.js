@@ -212,15 +212,19 @@ test("the slider moves by mouse and by keyboard", async () => {
 
 test("archives, broken files, and files that leave their units open", async () => {
   await open("mu=0.1");
-  await drop("packed.csv.gz", "broken.csv", "many.zip", "column.txt");
+  await drop("packed.csv.gz", "broken.csv", "many.zip", "column.txt", "many.tar.gz");
   const failed = await page.$$eval("#records li.failed", (all) => all.map((one) => one.textContent ?? ""));
   assert.equal(failed.length, 3);
   assert.match(failed[0] ?? "", /^broken\.csv.*line 3.*oops/);
   assert.match(failed[1] ?? "", /^many\.zip::broken\.csv/);
   assert.match(failed[2] ?? "", /^column\.txt/);
   compare(await table(), answers.components[0]); // the first that could be read
-  await choose("many.zip::folder/three.csv (N90E)");
-  compare(await table(), answers.components[1]);
+  for (const archive of ["many.zip", "many.tar.gz"]) {
+    await choose(`${archive}::folder/three.csv (N00E)`);
+    compare(await table(), answers.components[0]);
+    await choose(`${archive}::folder/three.csv (N90E)`);
+    compare(await table(), answers.components[1]);
+  }
 
   await page.select("#records form select", "m/s^2");
   await page.type("#records form input", "0.01");

@@ -6,6 +6,7 @@ python web/tests/samples.py build/web/samples
 import gzip
 import json
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -76,6 +77,9 @@ def main() -> None:
     with zipfile.ZipFile(folder / "many.zip", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.write(three, "folder/three.csv")
         archive.writestr("broken.csv", "nothing\n")
+
+    with tarfile.open(folder / "many.tar.gz", "w:gz") as archive:
+        archive.add(three, "folder/three.csv")
 
     first = ss.read_record(three, component=1)
     spectrum = ss.Spectrum.kanai_tajimi(s0=0.01, frequency=15, damping=0.6)
