@@ -43,6 +43,7 @@ const parts = {
     `stickslip\n\n${text(new URL("../LICENSE", import.meta.url))}`,
     `uPlot, which draws the plots\n\n${text(new URL("../licenses/uPlot.txt", import.meta.url))}`,
     `fzstd, which unpacks the library\n\n${text(new URL("../licenses/fzstd.txt", import.meta.url))}`,
+    `kissfft, whose header is compiled in\n\n${text(new URL("../licenses/kissfft.txt", import.meta.url))}`,
     "Highway, whose headers are compiled in, is under the Apache License 2.0 (https://www.apache.org/licenses/LICENSE-2.0); " +
       "Emscripten's libraries, musl and libc++, are under the MIT License and the Apache License 2.0 with LLVM exceptions.",
   ]

@@ -1,4 +1,4 @@
-// What the library uses of FFTW, for the page, by Bluestein's algorithm: FFTW is not compiled to WebAssembly here.
+// What the library uses of FFTW, for the page, by kissfft: FFTW is not compiled to WebAssembly here.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 // Discrete Fourier transforms of any length.
 #include <fftw3.h>
 
-#include <bit>
 #include <complex>
 #include <cstdint>
 #include <cstdlib>
@@ -9,68 +8,60 @@
 #include <utility>
 #include <vector>
 
+#include <kissfft/kissfft.hh>
+
 namespace {
 
 using Complex = std::complex<double>;
 
-/// Without the check for NaN and infinity of std::complex.
-Complex product(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-/// The transform of a power of two of values, in place, with exponents of -2 pi i.
-/// @param roots  exp(-2 pi i k / n) for k < n / 2
-void transform(std::vector<Complex>& values, const std::vector<Complex>& roots) {
-  const std::size_t n = values.size();
-  for (std::size_t i = 1, j = 0; i < n; ++i) {
-    std::size_t bit = n / 2;
-    for (; (j & bit) != 0; bit /= 2) j ^= bit;
-    j |= bit;
-    if (i < j) std::swap(values[i], values[j]);
+/// The smallest number from `least` on without prime factors above 5, for which kissfft is fast.
+std::size_t fast_size(std::size_t least) {
+  for (std::size_t size = least;; ++size) {
+    std::size_t rest = size;
+    for (const std::size_t factor : {2, 3, 5})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return size;
   }
-  for (std::size_t half = 1; half < n; half *= 2)
-    for (std::size_t i = 0; i < n; i += 2 * half)
-      for (std::size_t k = 0; k < half; ++k) {
-        const Complex odd = product(values[i + half + k], roots[k * (n / (2 * half))]), even = values[i + k];
-        values[i + k] = even + odd;
-        values[i + half + k] = even - odd;
-      }
 }
 
 }  // namespace
 
-/// L. I. Bluestein, IEEE Trans. Audio Electroacoust. 18 (1970), 451-455: k l = (k^2 + l^2 - (k - l)^2) / 2 makes the
-/// transform a convolution with the chirp exp(i pi k^2 / n).
+/// kissfft takes n^2 operations where n is prime. L. I. Bluestein, IEEE Trans. Audio Electroacoust. 18 (1970), 451-455:
+/// k l = (k^2 + l^2 - (k - l)^2) / 2 makes the transform a convolution with the chirp exp(i pi k^2 / n), of any length
+/// from 2 n - 1 on.
 struct StickslipPlan {
-  explicit StickslipPlan(int length) : n(static_cast<std::size_t>(length)), chirp(n) {
-    const std::size_t size = std::bit_ceil(2 * n);
+  explicit StickslipPlan(int length)
+      : n(static_cast<std::size_t>(length)),
+        chirp(n),
+        kernel(fast_size(2 * n)),
+        forward(kernel.size(), false),
+        backward(kernel.size(), true) {
+    const std::size_t size = kernel.size();
+    std::vector<Complex> mirrored(size);
     for (std::size_t k = 0; k < n; ++k) {
       const auto square = static_cast<std::uint64_t>(k) * k % (2 * n);  // of the angle, pi k^2 / n modulo 2 pi
       chirp[k] = std::polar(1.0, -std::numbers::pi * static_cast<double>(square) / static_cast<double>(n));
+      mirrored[k] = mirrored[(size - k) % size] = std::conj(chirp[k]) / static_cast<double>(size);
     }
-    for (std::size_t k = 0; k < size / 2; ++k)
-      roots.push_back(std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(size)));
-    kernel.resize(size);
-    for (std::size_t k = 0; k < n; ++k) kernel[k] = kernel[(size - k) % size] = std::conj(chirp[k]);
-    transform(kernel, roots);
+    forward.transform(mirrored.data(), kernel.data());
   }
 
   /// The transform of `values`, of which there are n.
   std::vector<Complex> operator()(std::vector<Complex> values) const {
-    for (std::size_t k = 0; k < n; ++k) values[k] = product(values[k], chirp[k]);
+    std::vector<Complex> lines(kernel.size());
+    for (std::size_t k = 0; k < n; ++k) values[k] *= chirp[k];
     values.resize(kernel.size());
-    transform(values, roots);
-    // The inverse is the conjugate of the transform of the conjugate.
-    for (std::size_t k = 0; k < values.size(); ++k) values[k] = std::conj(product(values[k], kernel[k]));
-    transform(values, roots);
-    const double scale = 1 / static_cast<double>(values.size());
-    for (std::size_t k = 0; k < n; ++k) values[k] = product(std::conj(values[k]) * scale, chirp[k]);
+    forward.transform(values.data(), lines.data());
+    for (std::size_t k = 0; k < lines.size(); ++k) lines[k] *= kernel[k];
+    backward.transform(lines.data(), values.data());
     values.resize(n);
+    for (std::size_t k = 0; k < n; ++k) values[k] *= chirp[k];
     return values;
   }
 
   std::size_t n;
-  std::vector<Complex> chirp, roots, kernel;
+  std::vector<Complex> chirp, kernel;
+  kissfft<double> forward, backward;
   double* samples = nullptr;  // of a transform of real numbers
   fftw_complex* lines = nullptr;
 };
