@@ -1,5 +1,9 @@
-// Times of the page in a headless Chromium: `node web/bench.js`, after script/web build.
+// Times of the page in a headless Chromium, and of the library in Node: `node web/bench.js`, after script/web build.
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+
+import { Library } from "./page/library.js";
+import { NOT_GIVEN } from "./page/settings.js";
 
 const build = new URL("../build/web/", import.meta.url);
 const puppeteer = createRequire(new URL("package.json", build))("puppeteer-core");
@@ -82,3 +86,19 @@ console.log(`step of the slider, 20,000 samples: smallest ${ms(smallest)}, media
 const many = await drop(50, 10_000);
 console.log(`50 files of 10,000 samples: ${ms(many.time)}; longest pause of the page ${ms(many.pause)}`);
 await browser.close();
+
+const library = await Library.load(readFileSync(new URL("stickslip.wasm", build)));
+const motion = library.make(
+  Float64Array.from({ length: 20_000 }, (_, i) => {
+    const t = i * 0.005;
+    return Math.exp(-(((t - 20) / 9) ** 2)) * (3 * Math.sin(7 * t + Math.sin(t)) + Math.sin(19 * t));
+  }),
+  0.005,
+);
+const mus = Float64Array.from({ length: 100 }, (_, i) => (i + 1) * 0.004);
+const times = Array.from({ length: 20 }, () => {
+  const begin = performance.now();
+  library.spectrum(motion, { ...NOT_GIVEN, mu: 0.1 }, mus);
+  return performance.now() - begin;
+}).sort((a, b) => a - b);
+console.log(`100 levels of a sliding spectrum, 20,000 samples, in Node: smallest ${ms(times[0] ?? 0)}, median ${ms(times[10] ?? 0)}`);

@@ -242,7 +242,10 @@ const updateResponseSpectrum = latest(async () => {
     if (row !== selected || !values) return;
     spectrum = { key, row, values };
   }
-  showResponseSpectrum();
+  // It does not depend on the slider, so that a moving one does not draw it.
+  const drawn = [key, settings.scale, units.acceleration, color("ink")].join(" ");
+  if (element("figure-response").dataset.drawn !== drawn) showResponseSpectrum();
+  element("figure-response").dataset.drawn = drawn;
 });
 
 /** @returns {Float64Array}  of the scaled motion [m/s^2] */
