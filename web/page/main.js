@@ -160,13 +160,18 @@ function problemOf(given, motion) {
 let lastChange = 0; // [ms]
 let changes = 0;
 
+/** @type {ReturnType<typeof setTimeout> | undefined} */
+let linkWaits;
+const saveLink = () => history.replaceState(null, "", `#${linkText()}`);
+
 /** Before the answer comes, the page is not up to date. */
 function changed() {
   lastChange = performance.now();
   ++changes;
   document.body.dataset.state = "busy";
   element("figure-path").dataset.state = "busy";
-  history.replaceState(null, "", `#${linkText()}`);
+  clearTimeout(linkWaits);
+  linkWaits = setTimeout(saveLink, 200); // once for a moving slider: a browser allows 20 a second
   update();
   updateSliding();
   updateResponseSpectrum();
@@ -1110,7 +1115,10 @@ function listen() {
     element("pin").setAttribute("aria-pressed", String(pinned !== null));
     changed();
   };
-  element("link").onclick = () => copy(location.href, element("link"));
+  element("link").onclick = () => {
+    saveLink();
+    copy(location.href, element("link"));
+  };
   for (const button of /** @type {NodeListOf<HTMLButtonElement>} */ (document.querySelectorAll(".copy")))
     button.onclick = () => copy(element(button.dataset.of ?? "").textContent ?? "", button);
   new ResizeObserver(() => {

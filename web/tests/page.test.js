@@ -201,7 +201,7 @@ test("the slider moves by mouse and by keyboard", async () => {
   for (let i = 0; i < 29; ++i) await page.keyboard.press("ArrowRight"); // from 0.005 in steps of 0.005
   await settled();
   compare(await table(), answers.first["0.15"]);
-  assert.match(await page.evaluate(() => location.hash), /mu=0\.15\b/);
+  await page.waitForFunction(() => /mu=0\.15\b/.test(location.hash));
   // A reader without a mouse reads values at a point.
   await page.focus("figure[tabindex]");
   await page.keyboard.press("PageDown");
