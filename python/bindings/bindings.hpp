@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,11 @@ PYBIND11_MAKE_OPAQUE(stickslip::AnyPlanarSlider)
 PYBIND11_MAKE_OPAQUE(stickslip::python::AnyStaticKinetic)
 
 namespace stickslip::python {
+
+/// A number as Python reads it back.
+inline std::string literal(double value) {
+  return std::isfinite(value) ? detail::shortest(value) : "float('" + detail::shortest(value) + "')";
+}
 
 void bind_errors(py::module_& m);
 void bind_coulomb(py::module_& m);

@@ -54,7 +54,8 @@ inline constexpr auto parts<State> = std::tuple(&State::displacement, &State::ve
                                                 &State::heat, &State::pendulum);
 template <>
 inline constexpr auto parts<PendulumLoop::Corner> = std::tuple(&PendulumLoop::Corner::displacement,
-                                                               &PendulumLoop::Corner::force);
+                                                               &PendulumLoop::Corner::force,
+                                                               &PendulumLoop::Corner::moving);
 template <>
 inline constexpr auto parts<PendulumLoop> = std::tuple(&PendulumLoop::force, &PendulumLoop::corners,
                                                        &PendulumLoop::displacement, &PendulumLoop::surfaces,

@@ -36,9 +36,8 @@ ValueError
       .def_property_readonly("backward", &Stops::backward, "Distance from x = 0 to the backward stop [m].")
       .def_property_readonly("restitution", &Stops::restitution, "Speed after an impact divided by that before.")
       .def("__repr__", [](const Stops& stops) {
-        const auto text = [](double value) { return std::isinf(value) ? "float('inf')" : detail::shortest(value); };
-        return "Stops(gap=" + text(stops.forward()) + ", restitution=" + text(stops.restitution()) +
-               (stops.backward() != stops.forward() ? ", backward=" + text(stops.backward()) : "") + ")";
+        return "Stops(gap=" + literal(stops.forward()) + ", restitution=" + literal(stops.restitution()) +
+               (stops.backward() != stops.forward() ? ", backward=" + literal(stops.backward()) : "") + ")";
       });
 }
 

@@ -336,6 +336,8 @@ class PendulumLoop(metaclass=_Pybind11Type):
     @property
     def corners(self) -> NDArray[np.float64]: ...
     @property
+    def moving(self) -> NDArray[np.bool_]: ...
+    @property
     def elements(self) -> ElementMotion: ...
     @property
     def surfaces(self) -> SurfaceMotion: ...
@@ -1138,21 +1140,7 @@ class Response(metaclass=_Pybind11Type):
     def margin(self) -> float: ...
     @property
     def impact_margin(self) -> float: ...
-    def sensitivity(
-        self,
-        parameter: Literal[
-            "mu",
-            "slip_level",
-            "mu_kinetic",
-            "kinetic",
-            "mu_static",
-            "static",
-            "natural_frequency",
-            "damping",
-            "slope_degrees",
-            "scale",
-        ],
-    ) -> Sensitivity: ...
+    def sensitivity(self, parameter: str) -> Sensitivity: ...
     @overload
     def at(self, times: _Number) -> State: ...
     @overload

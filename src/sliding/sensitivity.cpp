@@ -4,6 +4,7 @@
 
 namespace stickslip {
 
-template Sensitivity sensitivity(const Slider<Coulomb>&, const GroundMotion&, const Response&, Parameter);
+template Sensitivity sensitivity(const Slider<Coulomb>&, const GroundMotion&, const Response&, Parameter,
+                                 std::optional<std::size_t>);
 
 }  // namespace stickslip

@@ -296,4 +296,5 @@ TEST_CASE("what has no derivative is refused with the reason", "[sensitivity]") 
   refused(Slider(Coulomb(1)), quake, Parameter::static_level, "has one level for sliding and rest");
   refused(Slider(Coulomb(1)), quake, Parameter::natural_frequency, "without a spring");
   refused(Slider(Coulomb(1)), with_vertical(5), Parameter::slip_level, "must not leave the ground");
+  refused(Slider(Coulomb(1)), quake, Parameter::radius, "only a MultiPendulum has surfaces");
 }

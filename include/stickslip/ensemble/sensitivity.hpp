@@ -70,7 +70,7 @@ void require_differentiable_mean(const Slider<Law>& slider) {
         "static friction above kinetic: its response jumps where a decision changes, and the mean of the derivatives "
         "leaves the jumps out");
   else if constexpr (!std::same_as<Law, Coulomb>)
-    refuse("a law whose level changes during a slip, for which derivatives are not known");
+    refuse("a law whose level changes during a slip, for which derivatives are not known or have no bound");
   if (slider.mounting().stops)
     refuse("stops: near a grazing impact derivatives have no bound, and their mean has no standard error");
 }

@@ -80,6 +80,29 @@ class MultiPendulum {
   double restitution() const noexcept { return restitution_; }
   bool nested() const noexcept { return nested_; }
   const std::vector<Element>& elements() const noexcept { return elements_; }
+  /// By how much the elements change if each surface, in the order of `radii`, changes by a little.
+  std::vector<Element> change_of_elements(std::span<const Element> of_surfaces) const {
+    if (!nested_) return {of_surfaces.begin(), of_surfaces.end()};
+    std::vector<Element> changes;
+    for (std::size_t ring = 0; ring <= radii_.size() / 2; ++ring)
+      for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
+        const Element element = of_half(ring, half);
+        Element change = of_surfaces[surface(ring, half)];
+        if (ring > 0) change.radius -= of_surfaces[surface(ring - 1, half)].radius;
+        change.capacity = 0;  // of an element without a stop
+        if (element.capacity < infinite) {
+          double turns = 0;
+          for (std::size_t i = ring; i <= radii_.size() / 2; ++i) {
+            const std::size_t one = surface(i, half);
+            turns +=
+                (of_surfaces[one].capacity - capacities_[one] / radii_[one] * of_surfaces[one].radius) / radii_[one];
+          }
+          change.capacity = change.radius * (element.capacity / element.radius) + element.radius * turns;
+        }
+        changes.push_back(change);
+      }
+    return changes;
+  }
   int count() const noexcept { return static_cast<int>(elements_.size()); }
   /// Largest displacement of the bearing [m].
   double capacity() const noexcept {
@@ -224,6 +247,17 @@ class MultiPendulum {
     return !nested_ ? k : k % 2 == 0 ? rings - 1 - ring : rings + ring;
   }
 
+  /// The surfaces that slide while elements move, one bit each, from bottom to top. A nested surface turns with the
+  /// next outer one while that slides.
+  unsigned sliding_surfaces(unsigned moving) const noexcept {
+    unsigned sliding = 0;
+    for (int k = 0; k < count(); ++k) {
+      const bool turns_with = nested_ && k + 2 < count() && (moving & bit(k + 2));
+      if ((moving & bit(k)) && !turns_with) sliding |= 1U << surface_of(index(k));
+    }
+    return sliding;
+  }
+
   /// The elements that move in a direction from a state on, one bit each.
   unsigned moving(const PendulumMemory& memory, Direction direction) const noexcept {
     return branch(memory, step(direction)).moving;
@@ -354,7 +388,7 @@ class MultiPendulum {
       if (!(distance >= nearest * (1 - same))) return shift(memory, now, s, distance, -1);
       shift(memory, now, s, nearest, nearest * (1 + same));
       distance -= nearest;
-      if (memory.moving == 0 || !(distance > 0)) return;
+      if (stopped(memory, s) == all() || !(distance > 0)) return;
     }
   }
 

@@ -18,6 +18,7 @@ struct PendulumLoop {
   struct Corner {
     double displacement;  ///< [m]
     double force;         ///< F/N
+    unsigned moving;  ///< the surfaces that slide from here on, or up to the turn or the end; a bit each, from bottom
   };
   std::vector<double> force;    ///< F/N at each point of the path, on arrival
   std::vector<Corner> corners;  ///< from the start of the first motion on; two at one place: the force jumps
@@ -60,7 +61,8 @@ inline PendulumLoop trace(const MultiPendulum& law, std::span<const double> path
       state.mode = mode_of(direction);
       if (state.mode != before) moved = 0;
       before = state.mode;
-      loop.corners.push_back({from, law.force(state.pendulum, direction)});
+      const auto slide_now = [&] { return law.sliding_surfaces(law.moving(state.pendulum, direction)); };
+      loop.corners.push_back({from, law.force(state.pendulum, direction), slide_now()});
       for (double left = std::abs(to - from); left > 0;) {
         const double way = std::min(left, law.ahead(state, direction));
         const unsigned moving = law.moving(state.pendulum, direction);
@@ -82,10 +84,11 @@ inline PendulumLoop trace(const MultiPendulum& law, std::span<const double> path
           loop.surface_stops[law.surface_of(k)] += stops >> k & 1;
         }
         arrived = force;
-        loop.corners.push_back({left > 0 ? state.displacement : to, force});
         const double then = law.force(state.pendulum, direction);
-        if (left > 0 && std::abs(then - force) > 0x1p-40 * std::abs(force))
-          loop.corners.push_back({state.displacement, then});
+        const bool jumps = left > 0 && std::abs(then - force) > 0x1p-40 * std::abs(force);
+        if (jumps || !(left > 0))
+          loop.corners.push_back({left > 0 ? state.displacement : to, force, law.sliding_surfaces(moving)});
+        if (left > 0) loop.corners.push_back({state.displacement, jumps ? then : force, slide_now()});
       }
       state.displacement = to;
     }

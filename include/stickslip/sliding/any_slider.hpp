@@ -1,8 +1,10 @@
 // A slider whose law is known only when the program runs.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "stickslip/friction/caster.hpp"
@@ -61,6 +63,6 @@ template <Motion M>
 std::unique_ptr<const Trajectory> trajectory(const AnySlider& slider, const M& motion, const Response& response);
 
 Sensitivity sensitivity(const AnySlider& slider, const GroundMotion& motion, const Response& response,
-                        Parameter parameter);
+                        Parameter parameter, std::optional<std::size_t> surface = {});
 
 }  // namespace stickslip

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <numbers>
@@ -17,31 +16,21 @@
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
-#include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/friction_variation.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/observer.hpp"
+#include "stickslip/sliding/parameter.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
 #include "stickslip/units.hpp"
 
 namespace stickslip {
-
-/// The parameter with respect to which a response is differentiated.
-enum class Parameter {
-  slip_level,         ///< the levels of sliding and rest, forward and backward alike [m/s^2]
-  kinetic,            ///< the levels of sliding alone [m/s^2]
-  static_level,       ///< the levels at rest alone, if above those of sliding [m/s^2]
-  natural_frequency,  ///< wn [rad/s]
-  damping,            ///< c [1/s]
-  slope,              ///< of the ground [degrees]
-  scale               ///< a factor on all components of the ground motion, 1 here
-};
 
 /// Derivatives of a response with respect to a parameter: [m], [m/s] per unit of the parameter.
 struct Sensitivity {
@@ -54,9 +43,8 @@ struct Sensitivity {
 
 namespace detail {
 
-/// Direct effects of a unit change of the parameter.
+/// Direct effects of a unit change of the parameter on the mounting and the load.
 struct Change {
-  double kinetic = 0, held = 0;  // levels [m/s^2]
   double stiffness = 0, damping = 0;
   bool slope = false, scale = false;
 };
@@ -93,13 +81,13 @@ struct Propagator {
   }
 };
 
-/// The solutions of y'' + c y' + k w(t) y = 0 from (1, 0) and from (0, 1), where w is linear in time, as power series:
+/// The solutions of y'' + c y' + k(t) y = 0 from (1, 0) and from (0, 1), where k is linear in time, as power series:
 /// the free motions of a pendulum whose weight varies.
 class WeighedPropagator {
  public:
-  /// @param first, last  w at t = 0 and at the end
-  WeighedPropagator(double k, double c, double first, double last, double duration) : c_(c), duration_(duration) {
-    const double stiff = k * duration * duration * first, stiffens = k * duration * duration * (last - first);
+  /// @param first, last  k at t = 0 and at the end
+  WeighedPropagator(double c, double first, double last, double duration) : c_(c), duration_(duration) {
+    const double stiff = duration * duration * first, stiffens = duration * duration * (last - first);
     for (const std::size_t i : {0U, 1U}) {
       auto& y = series_[i];
       y[i] = i == 0 ? 1 : duration;
@@ -140,22 +128,25 @@ class WeighedPropagator {
   std::array<double, terms> series_[2]{};
 };
 
-/// Follows a slider with constant levels and computes the variation of its motion: between events by the linear
-/// variational equation
+/// Follows a slider and computes the variation of its motion: between events by the linear variational equation
 ///     dv' = dp - s d(a N+/g) - d(c) v - d(wn^2) x - c dv - wn^2 dx
-/// (of a pendulum with wn^2 N+/g for wn^2),
+/// (of a pendulum with wn^2 N+/g for wn^2; where the level a has a slope, d(a) contains that times dx),
 /// with its propagator and Gauss-Legendre quadrature; at events by the jumps that result from the shift of their times.
 template <FrictionLaw Law>
 class VariationalMotion : public NoRecorder {
  public:
-  VariationalMotion(const Slider<Law>& slider, const GroundMotion& motion, const Change& change, const State& start)
+  VariationalMotion(const Slider<Law>& slider, const GroundMotion& motion, const Change& change,
+                    const FrictionVariation<Law>& friction, const State& start)
       : NoRecorder(max_events(motion.segments()), none_),
         slider_(slider),
         motion_(motion),
         pieces_(motion, slider.slope()),
         change_(change),
+        friction_(friction),
         peak_(std::abs(start.displacement)),
-        before_(start.mode) {}
+        before_(start.mode) {
+    friction_.begin(start);
+  }
 
   void begin_segment(double, double) {
     begin_piece(pieces_.segment(segment_), ground(segment_));
@@ -167,7 +158,10 @@ class VariationalMotion : public NoRecorder {
   template <class Flow>
   void follow(const Flow& flow, double taken) {
     nodes_.clear();
-    if (equal(change_.stiffness, 0) && equal(change_.damping, 0) && !spring().pendulum) return;
+    speed_ = flow.at(taken).speed;
+    if (equal(change_.stiffness, 0) && equal(change_.damping, 0) && !spring().pendulum &&
+        !FrictionVariation<Law>::depends_on_place)
+      return;
     each_node(taken, [&](double t, double) {
       const Progress now = flow.at(t);
       nodes_.push_back({now.distance, now.speed});
@@ -175,37 +169,34 @@ class VariationalMotion : public NoRecorder {
   }
 
   void slide(const Slip& slip) {
-    const double s = sign(slip.direction), taken = slip.duration;
-    const double level = resist(slider_.law(), slip.from, 0.0, slip.direction);
-    const double k = slider_.stiffness(), c = slider_.damping();
+    const double s = sign(slip.direction), taken = slip.duration, c = slider_.damping();
+    const LevelLine line = friction_.line(slip.direction, slip.from);
     const bool presses = load_.normal(time_ + taken / 2) > 0;
     double x = 0, v = 0;
     std::size_t i = 0;
     const auto weight_at = [&](double t) { return presses ? load_.normal(time_ + t) / standard_gravity : 0; };
+    const auto stiffness_at = [&](double t) { return spring().under(weight_at(t)) + line.slope * weight_at(t); };
+    const double stiffness = stiffness_at(0), stiffness_after = stiffness_at(taken);
     std::optional<WeighedPropagator> swings;
     WeighedPropagator::Values last{};
-    if (spring().pendulum) {
-      swings.emplace(k, c, weight_at(0), weight_at(taken), taken);
+    if (!equal(stiffness, stiffness_after)) {
+      swings.emplace(c, stiffness, stiffness_after, taken);
       last = swings->at(taken);
     }
     each_node(taken, [&](double t, double weight) {
-      const double at = time_ + t, normal = presses ? load_.normal(at) : 0;
-      double force =
-          by_load(at) - s * (change_.kinetic * normal + (presses ? level * by_normal(at) : 0)) / standard_gravity;
-      if (!nodes_.empty()) {
-        const auto [distance, speed] = nodes_[i++];
-        const double here = slip.from + s * distance;
-        const double heavier = presses ? by_normal(at) / standard_gravity : 0;
-        force -= (change_of_spring().under(weight_at(t)) + spring().rate(heavier)) * here;
-        force -= change_.damping * s * speed;
-      }
+      const double at = time_ + t, heavier = presses ? by_normal(at) / standard_gravity : 0;
+      const auto [distance, speed] = nodes_.empty() ? std::array<double, 2>{} : nodes_[i++];
+      const double here = slip.from + s * distance;
+      double force = by_load(at) - line.change_at(here) * weight_at(t) - line.at(here) * heavier;
+      force -= (change_of_spring().under(weight_at(t)) + spring().rate(heavier)) * here;
+      force -= change_.damping * s * speed;
       if (swings) {
         const auto [psi, psi_rate] = swings->of_push(t, swings->at(t), last);
         x += weight * psi * force;
         v += weight * psi_rate * force;
         return;
       }
-      const Propagator rest(k, c, taken - t);
+      const Propagator rest(stiffness, c, taken - t);
       x += weight * rest.psi * force;
       v += weight * rest.psi_rate * force;
     });
@@ -214,7 +205,7 @@ class VariationalMotion : public NoRecorder {
       x += y[0] * dx_ + y[1] * dv_;
       v += rate[0] * dx_ + rate[1] * dv_;
     } else {
-      const Propagator whole(k, c, taken);
+      const Propagator whole(stiffness, c, taken);
       x += whole.phi * dx_ + whole.psi * dv_;
       v += whole.phi_rate * dx_ + whole.psi_rate * dv_;
     }
@@ -223,6 +214,9 @@ class VariationalMotion : public NoRecorder {
     time_ += taken;
     direction_ = slip.direction;
     at_stop_ = false;
+    arrives_ = line.at(slip.to());
+    const LevelJump jump = friction_.slide(slip, dx_);
+    if (!equal(jump.size, 0)) dv_ += jump.size * weight() * (jump.place - dx_) / (s * speed_);
   }
 
   void event(EventKind kind, double time, const State& state) {
@@ -231,8 +225,8 @@ class VariationalMotion : public NoRecorder {
     const double s = sign(direction_);
     const auto push = [&](double way, double speed) {  // acceleration during sliding in that direction
       const Direction direction = way > 0 ? Direction::forward : Direction::backward;
-      return net(state.displacement) - way * kinetic(direction, state.displacement) * weight() -
-             slider_.damping() * way * speed;
+      const double force = direction == direction_ ? arrives_ : friction_.line(direction, state.displacement).value;
+      return net(state.displacement) - force * weight() - slider_.damping() * way * speed;
     };
     switch (kind) {
       case EventKind::breakaway:
@@ -243,14 +237,15 @@ class VariationalMotion : public NoRecorder {
         break;
       case EventKind::arrest:
         dv_ = 0;
-        if (at_wall(state.displacement)) dx_ = 0;
+        if (at_wall(state.displacement)) dx_ = friction_.strike(state.displacement);
         break;
       case EventKind::impact: {
-        note_peak(state.displacement, 0);  // the position of a stop is fixed
+        const double wall = friction_.strike(state.displacement);
+        note_peak(state.displacement, wall);
         const double e = slider_.mounting().stops.restitution(), speed = std::abs(state.velocity);
         const double before = push(s, speed), after = push(-s, e * speed);
-        dv_ = -e * dv_ + (e * before + after) * dx_ / state.velocity;
-        dx_ *= -e;
+        dv_ = -e * dv_ + (e * before + after) * (dx_ - wall) / state.velocity;
+        dx_ = wall - e * (dx_ - wall);
         break;
       }
       case EventKind::liftoff:
@@ -304,7 +299,6 @@ class VariationalMotion : public NoRecorder {
   Spring spring() const noexcept { return slider_.mounting().spring(); }
   Spring change_of_spring() const noexcept { return {change_.stiffness, spring().pendulum}; }
   double net(double x) const noexcept { return load_.load(time_) - spring().under(weight()) * x; }
-  double kinetic(Direction direction, double x) const { return resist(slider_.law(), x, 0.0, direction); }
   bool at_wall(double x) const noexcept {
     const Stops& stops = slider_.mounting().stops;
     return equal(x, stops.forward()) || equal(x, -stops.backward());
@@ -314,7 +308,7 @@ class VariationalMotion : public NoRecorder {
   template <class Use>
   void each_node(double taken, Use&& use) const {
     // Six points integrate one cycle of the product of a motion and a propagator, each of this rate, to round-off.
-    const double turns = 2 * taken * (slider_.natural_frequency() + slider_.damping());
+    const double turns = 2 * taken * (rate_ + slider_.damping());
     const double panels = std::max(1.0, std::min(std::ceil(turns), 4096.0));
     for (double k = 0; k < panels; ++k)
       numerics::gauss_points<6>(taken * (k / panels), taken * ((k + 1) / panels), use);
@@ -324,8 +318,8 @@ class VariationalMotion : public NoRecorder {
   /// acceleration. If the load itself jumps through the level, the time does not change.
   void break_away(const State& state) {
     const Direction direction = direction_of(state.mode);
-    const double s = sign(direction), x = state.displacement, level = hold(slider_.law(), x, direction);
-    const double held = level * weight(), jump = (level - kinetic(direction, x)) * weight();
+    const double s = sign(direction), x = state.displacement, level = hold(law_at(slider_.law(), state), x, direction);
+    const double held = level * weight(), jump = held - s * friction_.line(direction, x).value * weight();
     dv_ = 0;
     if (!(jump > 0) || s * net(x) - held > 1e-9 * held) return;
     const double duration = load_.duration, stiffness = spring().under(weight());
@@ -334,8 +328,9 @@ class VariationalMotion : public NoRecorder {
         s * ((load_.load_end - load_.load_start) / duration - spring().rate(heavier) * x) - level * heavier;
     const double change_of_weight = by_normal(time_) / standard_gravity;
     const double pulls = (change_of_spring().under(weight()) + spring().rate(change_of_weight)) * x + stiffness * dx_;
-    const double nearer =
-        s * (by_load(time_) - pulls) - change_.held * load_.normal(time_) / standard_gravity - level * change_of_weight;
+    const double nearer = s * (by_load(time_) - pulls) -
+                          friction_.change_of_hold() * load_.normal(time_) / standard_gravity -
+                          level * change_of_weight;
     dv_ = s * jump * nearer / rate;
   }
 
@@ -349,36 +344,28 @@ class VariationalMotion : public NoRecorder {
   const GroundMotion& motion_;
   LoadPieces pieces_;
   Change change_;
+  FrictionVariation<Law> friction_;
   double peak_;
   Mode before_;
   std::function<void()> none_{};
   std::size_t segment_ = 0;
   LoadSegment load_{1, 0, 0, standard_gravity, standard_gravity}, change_of_load_{1, 0, 0, 0, 0};
   double time_ = 0, dx_ = 0, dv_ = 0, at_peak_ = 0;
+  double rate_ = std::sqrt(slider_.stiffness() + friction_.steepest());  // of a free motion, at most [rad/s]
+  double arrives_ = 0, speed_ = 0;  // force of the law and |x'| at the end of the last slip
   Direction direction_ = Direction::forward;
   bool at_stop_ = false;  // an impact, and no slip since
   std::vector<std::array<double, 2>> nodes_;
 };
 
-/// The effects of a parameter on a slider; rejects a parameter that the slider does not have.
-template <FrictionLaw Law>
-Change change_of(const Slider<Law>& slider, Parameter parameter) {
-  constexpr bool has_static = !std::same_as<Law, Coulomb>;
-  const auto refuse = [](const std::string& reason) { throw std::invalid_argument("sensitivity: " + reason); };
+/// The effects of a parameter on the mounting and the load; rejects a parameter that the mounting does not have.
+inline Change change_of(const Mounting& mounting, Parameter parameter) {
   Change change;
   switch (parameter) {
-    case Parameter::slip_level:
-      change.kinetic = change.held = 1;
-      break;
-    case Parameter::kinetic:
-    case Parameter::static_level:
-      if (!has_static)
-        refuse("Coulomb friction has one level for sliding and rest, by which slip_level differentiates");
-      (parameter == Parameter::kinetic ? change.kinetic : change.held) = 1;
-      break;
     case Parameter::natural_frequency:
-      if (!(slider.natural_frequency() > 0)) refuse("without a spring there is no derivative by natural_frequency");
-      change.stiffness = 2 * slider.natural_frequency();
+      if (!(mounting.natural_frequency > 0))
+        refuse_sensitivity("without a spring there is no derivative by natural_frequency");
+      change.stiffness = 2 * mounting.natural_frequency;
       break;
     case Parameter::damping:
       change.damping = 1;
@@ -389,13 +376,11 @@ Change change_of(const Slider<Law>& slider, Parameter parameter) {
     case Parameter::scale:
       change.scale = true;
       break;
+    default:  // of the law
+      break;
   }
   return change;
 }
-
-/// Laws whose level is constant during a slip.
-template <class Law>
-concept DifferentiableLaw = std::same_as<Law, Coulomb> || std::same_as<Law, StaticKinetic<Coulomb>>;
 
 }  // namespace detail
 
@@ -406,31 +391,38 @@ concept DifferentiableLaw = std::same_as<Law, Coulomb> || std::same_as<Law, Stat
 ///     arrest      dv = 0
 ///     reversal    dv jumps by the factor f+ / f-
 ///     breakaway   dv = -(a_s - a_k) (d(a_s) + s wn^2 dx) / (q' - s a_s'), on level ground
-///     impact      dx = -e dx,  dv = -e dv + (e f- + f+) dx / v
+///     impact      dx = dX - e (dx - dX),  dv = -e dv + (e f- + f+) (dx - dX) / v,  at a stop that moves by dX
+///     jump        dv = dv + (f- - f+) (dX - dx) / v, where the force of a MultiPendulum jumps at X
 ///     peak        d|x| = sgn(x) dx at its time
+/// The level of a MultiPendulum is a line in x from one change of its moving elements to the next; d(a_k) contains its
+/// slope times dx, and what the changes of its elements and of their turning points do. Changes at which the force does
+/// not jump leave the variation continuous.
 ///
-/// @param slider     Coulomb friction, also with a static level; any mounting
+/// @param slider     Coulomb friction, also with a static level, or a MultiPendulum; any mounting
 /// @param motion     its ground motion
 /// @param response   the result of `integrate` for them
 /// @param parameter  with respect to which to differentiate
-/// @throws std::invalid_argument  another law, whose level changes during a slip; a parameter that the slider does not
-///                                have; a slider that leaves the ground; a response that is not differentiable: a
-///                                velocity that reverses without acceleration
+/// @param surface    of a MultiPendulum, the index of its radius, mu or capacity; without it all change alike
+/// @throws std::invalid_argument  another law; a parameter that the slider does not have; a slider that leaves the
+///                                ground; a response that is not differentiable: a velocity that reverses, or a force
+///                                that jumps, without acceleration
 /// With static friction above kinetic friction the response jumps where a decision changes. The derivative applies
-/// between such jumps; Margins state how close the next one is. Accuracy: near round-off. Cost: 0.1 us per sample
-/// without spring and damper, 0.3 us with them, 2 us for the natural frequency with a damper: 3 to 17 times that of
-/// `integrate`.
+/// between such jumps; Margins state how close the next one is. Of two flat elements with equal mu that slide together
+/// only the derivative by both mu is defined. Accuracy:
+/// near round-off. Cost: 0.1 us per sample without spring and damper, 0.3 us with them, 2 us for a MultiPendulum and
+/// for the natural frequency with a damper: 3 to 17 times that of `integrate`.
 template <FrictionLaw Law>
 Sensitivity sensitivity(const Slider<Law>& slider, const GroundMotion& motion, const Response& response,
-                        Parameter parameter) {
+                        Parameter parameter, std::optional<std::size_t> surface = {}) {
   if constexpr (!detail::DifferentiableLaw<Law>) {
     throw std::invalid_argument(
-        "sensitivity: covers Coulomb friction, also with a static level; of a law whose level changes during a slip "
-        "take differences of integrate");
+        "sensitivity: covers Coulomb friction, also with a static level, and a MultiPendulum; of another law, whose "
+        "level changes during a slip, take differences of integrate");
   } else {
-    const detail::Change change = detail::change_of(slider, parameter);
-    State state = State::at(response.displacement.front(), response.velocity.front());
-    detail::VariationalMotion<Law> variation(slider, motion, change, state);
+    const detail::Change change = detail::change_of(slider.mounting(), parameter);
+    const detail::FrictionVariation<Law> friction(slider.law(), parameter, surface);
+    State state(detail::with_memory(slider.law(), State::at(response.displacement.front(), response.velocity.front())));
+    detail::VariationalMotion<Law> variation(slider, motion, change, friction, state);
     std::vector<double> x(motion.samples()), v(motion.samples());
     const detail::HistorySpans spans{x, v};
     detail::with_flows(slider, motion, [&](const auto& flows) {
@@ -452,14 +444,16 @@ Sensitivity sensitivity(const Slider<Law>& slider, const GroundMotion& motion, c
 }
 
 template <FrictionLaw Law>
-Sensitivity sensitivity(const Law& law, const GroundMotion& motion, const Response& response, Parameter parameter) {
-  return sensitivity(Slider<Law>(law), motion, response, parameter);
+Sensitivity sensitivity(const Law& law, const GroundMotion& motion, const Response& response, Parameter parameter,
+                        std::optional<std::size_t> surface = {}) {
+  return sensitivity(Slider<Law>(law), motion, response, parameter, surface);
 }
 
 }  // namespace stickslip
 
 #ifdef STICKSLIP_LIBRARY  // the linked library contains these
 namespace stickslip {
-extern template Sensitivity sensitivity(const Slider<Coulomb>&, const GroundMotion&, const Response&, Parameter);
+extern template Sensitivity sensitivity(const Slider<Coulomb>&, const GroundMotion&, const Response&, Parameter,
+                                        std::optional<std::size_t>);
 }  // namespace stickslip
 #endif

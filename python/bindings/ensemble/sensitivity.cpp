@@ -1,6 +1,7 @@
 #include "stickslip/ensemble/sensitivity.hpp"
 
 #include <atomic>
+#include <stdexcept>
 
 #include "ensemble/sources.hpp"
 #include "parts.hpp"
@@ -22,7 +23,10 @@ EnsembleSensitivity run_sensitivity(const py::object& sliders, const py::object&
                                     std::uint64_t members, std::uint64_t first_member, std::uint64_t seed,
                                     unsigned threads, bool settle, const std::string& contact,
                                     const py::object& progress) {
-  const auto [parameter, factor] = parameter_of(name, "ensemble_sensitivity");
+  const auto [parameter, factor, surface] = parameter_of(name, "ensemble_sensitivity");
+  if (surface)
+    throw std::invalid_argument("ensemble_sensitivity: covers Coulomb friction, which has no surfaces, got '" + name +
+                                "'");
   EnsembleSensitivityOptions options{members, first_member, seed,
                                      threads, settle,       contact_of(contact, "ensemble_sensitivity")};
   std::atomic<bool> ended = false;

@@ -17,8 +17,6 @@ std::optional<double> unless_table(const Envelope& envelope) {
   return is_table(envelope) ? std::nullopt : std::optional((envelope.*Get)());
 }
 
-std::string number(double value) { return std::isinf(value) ? "float('inf')" : detail::shortest(value); }
-
 }  // namespace
 
 void bind_envelope(py::module_& m) {
@@ -101,8 +99,8 @@ float or ndarray
              if (is_table(e))
                return "<Envelope: table of " + std::to_string(e.time().size()) + " points, " +
                       detail::shortest(e.time().front()) + " to " + detail::shortest(e.time().back()) + " s>";
-             return "Envelope(build_up=" + number(e.build_up()) + ", strong_duration=" + number(e.strong_duration()) +
-                    ", decay_rate=" + number(e.decay_rate()) + ")";
+             return "Envelope(build_up=" + literal(e.build_up()) + ", strong_duration=" + literal(e.strong_duration()) +
+                    ", decay_rate=" + literal(e.decay_rate()) + ")";
            })
       .def(
           "__eq__", [](const Envelope& a, const Envelope& b) { return a == b; }, py::is_operator())

@@ -93,7 +93,7 @@ std::string repr_of_spectrum(const Spectrum& spectrum) {
     if (!py::isinstance<py::float_>(value))
       text += py::repr(value).cast<std::string>();
     else
-      text += std::isinf(value.cast<double>()) ? "float('inf')" : detail::shortest(value.cast<double>());
+      text += literal(value.cast<double>());
   }
   return "Spectrum." + std::string(kind) + "(" + text + ")";
 }

@@ -15,7 +15,7 @@ namespace stickslip::python {
 /// six digits does so and is shorter than "slip_level=1.9613300000000001".
 inline std::string level_argument(double level, const std::string& mu_name = "mu",
                                   const std::string& level_name = "slip_level") {
-  if (std::isinf(level)) return level_name + "=float('inf')";
+  if (std::isinf(level)) return level_name + "=" + literal(level);
   const std::string itself = detail::shortest(level);
   for (int digits = 1; digits <= 6; ++digits) {
     char text[32];
@@ -30,7 +30,7 @@ inline std::string level_argument(double level, const std::string& mu_name = "mu
 /// Numbers as a list of Python.
 inline std::string list_of_numbers(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + detail::shortest(value);
+  for (const double value : values) text += (text.empty() ? "" : ", ") + literal(value);
   return "[" + text + "]";
 }
 

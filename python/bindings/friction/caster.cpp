@@ -84,8 +84,7 @@ Accurate to a few units in the last place for every l/w > 0; takes about 2.5 us.
       .def_property_readonly("reach", &Caster::reach, "Distance over which the level falls off [m].")
       .def_property_readonly("rolling", &Caster::rolling, "Rolling resistance [m/s^2].")
       .def("__repr__", [](const Caster& law) {
-        return "Caster(" + level_argument(law.slip_level()) +
-               ", reach=" + (std::isinf(law.reach()) ? "float('inf')" : detail::shortest(law.reach())) +
+        return "Caster(" + level_argument(law.slip_level()) + ", reach=" + literal(law.reach()) +
                (law.rolling() > 0 ? ", rolling=" + detail::shortest(law.rolling()) : "") + ")";
       });
   explain_constructor(type, "Caster: give mu= or slip_level= [m/s^2], and reach= [m]");

@@ -148,13 +148,12 @@ Examples
   property("conductivity", &P::conductivity, "Thermal conductivity of the steel [W/(m K)].");
   type.def("__repr__", [](const KumarFriction& law) {
     const P& p = law.parameters();
-    const auto number = [](double value) { return std::isinf(value) ? "float('inf')" : detail::shortest(value); };
     const auto unless = [&](const char* name, double value, double usual) {
-      return value == usual ? std::string() : std::string(", ") + name + "=" + number(value);
+      return value == usual ? std::string() : std::string(", ") + name + "=" + literal(value);
     };
     const P usual{};
-    return "KumarFriction(mu_ref=" + number(p.mu_ref) + ", static_pressure=" + number(p.static_pressure) +
-           ", reference_pressure=" + number(p.reference_pressure) + ", contact_radius=" + number(p.contact_radius) +
+    return "KumarFriction(mu_ref=" + literal(p.mu_ref) + ", static_pressure=" + literal(p.static_pressure) +
+           ", reference_pressure=" + literal(p.reference_pressure) + ", contact_radius=" + literal(p.contact_radius) +
            unless("temperature", p.temperature, usual.temperature) + unless("rate", p.rate, usual.rate) +
            unless("diffusivity", p.diffusivity, usual.diffusivity) +
            unless("conductivity", p.conductivity, usual.conductivity) + ")";

@@ -204,6 +204,22 @@ PendulumLoop)")
 
 Straight lines between them are the loop. Where the force jumps there are two at one displacement.)")
       .def_property_readonly(
+          "moving",
+          [](const PendulumLoop& loop) {
+            const auto corners = static_cast<py::ssize_t>(loop.corners.size());
+            const auto surfaces = static_cast<py::ssize_t>(loop.surfaces.size());
+            py::array_t<bool> moving({corners, surfaces});
+            auto values = moving.mutable_unchecked<2>();
+            for (py::ssize_t i = 0; i < corners; ++i)
+              for (py::ssize_t k = 0; k < surfaces; ++k)
+                values(i, k) = loop.corners[static_cast<std::size_t>(i)].moving >> k & 1;
+            return moving;
+          },
+          R"(Which surfaces slide after each corner (bool), shape (corners, surfaces), from bottom to top.
+
+At a turn of the path, and at its end, those that have slid up to there. A nested surface turns with the next outer one
+while that slides.)")
+      .def_property_readonly(
           "elements", [](const PendulumLoop& loop) { return motion_of(loop); },
           "The `ElementMotion` along the path; its samples are the points. Its work is for the weight g.")
       .def_property_readonly(

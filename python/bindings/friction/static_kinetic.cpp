@@ -104,10 +104,9 @@ load almost reaches the static level, an arbitrarily small change decides.)");
       .def("__repr__",
            [](const AnyStaticKinetic& law) {
              const double forward = forward_of(law), backward = backward_of(law);
-             const std::string level =
-                 forward == backward ? level_argument(forward, "mu_static", "static")
-                                     : "static=(" + detail::shortest(forward) + ", " +
-                                           (std::isinf(backward) ? "float('inf')" : detail::shortest(backward)) + ")";
+             const std::string level = forward == backward
+                                           ? level_argument(forward, "mu_static", "static")
+                                           : "static=(" + detail::shortest(forward) + ", " + literal(backward) + ")";
              return "StaticKinetic(" + py::repr(sliding_of(law)).cast<std::string>() + ", " + level + ")";
            })
       .def(

@@ -1,8 +1,11 @@
 #include "sliding/response.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
+#include <string_view>
+#include <system_error>
 
 #include "in_python.hpp"
 #include "parts.hpp"
@@ -121,14 +124,14 @@ Margins margins_of(const ResponseWithInputs& self) {
 }
 
 Sensitivity sensitivity_of(const ResponseWithInputs& self, const std::string& name) {
-  const auto [parameter, factor] = parameter_of(name, "sensitivity");
+  const UnitParameter by = parameter_of(name, "sensitivity");
   return with_inputs(self, [&](const auto& slider, const auto& motion) -> Sensitivity {
     if constexpr (std::same_as<std::decay_t<decltype(motion)>, HarmonicMotion>) {
       throw std::invalid_argument(
           "sensitivity: covers a GroundMotion, got a HarmonicMotion; integrate motion.sampled(dt)");
     } else {
-      const Sensitivity one = sensitivity(slider, motion, self.response, parameter);
-      return {factor * one.peak, factor * one.residual, factor * one.velocity};
+      const Sensitivity one = sensitivity(slider, motion, self.response, by.parameter, by.surface);
+      return {by.factor * one.peak, by.factor * one.residual, by.factor * one.velocity};
     }
   });
 }
@@ -245,12 +248,26 @@ UnitParameter parameter_of(const std::string& name, const std::string& who) {
                                                                   {"natural_frequency", {natural_frequency, 1}},
                                                                   {"damping", {damping, 1}},
                                                                   {"slope_degrees", {slope, 1}},
-                                                                  {"scale", {scale, 1}}};
+                                                                  {"scale", {scale, 1}},
+                                                                  {"radii", {radius, 1}},
+                                                                  {"capacities", {capacity, 1}}};
   std::string known;
   for (const auto& [its_name, parameter] : parameters) {
     if (name == its_name) return parameter;
     known += (known.empty() ? "'" : ", '") + std::string(its_name) + "'";
   }
+  constexpr std::pair<std::string_view, stickslip::Parameter> of_surfaces[] = {
+      {"radii[", radius}, {"mu[", stickslip::Parameter::mu}, {"capacities[", capacity}};
+  for (const auto& [begin, parameter] : of_surfaces) {
+    if (name.starts_with(begin) && name.ends_with(']')) {
+      std::size_t index = 0;
+      const char* const last = name.data() + name.size() - 1;
+      const auto [end, error] = std::from_chars(name.data() + begin.size(), last, index);
+      if (error == std::errc() && end == last) return {parameter, 1, index};
+    }
+    known += ", '" + std::string(begin) + "i]'";
+  }
+  known += " with i from 0, a surface of a MultiPendulum";
   throw std::invalid_argument(who + ": parameter must be one of " + known + ", got '" + name + "'");
 }
 
@@ -396,15 +413,20 @@ direction, f the acceleration, q' the rate of the load, a_s and a_k the levels o
     arrest     dv = 0
     reversal   dv is multiplied by f+ / f-
     breakaway  dv = -(a_s - a_k) (d(a_s) + s wn^2 dx) / (q' - s a_s')
-    impact     dx = -e dx,  dv = -e dv + (e f- + f+) dx / v
+    impact     dx = dX - e (dx - dX),  dv = -e dv + (e f- + f+) (dx - dX) / v,  at a stop that moves by dX
+    jump       dv = dv + (f- - f+) (dX - dx) / v, where the force of a `MultiPendulum` jumps at X
     peak       d|x| = sgn(x) dx at its time
+
+The level of a `MultiPendulum` is a line in x from one change of its moving elements to the next; its derivative contains
+those of the elements and of where they last turned.
 
 Parameters
 ----------
 parameter : str
     'mu' or 'slip_level' [m/s^2]: all levels alike; 'mu_kinetic' or 'kinetic', 'mu_static' or 'static', of
     `StaticKinetic`; 'natural_frequency' [rad/s]; 'damping' [1/s]; 'slope_degrees'; 'scale', a factor on all components
-    of the ground motion.
+    of the ground motion. Of a `MultiPendulum` also 'radii[i]', 'mu[i]' and 'capacities[i]', i an index of its lists:
+    from bottom to top in a series; inner, lower, upper, ... of nested surfaces. 'radii' and 'capacities': all alike.
 
 Returns
 -------
@@ -413,9 +435,9 @@ Sensitivity
 Raises
 ------
 ValueError
-    A law whose level changes during a slip (any but `Coulomb` and `StaticKinetic` of it); a `HarmonicMotion`; a slider
-    that leaves the ground; a parameter that the slider does not have; a response that is not differentiable, where a
-    velocity comes to zero without acceleration.
+    Another law than `Coulomb`, `StaticKinetic` of it and `MultiPendulum`; a `HarmonicMotion`; a slider that leaves the
+    ground; a parameter that the slider does not have, such as a surface beyond the last, or a radius or capacity that is
+    infinite; a response that is not differentiable, where a velocity comes to zero without acceleration.
 
 Notes
 -----

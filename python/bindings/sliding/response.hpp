@@ -43,7 +43,9 @@ class Storage {
 struct UnitParameter {
   stickslip::Parameter parameter;
   double factor;
+  std::optional<std::size_t> surface{};
 };
+/// @param name  such as 'mu', or 'mu[1]' for one surface of a MultiPendulum
 /// @throws std::invalid_argument  an unknown name; begins with `who`
 UnitParameter parameter_of(const std::string& name, const std::string& who);
 

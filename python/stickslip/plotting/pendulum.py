@@ -7,6 +7,7 @@ from typing import overload
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
+from numpy.typing import NDArray
 
 from .._core import PendulumLoop, Response
 from .figures import one_panel
@@ -22,7 +23,8 @@ def plot_pendulum_loop(
 ) -> FigureBase | Axes:
     """Plot the force of a bearing under an imposed displacement, with its corners.
 
-    At a corner an element joins the motion, comes to its stop, or the path turns.
+    At a corner an element joins the motion, comes to its stop, or the path turns. Numbers beside
+    the lines name the surfaces that slide, from bottom to top; each set of them is named once.
 
     Parameters
     ----------
@@ -42,12 +44,26 @@ def plot_pendulum_loop(
         x, force = loop.corners.T
         axes.plot(100 * x, force, color=BLUE)
         axes.plot(100 * x, force, "o", color=VERMILION, markersize=3.5)
+        _name_regimes(axes, 100 * x, force, loop.moving)
         axes.axhline(0, color=GRAY, linewidth=0.6)
         axes.axvline(0, color=GRAY, linewidth=0.6)
         axes.set_xlabel("displacement [cm]")
         axes.set_ylabel("force over weight [-]")
         axes.set_title(title or "Force under an imposed displacement")
     return figure if ax is None else axes
+
+
+def _name_regimes(
+    axes: Axes, x: NDArray[np.float64], force: NDArray[np.float64], moving: NDArray[np.bool_]
+) -> None:
+    named = set()
+    for i, surfaces in enumerate(moving[:-1]):
+        name = " ".join(str(k + 1) for k in np.flatnonzero(surfaces))
+        if name in named or x[i] == x[i + 1]:
+            continue
+        named.add(name)
+        middle = ((x[i] + x[i + 1]) / 2, (force[i] + force[i + 1]) / 2)
+        axes.annotate(name, middle, (4, -10), textcoords="offset points", color=GRAY, fontsize=8)
 
 
 @overload

@@ -4,8 +4,8 @@
 namespace stickslip {
 
 Sensitivity sensitivity(const AnySlider& slider, const GroundMotion& motion, const Response& response,
-                        Parameter parameter) {
-  return std::visit([&](const auto& one) { return sensitivity(one, motion, response, parameter); }, slider);
+                        Parameter parameter, std::optional<std::size_t> surface) {
+  return std::visit([&](const auto& one) { return sensitivity(one, motion, response, parameter, surface); }, slider);
 }
 
 }  // namespace stickslip
