@@ -54,4 +54,5 @@
 #include "stickslip/theory/stationary_linearization.hpp"
 #include "stickslip/theory/theory.hpp"
 #include "stickslip/theory/transport.hpp"
+#include "stickslip/theory/velocity_distribution.hpp"
 #include "stickslip/theory/white_noise.hpp"

@@ -86,6 +86,33 @@ def test_the_peak_is_that_of_simulation():
     )
 
 
+def test_the_velocity_is_that_of_simulation():
+    # The errors as above; at rest the velocity is exactly 0.
+    time, members = 20.0, 4000
+    shaking = excitation(samples=201)
+    for law in (BLOCK, ss.Coulomb(slip_level=1.0, backward=1.6)):
+        d = theory.Transport(tolerance=0.05).predict(law, GROUND, [time]).velocity(time)
+        v = np.array(
+            [
+                ss.integrate(law, shaking.sample(seed=11, member=m)).velocity[-1]
+                for m in range(members)
+            ]
+        )
+        rest = np.mean(v == 0)
+        scatter = 4.5 * math.sqrt(rest * (1 - rest) / members)
+        assert abs(d.atom - rest) < d.atom_error + scatter
+        assert d.quantile(d.cdf(0) - d.atom / 2) == 0
+        for at in (-1.0, -0.3, 0.3, 1.0):
+            said = d.cdf(at)
+            assert d.cdf(d.quantile(said)) == pytest.approx(said, abs=1e-9)
+            scatter = 4.5 * math.sqrt(said * (1 - said) / members)
+            assert abs(np.mean(v <= at) - said) < d.error + 0.01 + scatter
+        grid = np.r_[0, np.geomspace(1e-6, d.velocity[-1], 2000)]
+        density = d.density(grid)
+        mass = np.sum((density[1:] + density[:-1]) / 2 * np.diff(grid))
+        assert mass == pytest.approx(1 - d.cdf(0), rel=1e-3)
+
+
 def test_the_time_at_rest_is_that_of_simulation():
     p = theory.Transport(tolerance=0.05).stationary(BLOCK, GROUND)
     e = ss.run_ensemble(BLOCK, excitation(samples=601), members=2000, seed=8, dt=1.0)
@@ -170,6 +197,9 @@ def test_levels_of_peaks_and_times_are_checked():
         (lambda: p.peak(5).exceedance(-1), "level must be positive and finite, got -1 m"),
         (lambda: p.peak(5).quantile(1), "probability must be from 0.01 to 0.999, got 1"),
         (lambda: p.displacement(math.inf), "time must be positive and finite"),
+        (lambda: p.velocity(-1), "time must be positive and finite, got -1 s"),
+        (lambda: p.velocity(4).quantile(1), "probability must be between 0 and 1, got 1"),
+        (lambda: p.velocity(4).cdf(math.nan), "v must be a number"),
     ):
         with pytest.raises(ValueError, match=message):
             call()

@@ -354,6 +354,7 @@ EXAMPLES = {
     theory.PulseChain: [theory.PulseChain(), theory.PulseChain(refined=True)],
     theory.Transport: [theory.Transport(), theory.Transport(tolerance=0.1)],
     theory.TransportPrediction: CARRIED,
+    theory.VelocityDistribution: [CARRIED[0].velocity(t) for t in (1, 2)],
     theory.TransportCost: [one.cost for one in CARRIED],
     theory.TransportStationary: [one.stationary for one in CARRIED],
     theory.TransportPeak: [CARRIED[0].peak(t) for t in (1, 2)],

@@ -17,6 +17,7 @@
 #include "stickslip/theory/displacement_distribution.hpp"
 #include "stickslip/theory/shaping_filter.hpp"
 #include "stickslip/theory/theory.hpp"
+#include "stickslip/theory/velocity_distribution.hpp"
 
 namespace stickslip::theory {
 
@@ -120,6 +121,9 @@ class TransportPrediction : public Moments {
   /// The distribution of the displacement at a time, `Transport::displacement`.
   DisplacementDistribution displacement(double at, const std::function<void()>& progress = {}) const;
 
+  /// The distribution of the velocity at a time, `Transport::velocity`.
+  VelocityDistribution velocity(double at, const std::function<void()>& progress = {}) const;
+
   /// The peak up to a time.
   /// @param end  [s], positive and finite
   /// @throws std::invalid_argument naming the value
@@ -195,6 +199,16 @@ class Transport {
   /// Takes 1 to 20 s.
   DisplacementDistribution displacement(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
                                         const std::function<void()>& progress = {}) const;
+
+  /// The distribution of the velocity at a time, with the probability of rest: of each value the probability that the
+  /// load of the last step leads below it, integrated over that load exactly.
+  /// @param slider  as for `predict`
+  /// @param noise   as for `predict`
+  /// @param time    [s], positive and finite
+  /// @throws std::invalid_argument naming the value
+  /// Takes 1 to 20 s.
+  VelocityDistribution velocity(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+                                const std::function<void()>& progress = {}) const;
 
  private:
   void check(const Slider<Coulomb>& slider, const TwoStateNoise& noise) const;

@@ -4,6 +4,8 @@
 #include <optional>
 #include <variant>
 
+#include <pybind11/numpy.h>
+
 #include "parts.hpp"
 #include "theory/displacement_distribution.hpp"
 #include "theory/theory.hpp"
@@ -75,6 +77,26 @@ Estimate peak_quantile(const TransportPeak& self, double probability) {
   return self.peak().quantile(probability, &check_for_interrupt);
 }
 
+/// The distribution of a velocity with what it was made of.
+struct VelocityDistribution : theory::VelocityDistribution {
+  VelocityDistribution(const Transport& by, AnySlider any, DistributionSource source, double at)
+      : theory::VelocityDistribution(by.velocity(block_of(any), two_state_noise(source), at, &check_for_interrupt)),
+        theory(by),
+        slider(std::move(any)),
+        noise(std::move(source)),
+        time(at) {}
+
+  Transport theory;
+  AnySlider slider;
+  DistributionSource noise;
+  double time;
+};
+
+VelocityDistribution velocity_of(const TransportPrediction& self, double time) {
+  const py::gil_scoped_release released;
+  return {self.theory, self.slider, self.noise, time};
+}
+
 DisplacementDistribution displacement_of(const TransportPrediction& self, double time) {
   const py::gil_scoped_release released;
   return {self.theory, self.slider, self.noise, time};
@@ -123,7 +145,82 @@ template <>
 inline constexpr auto parts<TransportPeak> = std::tuple(&TransportPeak::theory, &TransportPeak::slider,
                                                         &TransportPeak::noise, &TransportPeak::time);
 
+template <>
+inline constexpr auto parts<VelocityDistribution> = std::tuple(&VelocityDistribution::theory,
+                                                               &VelocityDistribution::slider,
+                                                               &VelocityDistribution::noise,
+                                                               &VelocityDistribution::time);
+
 void bind_transport(py::module_& m) {
+  value_class<VelocityDistribution>(m, "VelocityDistribution", R"(Distribution of a velocity, with an atom at rest.
+
+Made by `TransportPrediction.velocity`. Between the values of a table it is interpolated by monotone cubics (M. Steffen,
+Astron. Astrophys. 239 (1990), 443-450).)")
+      .def_property_readonly("remark", &VelocityDistribution::remark, "As of the prediction.")
+      .def_property_readonly("atom", &VelocityDistribution::atom, "Probability of rest.")
+      .def_property_readonly("atom_error", &VelocityDistribution::atom_error, "Bound on its numerical error.")
+      .def_property_readonly("error", &VelocityDistribution::error,
+                             "Bound on the numerical error of probabilities away from rest.")
+      .def_property_readonly(
+          "velocity",
+          [](const py::object& self) { return view(self.cast<const VelocityDistribution&>().velocity(), self); },
+          "Velocities of the table, ascending [m/s], shape (N,), read-only.")
+      .def("cdf", py::vectorize([](const VelocityDistribution* self, double v) { return self->cdf(v); }), py::arg("v"),
+           R"(Probability that the velocity is at most v.
+
+Parameters
+----------
+v : array_like
+    Velocities [m/s], any shape, no NaN.
+
+Returns
+-------
+float or ndarray
+    Of the shape of `v`.
+
+Raises
+------
+ValueError
+    NaN.)")
+      .def("density", py::vectorize([](const VelocityDistribution* self, double v) { return self->density(v); }),
+           py::arg("v"), R"(Density without the atom; at 0 that of positive velocities.
+
+Parameters
+----------
+v : array_like
+    Velocities [m/s], any shape, no NaN.
+
+Returns
+-------
+float or ndarray
+    [s/m], of the shape of `v`.
+
+Raises
+------
+ValueError
+    NaN.)")
+      .def("quantile", py::vectorize([](const VelocityDistribution* self, double p) { return self->quantile(p); }),
+           py::arg("probability"),
+           R"(Quantile: the smallest velocity not exceeded with a given probability; exactly 0 within the atom.
+
+Parameters
+----------
+probability : array_like
+    Between 0 and 1, any shape.
+
+Returns
+-------
+float or ndarray
+    Velocities [m/s], of the shape of `probability`.
+
+Raises
+------
+ValueError
+    A value out of range.)")
+      .def("__repr__", [](const VelocityDistribution& d) {
+        return "<VelocityDistribution: rest " + detail::shortest(d.atom()) + ">";
+      });
+
   value_class<TransportCost>(m, "TransportCost", R"(The work of a prediction by `Transport`.)")
       .def_readonly("nodes", &TransportCost::nodes, "Nodes of the finest grid.")
       .def_readonly("steps", &TransportCost::steps, "Steps to the last time, with the longest step.")
@@ -238,6 +335,28 @@ ConvergenceError
 Notes
 -----
 Takes 1 to 10 s without a spring, up to 60 s with one.)")
+      .def("velocity", &velocity_of, py::arg("time"),
+           R"(Distribution of the velocity at a time, with the probability of rest.
+
+Of each velocity the probability that the load of the last step leads below it, integrated over that load exactly.
+
+Parameters
+----------
+time : float
+    Time [s], positive and finite.
+
+Returns
+-------
+VelocityDistribution
+
+Raises
+------
+ValueError
+    A time out of range.
+
+Notes
+-----
+Takes 0.2 to 1 s without a spring, up to 20 s with one.)")
       .def("peak", &peak_of, py::arg("time"), R"(The largest abs(x) from rest up to a time.
 
 Parameters

@@ -124,6 +124,11 @@ double Chain::load_for(double x, double v, double speed, bool or_equal) const {
   };
   double most = (std::abs(v) + std::abs(speed)) / step_ + slider_.stiffness() * std::abs(x) + slider_.law().forward();
   for (int i = 0; i < 60 && !(reached(most) && !reached(-most)); ++i) most *= 2;
+  if (!equal(speed, 0)) {  // apart from rest it is continuous and decreases
+    const auto excess = [&](double load) { return speed - speed_after(x, v, load); };
+    const double low = excess(-most), high = excess(most);
+    if (low < 0 && high > 0) return numerics::root(excess, -most, low, most, high, 1e-10 * most);
+  }
   return numerics::first_where(-most, most, reached);
 }
 

@@ -149,6 +149,10 @@ LoadGrid::LoadGrid(const FilterStates& noise, Panels load, std::size_t hidden, d
 }
 
 void LoadGrid::below(double load, std::size_t i, std::vector<double>& probabilities) const {
+  if (white()) {
+    probabilities.assign(1, normal_cdf(load / deviation_));
+    return;
+  }
   probabilities.resize(hidden_);
   const double deviation = std::sqrt(1 - transition_.row(0).squaredNorm());
   for (std::size_t j = 0; j < hidden_; ++j) {

@@ -71,24 +71,20 @@ std::vector<MotionMoments> moments_from_rest(const Chain& chain, bool sprung, st
   return found;
 }
 
-double survival(const Chain& chain, std::size_t steps, const std::function<void()>& progress) {
+Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress) {
   Vector p = chain.start();
   for (std::size_t k = 0; k < steps; ++k) {
     if (progress) progress();
     p = chain.carry(p);
   }
-  return p.sum();
+  return p;
 }
 
 std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung, std::size_t steps,
                                                  std::span<const double> waves, const std::function<void()>& progress) {
   std::vector<std::complex<double>> found;
   if (sprung) {
-    Vector p = chain.start();
-    for (std::size_t k = 0; k + 1 < steps; ++k) {
-      if (progress) progress();
-      p = chain.carry(p);
-    }
+    const Vector p = weights_from_rest(chain, steps - 1, progress);
     for (const double wave : waves) found.push_back(chain.characteristic(p, wave));
     return found;
   }

@@ -21,8 +21,8 @@ struct MotionMoments {
 std::vector<MotionMoments> moments_from_rest(const Chain& chain, bool sprung, std::size_t steps,
                                              const std::function<void()>& progress);
 
-/// The probability that no wall has been reached after some steps from rest.
-double survival(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
+/// The weights after some steps from rest. Their sum is the probability that no wall has been reached.
+Chain::Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
 
 /// E[exp(i wave x)] after some steps from rest, at least one, for each wave.
 std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung, std::size_t steps,

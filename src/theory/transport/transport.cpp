@@ -29,6 +29,7 @@ using detail::Refined;
 using detail::require;
 using detail::StationaryMotion;
 using detail::TransportProblem;
+using detail::weights_from_rest;
 
 using Progress = std::function<void()>;
 
@@ -196,7 +197,7 @@ Estimate TransportPeak::exceedance(double level, const Progress& progress) const
       problem, window, step, {.tolerance = tolerance_, .judged = {0}, .levels = 1},
       [&, first = step, count = steps](const Chain& chain) {
         const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-        return Figures::Constant(1, 1 - detail::survival(chain, count * parts, progress));
+        return Figures::Constant(1, 1 - weights_from_rest(chain, count * parts, progress).sum());
       },
       level);
   return {refined.value[0], refined.error[0]};
@@ -214,7 +215,7 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   const double wanted = std::log1p(-probability);
   const auto excess = [&, h = step, count = steps](double ln_level) {
     const Chain chain = problem.chain(h, 0, window, std::exp(ln_level));
-    return std::log(std::max(1 - detail::survival(chain, count, progress), 1e-12)) - wanted;
+    return std::log(std::max(1 - weights_from_rest(chain, count, progress).sum(), 1e-12)) - wanted;
   };
   double low = std::log(rms), at_low = excess(low), high = low, at_high = at_low;
   while (at_low < 0 && std::exp(low) > 1e-3 * rms) high = low, at_high = at_low, at_low = excess(low -= 0.4);
@@ -274,6 +275,68 @@ DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, 
     error += 2 * std::hypot(refined.error[at], refined.error[at + 1]) / (waves[j] * samples.half_width);
   }
   return {samples, error, noise.remark()};
+}
+
+VelocityDistribution Transport::velocity(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+                                         const Progress& progress) const {
+  check(slider, noise);
+  require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
+  const TransportProblem problem(slider, noise);
+  const auto [step, steps] = problem.steps_to(time);
+  require(steps > 2,
+          "Transport: a velocity under held noise needs a time of more than two values, of " + detail::shortest(step) +
+              " s; the time",
+          time, "s");
+  const auto window = window_from_rest(problem, step, steps, progress);
+  // Values in both directions, finer near rest, to ten rms.
+  std::vector<double> sizes;
+  constexpr std::size_t count = 28;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const double part = static_cast<double>(i) / count;
+    sizes.push_back(10 * window.v * part * part * (0.5 + 0.5 * part));
+  }
+  const bool backward = std::isfinite(slider.law().backward()), mirrored = Chain::mirrors(slider);
+  // The probabilities of less than 0, of 0, of at most each size, and of at most minus each size.
+  const Refined refined =
+      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1, .slow = {1}},
+             [&, first = step, last = steps](const Chain& chain) {
+               const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
+               const Chain::Vector p = weights_from_rest(chain, last * parts - 2, progress);
+               Figures figures = Figures::Zero(2 + 2 * count);
+               figures[0] = backward ? chain.below(p, 0, false) : 0;
+               figures[1] = chain.below(p, 0, true) - figures[0];
+               for (std::size_t i = 0; i < count; ++i) {
+                 const auto at = static_cast<Eigen::Index>(2 + i), opposite = at + static_cast<Eigen::Index>(count);
+                 if (progress) progress();
+                 figures[at] = chain.below(p, sizes[i], true);
+                 if (mirrored) figures[at] = (figures[at] + 1 - chain.below(p, -sizes[i], false)) / 2;
+                 if (backward) figures[opposite] = mirrored ? 1 - figures[at] : chain.below(p, -sizes[i], true);
+               }
+               return figures;
+             });
+  detail::VelocityTable table;
+  const double atom = table.atom = problem.white() && !(problem.held() > 0) ? 0 : refined.value[1];
+  double error = 0;
+  for (std::size_t i = count; backward && i > 0; --i) {
+    table.velocity.push_back(-sizes[i - 1]);
+    table.below.push_back(refined.value[static_cast<Eigen::Index>(1 + count + i)]);
+  }
+  table.velocity.push_back(0);
+  table.below.push_back(mirrored ? (1 - atom) / 2 : refined.value[0]);
+  for (std::size_t i = 0; i < count; ++i) {
+    table.velocity.push_back(sizes[i]);
+    table.below.push_back(refined.value[static_cast<Eigen::Index>(2 + i)] - atom);
+    error = std::max(error, refined.error[static_cast<Eigen::Index>(2 + i)]);
+  }
+  table.below.front() = backward ? 0 : table.below.front();
+  table.below.back() = 1 - atom;
+  for (std::size_t i = 1; i < table.below.size(); ++i)  // within the errors
+    table.below[i] = std::clamp(table.below[i], table.below[i - 1], 1 - atom);
+  return {std::move(table), error, atom > 0 ? refined.error[1] : 0, noise.remark()};
+}
+
+VelocityDistribution TransportPrediction::velocity(double at, const Progress& progress) const {
+  return Transport(tolerance_).velocity(slider_, noise_, at, progress);
 }
 
 DisplacementDistribution TransportPrediction::displacement(double at, const Progress& progress) const {
