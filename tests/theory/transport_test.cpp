@@ -127,7 +127,7 @@ TEST_CASE("unequal and one-way levels under white noise drift as they must") {
   }
 }
 
-TEST_CASE("a prediction scales with the units of length and time") {
+TEST_CASE("a prediction scales with the units of length and time", "[long]") {
   const std::vector<double> times{2, 7}, scaled{2 / 5.0, 7 / 5.0};
   const auto one = Transport(0.05).predict(Slider(Coulomb(1.0), 0.7), kanai_tajimi(0.5, 1.2), times);
   const auto other = Transport(0.05).predict(Slider(Coulomb(0.3), 3.5), kanai_tajimi(0.5, 0.36, 5.0), scaled);
@@ -139,7 +139,7 @@ TEST_CASE("a prediction scales with the units of length and time") {
   }
 }
 
-TEST_CASE("a spring with little friction and a damper is the linear oscillator") {
+TEST_CASE("a spring with little friction and a damper is the linear oscillator", "[long]") {
   // Under white noise of level S0: E[x'^2] = pi S0 / c, E[x^2] = pi S0 / (c wn^2). Friction of level a takes the power
   // a E|x'|, so that it changes the variance by some a / (c rms x').
   const double s0 = 1, wn = 2, c = 0.8, a = 1e-3;
@@ -149,7 +149,7 @@ TEST_CASE("a spring with little friction and a damper is the linear oscillator")
   CHECK(found.rest.value == 0);
 }
 
-TEST_CASE("a soft spring leaves the block alone, and a stiff one holds it") {
+TEST_CASE("a soft spring leaves the block alone", "[long]") {
   const ShapingFilter filter = kanai_tajimi(0.6, 1.0);
   const std::vector<double> times{10};
   const auto free = Transport(0.03).predict(Slider(Coulomb(1.0)), filter, times);

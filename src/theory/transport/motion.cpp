@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "numerics/bicgstab.hpp"
 
@@ -32,8 +33,7 @@ Vector solve(const Chain& chain, const Vector& b, Parity parity, bool conserving
 
 }  // namespace
 
-std::vector<MotionMoments> moments_from_rest(const Chain& chain, bool sprung, std::size_t steps,
-                                             const std::function<void()>& progress) {
+History history_from_rest(const Chain& chain, bool sprung, std::size_t steps, const std::function<void()>& progress) {
   const Parity other = chain.mirrored() ? Parity::odd : Parity::even;
   std::vector<MotionMoments> found(1);
   found.reserve(steps + 1);
@@ -68,7 +68,7 @@ std::vector<MotionMoments> moments_from_rest(const Chain& chain, bool sprung, st
       found.push_back(next);
     }
   }
-  return found;
+  return {std::move(found), std::move(p)};
 }
 
 Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress) {
@@ -100,11 +100,12 @@ std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung
   return found;
 }
 
-StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest,
+double stationary_velocity(const Chain& chain, const std::function<void()>& progress) {
+  return chain.means(solve(chain, chain.start(), Parity::even, true, chain.start(), progress)).vv;
+}
+
+StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest, const Vector& guess,
                                    const std::function<void()>& progress) {
-  Vector guess = chain.start();
-  // A spring forgets the start in some periods.
-  for (int k = 0; sprung && k < 100; ++k) guess = chain.carry(guess);
   const Vector p = solve(chain, chain.start(), Parity::even, true, guess, progress);
   StationaryMotion found;
   found.outside = chain.outside(p);

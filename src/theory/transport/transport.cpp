@@ -49,8 +49,8 @@ constexpr double MotionMoments::*all[] = {&MotionMoments::x, &MotionMoments::xx,
 
 /// The stationary figures: those of MotionMoments, and the probability of rest.
 Figures stationary_figures(const Chain& chain, const TransportProblem& problem, bool with_rest,
-                           const Progress& progress) {
-  const StationaryMotion motion = stationary_motion(chain, problem.sprung(), with_rest, progress);
+                           const Chain::Vector& guess, const Progress& progress) {
+  const StationaryMotion motion = stationary_motion(chain, problem.sprung(), with_rest, guess, progress);
   Figures figures(6);
   for (std::size_t i = 0; i < 5; ++i) figures[static_cast<Eigen::Index>(i)] = motion.moments.*all[i];
   figures[5] = motion.rest;
@@ -76,9 +76,9 @@ TransportProblem::Window adapted(const TransportProblem& problem, double step, c
 TransportProblem::Window window_from_rest(const TransportProblem& problem, double step, std::size_t steps,
                                           const Progress& progress) {
   return adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
-    if (!problem.sprung()) return {0, std::sqrt(stationary_figures(chain, problem, false, progress)[4])};
+    if (!problem.sprung()) return {0, std::sqrt(stationary_velocity(chain, progress))};
     double x = 0, v = 0;
-    for (const MotionMoments& m : moments_from_rest(chain, true, std::max<std::size_t>(steps, 8), progress)) {
+    for (const MotionMoments& m : history_from_rest(chain, true, std::max<std::size_t>(steps, 8), progress).moments) {
       x = std::max(x, m.xx + m.x * m.x);
       v = std::max(v, m.vv + m.v * m.v);
     }
@@ -146,11 +146,11 @@ TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoS
   const auto compute = [&](const Chain& chain) {
     Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count + 1));
     const auto parts = static_cast<std::size_t>(std::lround(step / chain.step()));
-    const auto history = moments_from_rest(chain, sprung, steps * parts, progress);
+    const detail::History history = history_from_rest(chain, sprung, steps * parts, progress);
     for (std::size_t k = 0; k < count && last > 0; ++k)
       for (std::size_t i = 0; i < 5; ++i)
-        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history, all[i], times[k] / chain.step());
-    if (!sprung) figures[figures.size() - 1] = stationary_figures(chain, problem, false, progress)[1];
+        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history.moments, all[i], times[k] / chain.step());
+    if (!sprung) figures[figures.size() - 1] = stationary_figures(chain, problem, false, history.weights, progress)[1];
     return figures;
   };
   const auto end = static_cast<Eigen::Index>(5 * count);
@@ -210,7 +210,7 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
   const auto rms =
-      std::sqrt(moments_from_rest(problem.chain(step, 0, window), problem.sprung(), steps, progress).back().xx);
+      std::sqrt(history_from_rest(problem.chain(step, 0, window), problem.sprung(), steps, progress).moments.back().xx);
   // ln P(peak > level) of the coarse grid over ln(level), less that wanted.
   const double wanted = std::log1p(-probability);
   const auto excess = [&, h = step, count = steps](double ln_level) {
@@ -241,7 +241,7 @@ DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, 
   // With a spring the grid resolves waves that turn by up to 2.5 rad over a panel, of some 0.4 rms.
   window.x_panels = 36;
   const Chain coarse = problem.chain(step, 0, window);
-  const MotionMoments last = moments_from_rest(coarse, sprung, steps, progress).back();
+  const MotionMoments last = history_from_rest(coarse, sprung, steps, progress).moments.back();
   // The window: one that held less would fold the tails back.
   detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
   const std::size_t most = sprung ? 20 : 60;
@@ -352,14 +352,19 @@ TransportStationary Transport::stationary(const Slider<Coulomb>& slider, const T
   check(slider, noise);
   const TransportProblem problem(slider, noise);
   const double step = problem.first_step();
+  // A spring forgets the start in some periods.
+  const auto beginning = [&](const Chain& chain) {
+    return weights_from_rest(chain, problem.sprung() ? 100 : 0, progress);
+  };
   const bool sprung = problem.sprung(), rests = !problem.white() || problem.held() > 0;
   const auto window = adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
-    const Figures found = stationary_figures(chain, problem, false, progress);
-    return {sprung ? std::sqrt(found[1] + found[0] * found[0]) : 0, std::sqrt(found[4] + found[3] * found[3])};
+    if (!sprung) return {0, std::sqrt(stationary_velocity(chain, progress))};
+    const Figures found = stationary_figures(chain, problem, false, beginning(chain), progress);
+    return {std::sqrt(found[1] + found[0] * found[0]), std::sqrt(found[4] + found[3] * found[3])};
   });
   const Refined refined =
       refine(problem, window, step, {.tolerance = tolerance_, .judged = {1, 4}, .slow = {5}},
-             [&](const Chain& chain) { return stationary_figures(chain, problem, rests, progress); });
+             [&](const Chain& chain) { return stationary_figures(chain, problem, rests, beginning(chain), progress); });
   require_accuracy(refined, tolerance_, 1, sprung ? "the variance of the displacement" : "the growth rate");
   require_accuracy(refined, tolerance_, 4, "the variance of the velocity");
   const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.error[i]}; };
