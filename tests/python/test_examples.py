@@ -62,7 +62,7 @@ def run(tmp_path, monkeypatch, pyslammer_files):
 
 def test_all_examples_are_here():
     numbers = sorted(file.stem for file in EXAMPLES.glob("[01]*.py"))
-    assert [number[:2] for number in numbers] == [f"{i:02}" for i in range(1, 11)]
+    assert [number[:2] for number in numbers] == [f"{i:02}" for i in range(1, 12)]
     assert {f"test_{number}" for number in numbers} <= set(globals())
 
 
@@ -224,3 +224,17 @@ def test_10_map(run):
     assert (np.abs(exact - displacement.ravel()[::397]) <= bound.ravel()[::397] * (1 + 1e-9)).all()
     assert 0 < bound.max() < 0.2 * displacement.max()
     assert np.all(np.diff(names["mean"]) <= 0)
+
+
+def test_11_triple_pendulum(run, capsys):
+    names = run("11_triple_pendulum")
+    isolator, r, loop = names["isolator"], names["r"], names["loop"]
+    assert r.at_rest
+    # The surfaces add up to the displacement, and each stays within its capacity.
+    assert r.surfaces.displacement.sum(axis=0) == pytest.approx(r.displacement, abs=1e-14)
+    inner, lower, upper = isolator.capacities
+    assert (r.surfaces.peak <= [lower, inner, inner, upper]).all()
+    # The loop to the peak encloses the response: its force there is the largest.
+    largest = np.abs(r.force).max() / G
+    assert largest == pytest.approx(np.abs(loop.force).max(), rel=1e-4)  # at samples
+    assert f"peak displacement      {100 * r.peak:7.2f} cm" in capsys.readouterr().out

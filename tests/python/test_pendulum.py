@@ -176,6 +176,16 @@ def test_a_remark_beyond_a_fifth_of_a_radian():
             lambda: ss.MultiPendulum([1], [0.1], [1], restitution=2),
             "restitution must be from 0 to 1",
         ),
+        (
+            lambda: ss.DoublePendulum(
+                [1, 2], [0.01, ss.VelocityDependent(mu_slow=0.02, mu_fast=0.05, rate=20)]
+            ),
+            "DoublePendulum: mu must hold real numbers, got VelocityDepen",
+        ),
+        (
+            lambda: ss.ensemble_sensitivity(FIVE, [QUAKE], "mu", members=2, seed=1),
+            "ensemble_sensitivity: covers Coulomb friction without stops",
+        ),
         (lambda: ss.Slider(FIVE, slope_degrees=3), "slope_degrees must be 0"),
         (lambda: ss.Slider(FIVE, one_way=True), "both ways"),
         (lambda: ss.FrictionPendulum(radius=2, law=FIVE), "already is a pendulum"),
@@ -211,10 +221,45 @@ def test_pictures_show_the_corners_and_the_surfaces():
     assert (loop.moving.sum(axis=1) == 2).all()
     r = ss.integrate(FIVE, QUAKE)
     assert len(plot_surfaces(r).axes[0].lines) == 6
-    r.plot_hysteresis()
     assert "pendulum of 6 surfaces" in " ".join(
         t.get_text() for t in r.plot().axes[0].texts
     ).replace("\n", " ")
+
+
+def test_the_hysteresis_of_a_response_names_its_regimes(pyslammer_files):
+    """By the surfaces that slide: the same as of the loop under the imposed displacement."""
+    pytest.importorskip("matplotlib", reason="pictures need matplotlib")
+    from stickslip.plotting.pendulum import sliding_surfaces
+
+    def names(axes):
+        return sorted(t.get_text() for t in axes.texts if t.get_text().replace(" ", "").isdigit())
+
+    quake = ss.sample_record("Kobe")
+    for isolator in (ss.TriplePendulum(**TRIPLE), FIVE):
+        r = ss.integrate(isolator, quake, settle=True)
+        (axes,) = r.plot_hysteresis().axes
+        assert names(axes) == names(isolator.trace([r.peak, -r.peak]).plot().axes[0])
+        # Where surfaces are named, stiffness over weight is that of their regime: d phi / dx.
+        sliding, x, force = sliding_surfaces(isolator, r), r.displacement, r.force / G
+        moves = (np.abs(np.diff(x)) > 1e-6) & (r.velocity[1:] * r.velocity[:-1] > 0)
+        named = moves & sliding.any(axis=1)
+        assert named.sum() > 0.8 * moves.sum()
+        loop = isolator.trace([r.peak, -r.peak])
+        way, rise = np.diff(loop.corners, axis=0).T
+        for surfaces in np.unique(sliding[named], axis=0):
+            here = named & (sliding == surfaces).all(axis=1)
+            there = np.flatnonzero((way != 0) & (loop.moving[:-1] == surfaces).all(axis=1))[0]
+            stiffness = np.diff(force)[here] / np.diff(x)[here]
+            assert stiffness == pytest.approx(rise[there] / way[there], rel=1e-8)
+    # Of a part only what slides in it; where nothing slides, and of other sliders, nothing.
+    assert names(r.plot_hysteresis(time=(0, 0.5)).axes[0]) == []
+    assert names(ss.integrate(ss.Coulomb(mu=0.1), quake).plot_hysteresis().axes[0]) == []
+    # Of two flat surfaces the one with less friction slides alone until its stop.
+    flat = ss.MultiPendulum([math.inf, math.inf], [0.02, 0.05], [0.01, 1])
+    r = ss.integrate(flat, quake)
+    assert names(r.plot_hysteresis().axes[0]) == ["1", "2"]
+    one_by_one = sliding_surfaces(flat, r)
+    assert not one_by_one.all(axis=1).any()
 
 
 def test_the_command_slides_a_triple_pendulum(capsys, tmp_path):

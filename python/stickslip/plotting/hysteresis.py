@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from .._core import STANDARD_GRAVITY, Response
+from .._core import STANDARD_GRAVITY, MultiPendulum, Response
 from .figures import Place, one_panel
+from .pendulum import name_regimes, sliding_surfaces
 from .styles import BLUE, GRAY, VERMILION, put_title, style
 from .trajectory import window
 from .words import describe, digits, unit_for
@@ -54,7 +55,9 @@ def plot_hysteresis(
 
     The force is friction + damper + spring over the weight: per unit mass, in g. If there is a
     spring, the picture shows the secant of the loop with the largest displacement, with
-    `Response.effective_period` and `effective_damping`.
+    `Response.effective_period` and `effective_damping`. In the loops of a `MultiPendulum`, numbers
+    beside the lines name the surfaces that slide, from bottom to top; each set of them is named
+    once, where it slides all the way from one sample to the next.
 
     Parameters
     ----------
@@ -88,6 +91,12 @@ def plot_hysteresis(
         x, force = curve["displacement"], curve["force"]
         length, unit = unit_for(response.peak)
         axes.plot(x * length, force / STANDARD_GRAVITY, color=BLUE, linewidth=0.9)
+        law = response.slider.law
+        if isinstance(law, MultiPendulum):
+            shown = (response.time >= begin) & (response.time <= end)
+            sliding = sliding_surfaces(law, response)[shown[1:] & shown[:-1]]
+            at_samples = response.displacement[shown], response.force[shown]
+            name_regimes(axes, at_samples[0] * length, at_samples[1] / STANDARD_GRAVITY, sliding)
         axes.axhline(0, color=GRAY, linewidth=0.6, zorder=0)
         axes.axvline(0, color=GRAY, linewidth=0.6, zorder=0)
         axes.set_xlabel(f"relative displacement [{unit}]")

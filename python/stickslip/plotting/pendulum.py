@@ -7,9 +7,10 @@ from typing import overload
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
+from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from .._core import PendulumLoop, Response
+from .._core import MultiPendulum, PendulumLoop, Response
 from .figures import one_panel
 from .styles import BLUE, COLORS, GRAY, VERMILION, style
 
@@ -44,7 +45,7 @@ def plot_pendulum_loop(
         x, force = loop.corners.T
         axes.plot(100 * x, force, color=BLUE)
         axes.plot(100 * x, force, "o", color=VERMILION, markersize=3.5)
-        _name_regimes(axes, 100 * x, force, loop.moving)
+        name_regimes(axes, 100 * x, force, loop.moving[:-1])
         axes.axhline(0, color=GRAY, linewidth=0.6)
         axes.axvline(0, color=GRAY, linewidth=0.6)
         axes.set_xlabel("displacement [cm]")
@@ -53,17 +54,55 @@ def plot_pendulum_loop(
     return figure if ax is None else axes
 
 
-def _name_regimes(
-    axes: Axes, x: NDArray[np.float64], force: NDArray[np.float64], moving: NDArray[np.bool_]
+def sliding_surfaces(law: MultiPendulum, response: Response) -> NDArray[np.bool_]:
+    """Which surfaces of a pendulum slide from each sample to the next, from bottom to top.
+
+    Elements that slide together turn by equal angles, or slide equal distances if they are flat.
+    Where those that have moved did not, the regime changed between the two samples, and no surface
+    is named.
+
+    Parameters
+    ----------
+    law : MultiPendulum
+    response : Response
+        Of a slider with that law.
+
+    Returns
+    -------
+    ndarray, shape (samples - 1, surfaces)
+    """
+    radii = law.element_radii
+    ways = np.diff(response.elements.displacement)
+    turns = ways / np.where(np.isfinite(radii), radii, 1)[:, np.newaxis]
+    least = np.where(ways != 0, turns, np.inf).min(axis=0)
+    most = np.where(ways != 0, turns, -np.inf).max(axis=0)
+    together = most - least <= 1e-9 * np.abs(most)  # round-off is far below
+    slid = np.abs(np.diff(response.surfaces.displacement))
+    return (together & (slid > 1e-9 * slid.max(axis=0))).T
+
+
+def name_regimes(
+    axes: Axes, x: NDArray[np.float64], force: NDArray[np.float64], sliding: NDArray[np.bool_]
 ) -> None:
-    named = set()
-    for i, surfaces in enumerate(moving[:-1]):
-        name = " ".join(str(k + 1) for k in np.flatnonzero(surfaces))
-        if name in named or x[i] == x[i + 1]:
+    """Name each set of surfaces once, beside a long line on which it slides far from the center.
+
+    Parameters
+    ----------
+    axes : matplotlib Axes
+    x, force : ndarray, shape (N,)
+        The ends of the lines, in the units of the axes.
+    sliding : ndarray, shape (N - 1, surfaces)
+        The surfaces that slide along each line.
+    """
+    named = {""}
+    for i in np.argsort(-np.abs(np.diff(x**2)), kind="stable"):
+        name = " ".join(str(k + 1) for k in np.flatnonzero(sliding[i]))
+        if name in named:
             continue
         named.add(name)
         middle = ((x[i] + x[i + 1]) / 2, (force[i] + force[i + 1]) / 2)
-        axes.annotate(name, middle, (4, -10), textcoords="offset points", color=GRAY, fontsize=8)
+        text = axes.annotate(name, middle, (4, -10), textcoords="offset points", fontsize=8)
+        text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
 
 
 @overload
