@@ -26,9 +26,10 @@ struct SlidingStructure::Data {
 
 namespace {
 
-// Whether the motion of a structure can be expanded under a law.
+// Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their memory.
 template <class Law>
-constexpr bool covered = !HeatedLaw<Law> && form_of<Law> != Form::numeric;
+constexpr bool covered = !HeatedLaw<Law> && form_of<Law> != Form::numeric &&
+                         !requires(const Law& law, const State& state) { law.elastic(state); };
 
 // Calls `use(law)` with the law of the interface.
 template <class Use>
@@ -40,7 +41,7 @@ void with_law(const AnySlider& slider, Use&& use) {
         else
           throw std::invalid_argument(
               "a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
-              "temperature, are not covered");
+              "temperature, and pendulums with several surfaces are not covered");
       },
       slider);
 }

@@ -162,6 +162,8 @@ def test_bad_input() -> None:
         ss.IsolatedStructure(ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20), ONE)
     with pytest.raises(ValueError, match="not covered"):
         ss.IsolatedStructure(ss.Law(hold=lambda x, d: 1.0, resist=lambda x, v, d: 1.0), ONE)
+    with pytest.raises(ValueError, match="pendulums with several surfaces are not covered"):
+        ss.IsolatedStructure(ss.DoublePendulum([1.5, 3], [0.04, 0.06]), ONE)
     with pytest.raises(ValueError, match=r"damping_ratio must be left out, got 0\.1"):
         ss.FlexibleSlope(
             ky_g=0.1,
