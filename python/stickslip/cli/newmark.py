@@ -1,19 +1,28 @@
-"""``stickslip newmark``: displacements of rigid sliding blocks, as SLAMMER tabulates them."""
+"""``stickslip newmark``: displacements of sliding masses, as SLAMMER tabulates them."""
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import statistics
+import warnings
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import STANDARD_GRAVITY, Coulomb, GroundMotion
+from .. import (
+    STANDARD_GRAVITY,
+    ConvergenceError,
+    Coulomb,
+    FlexibleSlope,
+    GroundMotion,
+    integrate,
+)
 from .._text import printable
 from .batch import Batch, add_files
-from .output import json_text, write_csv
-from .parser import ratio, ratios
+from .output import check_whole, json_text, write_csv
+from .parser import number, ratio, ratios, whole
 
 if TYPE_CHECKING:
     from ..sweeps import SweepTable
@@ -21,7 +30,8 @@ if TYPE_CHECKING:
 __all__ = ["add_newmark", "newmark_rows"]
 
 _DISPLACEMENTS = ("normal_m", "inverse_m", "mean_m")
-_COLUMNS = ("file", "record", "pga_g", "ky_g", *_DISPLACEMENTS)
+_FLEXIBLE = ("decoupled", "coupled")
+_MOST_MODES = 1000
 
 
 def add_newmark(commands: argparse._SubParsersAction) -> None:
@@ -33,14 +43,36 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
         " records and prints its displacement [cm] for each record and yield acceleration, in both"
         " polarities, with their mean; then mean, median and standard deviation over the records."
         " The names are SLAMMER's: normal is the reversed record, n = -record; inverse is the"
-        " record itself.",
-        epilog="A file that cannot be read is reported in one line on stderr; the others are"
-        " printed, and the exit code is 1.",
+        " record itself. With --method coupled or decoupled, the sliding mass is a uniform shear"
+        " column of the given height, shear-wave velocity and damping ratio.",
+        epilog="A file that cannot be read, and a displacement that cannot be computed, are"
+        " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
     add = parser.add_argument
     add_files(parser)
     add("--ky", nargs="+", type=ratios, required=True, help="yield accelerations [g] or ranges")
     add("--scale-pga", type=ratio, metavar="G", help="scale each record to this PGA [g]")
+    add(
+        "--method",
+        nargs="+",
+        choices=("rigid", *_FLEXIBLE),
+        help="one or more of: rigid, a rigid block (the default); decoupled, a rigid block that the"
+        " base shear of a flexible mass drives, as if the mass did not slide; coupled, a flexible"
+        " mass that vibrates and slides at once. Each row then names its method",
+    )
+    add("--height", type=number, metavar="M", help="flexible mass: height [m]")
+    add("--vs", type=number, metavar="V", help="flexible mass: shear-wave velocity [m/s]")
+    add(
+        "--damping-ratio", type=ratio, metavar="Z", help="flexible mass: damping ratio of each mode"
+    )
+    add("--modes", type=whole, metavar="N", help="flexible mass: number of modes (default 1)")
+    add(
+        "--rock-vs",
+        type=number,
+        metavar="V",
+        help="flexible mass: shear-wave velocity of the rock below [m/s], for radiation damping"
+        " (default: rigid rock)",
+    )
     add("--csv", type=Path, metavar="FILE", help="write the rows to a file, with all digits")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
     parser.set_defaults(horizontal=True, run=_newmark, plot=None)
@@ -63,16 +95,20 @@ def newmark_rows(table: SweepTable) -> list[dict[str, Any]]:
     assert levels is not None
     inverse, normal = (table.peak[:, :, table.polarity.index(p)] for p in ("recorded", "reversed"))
     return [
-        {
-            "record": record,
-            "ky_g": float(levels[s]),
-            "normal_m": float(normal[s, r]),
-            "inverse_m": float(inverse[s, r]),
-            "mean_m": float(normal[s, r] + inverse[s, r]) / 2,
-        }
+        _row(record, float(levels[s]), float(normal[s, r]), float(inverse[s, r]))
         for r, record in enumerate(table.records)
         for s in range(len(levels))
     ]
+
+
+def _row(record: str, ky: float, normal: float, inverse: float) -> dict[str, Any]:
+    return {
+        "record": record,
+        "ky_g": ky,
+        "normal_m": normal,
+        "inverse_m": inverse,
+        "mean_m": (normal + inverse) / 2,
+    }
 
 
 def _block(ky: float) -> Coulomb:
@@ -87,39 +123,112 @@ def _newmark(args: argparse.Namespace) -> str:
             raise ValueError(f"--ky must be positive and finite, got {ky:g} g")
     if args.scale_pga is not None and not 0 < args.scale_pga < math.inf:
         raise ValueError(f"--scale-pga must be positive and finite, got {args.scale_pga:g} g")
+    methods = args.method or ["rigid"]
+    slopes = _slopes(args)
+    levels = sorted(args.ky)
     batch = Batch(args)
     files: list[Path] = []
     motions: list[GroundMotion] = []
-    for _, file, found in batch.motions():
+    found: dict[tuple[int, float, str], dict[str, Any]] = {}  # by record, ky and method
+    for _, file, read in batch.motions():
         with batch.reported(file):
-            motion = found.motion
+            motion = read.motion
             if args.scale_pga is not None:
                 motion = motion.scaled_to(pga_g=args.scale_pga)
             files.append(file)
             motions.append(motion)
+            for (ky, method), slope in slopes.items():
+                with batch.reported(file, f"{method}, ky = {ky:g} g: "):
+                    inverse, normal = (_peak(slope, each) for each in (motion, -motion))
+                    found[len(files) - 1, ky, method] = _row(motion.name, ky, normal, inverse)
+    if motions and "rigid" in methods:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "sweep: .* combinations failed")  # reported below
+            table = sweep(grid(_block, ky=levels), motions, settle=True)
+        failed: dict[tuple[int, int], str] = {}
+        for one in table.failures:
+            failed.setdefault((one.record, one.slider), one.message.partition(":")[0])
+        for (k, i), message in failed.items():
+            with batch.reported(files[k], f"rigid, ky = {levels[i]:g} g: "):
+                raise ValueError(message)
+        places = itertools.product(range(len(files)), range(len(levels)))
+        for (k, i), row in zip(places, newmark_rows(table)):
+            if (k, i) not in failed:
+                found[k, levels[i], "rigid"] = row
     said = batch.finish()
     rows: list[dict[str, Any]] = []
-    if motions:
-        rows = newmark_rows(sweep(grid(_block, ky=sorted(args.ky)), motions, settle=True))
-    for i, row in enumerate(rows):
-        k = i // len(args.ky)
-        row["file"] = str(files[k])
-        row["pga_g"] = motions[k].peak_acceleration / STANDARD_GRAVITY
+    for k, ky, method in itertools.product(range(len(files)), levels, methods):
+        if done := found.get((k, ky, method)):
+            done["file"] = str(files[k])
+            done["pga_g"] = motions[k].peak_acceleration / STANDARD_GRAVITY
+            if args.method:
+                done["method"] = method
+            rows.append(done)
     if args.csv:
-        write_csv(args.csv, _COLUMNS, rows)
+        method_column = ("method",) if args.method else ()
+        columns = ("file", "record", "pga_g", "ky_g", *method_column, *_DISPLACEMENTS)
+        write_csv(args.csv, columns, rows)
     if args.json:
         return json_text({"results": rows, "statistics": _statistics(rows), **said})
     return "\n".join(_lines(rows))
 
 
+def _peak(slope: FlexibleSlope, motion: GroundMotion) -> float:
+    try:
+        return integrate(slope, motion, settle=True).peak
+    except ConvergenceError as error:  # without what it says of settle, which is no option here
+        raise ValueError(str(error).removeprefix("integrate: ").partition(";")[0]) from error
+
+
+def _slopes(args: argparse.Namespace) -> dict[tuple[float, str], FlexibleSlope]:
+    """The flexible masses of the command line, by ky [g] and method."""
+    needed = {"--height": args.height, "--vs": args.vs, "--damping-ratio": args.damping_ratio}
+    column = {**needed, "--modes": args.modes, "--rock-vs": args.rock_vs}
+    methods = [method for method in args.method or () if method in _FLEXIBLE]
+    if not methods:
+        for option, value in column.items():
+            if value is not None:
+                raise ValueError(
+                    f"{option} goes with --method coupled or decoupled, got {value:g} without"
+                )
+        return {}
+    if missing := [option for option, value in needed.items() if value is None]:
+        raise ValueError(f"--method {methods[0]} needs {' and '.join(missing)}, got none")
+    check_whole("--modes", args.modes, 1, _MOST_MODES)
+    for option, unit in (("--height", " m"), ("--vs", " m/s"), ("--rock-vs", " m/s")):
+        value = column[option]
+        if value is not None and not 0 < value < math.inf:
+            raise ValueError(f"{option} must be positive and finite, got {value:g}{unit}")
+    if not 0 <= args.damping_ratio < math.inf:
+        raise ValueError(
+            f"--damping-ratio must be finite and at least 0, got {args.damping_ratio:g}"
+        )
+    return {
+        (ky, method): FlexibleSlope(
+            ky_g=ky,
+            height=args.height,
+            shear_velocity=args.vs,
+            damping_ratio=args.damping_ratio,
+            modes=args.modes or 1,
+            rock_velocity=args.rock_vs,
+            method=method,
+        )
+        for ky in args.ky
+        for method in methods
+    }
+
+
 def _statistics(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Mean, median and standard deviation (n - 1) over the records, for each level."""
+    """Mean, median and standard deviation (n - 1) over the records, for each level and method."""
+    cases = [(row["ky_g"], row.get("method")) for row in rows]
     found = []
-    for ky in dict.fromkeys(row["ky_g"] for row in rows):
+    for case in dict.fromkeys(cases):
         for name in ("mean", "median", "sd"):
-            line: dict[str, Any] = {"statistic": name, "ky_g": ky}
+            line: dict[str, Any] = {"statistic": name, "ky_g": case[0]}
+            if case[1]:
+                line["method"] = case[1]
             for column in _DISPLACEMENTS:
-                values = [row[column] for row in rows if row["ky_g"] == ky]
+                values = [row[column] for row, of in zip(rows, cases) if of == case]
                 if name == "sd":
                     line[column] = statistics.stdev(values) if len(values) > 1 else 0.0
                 else:
@@ -133,18 +242,20 @@ def _lines(rows: list[dict[str, Any]]) -> Iterable[str]:
         return
     names = [printable(row["record"]) for row in rows]
     width = max(len("record"), *map(len, names))
-    yield f"{'record':{width}}  PGA [g]  ky [g]  normal [cm]  inverse [cm]  mean [cm]"
+    method = "  method   " if "method" in rows[0] else ""
+    yield f"{'record':{width}}  PGA [g]  ky [g]{method}  normal [cm]  inverse [cm]  mean [cm]"
     last = None
     for name, row in zip(names, rows):
         head = f"{name:{width}}  {row['pga_g']:7.3f}" if name != last else " " * (width + 9)
-        yield f"{head}  {row['ky_g']:6.4g}  {_cells(row)}"
+        yield f"{head}  {_cells(row)}"
         last = name
     if len(set(names)) > 1:
         yield ""
         for row in _statistics(rows):
-            yield f"{row['statistic']:{width}}  {'':7}  {row['ky_g']:6.4g}  {_cells(row)}"
+            yield f"{row['statistic']:{width}}  {'':7}  {_cells(row)}"
 
 
 def _cells(row: dict[str, Any]) -> str:
     normal, inverse, mean = (100 * row[column] for column in _DISPLACEMENTS)
-    return f"{normal:11.2f}  {inverse:12.2f}  {mean:9.2f}"
+    method = f"  {row['method']:9}" if "method" in row else ""
+    return f"{row['ky_g']:6.4g}{method}  {normal:11.2f}  {inverse:12.2f}  {mean:9.2f}"
