@@ -88,7 +88,6 @@ from ._core import (
     fit_pulses,
     histories,
     integrate,
-    response_spectrum,
     strong_motion,
 )
 
@@ -102,6 +101,7 @@ if TYPE_CHECKING:
     from .motions.intensity import IntensityMeasures, SuiteSpectra
     from .motions.records import read_record, read_station, record_formats
     from .motions.samples import sample_record, sample_records
+    from .motions.spectra import response_spectrum
     from .motions.suite import Suite
     from .risk.design_chart import DesignChart, design_chart
     from .risk.efficiency import IntensityEfficiency, intensity_efficiency
@@ -242,6 +242,7 @@ if not TYPE_CHECKING:
         "motions.intensity": ("IntensityMeasures", "SuiteSpectra"),
         "motions.records": ("read_record", "read_station", "record_formats"),
         "motions.samples": ("sample_record", "sample_records"),
+        "motions.spectra": ("response_spectrum",),
         "motions.suite": ("Suite",),
         "risk.design_chart": ("DesignChart", "design_chart"),
         "risk.efficiency": ("IntensityEfficiency", "intensity_efficiency"),

@@ -85,7 +85,7 @@ def test_every_class_can_be_looked_into(name):
         assert FOREIGN.search(repr(cls)) is None
 
 
-@pytest.mark.parametrize("thing", [ss.integrate, ss.response_spectrum, ss.advance])
+@pytest.mark.parametrize("thing", [ss.integrate, ss.strong_motion, ss.advance])
 def test_help_of_a_function_has_no_word_of_the_binding_library(thing):
     text = pydoc.plain(pydoc.render_doc(thing, renderer=pydoc.plaintext))
     assert "pybind11" not in text
