@@ -164,24 +164,23 @@ def response_spectrum(
     True
     """
     spectrum: Any = _core.response_spectrum
-    if not isinstance(motion, StructureResponse):
-        if floor is not None:
+    found: ResponseSpectrum | SuiteSpectra
+    if isinstance(motion, StructureResponse):
+        if direction != 0:
             raise ValueError(
-                "response_spectrum: floor needs the response of a structure, got a"
-                f" {type(motion).__name__}"
+                "response_spectrum: direction needs a ground motion or a response with two"
+                " horizontal components"
             )
-        found: ResponseSpectrum | SuiteSpectra = spectrum(
-            motion, periods, damping, kind=kind, direction=direction
-        )
-        return found
-    if direction != 0:
+        felt = _sliding_mass(motion) if floor is None else _floor(motion, operator.index(floor))
+        found = spectrum(felt, periods, damping, kind=kind)
+    elif floor is not None:
         raise ValueError(
-            "response_spectrum: direction needs a ground motion or a response with two horizontal"
-            " components"
+            "response_spectrum: floor needs the response of a structure, got a"
+            f" {type(motion).__name__}"
         )
-    felt = _sliding_mass(motion) if floor is None else _floor(motion, operator.index(floor))
-    of_floor: ResponseSpectrum = spectrum(felt, periods, damping, kind=kind)
-    return of_floor
+    else:
+        found = spectrum(motion, periods, damping, kind=kind, direction=direction)
+    return found
 
 
 def _floor(response: StructureResponse, floor: int, *, vertical: bool = False) -> GroundMotion:
