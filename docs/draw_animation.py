@@ -14,7 +14,7 @@ from PIL import Image
 
 ROOT = Path(__file__).parents[1]
 PICTURE = ROOT / "docs" / "images" / "kobe.gif"
-TIME, FPS = (2.0, 17.0), 10  # [s], frames in a second
+TIME, FPS = (2.0, 17.0), 8  # [s], frames in a second
 WIDTH = 380  # of each [pixels]
 
 SLIDERS = {
