@@ -28,8 +28,10 @@ namespace {
 
 // Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their memory.
 template <class Law>
-constexpr bool covered = !HeatedLaw<Law> && form_of<Law> != Form::numeric &&
-                         !requires(const Law& law, const State& state) { law.elastic(state); };
+constexpr bool covered =
+    !HeatedLaw<Law> && form_of<Law> != Form::numeric && !requires(const Law& law, const State& state) {
+  law.elastic(state);
+};
 
 // Calls `use(law)` with the law of the interface.
 template <class Use>

@@ -27,7 +27,7 @@ Vector solve(const Chain& chain, const Vector& b, Parity parity, bool conserving
   };
   const auto size = static_cast<std::size_t>(b.size());
   // Strong shaking forgets slowly: the residual must be far below the error.
-  solve_bicgstab(multiply, {b.data(), size}, {x.data(), size}, 1e-12, "Transport");
+  solve_bicgstab(multiply, {b.data(), size}, {x.data(), size}, 1e-14, "Transport");
   return x;
 }
 
