@@ -388,9 +388,9 @@ def compare(
     Notes
     -----
     Takes as long as `run_ensemble`, plus some milliseconds for each theory; up to ten seconds for
-    a caster under pulses, and for `Transport` with a spring. Give the motions of an ensemble a line
-    at zero frequency and a long period (`zero_frequency=True`, `period=`) if they are to be those
-    of a continuous process, as the theories assume.
+    a caster under pulses, and a minute for `Transport` with a spring. Give the motions of an
+    ensemble a line at zero frequency and a long period (`zero_frequency=True`, `period=`) if they
+    are to be those of a continuous process, as the theories assume.
     """
     default = PLANAR_THEORIES if isinstance(slider, PlanarSlider) else THEORIES
     asked = {t.name: t for t in (default if theories is None else map(_checked, theories))}

@@ -156,7 +156,7 @@ def test_a_prediction_is_moments_and_a_value():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: theory.Transport(tolerance=1), "tolerance must be from 1e-8 to 0.3, got 1"),
+        (lambda: theory.Transport(tolerance=1), "tolerance must be from 1e-6 to 0.3, got 1"),
         (lambda: theory.Transport().predict(BLOCK, GROUND, [1, 1]), "times must increase"),
         (lambda: theory.Transport().predict(BLOCK, GROUND, [math.nan]), "must be finite"),
         (

@@ -152,7 +152,7 @@ class TransportPrediction : public Moments {
 /// noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero frequency.
 class Transport {
  public:
-  /// @param tolerance  relative, from 1e-8 to 0.3
+  /// @param tolerance  relative, from 1e-6 to 0.3
   /// @throws std::invalid_argument naming the value
   explicit Transport(double tolerance = 1e-2);
 
@@ -179,7 +179,7 @@ class Transport {
   /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument naming what is not covered or the rejected value
   /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its error
-  /// Takes 0.05 to 0.5 s for a block, 1 to 10 s with a spring.
+  /// Takes 0.3 to 2 s for a block, 2 to 60 s with a spring.
   TransportPrediction predict(const Slider<Coulomb>& slider, const TwoStateNoise& noise, std::span<const double> times,
                               const std::function<void()>& progress = {}) const;
 

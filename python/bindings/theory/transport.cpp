@@ -397,7 +397,7 @@ its content at zero frequency; white noise with constant, uncorrected interpolat
 Parameters
 ----------
 tolerance : float, optional
-    Relative, from 1e-8 to 0.3: steps and grids are refined until the errors of both variances at the last time, and of
+    Relative, from 1e-6 to 0.3: steps and grids are refined until the errors of both variances at the last time, and of
     the growth rate, are below it.
 
 Raises
@@ -432,7 +432,7 @@ ConvergenceError
 
 Notes
 -----
-Takes 0.05 to 1 s for a block, 1 to 10 s with a spring.)")
+Takes 0.3 to 2 s for a block, 2 to 60 s with a spring.)")
       .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
 
 Parameters

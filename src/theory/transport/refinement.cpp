@@ -159,6 +159,8 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
     }
     const std::size_t same = problem.white() ? last : first;
     result.error += (with(same, fineness) - with(same, fineness - 1)).cwiseAbs();
+    // The linear systems and the quadratures have errors of this size.
+    result.error = result.error.cwiseMax(5e-7 * result.value.cwiseAbs());
     if (std::ranges::all_of(accuracy.judged, [&](Eigen::Index i) {
           return result.error[i] <= accuracy.tolerance * std::abs(result.value[i]);
         }))

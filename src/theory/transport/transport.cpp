@@ -119,7 +119,7 @@ TwoStateNoise::TwoStateNoise(const GaussianExcitation& excitation) : TwoStateNoi
 }
 
 Transport::Transport(double tolerance) : tolerance_(tolerance) {
-  require(tolerance >= 1e-8 && tolerance <= 0.3, "Transport: tolerance must be from 1e-8 to 0.3", tolerance);
+  require(tolerance >= 1e-6 && tolerance <= 0.3, "Transport: tolerance must be from 1e-6 to 0.3", tolerance);
 }
 
 void Transport::check(const Slider<Coulomb>& slider, const TwoStateNoise&) const {
