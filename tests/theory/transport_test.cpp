@@ -181,6 +181,27 @@ TEST_CASE("white noise that is held is predicted as sampled") {
   CHECK(found.displacement_variance.value[0] == Approx(square * dt * dt * dt * dt / 4).epsilon(1e-10));
 }
 
+TEST_CASE("a level that the load never reaches does not matter") {
+  const ShapingFilter filter = kanai_tajimi(0.6, 1.0);
+  const std::vector<double> times{10};
+  const auto one_way =
+      Transport(0.05).predict(Slider(Coulomb(1.0, std::numeric_limits<double>::infinity())), filter, times);
+  const auto high = Transport(0.05).predict(Slider(Coulomb(1.0, 1e9)), filter, times);
+  CHECK(high.displacement_mean.value[0] == Approx(one_way.displacement_mean.value[0]).epsilon(1e-4));
+  CHECK(high.displacement_variance.value[0] == Approx(one_way.displacement_variance.value[0]).epsilon(1e-4));
+}
+
+TEST_CASE("times far below a step have moments of their own") {
+  // At first the load is what it was at the start: E[x'^2] = t^2 E[(|n| - a)+^2], E[x^2] = t^2 / 4 of it.
+  const double t = 1e-5, y = 1;
+  const auto found = Transport(0.05).predict(Slider(Coulomb(1.0)), kanai_tajimi(0.6, 1.0), std::vector<double>{t});
+  const double density = std::exp(-y * y / 2) / std::sqrt(2 * pi), beyond = std::erfc(y / std::numbers::sqrt2) / 2;
+  const double square = 2 * ((1 + y * y) * beyond - y * density);
+  CHECK(found.velocity_variance.value[0] == Approx(square * t * t).epsilon(0.01));
+  CHECK(found.displacement_variance.value[0] == Approx(square * t * t * t * t / 4).epsilon(0.01));
+  CHECK(found.growth_rate.value > 0);
+}
+
 TEST_CASE("what is not covered is refused with the reason") {
   const Transport theory;
   const Slider block(Coulomb(1.0));
@@ -194,6 +215,11 @@ TEST_CASE("what is not covered is refused with the reason") {
   CHECK_THAT(why(block, Spectrum::clough_penzien(1, 10, 0.5, 2, 0.5)), Contains("filters of two states"));
   CHECK_THAT(why(block, ShapingFilter(1, {{1, 0, 1, 1, 1}})), Contains("b2 must be 0, got 1"));
   CHECK_THAT(why(Slider(Coulomb(1.0), Mounting{.one_way = true}), 1.0), Contains("slide both ways"));
+  CHECK_THAT(why(block, kanai_tajimi(0.5, 0.3)), Contains("must be from 0.35, below which slips are too rare"));
+  CHECK_THAT(why(block, kanai_tajimi(0.05, 1)), Contains("damping ratio of the filter must be from 0.1 to 1.5"));
+  CHECK_THAT(why(Slider(Coulomb(1.0), 5.1), kanai_tajimi(0.5, 1)), Contains("at most 5 times the frequency"));
+  CHECK_THAT(why(Slider(Coulomb(1.0, 11.0)), 1.0), Contains("at most 10 times the other, or infinite"));
+  CHECK_THAT(why(Slider(Coulomb(10.0), 1.0), 1.0), Contains("natural_frequency times pi S0 / a^2 must be at least"));
   CHECK_THROWS_WITH(Transport(0.5), Contains("tolerance must be from 1e-6 to 0.3, got 0.5"));
   CHECK_THROWS_WITH(theory.predict(block, 1.0, std::vector<double>{2, 1}), Contains("times must increase"));
 }

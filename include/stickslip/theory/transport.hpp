@@ -150,6 +150,9 @@ class TransportPrediction : public Moments {
 ///
 /// Covers Coulomb friction with equal, unequal and one-way levels, with or without a spring and a damper, under white
 /// noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero frequency.
+/// The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration from 0.35 to 20 times the lower level, and
+/// the spring at most 5 times as fast as it. Under white noise one level is at most 10 times the other, or infinite,
+/// and wn pi S0 / a^2 at least 0.05.
 class Transport {
  public:
   /// @param tolerance  relative, from 1e-6 to 0.3

@@ -394,6 +394,10 @@ and noise from a filter of two states: Kanai and Tajimi's, or one without conten
 `GaussianExcitation` stands for its spectrum as a continuous Gaussian process, stationary at t = 0, not periodic, with
 its content at zero frequency; white noise with constant, uncorrected interpolation is predicted as sampled.
 
+The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration from 0.35 to 20 times the lower level, and the
+spring at most 5 times as fast as it. Under white noise one level is at most 10 times the other, or infinite, and
+wn pi S0 / a^2 at least 0.05.
+
 Parameters
 ----------
 tolerance : float, optional

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "numerics/bicgstab.hpp"
 
@@ -33,7 +32,8 @@ Vector solve(const Chain& chain, const Vector& b, Parity parity, bool conserving
 
 }  // namespace
 
-History history_from_rest(const Chain& chain, bool sprung, std::size_t steps, const std::function<void()>& progress) {
+std::vector<MotionMoments> history_from_rest(const Chain& chain, bool sprung, std::size_t steps,
+                                             const std::function<void()>& progress) {
   const Parity other = chain.mirrored() ? Parity::odd : Parity::even;
   std::vector<MotionMoments> found(1);
   found.reserve(steps + 1);
@@ -68,7 +68,7 @@ History history_from_rest(const Chain& chain, bool sprung, std::size_t steps, co
       found.push_back(next);
     }
   }
-  return {std::move(found), std::move(p)};
+  return found;
 }
 
 Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress) {

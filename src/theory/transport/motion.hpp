@@ -16,15 +16,10 @@ struct MotionMoments {
   double x = 0, xx = 0, xv = 0, v = 0, vv = 0;
 };
 
-/// Central moments at the ends of steps, and the weights at the last of them.
-struct History {
-  std::vector<MotionMoments> moments;
-  Chain::Vector weights;
-};
-
-/// The motion from rest: its first moments are at time 0. Once they grow evenly the rest is continued.
+/// Central moments at the ends of steps, from rest: the first at time 0. Once they grow evenly the rest is continued.
 /// @param sprung  whether x is part of the state
-History history_from_rest(const Chain& chain, bool sprung, std::size_t steps, const std::function<void()>& progress);
+std::vector<MotionMoments> history_from_rest(const Chain& chain, bool sprung, std::size_t steps,
+                                             const std::function<void()>& progress);
 
 /// The weights after some steps from rest. Their sum is the probability that no wall has been reached.
 Chain::Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
@@ -40,7 +35,7 @@ struct StationaryMotion {
   double outside = 0;
 };
 
-/// @param guess  weights to begin with, such as those of `history_from_rest`
+/// @param guess  weights to begin with, such as those of `weights_from_rest`
 StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest, const Chain::Vector& guess,
                                    const std::function<void()>& progress);
 

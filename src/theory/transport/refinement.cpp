@@ -26,10 +26,17 @@ std::vector<double> graded(double first, double widest, double end) {
 TransportProblem::TransportProblem(const Slider<Coulomb>& slider, const theory::TwoStateNoise& noise)
     : slider_(slider.law(), slider.natural_frequency(), slider.damping()), held_(noise.held()) {
   power_ = pi * noise.filter()(slider_.natural_frequency());
-  if (noise.white())
+  if (noise.white()) {
     s0_ = noise.filter().s0();
-  else
-    filtered_.emplace(noise.filter());
+    return;
+  }
+  filtered_.emplace(noise.filter());
+  // Levels that neither the load nor a spring that it has loaded will reach.
+  const double never = 12 * filtered_->rms;
+  const Coulomb& law = slider.law();
+  slider_ = Slider(Coulomb(std::min(law.forward(), never),
+                           law.backward() > never && std::isfinite(law.backward()) ? never : law.backward()),
+                   slider.natural_frequency(), slider.damping());
 }
 
 double TransportProblem::level() const noexcept { return std::min(slider_.law().forward(), slider_.law().backward()); }
@@ -103,16 +110,17 @@ Chain TransportProblem::chain(double step, std::size_t fineness, const Window& w
   }
   if (!filtered_) return {slider_, x, v, LoadGrid(std::sqrt(2 * pi * s0_ / (held_ > 0 ? held_ : step))), step, wall};
 
-  // Panels in the load: two between the levels, where the slider stays at rest, and two beyond each.
-  const double forward = slider_.law().forward(), backward = slider_.law().backward(), rms = filtered_->rms;
-  const auto beyond = [&](double level) { return std::max(4.5 * rms, level + 2.5 * rms); };
-  std::vector<double> edges{-beyond(forward), -(beyond(forward) + forward) / 2, -forward};
-  if (std::isfinite(backward)) {
-    edges.insert(edges.end(),
-                 {(backward - forward) / 2, backward, (beyond(backward) + backward) / 2, beyond(backward)});
-  } else {
-    for (int i = 1; i <= 4; ++i) edges.push_back(-forward + (4.5 * rms + forward) * i / 4);
-  }
+  // Panels in the load: two between the levels, where the slider stays at rest, and two beyond each. A level that the
+  // load hardly ever reaches is no edge.
+  const double rms = filtered_->rms, farthest = 4.5 * rms;
+  const double forward = slider_.law().forward(), backward = slider_.law().backward();
+  const auto beyond = [&](double level) { return std::max(farthest, level + 2.5 * rms); };
+  const double low = forward < farthest ? -forward : -farthest, high = backward < farthest ? backward : farthest;
+  std::vector<double> edges;
+  if (forward < farthest) edges = {-beyond(forward), -(beyond(forward) + forward) / 2};
+  const double parts = forward < farthest && backward < farthest ? 2 : 4;
+  for (double i = 0; i <= parts; ++i) edges.push_back(low + (high - low) * i / parts);
+  if (backward < farthest) edges.insert(edges.end(), {(beyond(backward) + backward) / 2, beyond(backward)});
   return {slider_, x, v, LoadGrid(*filtered_, {edges, degree + 1}, hidden, step), step, wall};
 }
 

@@ -75,10 +75,11 @@ TransportProblem::Window adapted(const TransportProblem& problem, double step, c
 /// The window of a motion from rest; without a spring that of the stationary velocity.
 TransportProblem::Window window_from_rest(const TransportProblem& problem, double step, std::size_t steps,
                                           const Progress& progress) {
-  return adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
+  const double length = problem.sprung() ? step : problem.first_step();  // of a step
+  return adapted(problem, length, [&](const Chain& chain) -> TransportProblem::Window {
     if (!problem.sprung()) return {0, std::sqrt(stationary_velocity(chain, progress))};
     double x = 0, v = 0;
-    for (const MotionMoments& m : history_from_rest(chain, true, std::max<std::size_t>(steps, 8), progress).moments) {
+    for (const MotionMoments& m : history_from_rest(chain, true, std::max<std::size_t>(steps, 8), progress)) {
       x = std::max(x, m.xx + m.x * m.x);
       v = std::max(v, m.vv + m.v * m.v);
     }
@@ -92,6 +93,34 @@ void require_accuracy(const Refined& refined, double tolerance, Eigen::Index i, 
                          " with an error of " + detail::shortest(refined.error[i]) + " on the finest grid, of " +
                          std::to_string(refined.nodes) + " nodes; the tolerance must be larger, got " +
                          detail::shortest(tolerance));
+}
+
+TransportStationary stationary_estimates(const TransportProblem& problem, double tolerance, bool with_rest,
+                                         const Progress& progress) {
+  const double step = problem.first_step();
+  // A spring forgets the start in some periods.
+  const auto beginning = [&](const Chain& chain) {
+    return weights_from_rest(chain, problem.sprung() ? 100 : 0, progress);
+  };
+  const bool sprung = problem.sprung();
+  const auto window = adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
+    if (!sprung) return {0, std::sqrt(stationary_velocity(chain, progress))};
+    const Figures found = stationary_figures(chain, problem, false, beginning(chain), progress);
+    return {std::sqrt(found[1] + found[0] * found[0]), std::sqrt(found[4] + found[3] * found[3])};
+  });
+  const Refined refined = refine(
+      problem, window, step, {.tolerance = tolerance, .judged = {1, 4}, .slow = {5}},
+      [&](const Chain& chain) { return stationary_figures(chain, problem, with_rest, beginning(chain), progress); });
+  require_accuracy(refined, tolerance, 1, sprung ? "the variance of the displacement" : "the growth rate");
+  require_accuracy(refined, tolerance, 4, "the variance of the velocity");
+  const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.error[i]}; };
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  return {sprung ? figure(0) : Estimate{unknown, 0},
+          sprung ? figure(1) : Estimate{infinity, 0},
+          figure(3),
+          figure(4),
+          sprung ? Estimate{0, 0} : figure(1),
+          figure(5)};
 }
 
 }  // namespace
@@ -122,12 +151,36 @@ Transport::Transport(double tolerance) : tolerance_(tolerance) {
   require(tolerance >= 1e-6 && tolerance <= 0.3, "Transport: tolerance must be from 1e-6 to 0.3", tolerance);
 }
 
-void Transport::check(const Slider<Coulomb>& slider, const TwoStateNoise&) const {
+void Transport::check(const Slider<Coulomb>& slider, const TwoStateNoise& noise) const {
   detail::require_one_level(slider, "Transport");
   const Coulomb& law = slider.law();
   require(law.forward() > 0 && std::isfinite(law.forward()),
           "Transport: the forward slip level must be positive and finite", law.forward(), "m/s^2");
   require(law.backward() > 0, "Transport: the backward slip level must be positive", law.backward(), "m/s^2");
+  const double lower = std::min(law.forward(), law.backward()), wn = slider.natural_frequency();
+  if (noise.white()) {
+    const double ratio = std::max(law.forward(), law.backward()) / lower;
+    require(ratio <= 10 || !std::isfinite(ratio),
+            "Transport: under white noise a level must be at most 10 times the other, or infinite; their ratio", ratio);
+    const double turn = wn * std::numbers::pi * noise.filter().s0() / (lower * lower);
+    require(turn >= 0.05 || detail::equal(wn, 0),
+            "Transport: under white noise natural_frequency times pi S0 / a^2 must be at least 0.05", turn);
+    return;
+  }
+  const ShapingFilter::Section& section = noise.filter().sections().front();
+  const double frequency = std::sqrt(section.d0), damping = section.d1 / (2 * frequency);
+  require(damping >= 0.1 && damping <= 1.5, "Transport: the damping ratio of the filter must be from 0.1 to 1.5",
+          damping);
+  require(wn <= 5 * frequency,
+          "Transport: natural_frequency must be at most 5 times the frequency of the filter, " +
+              detail::shortest(5 * frequency) + " rad/s",
+          wn, "rad/s");
+  const double strength = detail::FilterStates(noise.filter()).rms / lower;
+  require(
+      strength >= 0.35 && strength <= 20,
+      "Transport: the rms acceleration over the lower slip level must be from 0.35, below which slips are too rare, "
+      "to 20, above which friction hardly matters",
+      strength);
 }
 
 TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
@@ -144,19 +197,17 @@ TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoS
   const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
   const std::size_t count = times.size();
   const auto compute = [&](const Chain& chain) {
-    Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count + 1));
+    Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count));
     const auto parts = static_cast<std::size_t>(std::lround(step / chain.step()));
-    const detail::History history = history_from_rest(chain, sprung, steps * parts, progress);
+    const std::vector<MotionMoments> history = history_from_rest(chain, sprung, steps * parts, progress);
     for (std::size_t k = 0; k < count && last > 0; ++k)
       for (std::size_t i = 0; i < 5; ++i)
-        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history.moments, all[i], times[k] / chain.step());
-    if (!sprung) figures[figures.size() - 1] = stationary_figures(chain, problem, false, history.weights, progress)[1];
+        figures[static_cast<Eigen::Index>(5 * k + i)] = between(history, all[i], times[k] / chain.step());
     return figures;
   };
   const auto end = static_cast<Eigen::Index>(5 * count);
   std::vector<Eigen::Index> judged;
   if (last > 0) judged = {end - 4, end - 1};
-  if (!sprung) judged.push_back(end);
   const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = judged}, compute);
   Estimates Moments::*const estimates[] = {&Moments::displacement_mean, &Moments::displacement_variance,
                                            &Moments::covariance, &Moments::velocity_mean, &Moments::velocity_variance};
@@ -166,12 +217,14 @@ TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoS
       (moments.*estimates[i]).value[k] = refined.value[at];
       (moments.*estimates[i]).error[k] = refined.error[at];
     }
-  moments.growth_rate = {0, 0};
-  if (!sprung) moments.growth_rate = {refined.value[refined.value.size() - 1], refined.error[refined.error.size() - 1]};
+  for (const std::size_t variance : {1U, 4U})  // where it is far below its error, interpolation can leave less than 0
+    for (double& value : (moments.*estimates[variance]).value) value = std::max(value, 0.0);
   constexpr const char* nouns[] = {"the variance of the displacement at the last time",
-                                   "the variance of the velocity at the last time", "the growth rate"};
-  for (std::size_t i = 0; i < judged.size(); ++i)
-    require_accuracy(refined, tolerance_, judged[i], nouns[last > 0 ? i : 2]);
+                                   "the variance of the velocity at the last time"};
+  for (std::size_t i = 0; i < judged.size(); ++i) require_accuracy(refined, tolerance_, judged[i], nouns[i]);
+  // With the step of the stationary motion: to a short time steps are short.
+  moments.growth_rate =
+      sprung ? Estimate{0, 0} : stationary_estimates(problem, tolerance_, false, progress).growth_rate;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, noise};
 }
@@ -210,7 +263,7 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
   const auto rms =
-      std::sqrt(history_from_rest(problem.chain(step, 0, window), problem.sprung(), steps, progress).moments.back().xx);
+      std::sqrt(history_from_rest(problem.chain(step, 0, window), problem.sprung(), steps, progress).back().xx);
   // ln P(peak > level) of the coarse grid over ln(level), less that wanted.
   const double wanted = std::log1p(-probability);
   const auto excess = [&, h = step, count = steps](double ln_level) {
@@ -241,7 +294,7 @@ DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, 
   // With a spring the grid resolves waves that turn by up to 2.5 rad over a panel, of some 0.4 rms.
   window.x_panels = 36;
   const Chain coarse = problem.chain(step, 0, window);
-  const MotionMoments last = history_from_rest(coarse, sprung, steps, progress).moments.back();
+  const MotionMoments last = history_from_rest(coarse, sprung, steps, progress).back();
   // The window: one that held less would fold the tails back.
   detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
   const std::size_t most = sprung ? 20 : 60;
@@ -249,8 +302,14 @@ DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, 
   std::vector<double> waves;
   double size = 1;
   while (waves.size() < most && size > vanishing) {
-    waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
-    size = std::abs(characteristic(coarse, sprung, steps, std::span(waves).last(1), progress)[0]);
+    // With a spring one run gives all waves; without one each wave is a run.
+    const std::size_t first = waves.size();
+    do waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
+    while (sprung && waves.size() < most);
+    const auto values = characteristic(coarse, sprung, steps, std::span(waves).subspan(first), progress);
+    const auto last_wave = std::ranges::find_if(values, [](auto value) { return std::abs(value) <= vanishing; });
+    size = std::abs(last_wave == values.end() ? values.back() : *last_wave);
+    if (last_wave != values.end()) waves.resize(first + static_cast<std::size_t>(last_wave - values.begin()) + 1);
   }
   if (size > 0.05)
     throw ConvergenceError("Transport: the characteristic function of the displacement at " + detail::shortest(time) +
@@ -351,30 +410,7 @@ TransportStationary Transport::stationary(const Slider<Coulomb>& slider, const T
                                           const Progress& progress) const {
   check(slider, noise);
   const TransportProblem problem(slider, noise);
-  const double step = problem.first_step();
-  // A spring forgets the start in some periods.
-  const auto beginning = [&](const Chain& chain) {
-    return weights_from_rest(chain, problem.sprung() ? 100 : 0, progress);
-  };
-  const bool sprung = problem.sprung(), rests = !problem.white() || problem.held() > 0;
-  const auto window = adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
-    if (!sprung) return {0, std::sqrt(stationary_velocity(chain, progress))};
-    const Figures found = stationary_figures(chain, problem, false, beginning(chain), progress);
-    return {std::sqrt(found[1] + found[0] * found[0]), std::sqrt(found[4] + found[3] * found[3])};
-  });
-  const Refined refined =
-      refine(problem, window, step, {.tolerance = tolerance_, .judged = {1, 4}, .slow = {5}},
-             [&](const Chain& chain) { return stationary_figures(chain, problem, rests, beginning(chain), progress); });
-  require_accuracy(refined, tolerance_, 1, sprung ? "the variance of the displacement" : "the growth rate");
-  require_accuracy(refined, tolerance_, 4, "the variance of the velocity");
-  const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.error[i]}; };
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  return {sprung ? figure(0) : Estimate{unknown, 0},
-          sprung ? figure(1) : Estimate{infinity, 0},
-          figure(3),
-          figure(4),
-          sprung ? Estimate{0, 0} : figure(1),
-          figure(5)};
+  return stationary_estimates(problem, tolerance_, !problem.white() || problem.held() > 0, progress);
 }
 
 }  // namespace stickslip::theory
