@@ -1,6 +1,8 @@
 // The parameters with respect to which a response can be differentiated.
 #pragma once
 
+#include "stickslip/base/requirements.hpp"
+
 namespace stickslip {
 
 /// The parameter with respect to which a response is differentiated.
