@@ -218,17 +218,6 @@ Chain::Means Chain::means(const Vector& p) const {
   return sum;
 }
 
-double Chain::outside(const Vector& p) const {
-  double in_x = 0, in_v = 0;
-  for (std::size_t place = 0; place < places(); ++place) {
-    const double weight = p.segment(index(place * load_.size()), index(load_.size())).sum();
-    const std::size_t i = place / v_.size(), j = place % v_.size();
-    if (i < x_.degree() || i + x_.degree() >= x_.size()) in_x += x_.degree() > 0 ? weight : 0;
-    if (j + v_.degree() >= v_.size() || (!mirrored() && j < v_.degree() && v_.node(0) < 0)) in_v += weight;
-  }
-  return std::max(std::abs(in_x), std::abs(in_v));
-}
-
 double Chain::below(const Vector& p, double v, bool or_equal) const {
   double sum = 0;
   const std::size_t hidden = load_.hidden();

@@ -76,9 +76,6 @@ class Chain {
   /// E[exp(i wave x)] at the end of a step, if x is part of the state.
   std::complex<double> characteristic(const Vector& p, double wave) const;
 
-  /// The weight of the outer panels in x or v, the larger of the two.
-  double outside(const Vector& p) const;
-
   /// P(velocity <= v) two steps later, and with `or_equal` false P(velocity < v); of the states that the weights
   /// represent, not of their mirror images.
   double below(const Vector& p, double v, bool or_equal) const;

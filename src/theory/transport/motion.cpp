@@ -108,7 +108,6 @@ StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_re
                                    const std::function<void()>& progress) {
   const Vector p = solve(chain, chain.start(), Parity::even, true, guess, progress);
   StationaryMotion found;
-  found.outside = chain.outside(p);
   const Chain::Means now = chain.means(p);
   MotionMoments& m = found.moments = {now.x, now.xx, now.xv, now.v, now.vv};
   const double drift = chain.mirrored() ? 0 : now.x;  // in a step, without a spring

@@ -32,7 +32,6 @@ std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung
 struct StationaryMotion {
   MotionMoments moments;
   double rest = 0;  ///< probability of rest
-  double outside = 0;
 };
 
 /// @param guess  weights to begin with, such as those of `weights_from_rest`
