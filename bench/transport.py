@@ -34,6 +34,14 @@ SETTINGS = {
     ),
     "spring, wn / wg = 0.5": (ss.Slider(BLOCK, natural_frequency=0.5), ground(0.5, 1.5)),
     "spring, wn / wg = 1": (ss.Slider(BLOCK, natural_frequency=1.0), ground(0.5, 1.5)),
+    "static friction 1.3 a": (ss.Slider(ss.StaticKinetic(BLOCK, static=1.3)), ground(0.6, 1.0)),
+    "liners 0.5 to 1, wn / wg = 0.5": (
+        ss.Slider(
+            ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0),
+            natural_frequency=0.5,
+        ),
+        ground(0.5, 1.5),
+    ),
 }
 
 

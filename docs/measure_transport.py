@@ -23,6 +23,16 @@ LAST = 60.0  # wg t
 DT = 0.05  # of the simulation, wg dt: at a tenth of the theory's step
 
 
+#: Laws other than Coulomb's, in units of a level.
+LAWS = {
+    "Coulomb": None,
+    "liner 0.5 to 1": ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0),
+    "Stribeck 1.3 to 0.8": ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1),
+    "static 1.3": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=1.3),
+    "static 1.5": ss.StaticKinetic(ss.Coulomb(slip_level=1.0), static=1.5),
+}
+
+
 @dataclass(frozen=True)
 class Setting:
     """A block or an isolated floor in the units of its level a and the ground's frequency wg."""
@@ -32,10 +42,11 @@ class Setting:
     backward: float = 1.0  # level over a
     frequency: float = 0.0  # of the spring over wg
     content: bool = True  # of the ground at zero frequency
+    law: str = "Coulomb"
 
     @property
     def slider(self) -> ss.Slider:
-        law = ss.Coulomb(slip_level=1.0, backward=self.backward)
+        law = LAWS[self.law] or ss.Coulomb(slip_level=1.0, backward=self.backward)
         return ss.Slider(law, natural_frequency=self.frequency or None)
 
     @property
@@ -57,7 +68,8 @@ class Setting:
         level = {1.0: "equal", math.inf: "one-way"}.get(self.backward, f"1 : {self.backward:.2g}")
         spring = f"{self.frequency:.2g}" if self.frequency else "none"
         ground = "" if self.content else ", none at 0"
-        return f"{self.damping:.2g}{ground} | {self.strength:.2g} | {level} | {spring}"
+        law = self.law if LAWS[self.law] else level
+        return f"{self.damping:.2g}{ground} | {self.strength:.2g} | {law} | {spring}"
 
 
 TABLE = [
@@ -76,6 +88,24 @@ TABLE = [
 ]
 
 
+OTHERS = [
+    Setting(0.6, 1, law="liner 0.5 to 1"),
+    Setting(0.4, 3, law="liner 0.5 to 1"),
+    Setting(0.6, 1, frequency=0.5, law="liner 0.5 to 1"),
+    Setting(0.6, 1, law="Stribeck 1.3 to 0.8"),
+    Setting(0.6, 0.7, law="static 1.3"),
+    Setting(0.6, 0.7, law="static 1.5"),
+    Setting(0.4, 2, law="static 1.5"),
+    Setting(0.6, 1, content=False),
+    Setting(0.6, 3, content=False),
+    Setting(0.6, 1.5, backward=1.5, content=False),
+    Setting(0.6, 1.5, backward=math.inf, content=False),
+]
+
+CASTERS = {0.01: 32.8, 0.005: 64.9, 0.003: 115.6, 0.002: 192.9, 0.001: 518.0}  # gamma, first guess
+DRIFTS = [0.6, 1.0, 1.5, 3.0, 6.0]  # rms / a of the damper alone, levels 1 : 1.5
+
+
 def drawn(count: int, seed: int = 1) -> Iterator[Setting]:
     """Settings at random, half of them with a spring."""
     rng = np.random.default_rng(seed)
@@ -90,10 +120,11 @@ def drawn(count: int, seed: int = 1) -> Iterator[Setting]:
 
 
 def simulated(setting: Setting, members: int, seed: int = 1) -> ss.Ensemble:
-    samples = round(LAST / DT) + 1
+    dt = DT / 4 if setting.law.startswith("static") else DT
+    samples = round(LAST / dt) + 1
     excitation = ss.GaussianExcitation(
         setting.spectrum(),
-        DT,
+        dt,
         samples,
         random_amplitudes=True,
         zero_frequency=True,
@@ -140,11 +171,76 @@ def row(setting: Setting, members: int, tolerance: float = 0.01) -> tuple[list[s
     return [*cells, f"{theory.cost.nodes:,}"], covered
 
 
+def transition(gamma: float, guess: float) -> tuple[float, float]:
+    """The time of z = 1, (3.50), and its error, from times around a guess."""
+    cart = ss.Caster(slip_level=1.0, reach=1 / gamma)
+    times = guess * np.linspace(0.96, 1.04, 5)
+    p = ss.theory.Transport().predict(cart, 1.0, times)
+    rest = p.displacement_variance * p.velocity_variance - p.covariance**2
+    ln_z = np.log(cart.reach * np.sqrt(p.velocity_variance / (2 * rest)))
+    slope = np.polyfit(np.log(times), ln_z, 1)[0]
+    time = float(np.interp(0, ln_z[::-1], times[::-1]))
+    # z goes with the root of the displacement variance, which has the largest error.
+    error = np.max(p.displacement_variance_error / p.displacement_variance)
+    return time, float(time * error / (2 * abs(slope)))
+
+
+def caster_rows() -> Iterator[list[str]]:
+    before: tuple[float, float] | None = None
+    for gamma, guess in CASTERS.items():
+        time, error = transition(gamma, guess)
+        printed = ss.theory.transition_time(ss.Caster(slip_level=1.0, reach=1 / gamma), 1.0).thesis
+        power = ""
+        if before:
+            power = f"{math.log(time / before[1]) / math.log(gamma / before[0]):.2f}"
+        before = (gamma, time)
+        yield [str(gamma), f"{time:.4g} ± {error:.1g}", power, f"{printed:.1f}"]
+
+
+def drift_rows(members: int) -> Iterator[list[str]]:
+    for strength in DRIFTS:
+        setting = Setting(0.6, strength, backward=1.5, content=False)
+        p = ss.theory.Transport().stationary(setting.slider, setting.filter)
+        e = simulated(setting, members)
+        # The mean velocity from the displacements at three quarters and at the end.
+        (x1, x2), error = e.displacement_mean[[3, 4]], e.displacement_mean_error[4]
+        mean, mean_error = (x2 - x1) / (LAST / 4), error / (LAST / 4) * 2**0.5
+        digits = max(0, 1 - math.floor(math.log10(mean_error)))
+        yield [
+            f"{strength:g}",
+            f"{p.velocity_mean.value:.4g} ± {p.velocity_mean.error:.1g}",
+            f"{mean:.{digits}f} ({round(mean_error * 10**digits)})",
+        ]
+
+
+CASTER_HEADING = "| gamma | z = 1 at | power of gamma from the line above | by (3.51) |"
+DRIFT_HEADING = "| rms / a | mean velocity, theory | simulation |"
+OTHER_HEADING = (
+    "| damping | rms / a | law | wn / wg | E x², wg t = 15 | 60 | E x'², 15 | 60 |"
+    " E x, 60 | nodes |"
+)
 HEADING = (
     "| damping | rms / a | levels | wn / wg | E x², wg t = 15 | 60 | E x'², 15 | 60 | E x, 60 |"
     " nodes |"
 )
 COVERAGE = "| settings | values | within the stated error and 3 standard errors |"
+
+
+def others(members: int) -> list[str]:
+    """The tables of other laws, casters and drift."""
+    rows = []
+    for setting in OTHERS:
+        cells, _ = row(setting, members)
+        rows.append(cells)
+        print(" | ".join(cells), flush=True)
+    casters, drifts = list(caster_rows()), list(drift_rows(members))
+    for cells in casters + drifts:
+        print(" | ".join(cells), flush=True)
+    return [
+        table(OTHER_HEADING, rows),
+        table(CASTER_HEADING, casters),
+        table(DRIFT_HEADING, drifts),
+    ]
 
 
 def main(members: int) -> None:
@@ -160,7 +256,7 @@ def main(members: int) -> None:
         holds += covered
         print(" | ".join(cells), covered, flush=True)
     coverage = [[str(count), str(len(holds)), f"{sum(holds)} ({100 * np.mean(holds):.0f} %)"]]
-    rewrite(PAGE, [table(HEADING, rows), table(COVERAGE, coverage)])
+    rewrite(PAGE, [table(HEADING, rows), table(COVERAGE, coverage), *others(members // 4)])
 
 
 if __name__ == "__main__":

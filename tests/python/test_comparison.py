@@ -81,7 +81,11 @@ def test_white_noise_brings_the_exact_answer_and_linearization():
 def test_what_does_not_apply_says_why():
     cart = ss.Caster(slip_level=1.0, reach=2.0)
     c = ss.compare(cart, white(), [20.0, 40.0], members=640, seed=1)
-    assert list(c.theories) == ["EquivalentLinearization", "EquivalentLinearization, thesis"]
+    assert list(c.theories) == [
+        "Transport",
+        "EquivalentLinearization",
+        "EquivalentLinearization, thesis",
+    ]
     assert "Coulomb" in c.refused["WhiteNoise"]
     assert "WhiteNoise does not apply: " in str(c)
 

@@ -116,6 +116,8 @@ THEORY_REASONS = {
     "k": r"covers Coulomb friction",
     "l": r"both ways|mirrored slip",
     "m": r"level must be positive",
+    "n": r"exceeds any friction at rest",
+    "o": r"laws with memory, nor functions",
 }
 
 

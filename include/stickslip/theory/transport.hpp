@@ -1,4 +1,5 @@
-// The transport operator: a theory that carries the probability of the state, for blocks and springs under noise.
+// The transport operator: a theory that carries the probability of the state, for blocks, casters and springs under
+// noise.
 #pragma once
 
 #include <concepts>
@@ -10,8 +11,9 @@
 
 #include "stickslip/excitation/gaussian.hpp"
 #include "stickslip/excitation/spectrum.hpp"
-#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/friction/law.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/statistics/moments.hpp"
 #include "stickslip/statistics/tally.hpp"
 #include "stickslip/theory/displacement_distribution.hpp"
@@ -81,7 +83,7 @@ class Transport;
 /// the difference from simulation down to probabilities of 0.01.
 class TransportPeak {
  public:
-  TransportPeak(const Transport& theory, const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time);
+  TransportPeak(const Transport& theory, const AnySlider& slider, const TwoStateNoise& noise, double time);
 
   double time() const noexcept { return time_; }
 
@@ -101,7 +103,7 @@ class TransportPeak {
 
  private:
   double tolerance_;
-  Slider<Coulomb> slider_;
+  AnySlider slider_;
   TwoStateNoise noise_;
   double time_;
 };
@@ -110,8 +112,8 @@ class TransportPeak {
 /// refinement.
 class TransportPrediction : public Moments {
  public:
-  TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
-                      const Slider<Coulomb>& slider, const TwoStateNoise& noise);
+  TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory, const AnySlider& slider,
+                      const TwoStateNoise& noise);
 
   const TransportCost& cost() const noexcept { return cost_; }
 
@@ -132,7 +134,7 @@ class TransportPrediction : public Moments {
  private:
   TransportCost cost_;
   double tolerance_;
-  Slider<Coulomb> slider_;
+  AnySlider slider_;
   TwoStateNoise noise_;
 };
 
@@ -148,11 +150,14 @@ class TransportPrediction : public Moments {
 /// are refined. Steps and grids are refined until the errors of the variances at the last time and of the growth rate
 /// are below the tolerance.
 ///
-/// Covers Coulomb friction with equal, unequal and one-way levels, with or without a spring and a damper, under white
-/// noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero frequency.
-/// The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration from 0.35 to 20 times the lower level, and
-/// the spring at most 5 times as fast as it. Under white noise one level is at most 10 times the other, or infinite,
-/// and wn pi S0 / a^2 at least 0.05.
+/// Covers Coulomb friction with equal, unequal and one-way levels, friction that depends on the speed
+/// (`VelocityDependent`, `Stribeck`), and static friction above kinetic; with or without a spring and a damper; under
+/// white noise and noise from a filter of two states, such as Kanai and Tajimi's or one without content at zero
+/// frequency. Casters are covered under white noise, static friction under filtered or held noise.
+/// The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration at least 0.35 times the lower level at rest
+/// and at most 20 times the least resistance, and the spring at most 5 times as fast as it. Under white noise one level
+/// is at most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster on a spring has
+/// a reach wn >= 3 pi S0. Static friction without a spring only: where it breaks away depends on the load alone.
 class Transport {
  public:
   /// @param tolerance  relative, from 1e-6 to 0.3
@@ -168,27 +173,28 @@ class Transport {
     return detail::coverage<TwoStateNoise>(excitation,
                                            "Transport: covers white noise and noise from a filter of two states",
                                            [&](const TwoStateNoise& noise) {
-                                             if constexpr (std::same_as<Law, Coulomb>)
+                                             if constexpr (std::convertible_to<const Slider<Law>&, AnySlider>)
                                                check(slider, noise);
                                              else
-                                               throw std::invalid_argument("Transport: covers Coulomb friction");
+                                               throw std::invalid_argument("Transport: covers laws of the library");
                                            });
   }
 
   /// Moments from rest on.
-  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional
+  /// @param slider  positive levels, which may differ, the backward one also infinite; spring and damper optional.
+  ///                Without a spring a caster's growth rate is NaN
   /// @param noise   stationary from time zero on
   /// @param times   [s], finite, at least 0, increasing
   /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument naming what is not covered or the rejected value
   /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its error
-  /// Takes 0.3 to 2 s for a block, 2 to 60 s with a spring.
-  TransportPrediction predict(const Slider<Coulomb>& slider, const TwoStateNoise& noise, std::span<const double> times,
+  /// Takes 0.3 to 2 s for a block, 3 to 8 s for static friction, 2 to 60 s with a spring, 3 to 60 s for a caster.
+  TransportPrediction predict(const AnySlider& slider, const TwoStateNoise& noise, std::span<const double> times,
                               const std::function<void()>& progress = {}) const;
 
   /// The stationary motion.
-  /// @throws as `predict`
-  TransportStationary stationary(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+  /// @throws as `predict`; also for casters, which become stationary slowly at best
+  TransportStationary stationary(const AnySlider& slider, const TwoStateNoise& noise,
                                  const std::function<void()>& progress = {}) const;
 
   /// The distribution of the displacement at a time, from its characteristic function, which is carried like the
@@ -200,7 +206,7 @@ class Transport {
   /// @throws ConvergenceError  the characteristic function does not vanish at high wave numbers: many
   ///                           displacements are close to 0
   /// Takes 1 to 20 s.
-  DisplacementDistribution displacement(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+  DisplacementDistribution displacement(const AnySlider& slider, const TwoStateNoise& noise, double time,
                                         const std::function<void()>& progress = {}) const;
 
   /// The distribution of the velocity at a time, with the probability of rest: of each value the probability that the
@@ -210,11 +216,11 @@ class Transport {
   /// @param time    [s], positive and finite
   /// @throws std::invalid_argument naming the value
   /// Takes 1 to 20 s.
-  VelocityDistribution velocity(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+  VelocityDistribution velocity(const AnySlider& slider, const TwoStateNoise& noise, double time,
                                 const std::function<void()>& progress = {}) const;
 
  private:
-  void check(const Slider<Coulomb>& slider, const TwoStateNoise& noise) const;
+  void check(const AnySlider& slider, const TwoStateNoise& noise) const;
 
   double tolerance_;
 };

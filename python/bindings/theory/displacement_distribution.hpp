@@ -13,11 +13,9 @@ namespace stickslip::python {
 using DistributionTheory = std::variant<theory::PulseSuperposition, theory::PulseChain, theory::Transport>;
 using DistributionSource = std::variant<double, Spectrum, theory::ShapingFilter, GaussianExcitation, PoissonPulses>;
 
-inline const Slider<Coulomb>& coulomb_of(
-    const AnySlider& slider,
-    const char* refusal = "PulseChain: covers Coulomb friction; PulseSuperposition covers other laws") {
+inline const Slider<Coulomb>& coulomb_of(const AnySlider& slider) {
   if (const auto* block = std::get_if<Slider<Coulomb>>(&slider)) return *block;
-  throw std::invalid_argument(refusal);
+  throw std::invalid_argument("PulseChain: covers Coulomb friction; PulseSuperposition covers other laws");
 }
 
 inline theory::DisplacementDistribution distribution_of(const theory::PulseSuperposition& by, const AnySlider& any,
@@ -45,8 +43,7 @@ inline theory::TwoStateNoise two_state_noise(const DistributionSource& noise) {
 
 inline theory::DisplacementDistribution distribution_of(const theory::Transport& by, const AnySlider& any,
                                                         const DistributionSource& noise, double at) {
-  return by.displacement(coulomb_of(any, "Transport: covers Coulomb friction"), two_state_noise(noise), at,
-                         &check_for_interrupt);
+  return by.displacement(any, two_state_noise(noise), at, &check_for_interrupt);
 }
 
 struct DisplacementDistribution : theory::DisplacementDistribution {

@@ -17,10 +17,6 @@ using theory::Transport;
 using theory::TransportCost;
 using theory::TransportStationary;
 
-const Slider<Coulomb>& block_of(const AnySlider& slider) {
-  return coulomb_of(slider, "Transport: covers Coulomb friction");
-}
-
 /// A prediction with what it was made of. The stationary motion is computed once.
 struct TransportPrediction : Moments {
   TransportPrediction(const Transport& by, AnySlider any, DistributionSource excitation, Moments moments,
@@ -41,14 +37,13 @@ TransportPrediction predict(const Transport& self, const AnySlider& slider, cons
                             const py::object& times) {
   const std::vector<double> at = to_vector(times, "Transport: times", "s");
   const py::gil_scoped_release released;
-  const theory::TransportPrediction found =
-      self.predict(block_of(slider), two_state_noise(excitation), at, &check_for_interrupt);
+  const theory::TransportPrediction found = self.predict(slider, two_state_noise(excitation), at, &check_for_interrupt);
   return {self, slider, excitation, found, found.cost()};
 }
 
 TransportStationary stationary(const Transport& self, const AnySlider& slider, const DistributionSource& excitation) {
   const py::gil_scoped_release released;
-  return self.stationary(block_of(slider), two_state_noise(excitation), &check_for_interrupt);
+  return self.stationary(slider, two_state_noise(excitation), &check_for_interrupt);
 }
 
 /// The peak with what it was made of.
@@ -58,7 +53,7 @@ struct TransportPeak {
   DistributionSource noise;
   double time;
 
-  theory::TransportPeak peak() const { return {theory, block_of(slider), two_state_noise(noise), time}; }
+  theory::TransportPeak peak() const { return {theory, slider, two_state_noise(noise), time}; }
 };
 
 TransportPeak peak_of(const TransportPrediction& self, double time) {
@@ -80,7 +75,7 @@ Estimate peak_quantile(const TransportPeak& self, double probability) {
 /// The distribution of a velocity with what it was made of.
 struct VelocityDistribution : theory::VelocityDistribution {
   VelocityDistribution(const Transport& by, AnySlider any, DistributionSource source, double at)
-      : theory::VelocityDistribution(by.velocity(block_of(any), two_state_noise(source), at, &check_for_interrupt)),
+      : theory::VelocityDistribution(by.velocity(any, two_state_noise(source), at, &check_for_interrupt)),
         theory(by),
         slider(std::move(any)),
         noise(std::move(source)),
@@ -389,14 +384,16 @@ the growth rate is the solution of a linear system. The error is of second order
 two steps (under white noise from three to six), and its error is that of the extrapolation plus the change when degrees
 and windows of the grid are refined. docs/transport.md has the derivation and a table of errors.
 
-Covers Coulomb friction with equal, unequal and one-way levels, with or without a spring and a damper, under white noise
-and noise from a filter of two states: Kanai and Tajimi's, or one without content at zero frequency. A
-`GaussianExcitation` stands for its spectrum as a continuous Gaussian process, stationary at t = 0, not periodic, with
-its content at zero frequency; white noise with constant, uncorrected interpolation is predicted as sampled.
+Covers Coulomb friction with equal, unequal and one-way levels, friction that depends on the speed (`VelocityDependent`,
+`Stribeck`), and static friction above kinetic; with or without a spring and a damper; under white noise and noise from
+a filter of two states: Kanai and Tajimi's, or one without content at zero frequency. Casters are covered under white
+noise, static friction under filtered or held noise and without a spring. A `GaussianExcitation` stands for its spectrum
+as a continuous Gaussian process, stationary at t = 0, not periodic, with its content at zero frequency; white noise with
+constant, uncorrected interpolation is predicted as sampled.
 
-The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration from 0.35 to 20 times the lower level, and the
-spring at most 5 times as fast as it. Under white noise one level is at most 10 times the other, or infinite, and
-wn pi S0 / a^2 at least 0.05.
+The damping ratio of the filter is from 0.1 to 1.5, its rms acceleration at least 0.35 times the lower level at rest and
+at most 20 times the least resistance, and the spring at most 5 times as fast as it. Under white noise one level is at
+most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster on a spring has a reach wn >= 3 pi S0.
 
 Parameters
 ----------
@@ -415,7 +412,7 @@ ValueError
 
 Parameters
 ----------
-slider : Slider or Coulomb
+slider : Slider or friction law
     Positive levels, which may differ; the backward one may be infinite. Spring and damper are optional.
 excitation : float, Spectrum, ShapingFilter or GaussianExcitation
     A number is the level S0 of white noise [m^2/s^3]. Filters of at most two states.
@@ -425,7 +422,8 @@ times : array_like
 Returns
 -------
 TransportPrediction
-    `remark` says how the motions of a `GaussianExcitation` differ from the process.
+    `remark` says how the motions of a `GaussianExcitation` differ from the process. The `growth_rate` of a caster
+    without a spring is NaN.
 
 Raises
 ------
@@ -436,13 +434,13 @@ ConvergenceError
 
 Notes
 -----
-Takes 0.3 to 2 s for a block, 2 to 60 s with a spring.)")
+Takes 0.3 to 2 s for a block, 3 to 8 s for static friction, 2 to 60 s with a spring, 3 to 60 s for a caster.)")
       .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
 
 Parameters
 ----------
-slider : Slider or Coulomb
-    As for `predict`.
+slider : Slider or friction law
+    As for `predict`, but not a caster, which becomes stationary slowly at best.
 excitation : float, Spectrum, ShapingFilter or GaussianExcitation
     As for `predict`.
 

@@ -7,46 +7,26 @@
 
 #include "lanes/matrix_product.hpp"
 #include "stickslip/base/equal.hpp"
-#include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/root.hpp"
-#include "stickslip/sliding/advance.hpp"
-#include "stickslip/state.hpp"
 
 namespace stickslip::detail {
 namespace {
-
-/// The largest |x| of a motion: it is at its ends or where the velocity is zero.
-struct Farthest {
-  double distance;
-
-  void slide(const Slip&) const noexcept {}
-  void event(EventKind, double, const State& state) noexcept {
-    distance = std::max(distance, std::abs(state.displacement));
-  }
-};
 
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-bool Chain::mirrors(const Slider<Coulomb>& slider) noexcept {
-  return equal(slider.law().forward(), slider.law().backward());
-}
-
-Chain::Chain(const Slider<Coulomb>& slider, Panels x, Panels v, LoadGrid load, double step, double wall)
-    : slider_(slider), x_(std::move(x)), v_(std::move(v)), load_(std::move(load)), step_(step), wall_(wall) {
-  Row row;
+Chain::Chain(HeldMotion motion, Panels x, Panels v, LoadGrid load, double step, double wall)
+    : motion_(std::move(motion)), x_(std::move(x)), v_(std::move(v)), load_(std::move(load)), step_(step), wall_(wall) {
+  Row row{std::vector<std::array<double, 2>>(2 * places()), {}};
   for (std::size_t place = 0; place < places(); ++place) {
-    const double from = x_.node(place / v_.size()), speed = v_.node(place % v_.size());
+    const auto [from, speed] = at(place);
     for (std::size_t i = 0; i < load_.loads(); ++i) {
-      row.clear();
       means_.emplace_back();
       if (load_.white()) {
-        // The landing has corners where the slider just comes to rest and where it just leaves again.
-        const std::vector<double> corners = {load_for(from, speed, 0, true), load_for(from, speed, 0, false)};
         std::vector<std::array<double, 2>> points;
         double sum = 0;
-        gaussian_points(0, load_.deviation(), corners, [&](double n, double weight) {
+        gaussian_points(0, load_.deviation(), corners(from, speed), [&](double n, double weight) {
           points.push_back({n, weight});
           sum += weight;
         });
@@ -58,16 +38,19 @@ Chain::Chain(const Slider<Coulomb>& slider, Panels x, Panels v, LoadGrid load, d
     }
   }
   start_ = Vector::Zero(index(size()));
-  const std::size_t rest = x_.node_at(0) * v_.size() + v_.node_at(0);
+  const std::size_t rest = x_.node_at(0) * speeds() + v_.size();
   start_.segment(index(rest * load_.size()), index(load_.size())) = load_.stationary();
 }
 
+/// Displacement and velocity of a place.
+std::pair<double, double> Chain::at(std::size_t place) const {
+  const std::size_t speed = place % speeds();
+  return {x_.node(place / speeds()), speed < v_.size() ? v_.node(speed) : 0};
+}
+
 void Chain::land(double x, double v, double load, double weight, Row& row) {
-  State state = State::at(x, v);
-  Farthest farthest{std::abs(x)};
-  advance(slider_, Segment{step_, load, load}, state, farthest);
-  const double to = state.displacement, speed = state.velocity;
-  if (std::max(farthest.distance, std::abs(to)) > wall_) return;
+  const auto [to, speed, farthest] = motion_(x, v, load, step_);
+  if (farthest > wall_) return;
   landings_.push_back({weight, to, speed});
   Means& means = means_.back();
   means.x += weight * to;
@@ -76,7 +59,9 @@ void Chain::land(double x, double v, double load, double weight, Row& row) {
   means.v += weight * speed;
   means.vv += weight * speed * speed;
   each_place(landings_.back(), [&](std::size_t place, bool mirrored, double part) {
-    auto& [sum, moving] = row[{place, mirrored}];
+    const std::size_t leads = place + (mirrored ? places() : 0);
+    auto& [sum, moving] = row.weights[leads];
+    if (equal(sum, 0) && equal(moving, 0)) row.places.push_back(leads);
     sum += part;
     moving += part * (to - x);
   });
@@ -87,45 +72,59 @@ template <class Use>
 void Chain::each_place(const Landing& landing, const Use& use) const {
   const bool mirrored = this->mirrored() && landing.speed < 0;
   const double side = mirrored ? -1 : 1;
-  const Panels::Stencil in_x = x_.at(side * landing.to), in_v = v_.at(side * landing.speed);
+  const Panels::Stencil in_x = x_.at(side * landing.to);
+  const bool rests = equal(landing.speed, 0);
+  const Panels::Stencil in_v = rests ? Panels::Stencil{v_.size(), {1}} : v_.at(side * landing.speed);
   for (std::size_t a = 0; a <= x_.degree(); ++a)
-    for (std::size_t b = 0; b <= v_.degree(); ++b) {
+    for (std::size_t b = 0; b <= (rests ? 0 : v_.degree()); ++b) {
       const double part = landing.weight * in_x.weights[a] * in_v.weights[b];
-      if (!equal(part, 0)) use((in_x.first + a) * v_.size() + in_v.first + b, mirrored, part);
+      if (!equal(part, 0)) use((in_x.first + a) * speeds() + in_v.first + b, mirrored, part);
     }
 }
 
-void Chain::keep(const Row& row) {
-  for (const bool mirrored : {false, true}) {
-    if (mirrored) first_mirrored_.push_back(place_.size());
-    for (const auto& [to, weights] : row) {
-      if (to.second != mirrored) continue;
-      place_.push_back(static_cast<std::uint32_t>(to.first));
-      weight_.push_back(weights[0]);
-      if (x_.degree() == 0) moving_.push_back(weights[1]);
-    }
+/// Stores a row, and clears it.
+void Chain::keep(Row& row) {
+  std::ranges::sort(row.places);
+  row.places.erase(std::ranges::unique(row.places).begin(), row.places.end());  // a sum can be 0 in between
+  const auto mirrored = std::ranges::lower_bound(row.places, places());
+  first_mirrored_.push_back(place_.size() + static_cast<std::size_t>(mirrored - row.places.begin()));
+  for (const std::size_t leads : row.places) {
+    const auto [weight, moving] = std::exchange(row.weights[leads], {});
+    place_.push_back(static_cast<std::uint32_t>(leads % places()));
+    weight_.push_back(weight);
+    if (!with_displacement()) moving_.push_back(moving);
   }
+  row.places.clear();
   first_entry_.push_back(place_.size());
   first_landing_.push_back(landings_.size());
 }
 
-double Chain::speed_after(double x, double v, double load) const {
-  State state = State::at(x, v);
-  advance(slider_, Segment{step_, load, load}, state);
-  return state.velocity;
+/// The loads of white noise at which the landing has corners: where the slider just comes to rest, and where it just
+/// leaves again.
+std::vector<double> Chain::corners(double x, double v) const {
+  std::vector<double> found;
+  const double far = 8.3 * load_.deviation(), tiny = 1e-9 * load_.deviation() * step_;
+  const double fastest = motion_(x, v, -far, step_).velocity, slowest = motion_(x, v, far, step_).velocity;
+  for (const double speed : {tiny, -tiny}) {
+    if (!(slowest < speed && speed < fastest)) continue;
+    const auto excess = [&](double load) { return speed - motion_(x, v, load, step_).velocity; };
+    found.push_back(numerics::root(excess, -far, speed - fastest, far, speed - slowest, 1e-7 * far));
+  }
+  return found;
 }
 
 /// The load above which the velocity after a step is at most, or below, `speed`: the velocity decreases with the load.
 double Chain::load_for(double x, double v, double speed, bool or_equal) const {
   // A load beyond which the change of velocity during a step exceeds all that friction and spring can do.
   const auto reached = [&](double load) {
-    const double after = speed_after(x, v, load);
+    const double after = motion_(x, v, load, step_).velocity;
     return after < speed || (or_equal && equal(after, speed));
   };
-  double most = (std::abs(v) + std::abs(speed)) / step_ + slider_.stiffness() * std::abs(x) + slider_.law().forward();
+  double most =
+      (std::abs(v) + std::abs(speed)) / step_ + motion_.stiffness() * std::abs(x) + motion_.hold(Direction::forward);
   for (int i = 0; i < 60 && !(reached(most) && !reached(-most)); ++i) most *= 2;
   if (!equal(speed, 0)) {  // apart from rest it is continuous and decreases
-    const auto excess = [&](double load) { return speed - speed_after(x, v, load); };
+    const auto excess = [&](double load) { return speed - motion_(x, v, load, step_).velocity; };
     const double low = excess(-most), high = excess(most);
     if (low < 0 && high > 0) return numerics::root(excess, -most, low, most, high, 1e-10 * most);
   }
@@ -145,6 +144,12 @@ Chain::Vector Chain::carry(std::initializer_list<Term> terms, Parity parity) con
         const std::size_t last = mirrored ? first_entry_[row + 1] : first_mirrored_[row];
         if (first == last) continue;
         const double sign = mirrored ? static_cast<double>(parity) : 1;
+        if (hidden == 1) {
+          const double weight = sign * term.nodes[index(row)];
+          for (std::size_t entry = first; entry < last; ++entry)
+            landed[index(place_[entry])] += weight * term.entries[entry];
+          continue;
+        }
         for (std::size_t j = 0; j < hidden; ++j)
           given[j] = sign * term.nodes[index(row * hidden + (mirrored ? hidden - 1 - j : j))];
         double* const into = landed.data() + (mirrored ? loads - 1 - i : i) * hidden;
@@ -222,13 +227,19 @@ double Chain::below(const Vector& p, double v, bool or_equal) const {
   double sum = 0;
   const std::size_t hidden = load_.hidden();
   std::vector<double> probabilities(hidden);
-  for (std::size_t row = 0; row < rows(); ++row)
-    for (std::size_t l = first_landing_[row]; l < first_landing_[row + 1]; ++l) {
-      const double load = load_for(landings_[l].to, landings_[l].speed, v, or_equal);
-      load_.below(load, row % load_.loads(), probabilities);
-      for (std::size_t j = 0; j < hidden; ++j)
-        sum += landings_[l].weight * p[index(row * hidden + j)] * (1 - probabilities[j]);
+  const auto add = [&](std::size_t row, double weight, double from, double speed) {
+    load_.below(load_for(from, speed, v, or_equal), row % load_.loads(), probabilities);
+    for (std::size_t j = 0; j < hidden; ++j) sum += weight * p[index(row * hidden + j)] * (1 - probabilities[j]);
+  };
+  for (std::size_t row = 0; row < rows(); ++row) {
+    if (load_.white()) {
+      const auto [from, speed] = at(row);
+      add(row, 1, from, speed);
+      continue;
     }
+    for (std::size_t l = first_landing_[row]; l < first_landing_[row + 1]; ++l)
+      add(row, landings_[l].weight, landings_[l].to, landings_[l].speed);
+  }
   return sum;
 }
 

@@ -8,12 +8,10 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "theory/transport/held_motion.hpp"
 #include "theory/transport/load_grid.hpp"
 #include "theory/transport/panels.hpp"
 
@@ -21,10 +19,12 @@ namespace stickslip::detail {
 
 /// One step T = S Z of a slider under noise, on functions of its state: S, its exact motion under the load held at its
 /// value in the middle of the step, and Z, the exact step of the noise. Functions have values at nodes (x, v, load);
-/// probability is carried by the adjoint, as the weights of those nodes in means: docs/transport.md.
+/// probability is carried by the adjoint, as the weights of those nodes in means: docs/transport.md. Rest is a node of
+/// its own: where friction at rest exceeds that of sliding, a slow slip does not lead to what rest leads to.
 ///
-/// Without a spring, displacements are sums of independent increments and x is not part of the state. If the levels
-/// are equal, states with v < 0 are represented by their mirror images; functions are then even or odd.
+/// If neither a spring nor friction depends on x, it is the sum of what is slid in each step, and not part of the
+/// state. If the levels are equal, states with v < 0 are represented by their mirror images; functions are then even or
+/// odd.
 class Chain {
  public:
   using Vector = Eigen::VectorXd;
@@ -32,23 +32,21 @@ class Chain {
   /// How a function of the state and its mirror image are related.
   enum class Parity : std::int8_t { even = 1, odd = -1 };
 
-  /// Means over the end of a step of products of displacement and velocity; without a spring of the displacement
-  /// during the step.
+  /// Means over the end of a step of products of displacement and velocity; if x is not part of the state, of the
+  /// displacement during the step.
   struct Means {
     double x = 0, xx = 0, xv = 0, v = 0, vv = 0;
   };
 
-  /// @param slider  level, plain
   /// @param x       panels in the displacement [m], or `Panels()`
-  /// @param v       panels in the velocity [m/s], from 0 on if `mirrors(slider)`
+  /// @param v       panels in the velocity [m/s], with a jump at 0; from 0 on if the motion mirrors
   /// @param step    [s]
   /// @param wall    probability with a larger |x| on the way is lost [m]
-  Chain(const Slider<Coulomb>& slider, Panels x, Panels v, LoadGrid load, double step,
+  Chain(HeldMotion motion, Panels x, Panels v, LoadGrid load, double step,
         double wall = std::numeric_limits<double>::infinity());
 
-  /// Whether its motion under the opposite load is the opposite motion.
-  static bool mirrors(const Slider<Coulomb>& slider) noexcept;
-  bool mirrored() const noexcept { return mirrors(slider_); }
+  bool mirrored() const noexcept { return motion_.mirrors(); }
+  bool with_displacement() const noexcept { return x_.degree() > 0; }
 
   double step() const noexcept { return step_; }
   std::size_t size() const noexcept { return places() * load_.size(); }
@@ -63,8 +61,8 @@ class Chain {
   /// later.
   Vector carry(const Vector& q, const Vector& p, double drift, Parity parity) const;
 
-  /// The weights times exp(i wave X) a step later, of weights with the parts even (real) and odd (imaginary): without a
-  /// spring, the sum of weights is the characteristic function of the displacement.
+  /// The weights times exp(i wave X) a step later, of weights with the parts even (real) and odd (imaginary): if x is
+  /// not part of the state, the sum of weights is the characteristic function of the displacement.
   class Turn;
   struct Complex {
     Vector re, im;
@@ -76,8 +74,10 @@ class Chain {
   /// E[exp(i wave x)] at the end of a step, if x is part of the state.
   std::complex<double> characteristic(const Vector& p, double wave) const;
 
-  /// P(velocity <= v) two steps later, and with `or_equal` false P(velocity < v); of the states that the weights
-  /// represent, not of their mirror images.
+  /// P(velocity <= v) some steps later, and with `or_equal` false P(velocity < v); of the states that the weights
+  /// represent, not of their mirror images. The last load is integrated over exactly: that of filtered noise a step
+  /// after the load that is part of the state, that of white noise at once.
+  std::size_t steps_to_below() const noexcept { return load_.white() ? 1 : 2; }
   double below(const Vector& p, double v, bool or_equal) const;
 
  private:
@@ -90,19 +90,25 @@ class Chain {
     const Vector& nodes;                 // weights of nodes
     const std::vector<double>& entries;  // weights of entries
   };
-  using Row = std::map<std::pair<std::size_t, bool>, std::array<double, 2>>;
+  /// The places to which a row leads, of which the mirrored ones come last, and their weights.
+  struct Row {
+    std::vector<std::array<double, 2>> weights;  // by place; 0 where it does not lead
+    std::vector<std::size_t> places;
+  };
 
-  std::size_t places() const noexcept { return x_.size() * v_.size(); }
+  std::size_t speeds() const noexcept { return v_.size() + 1; }  // the last one is rest
+  std::size_t places() const noexcept { return x_.size() * speeds(); }
   std::size_t rows() const noexcept { return means_.size(); }
+  std::pair<double, double> at(std::size_t place) const;
   template <class Use>
   void each_place(const Landing& landing, const Use& use) const;
   Vector carry(std::initializer_list<Term> terms, Parity parity) const;
   void land(double x, double v, double load, double weight, Row& row);
-  void keep(const Row& row);
-  double speed_after(double x, double v, double load) const;
+  void keep(Row& row);
+  std::vector<double> corners(double x, double v) const;
   double load_for(double x, double v, double speed, bool or_equal) const;
 
-  Slider<Coulomb> slider_;
+  HeldMotion motion_;
   Panels x_, v_;
   LoadGrid load_;
   double step_, wall_;
@@ -112,7 +118,7 @@ class Chain {
   std::vector<Means> means_;
   std::vector<std::size_t> first_landing_{0}, first_entry_{0}, first_mirrored_;
   std::vector<std::uint32_t> place_;
-  std::vector<double> weight_, moving_;  // moving_: times the displacement, without a spring
+  std::vector<double> weight_, moving_;  // moving_: times the displacement, if it is not a state
   Vector start_;
 };
 

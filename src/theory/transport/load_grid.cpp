@@ -88,6 +88,7 @@ FilterStates::FilterStates(const theory::ShapingFilter& filter) {
   const double by_state = s.b0 * state_rms, by_rate = s.b1 * rate_rms;
   rms = std::hypot(by_state, by_rate);
   frequency = std::sqrt(s.d0);
+  roughness = std::abs(s.b1) * std::sqrt(2 * pi * filter.s0());
   Eigen::Matrix2d turn, change;
   turn << by_state / rms, by_rate / rms, -by_rate / rms, by_state / rms;
   change << 0, frequency, -frequency, -s.d1;  // of y and y' over their rms

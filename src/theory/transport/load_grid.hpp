@@ -21,6 +21,7 @@ void gaussian_points(double mean, double deviation, std::vector<double> cuts,
 struct FilterStates {
   double rms;            ///< of the ground acceleration [m/s^2]
   double frequency;      ///< sqrt(d0) [rad/s]
+  double roughness;      ///< rms change of the ground acceleration over a short time, over its root [m/s^2.5]
   Eigen::Matrix2d rate;  ///< [1/s]
 
   /// @param filter  one section, with b2 = 0

@@ -32,7 +32,7 @@ Vector solve(const Chain& chain, const Vector& b, Parity parity, bool conserving
 
 }  // namespace
 
-std::vector<MotionMoments> history_from_rest(const Chain& chain, bool sprung, std::size_t steps,
+std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t steps,
                                              const std::function<void()>& progress) {
   const Parity other = chain.mirrored() ? Parity::odd : Parity::even;
   std::vector<MotionMoments> found(1);
@@ -44,7 +44,7 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, bool sprung, st
     if (progress) progress();
     const Chain::Means now = chain.means(p);
     MotionMoments next{now.x, now.xx, now.xv, now.v, now.vv};
-    if (!sprung) {
+    if (!chain.with_displacement()) {
       const Chain::Means by_x = chain.means(q);
       next = {x + now.x, xx + now.xx + 2 * by_x.x, now.xv + by_x.v, now.v, now.vv};
       x = next.x, xx = next.xx;
@@ -59,12 +59,13 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, bool sprung, st
     const MotionMoments grown{next.x - last.x, next.xx - last.xx, next.xv - last.xv, next.v - last.v,
                               next.vv - last.vv};
     found.push_back(next);
-    const bool even = change < 1e-7 && std::abs(grown.xx - growth.xx) <= 1e-7 * std::abs(sprung ? next.xx : grown.xx);
+    const bool even = change < 1e-7 &&
+                      std::abs(grown.xx - growth.xx) <= 1e-7 * std::abs(chain.with_displacement() ? next.xx : grown.xx);
     growth = grown;
     if (!even) continue;
     while (found.size() <= steps) {
-      next.x += sprung ? 0 : grown.x;
-      next.xx += sprung ? 0 : grown.xx;
+      next.x += chain.with_displacement() ? 0 : grown.x;
+      next.xx += chain.with_displacement() ? 0 : grown.xx;
       found.push_back(next);
     }
   }
@@ -80,10 +81,10 @@ Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::funct
   return p;
 }
 
-std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung, std::size_t steps,
-                                                 std::span<const double> waves, const std::function<void()>& progress) {
+std::vector<std::complex<double>> characteristic(const Chain& chain, std::size_t steps, std::span<const double> waves,
+                                                 const std::function<void()>& progress) {
   std::vector<std::complex<double>> found;
-  if (sprung) {
+  if (chain.with_displacement()) {
     const Vector p = weights_from_rest(chain, steps - 1, progress);
     for (const double wave : waves) found.push_back(chain.characteristic(p, wave));
     return found;
@@ -104,7 +105,7 @@ double stationary_velocity(const Chain& chain, const std::function<void()>& prog
   return chain.means(solve(chain, chain.start(), Parity::even, true, chain.start(), progress)).vv;
 }
 
-StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest, const Vector& guess,
+StationaryMotion stationary_motion(const Chain& chain, bool with_rest, const Vector& guess,
                                    const std::function<void()>& progress) {
   const Vector p = solve(chain, chain.start(), Parity::even, true, guess, progress);
   StationaryMotion found;
@@ -112,7 +113,7 @@ StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_re
   MotionMoments& m = found.moments = {now.x, now.xx, now.xv, now.v, now.vv};
   const double drift = chain.mirrored() ? 0 : now.x;  // in a step, without a spring
   if (chain.mirrored()) m.x = m.v = 0;
-  if (sprung) {
+  if (chain.with_displacement()) {
     m.xx -= m.x * m.x;
     m.xv = 0;
   } else {

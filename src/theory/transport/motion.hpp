@@ -17,25 +17,24 @@ struct MotionMoments {
 };
 
 /// Central moments at the ends of steps, from rest: the first at time 0. Once they grow evenly the rest is continued.
-/// @param sprung  whether x is part of the state
-std::vector<MotionMoments> history_from_rest(const Chain& chain, bool sprung, std::size_t steps,
+std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t steps,
                                              const std::function<void()>& progress);
 
 /// The weights after some steps from rest. Their sum is the probability that no wall has been reached.
 Chain::Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::function<void()>& progress);
 
 /// E[exp(i wave x)] after some steps from rest, at least one, for each wave.
-std::vector<std::complex<double>> characteristic(const Chain& chain, bool sprung, std::size_t steps,
-                                                 std::span<const double> waves, const std::function<void()>& progress);
+std::vector<std::complex<double>> characteristic(const Chain& chain, std::size_t steps, std::span<const double> waves,
+                                                 const std::function<void()>& progress);
 
-/// The stationary motion; without a spring `xx` is the growth rate of the variance of x.
+/// The stationary motion; if x is not part of the state, `xx` is the growth rate of the variance of x.
 struct StationaryMotion {
   MotionMoments moments;
   double rest = 0;  ///< probability of rest
 };
 
 /// @param guess  weights to begin with, such as those of `weights_from_rest`
-StationaryMotion stationary_motion(const Chain& chain, bool sprung, bool with_rest, const Chain::Vector& guess,
+StationaryMotion stationary_motion(const Chain& chain, bool with_rest, const Chain::Vector& guess,
                                    const std::function<void()>& progress);
 
 /// E[x'^2] of the stationary motion.

@@ -7,9 +7,10 @@
 
 namespace stickslip::detail {
 
-/// Functions on an interval that are a polynomial on each of its panels and continuous, by their values at nodes: the
-/// Chebyshev points of each panel, of which adjacent panels share the one at their edge. Beyond the ends a function
-/// has the value at the end.
+/// Functions on an interval that are a polynomial on each of its panels, by their values at nodes: the Chebyshev points
+/// of each panel. Adjacent panels share the one at their edge, so that functions are continuous there. Where they may
+/// jump each panel has one of its own, inside by a tiny part of its width. Beyond the ends a function has the
+/// value at the end.
 class Panels {
  public:
   static constexpr std::size_t max_degree = 10;
@@ -26,7 +27,8 @@ class Panels {
 
   /// @param edges   ascending, at least two. Intervals whose edges mirror each other have nodes that do, exactly
   /// @param degree  from 1 to `max_degree`
-  Panels(std::vector<double> edges, std::size_t degree);
+  /// @param jumps   edges where functions may jump
+  Panels(std::vector<double> edges, std::size_t degree, const std::vector<double>& jumps = {});
 
   std::size_t size() const noexcept { return nodes_.size(); }
   std::size_t degree() const noexcept { return degree_; }
@@ -36,12 +38,13 @@ class Panels {
   /// Accurate to round-off, also at and near nodes.
   Stencil at(double x) const;
 
-  /// The node at `x`, which must be an edge.
+  /// The node at `x`, which must be an edge without a jump.
   std::size_t node_at(double x) const;
 
  private:
   std::vector<double> edges_{0}, nodes_{0};
   std::size_t degree_ = 0;
+  std::vector<std::size_t> first_{0};  // node of each panel
   std::array<double, max_degree + 1> barycentric_{1};
 };
 

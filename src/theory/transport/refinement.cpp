@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -21,54 +22,75 @@ std::vector<double> graded(double first, double widest, double end) {
   return edges;
 }
 
-}  // namespace
-
-TransportProblem::TransportProblem(const Slider<Coulomb>& slider, const theory::TwoStateNoise& noise)
-    : slider_(slider.law(), slider.natural_frequency(), slider.damping()), held_(noise.held()) {
-  power_ = pi * noise.filter()(slider_.natural_frequency());
-  if (noise.white()) {
-    s0_ = noise.filter().s0();
-    return;
-  }
-  filtered_.emplace(noise.filter());
-  // Levels that neither the load nor a spring that it has loaded will reach.
-  const double never = 12 * filtered_->rms;
-  const Coulomb& law = slider.law();
-  slider_ = Slider(Coulomb(std::min(law.forward(), never),
-                           law.backward() > never && std::isfinite(law.backward()) ? never : law.backward()),
-                   slider.natural_frequency(), slider.damping());
+/// Halves panels in x that are too wide for friction that falls off over a reach: within three of it they are at most
+/// half of it wide, beyond they grow.
+std::vector<double> split(const std::vector<double>& edges, double reach) {
+  std::vector<double> result{edges.front()};
+  const std::function<void(double, double)> panel = [&](double from, double to) {
+    const double near = std::min(std::abs(from), std::abs(to));
+    if (to - from > reach / 2 + 0.35 * std::max(near - 3 * reach, 0.0)) {
+      const double middle = (from + to) / 2;
+      panel(from, middle);
+      panel(middle, to);
+    } else {
+      result.push_back(to);
+    }
+  };
+  for (std::size_t i = 1; i < edges.size(); ++i) panel(edges[i - 1], edges[i]);
+  return result;
 }
 
-double TransportProblem::level() const noexcept { return std::min(slider_.law().forward(), slider_.law().backward()); }
+}  // namespace
+
+TransportProblem::TransportProblem(const AnySlider& slider, const theory::TwoStateNoise& noise)
+    : motion_(slider), held_(noise.held()) {
+  power_ = pi * noise.filter()(motion_.natural_frequency());
+  if (noise.white())
+    s0_ = noise.filter().s0();
+  else
+    filtered_.emplace(noise.filter());
+}
+
+double TransportProblem::level() const noexcept {
+  return std::min(motion_.start(Direction::forward), motion_.start(Direction::backward));
+}
 
 double TransportProblem::first_step() const noexcept {
   if (held_ > 0) return held_;
-  const double wn = slider_.natural_frequency();
+  const double wn = motion_.natural_frequency();
   if (filtered_) return wn > 0 ? std::min(0.4 / filtered_->frequency, 0.8 / wn) : 0.3 / filtered_->frequency;
-  return std::min(0.08 * power_ / (level() * level()), wn > 0 ? 0.25 / wn : 1e300);
+  // A caster that has left its reach does not resist.
+  return std::min((wanders() ? 0.12 : 0.08) * power_ / (level() * level()), wn > 0 ? 0.25 / wn : 1e300);
 }
 
 TransportProblem::Window TransportProblem::first_window() const noexcept {
-  const double v = std::max(1.4 * power_ / level(), filtered_ ? 0.5 * filtered_->rms / filtered_->frequency : 0);
-  return {sprung() ? v / slider_.natural_frequency() : 0, v};
+  const double v =
+      std::max(1.4 * power_ / motion_.least(), filtered_ ? 0.5 * filtered_->rms / filtered_->frequency : 0);
+  return {sprung() ? v / motion_.natural_frequency() : 0, v};
+}
+
+TransportProblem::Window TransportProblem::free_window(double time) const noexcept {
+  // Its velocity is Gaussian: half of the reach of an exponential distribution suffices.
+  return {std::sqrt(2 * power_ * time * time * time / 3), std::sqrt(2 * power_ * time) / 2};
 }
 
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
   const double step = first_step();
   if (!(time > 0)) return {step, 0};
-  const double count = held_ > 0 ? std::ceil(time / step - 1e-9) : std::max(8.0, std::ceil(time / step));
+  const double count = held_ > 0 ? std::ceil(time / step - 1e-9) : std::max(white() ? 24.0 : 8.0, std::ceil(time / step));
   require(count < 1e6, "Transport: the last time must be less than a million steps, of " + shortest(step) + " s; it",
           time, "s");
   return {held_ > 0 ? step : time / count, static_cast<std::size_t>(count)};
 }
 
 Panels TransportProblem::velocities(double step, std::size_t degree, double rms, double reach) const {
-  const Coulomb& law = slider_.law();
   const double end = std::max(reach * rms, filtered_ ? 0.4 * reach * filtered_->rms / filtered_->frequency : 0.0);
-  const auto side = [&](double against) {
+  const auto side = [&](Direction direction) {
+    const double against = std::min(motion_.start(direction), end / step);
     // A held white load changes the velocity by this much; slips that end within the step have corners at 2 a h.
     const double kick = white() ? std::sqrt(2 * pi * s0_ * (held_ > 0 ? held_ : step)) : 0;
-    std::vector<double> edges = graded(white() ? kick / 2 : against * step, std::max(2 * rms, end / 8), end);
+    std::vector<double> edges =
+        graded(std::min(white() ? kick / 2 : against * step, motion_.speed() / 2), std::max(2 * rms, end / 8), end);
     const double corner = 2 * against * step;
     if (white() && corner < end) {
       const auto next = std::ranges::lower_bound(edges, corner);
@@ -77,57 +99,69 @@ Panels TransportProblem::velocities(double step, std::size_t degree, double rms,
     return edges;
   };
   std::vector<double> edges;
-  if (!Chain::mirrors(slider_) && std::isfinite(law.backward())) {
-    edges = side(law.backward());
+  if (!motion_.mirrors() && !one_way()) {
+    edges = side(Direction::backward);
     std::ranges::reverse(edges);
     for (double& edge : edges) edge = -edge;
     edges.pop_back();
   }
-  const std::vector<double> forward = side(law.forward());
+  const std::vector<double> forward = side(Direction::forward);
   edges.insert(edges.end(), forward.begin(), forward.end());
-  return {edges, degree};
+  return {edges, degree, {0}};
 }
 
 Chain TransportProblem::chain(double step, std::size_t fineness, const Window& window, double wall) const {
   constexpr std::size_t hiddens[] = {7, 9, 13, 17, 21};
   constexpr double speeds[] = {10, 12, 15, 19, 24}, displacements[] = {6.2, 7.2, 8.4, 9.6, 11};  // over their rms
-  const bool with_x = sprung() || std::isfinite(wall);
+  const bool with_x = with_displacement() || std::isfinite(wall);
   const std::size_t degree = 3 + fineness, hidden = hiddens[fineness] - (with_x ? 2 : 0);
   Panels x, v = velocities(step, degree, window.v, speeds[fineness]);
-  if (std::isfinite(wall)) {
-    std::vector<double> edges;
-    for (const double part : {0.0, 0.2, 0.4, 0.6, 0.75, 0.87, 0.95, 1.0}) {
-      edges.push_back(part * wall);
-      if (part > 0) edges.insert(edges.begin(), -part * wall);
+  if (with_x) {
+    std::vector<double> edges{0};
+    const double end = displacements[fineness] * window.x, panels = static_cast<double>(window.x_panels);
+    std::vector<double> parts;
+    if (std::isfinite(wall))
+      parts = {0.2, 0.4, 0.6, 0.75, 0.87, 0.95, 1.0};
+    else
+      for (double i = 1; i <= panels / 2; ++i) parts.push_back(2 * i / panels);
+    for (const double part : parts) {
+      const double edge = part * (std::isfinite(wall) ? wall : end);
+      edges.push_back(edge);
+      edges.insert(edges.begin(), -edge);
     }
-    x = {edges, degree};
-  } else if (sprung()) {
-    const auto panels = static_cast<double>(window.x_panels);
-    std::vector<double> edges;
-    for (double i = -panels / 2; i <= panels / 2; ++i)
-      edges.push_back(displacements[fineness] * window.x * 2 * i / panels);
-    x = {edges, degree};
+    x = {split(edges, motion_.reach()), degree};
   }
-  if (!filtered_) return {slider_, x, v, LoadGrid(std::sqrt(2 * pi * s0_ / (held_ > 0 ? held_ : step))), step, wall};
+  if (!filtered_) return {motion_, x, v, LoadGrid(std::sqrt(2 * pi * s0_ / (held_ > 0 ? held_ : step))), step, wall};
+
+  // The held load passes the level of rest less often than the noise: by as much as a level that is higher by this,
+  // see M. Broadie, P. Glasserman, S. Kou, Math. Finance 7 (1997), 325-349.
+  const HeldMotion motion = motion_.holding_less(0.5826 * filtered_->roughness * std::sqrt(step));
 
   // Panels in the load: two between the levels, where the slider stays at rest, and two beyond each. A level that the
   // load hardly ever reaches is no edge.
   const double rms = filtered_->rms, farthest = 4.5 * rms;
-  const double forward = slider_.law().forward(), backward = slider_.law().backward();
+  const double forward = motion.hold(Direction::forward), backward = motion.hold(Direction::backward);
   const auto beyond = [&](double level) { return std::max(farthest, level + 2.5 * rms); };
   const double low = forward < farthest ? -forward : -farthest, high = backward < farthest ? backward : farthest;
-  std::vector<double> edges;
+  std::vector<double> edges, jumps;
   if (forward < farthest) edges = {-beyond(forward), -(beyond(forward) + forward) / 2};
   const double parts = forward < farthest && backward < farthest ? 2 : 4;
   for (double i = 0; i <= parts; ++i) edges.push_back(low + (high - low) * i / parts);
   if (backward < farthest) edges.insert(edges.end(), {(beyond(backward) + backward) / 2, beyond(backward)});
-  return {slider_, x, v, LoadGrid(*filtered_, {edges, degree + 1}, hidden, step), step, wall};
+  if (motion.breaks_away()) {
+    jumps = {low, high};
+    // A slip that begins needs a smaller load.
+    for (const double edge : {-motion.start(Direction::forward), motion.start(Direction::backward)})
+      if (edge > low && edge < high) edges.push_back(edge);
+    std::ranges::sort(edges);
+  }
+  return {motion, x, v, LoadGrid(*filtered_, {edges, degree + 1, jumps}, hidden, step), step, wall};
 }
 
 Refined refine(const TransportProblem& problem, const TransportProblem::Window& window, double first_step,
                const Accuracy& accuracy, const std::function<Figures(const Chain&)>& compute, double wall) {
   constexpr std::size_t most_nodes = 8'000'000;
-  const bool one_way = !std::isfinite(problem.slider().law().backward());
+  const bool one_way = problem.one_way(), breaks_away = problem.motion().breaks_away() && !problem.white();
   Refined result;
   std::map<std::pair<std::size_t, std::size_t>, Figures> found;
   const auto with = [&](std::size_t halvings, std::size_t fineness) -> const Figures& {
@@ -142,15 +176,17 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
   for (std::size_t level = 0; level < accuracy.levels; ++level) {
     const std::size_t fineness = level + 1;
     // The steps. The error of white noise has the powers 1, 3/2, 2, ... of the step, with one-way sliding, which
-    // reflects the velocity at 0, from 1/2 on; that of filtered noise has the power 2.
+    // reflects the velocity at 0, from 1/2 on; that of filtered noise has the power 2, and 1, 3/2, ... where the slider
+    // breaks away.
     std::size_t first = 0, last = 0;
     if (!(problem.held() > 0))
-      first = problem.white() ? 0 : level, last = problem.white() ? level + 2 + (one_way ? 1 : 0) : level + 1;
+      first = problem.white() ? 0 : level, last = level + (problem.white() ? (one_way ? 3 : 2) : breaks_away ? 2 : 1);
     std::vector<Figures> column;
     for (std::size_t k = first; k <= last; ++k) column.push_back(with(k, fineness));
     Figures before = column.back();
     for (std::size_t stage = 1; stage <= last - first; ++stage) {
-      const double ratio = std::exp2(problem.white() ? (one_way ? 0 : 0.5) + 0.5 * static_cast<double>(stage) : 2.0);
+      const double lowest = problem.white() && one_way ? 0.5 : problem.white() || breaks_away ? 1 : 2;
+      const double ratio = std::exp2(lowest + 0.5 * static_cast<double>(stage - 1));
       for (std::size_t k = 0; k + stage <= last - first; ++k)
         column[k] = (ratio * column[k + 1] - column[k]) / (ratio - 1);
       if (stage + 1 == last - first) before = column[1];
@@ -167,8 +203,9 @@ Refined refine(const TransportProblem& problem, const TransportProblem::Window& 
     }
     const std::size_t same = problem.white() ? last : first;
     result.error += (with(same, fineness) - with(same, fineness - 1)).cwiseAbs();
-    // The linear systems and the quadratures have errors of this size.
-    result.error = result.error.cwiseMax(5e-7 * result.value.cwiseAbs());
+    // The linear systems and the quadratures have errors of this size; where the slider breaks away, the load at which
+    // it does.
+    result.error = result.error.cwiseMax((breaks_away ? 5e-3 : 5e-7) * result.value.cwiseAbs());
     if (std::ranges::all_of(accuracy.judged, [&](Eigen::Index i) {
           return result.error[i] <= accuracy.tolerance * std::abs(result.value[i]);
         }))

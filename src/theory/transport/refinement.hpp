@@ -2,26 +2,33 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
 
-#include "stickslip/friction/coulomb.hpp"
-#include "stickslip/slider.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 #include "stickslip/theory/transport.hpp"
 #include "theory/transport/chain.hpp"
+#include "theory/transport/held_motion.hpp"
 
 namespace stickslip::detail {
 
 /// A slider, a noise, and the scales of its motion.
 class TransportProblem {
  public:
-  TransportProblem(const Slider<Coulomb>& slider, const theory::TwoStateNoise& noise);
+  TransportProblem(const AnySlider& slider, const theory::TwoStateNoise& noise);
 
-  const Slider<Coulomb>& slider() const noexcept { return slider_; }
-  bool sprung() const noexcept { return slider_.stiffness() > 0; }
+  const HeldMotion& motion() const noexcept { return motion_; }
+  bool sprung() const noexcept { return motion_.stiffness() > 0; }
+  /// Whether the displacement is part of the state.
+  bool with_displacement() const noexcept { return sprung() || std::isfinite(motion_.reach()); }
+  /// Whether it leaves the reach of its friction in the long run, so that it never becomes stationary.
+  bool wanders() const noexcept { return with_displacement() && !sprung(); }
+  /// Whether it cannot slide backward.
+  bool one_way() const noexcept { return !std::isfinite(motion_.start(Direction::backward)); }
 
   /// How long each value of the noise is held [s]; 0 for continuous noise.
   double held() const noexcept { return held_; }
@@ -33,12 +40,14 @@ class TransportProblem {
   /// The window of a grid.
   struct Window {
     double x = 0, v = 0;        ///< rms, estimated
-    std::size_t x_panels = 10;  ///< even; with a spring
+    std::size_t x_panels = 10;  ///< even
   };
   Window first_window() const noexcept;
+  /// Of a mass without friction that starts at rest, under white noise.
+  Window free_window(double time) const noexcept;
 
   /// @param fineness  of the grid, from 0
-  /// @param wall      as of `Chain`; x is then part of the state, also without a spring
+  /// @param wall      as of `Chain`; x is then part of the state in any case
   Chain chain(double step, std::size_t fineness, const Window& window,
               double wall = std::numeric_limits<double>::infinity()) const;
 
@@ -51,10 +60,10 @@ class TransportProblem {
   Steps steps_to(double time) const;
 
  private:
-  double level() const noexcept;
+  double level() const noexcept;  // the smaller one at the beginning of a slip
   Panels velocities(double step, std::size_t degree, double rms, double reach) const;
 
-  Slider<Coulomb> slider_;
+  HeldMotion motion_;
   std::optional<FilterStates> filtered_;
   double s0_ = 0;     // of white noise
   double power_ = 0;  // that the noise gives to a free mass, per unit mass: half the growth of E[v^2] [m^2/s^3]

@@ -48,9 +48,8 @@ constexpr double MotionMoments::*all[] = {&MotionMoments::x, &MotionMoments::xx,
                                           &MotionMoments::vv};
 
 /// The stationary figures: those of MotionMoments, and the probability of rest.
-Figures stationary_figures(const Chain& chain, const TransportProblem& problem, bool with_rest,
-                           const Chain::Vector& guess, const Progress& progress) {
-  const StationaryMotion motion = stationary_motion(chain, problem.sprung(), with_rest, guess, progress);
+Figures stationary_figures(const Chain& chain, bool with_rest, const Chain::Vector& guess, const Progress& progress) {
+  const StationaryMotion motion = stationary_motion(chain, with_rest, guess, progress);
   Figures figures(6);
   for (std::size_t i = 0; i < 5; ++i) figures[static_cast<Eigen::Index>(i)] = motion.moments.*all[i];
   figures[5] = motion.rest;
@@ -75,11 +74,12 @@ TransportProblem::Window adapted(const TransportProblem& problem, double step, c
 /// The window of a motion from rest; without a spring that of the stationary velocity.
 TransportProblem::Window window_from_rest(const TransportProblem& problem, double step, std::size_t steps,
                                           const Progress& progress) {
+  if (problem.wanders()) return problem.free_window(step * static_cast<double>(steps));
   const double length = problem.sprung() ? step : problem.first_step();  // of a step
   return adapted(problem, length, [&](const Chain& chain) -> TransportProblem::Window {
     if (!problem.sprung()) return {0, std::sqrt(stationary_velocity(chain, progress))};
     double x = 0, v = 0;
-    for (const MotionMoments& m : history_from_rest(chain, true, std::max<std::size_t>(steps, 8), progress)) {
+    for (const MotionMoments& m : history_from_rest(chain, std::max<std::size_t>(steps, 8), progress)) {
       x = std::max(x, m.xx + m.x * m.x);
       v = std::max(v, m.vv + m.v * m.v);
     }
@@ -105,12 +105,12 @@ TransportStationary stationary_estimates(const TransportProblem& problem, double
   const bool sprung = problem.sprung();
   const auto window = adapted(problem, step, [&](const Chain& chain) -> TransportProblem::Window {
     if (!sprung) return {0, std::sqrt(stationary_velocity(chain, progress))};
-    const Figures found = stationary_figures(chain, problem, false, beginning(chain), progress);
+    const Figures found = stationary_figures(chain, false, beginning(chain), progress);
     return {std::sqrt(found[1] + found[0] * found[0]), std::sqrt(found[4] + found[3] * found[3])};
   });
-  const Refined refined = refine(
-      problem, window, step, {.tolerance = tolerance, .judged = {1, 4}, .slow = {5}},
-      [&](const Chain& chain) { return stationary_figures(chain, problem, with_rest, beginning(chain), progress); });
+  const Refined refined =
+      refine(problem, window, step, {.tolerance = tolerance, .judged = {1, 4}, .slow = {5}},
+             [&](const Chain& chain) { return stationary_figures(chain, with_rest, beginning(chain), progress); });
   require_accuracy(refined, tolerance, 1, sprung ? "the variance of the displacement" : "the growth rate");
   require_accuracy(refined, tolerance, 4, "the variance of the velocity");
   const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.error[i]}; };
@@ -151,22 +151,38 @@ Transport::Transport(double tolerance) : tolerance_(tolerance) {
   require(tolerance >= 1e-6 && tolerance <= 0.3, "Transport: tolerance must be from 1e-6 to 0.3", tolerance);
 }
 
-void Transport::check(const Slider<Coulomb>& slider, const TwoStateNoise& noise) const {
-  detail::require_one_level(slider, "Transport");
-  const Coulomb& law = slider.law();
-  require(law.forward() > 0 && std::isfinite(law.forward()),
-          "Transport: the forward slip level must be positive and finite", law.forward(), "m/s^2");
-  require(law.backward() > 0, "Transport: the backward slip level must be positive", law.backward(), "m/s^2");
-  const double lower = std::min(law.forward(), law.backward()), wn = slider.natural_frequency();
+void Transport::check(const AnySlider& slider, const TwoStateNoise& noise) const {
+  const detail::HeldMotion motion(slider);
+  constexpr Direction forward = Direction::forward, backward = Direction::backward;
+  require(motion.start(forward) > 0 && std::isfinite(motion.start(forward)),
+          "Transport: the forward slip level must be positive and finite", motion.start(forward), "m/s^2");
+  require(motion.start(backward) > 0, "Transport: the backward slip level must be positive", motion.start(backward),
+          "m/s^2");
+  const double least = motion.least(), wn = motion.natural_frequency();
   if (noise.white()) {
-    const double ratio = std::max(law.forward(), law.backward()) / lower;
+    const double ratio = std::max(motion.start(forward), motion.start(backward)) / least;
     require(ratio <= 10 || !std::isfinite(ratio),
             "Transport: under white noise a level must be at most 10 times the other, or infinite; their ratio", ratio);
-    const double turn = wn * std::numbers::pi * noise.filter().s0() / (lower * lower);
+    const double turn = wn * std::numbers::pi * noise.filter().s0() / (least * least);
     require(turn >= 0.05 || detail::equal(wn, 0),
             "Transport: under white noise natural_frequency times pi S0 / a^2 must be at least 0.05", turn);
+    const double hold = motion.start(forward) * motion.reach() * wn, supply = std::numbers::pi * noise.filter().s0();
+    require(detail::equal(wn, 0) || hold >= 3 * supply,
+            "Transport: a caster on a spring under white noise must have a slip level times reach times "
+            "natural_frequency of at least 3 pi S0 = " +
+                detail::shortest(3 * supply) + " m^2/s^3",
+            hold, "m^2/s^3");
+    if (motion.breaks_away() && !(noise.held() > 0))
+      throw std::invalid_argument(
+          "Transport: continuous white noise exceeds any friction at rest at once; give the kinetic law alone");
     return;
   }
+  if (motion.breaks_away() && wn > 0)
+    throw std::invalid_argument(
+        "Transport: covers static friction above kinetic without a spring; with one, the load at which the slider "
+        "breaks away depends on the displacement");
+  if (std::isfinite(motion.reach()))
+    throw std::invalid_argument("Transport: covers casters under white noise, not under filtered noise");
   const ShapingFilter::Section& section = noise.filter().sections().front();
   const double frequency = std::sqrt(section.d0), damping = section.d1 / (2 * frequency);
   require(damping >= 0.1 && damping <= 1.5, "Transport: the damping ratio of the filter must be from 0.1 to 1.5",
@@ -175,15 +191,18 @@ void Transport::check(const Slider<Coulomb>& slider, const TwoStateNoise& noise)
           "Transport: natural_frequency must be at most 5 times the frequency of the filter, " +
               detail::shortest(5 * frequency) + " rad/s",
           wn, "rad/s");
-  const double strength = detail::FilterStates(noise.filter()).rms / lower;
-  require(
-      strength >= 0.35 && strength <= 20,
-      "Transport: the rms acceleration over the lower slip level must be from 0.35, below which slips are too rare, "
-      "to 20, above which friction hardly matters",
-      strength);
+  const double rms = detail::FilterStates(noise.filter()).rms;
+  require(rms / motion.least_hold() >= 0.35,
+          "Transport: the rms acceleration over the lower slip level must be at least 0.35, below which slips are too "
+          "rare",
+          rms / motion.least_hold());
+  require(rms / least <= 20,
+          "Transport: the rms acceleration over the least slip level must be at most 20, above which friction hardly "
+          "matters",
+          rms / least);
 }
 
-TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+TransportPrediction Transport::predict(const AnySlider& slider, const TwoStateNoise& noise,
                                        std::span<const double> times, const Progress& progress) const {
   check(slider, noise);
   detail::check_times("Transport", times);
@@ -193,13 +212,12 @@ TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoS
   const TransportProblem problem(slider, noise);
   const double last = times.empty() ? 0 : times.back();
   const auto [step, steps] = problem.steps_to(last);
-  const bool sprung = problem.sprung();
   const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
   const std::size_t count = times.size();
   const auto compute = [&](const Chain& chain) {
     Figures figures = Figures::Zero(static_cast<Eigen::Index>(5 * count));
     const auto parts = static_cast<std::size_t>(std::lround(step / chain.step()));
-    const std::vector<MotionMoments> history = history_from_rest(chain, sprung, steps * parts, progress);
+    const std::vector<MotionMoments> history = history_from_rest(chain, steps * parts, progress);
     for (std::size_t k = 0; k < count && last > 0; ++k)
       for (std::size_t i = 0; i < 5; ++i)
         figures[static_cast<Eigen::Index>(5 * k + i)] = between(history, all[i], times[k] / chain.step());
@@ -223,20 +241,22 @@ TransportPrediction Transport::predict(const Slider<Coulomb>& slider, const TwoS
                                    "the variance of the velocity at the last time"};
   for (std::size_t i = 0; i < judged.size(); ++i) require_accuracy(refined, tolerance_, judged[i], nouns[i]);
   // With the step of the stationary motion: to a short time steps are short.
-  moments.growth_rate =
-      sprung ? Estimate{0, 0} : stationary_estimates(problem, tolerance_, false, progress).growth_rate;
+  if (problem.wanders())
+    moments.growth_rate = {std::numeric_limits<double>::quiet_NaN(), 0};
+  else
+    moments.growth_rate =
+        problem.sprung() ? Estimate{0, 0} : stationary_estimates(problem, tolerance_, false, progress).growth_rate;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, noise};
 }
 
 TransportPrediction::TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
-                                         const Slider<Coulomb>& slider, const TwoStateNoise& noise)
+                                         const AnySlider& slider, const TwoStateNoise& noise)
     : Moments(std::move(moments)), cost_(cost), tolerance_(theory.tolerance()), slider_(slider), noise_(noise) {}
 
 TransportPeak TransportPrediction::peak(double end) const { return {Transport(tolerance_), slider_, noise_, end}; }
 
-TransportPeak::TransportPeak(const Transport& theory, const Slider<Coulomb>& slider, const TwoStateNoise& noise,
-                             double time)
+TransportPeak::TransportPeak(const Transport& theory, const AnySlider& slider, const TwoStateNoise& noise, double time)
     : tolerance_(theory.tolerance()), slider_(slider), noise_(noise), time_(time) {
   require(time > 0 && std::isfinite(time), "TransportPeak: time must be positive and finite", time, "s");
 }
@@ -262,8 +282,7 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   const TransportProblem problem(slider_, noise_);
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
-  const auto rms =
-      std::sqrt(history_from_rest(problem.chain(step, 0, window), problem.sprung(), steps, progress).back().xx);
+  const auto rms = std::sqrt(history_from_rest(problem.chain(step, 0, window), steps, progress).back().xx);
   // ln P(peak > level) of the coarse grid over ln(level), less that wanted.
   const double wanted = std::log1p(-probability);
   const auto excess = [&, h = step, count = steps](double ln_level) {
@@ -283,30 +302,30 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   return {level, level * there.error / there.value / std::abs(slope)};
 }
 
-DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+DisplacementDistribution Transport::displacement(const AnySlider& slider, const TwoStateNoise& noise, double time,
                                                  const Progress& progress) const {
   check(slider, noise);
   require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
   const TransportProblem problem(slider, noise);
   const auto [step, steps] = problem.steps_to(time);
-  const bool sprung = problem.sprung();
+  const bool at_once = problem.with_displacement();
   auto window = window_from_rest(problem, step, steps, progress);
   // With a spring the grid resolves waves that turn by up to 2.5 rad over a panel, of some 0.4 rms.
   window.x_panels = 36;
   const Chain coarse = problem.chain(step, 0, window);
-  const MotionMoments last = history_from_rest(coarse, sprung, steps, progress).back();
+  const MotionMoments last = history_from_rest(coarse, steps, progress).back();
   // The window: one that held less would fold the tails back.
   detail::CharacteristicSamples samples{last.x, 10 * std::sqrt(last.xx), {}};
-  const std::size_t most = sprung ? 20 : 60;
+  const std::size_t most = at_once ? 20 : 60;
   constexpr double vanishing = 1e-5;
   std::vector<double> waves;
   double size = 1;
   while (waves.size() < most && size > vanishing) {
-    // With a spring one run gives all waves; without one each wave is a run.
+    // With the displacement on the grid one run gives all waves; else each wave is a run.
     const std::size_t first = waves.size();
     do waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
-    while (sprung && waves.size() < most);
-    const auto values = characteristic(coarse, sprung, steps, std::span(waves).subspan(first), progress);
+    while (at_once && waves.size() < most);
+    const auto values = characteristic(coarse, steps, std::span(waves).subspan(first), progress);
     const auto last_wave = std::ranges::find_if(values, [](auto value) { return std::abs(value) <= vanishing; });
     size = std::abs(last_wave == values.end() ? values.back() : *last_wave);
     if (last_wave != values.end()) waves.resize(first + static_cast<std::size_t>(last_wave - values.begin()) + 1);
@@ -318,7 +337,7 @@ DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, 
   const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1},
                                  [&, first = step, count = steps](const Chain& chain) {
                                    const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-                                   const auto values = characteristic(chain, sprung, count * parts, waves, progress);
+                                   const auto values = characteristic(chain, count * parts, waves, progress);
                                    Figures figures(2 * static_cast<Eigen::Index>(values.size()));
                                    for (Eigen::Index j = 0; j < figures.size(); j += 2) {
                                      figures[j] = values[static_cast<std::size_t>(j / 2)].real();
@@ -336,7 +355,7 @@ DisplacementDistribution Transport::displacement(const Slider<Coulomb>& slider, 
   return {samples, error, noise.remark()};
 }
 
-VelocityDistribution Transport::velocity(const Slider<Coulomb>& slider, const TwoStateNoise& noise, double time,
+VelocityDistribution Transport::velocity(const AnySlider& slider, const TwoStateNoise& noise, double time,
                                          const Progress& progress) const {
   check(slider, noise);
   require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
@@ -354,13 +373,13 @@ VelocityDistribution Transport::velocity(const Slider<Coulomb>& slider, const Tw
     const double part = static_cast<double>(i) / count;
     sizes.push_back(10 * window.v * part * part * (0.5 + 0.5 * part));
   }
-  const bool backward = std::isfinite(slider.law().backward()), mirrored = Chain::mirrors(slider);
+  const bool backward = !problem.one_way(), mirrored = problem.motion().mirrors();
   // The probabilities of less than 0, of 0, of at most each size, and of at most minus each size.
   const Refined refined =
       refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1, .slow = {1}},
              [&, first = step, last = steps](const Chain& chain) {
                const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-               const Chain::Vector p = weights_from_rest(chain, last * parts - 2, progress);
+               const Chain::Vector p = weights_from_rest(chain, last * parts - chain.steps_to_below(), progress);
                Figures figures = Figures::Zero(2 + 2 * count);
                figures[0] = backward ? chain.below(p, 0, false) : 0;
                figures[1] = chain.below(p, 0, true) - figures[0];
@@ -406,10 +425,14 @@ TransportStationary TransportPrediction::stationary(const Progress& progress) co
   return Transport(tolerance_).stationary(slider_, noise_, progress);
 }
 
-TransportStationary Transport::stationary(const Slider<Coulomb>& slider, const TwoStateNoise& noise,
+TransportStationary Transport::stationary(const AnySlider& slider, const TwoStateNoise& noise,
                                           const Progress& progress) const {
   check(slider, noise);
   const TransportProblem problem(slider, noise);
+  if (std::isfinite(problem.motion().reach()))
+    throw std::invalid_argument(
+        "Transport: the motion of a caster does not become stationary without a spring, and slowly with one; predict "
+        "it at late times");
   return stationary_estimates(problem, tolerance_, !problem.white() || problem.held() > 0, progress);
 }
 
