@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+import stickslip as ss
 from pages import README, assert_same_picture, blocks, run
 
 
@@ -27,6 +28,15 @@ def test_the_python_runs_and_draws_the_figure_of_the_page(tmp_path, monkeypatch,
     # The text explains the cart: it is far beyond the reach of its casters.
     assert names["cart"].reach < 0.05
     assert float(lines[1].split()[-2]) == pytest.approx(4.5, abs=0.05)
+
+
+def test_the_page_shows_the_second_picture_of_the_demo(tmp_path):
+    """If it is not the one that the demo draws, draw it with docs/draw_readme.py."""
+    pytest.importorskip("matplotlib")
+    demo = pytest.importorskip("stickslip.demo")
+    _, sweep = demo.draw(ss.sample_records(), tmp_path)
+    assert "](docs/images/friction_sweep.png)" in README.read_text(encoding="utf-8")
+    assert_same_picture(sweep, README.parent / "docs" / "images" / "friction_sweep.png")
 
 
 def test_the_ensembles_run(tmp_path, monkeypatch, capsys):
