@@ -27,6 +27,7 @@
 #include "stickslip/friction/caster.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/degrading.hpp"
+#include "stickslip/friction/kumar.hpp"
 #include "stickslip/friction/multi_pendulum.hpp"
 #include "stickslip/friction/static_kinetic.hpp"
 #include "stickslip/friction/stribeck.hpp"
@@ -89,16 +90,17 @@ constexpr std::size_t most_surfaces = 5;
 
 /// What the page chooses; the names are those of the command's options. NaN is an option that is not given.
 struct Settings {
-  enum Law { coulomb, caster, one_way, speed, degrading, stribeck, pendulum };
+  enum Law { coulomb, caster, one_way, speed, degrading, stribeck, pendulum, kumar };
   double law, mu, mu_static, reach, mu_fast, rate, mu_residual, distance, stribeck_speed, exponent;
+  double static_pressure, reference_pressure, contact_radius, temperature, diffusivity, conductivity;
   double period, damping_ratio, spring_pendulum, slope, stop_gap, restitution;
   double vertical, clipped, scale;
   double radii[most_surfaces], mus[most_surfaces], capacities[most_surfaces];
 };
 
 constexpr const char* setting_names =
-    "law mu mu_static reach mu_fast rate mu_residual distance stribeck_speed exponent period damping_ratio pendulum "
-    "slope "
+    "law mu mu_static reach mu_fast rate mu_residual distance stribeck_speed exponent static_pressure "
+    "reference_pressure contact_radius temperature diffusivity conductivity period damping_ratio pendulum slope "
     "stop_gap restitution vertical clipped scale radii.0 radii.1 radii.2 radii.3 radii.4 mus.0 mus.1 mus.2 mus.3 mus.4 "
     "capacities.0 capacities.1 capacities.2 capacities.3 capacities.4";
 
@@ -175,6 +177,16 @@ void with_law(const Settings& s, Use&& use) {
       return use(Stribeck(s.mu_static * g, s.mu * g, s.stribeck_speed, static_cast<int>(s.exponent)), on);
     case Settings::pendulum:
       return use(bearing_of(s), on);
+    case Settings::kumar:
+      return use(KumarFriction({.mu_ref = s.mu,
+                                .static_pressure = s.static_pressure,
+                                .reference_pressure = s.reference_pressure,
+                                .contact_radius = s.contact_radius,
+                                .temperature = s.temperature,
+                                .rate = s.rate,
+                                .diffusivity = s.diffusivity,
+                                .conductivity = s.conductivity}),
+                 on);
     case Settings::degrading:
       return sticky(Degrading({0, s.distance}, {s.mu * g, s.mu_residual * g}));
   }
@@ -193,11 +205,11 @@ GroundMotion driven(const Settings& s, const GroundMotion& record) {
 
 struct Summary {
   double peak, residual, sliding_distance, time_sliding, slips, impacts, liftoffs, at_rest;
-  double events, samples, end, input, imbalance, margin, impact_margin, pga, hold;
+  double events, samples, end, input, imbalance, margin, impact_margin, pga, hold, temperature;
 };
 constexpr const char* summary_names =
     "peak residual sliding_distance time_sliding slips impacts liftoffs at_rest events samples end input imbalance "
-    "margin impact_margin pga hold";
+    "margin impact_margin pga hold temperature";
 
 /// The response up to the final rest, or to the end of the motion if it never rests, as the command reports it.
 template <class Law>
@@ -269,7 +281,10 @@ void summarize(const Found& found, const Margins& margin, bool at_rest, double p
                         margin.load,
                         margin.impact,
                         pga,
-                        hold};
+                        hold,
+                        found.temperature.empty()
+                            ? undefined
+                            : *std::max_element(found.temperature.begin(), found.temperature.end())};
   answer.resize(sizeof summary / sizeof(double));
   std::memcpy(answer.data(), &summary, sizeof summary);
 }

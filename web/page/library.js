@@ -4,9 +4,9 @@
  * What a slider is; the names are those of the command's options, SI units; NaN is not given.
  * @typedef {Object} Settings
  * @property {number} law            0 Coulomb, 1 caster, 2 one-way, 3 speed-dependent, 4 degrading, 5 Stribeck, 6 the bearing
- *   with several surfaces
+ *   with several surfaces, 7 that of Kumar, which depends on pressure, speed and temperature
  * @property {number} mu             coefficient of friction: at rest for the law 3, of a new surface for 4, at high speed for 5,
- *   the largest of all surfaces for 6
+ *   the largest of all surfaces for 6, at high speed, 20 degrees Celsius and the reference pressure for 7
  * @property {number} mu_static
  * @property {number} reach          [m]
  * @property {number} mu_fast
@@ -15,6 +15,12 @@
  * @property {number} distance       [m]
  * @property {number} stribeck_speed  at which the static friction has fallen by 63 % of the difference [m/s]
  * @property {number} exponent
+ * @property {number} static_pressure     under the weight alone [Pa]
+ * @property {number} reference_pressure  [Pa]
+ * @property {number} contact_radius      [m]
+ * @property {number} temperature         at the start [degrees Celsius]
+ * @property {number} diffusivity         of the steel [m^2/s]
+ * @property {number} conductivity        of the steel [W/(m K)]
  * @property {number} period         [s]
  * @property {number} damping_ratio
  * @property {number} pendulum       1: the spring is a pendulum
@@ -48,6 +54,7 @@
  * @property {number} impact_margin
  * @property {number} pga               of the scaled motion; in the plane, of both components together [m/s^2]
  * @property {number} hold              what friction holds at the start [m/s^2]
+ * @property {number} temperature       the highest of the sliding surface [degrees Celsius]; NaN if friction does not depend on it
  */
 
 /**

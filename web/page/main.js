@@ -183,7 +183,8 @@ function changed() {
 
 /** @type {{key: string, mus: Float64Array, peak: Float64Array, residual: Float64Array} | null} */
 let sliding = null;
-const [LEVELS, PART] = [100, 4];
+const LEVELS = 100;
+const PART_TIME = 20; // of a part [ms]: a change waits for it
 
 /** In parts, while nothing else is asked: it does not depend on mu, so that a moving slider can wait for it. */
 const updateSliding = latest(async () => {
@@ -195,13 +196,16 @@ const updateSliding = latest(async () => {
     const highest = Math.max((row.motion.measures.pga * Math.abs(full.scale)) / GRAVITY, 0.01);
     const mus = Float64Array.from({ length: LEVELS }, (_, i) => ((i + 1) / LEVELS) * highest);
     const [peak, residual] = [new Float64Array(LEVELS), new Float64Array(LEVELS)];
-    for (let i = 0; i < LEVELS; i += PART) {
+    for (let i = 0, count = 4; i < LEVELS; ) {
       await untilIdle();
       if (row !== selected || key !== `${id} ${JSON.stringify({ ...problemOf(settings, row.motion)[0], mu: 0 })}`) return;
-      const part = await worker.spectrum(id, full, mus.slice(i, i + PART)).catch(() => null);
+      const begin = performance.now();
+      const part = await worker.spectrum(id, full, mus.slice(i, i + count)).catch(() => null);
       if (!part) return;
       peak.set(part.peak, i);
       residual.set(part.residual, i);
+      i += part.peak.length;
+      count = Math.max(1, Math.min(25, Math.floor((count * PART_TIME) / (performance.now() - begin))));
     }
     sliding = { key, mus, peak, residual };
   }
@@ -260,7 +264,7 @@ function showResponseSpectrum() {
   if (!spectrum) return;
   const { row } = spectrum;
   element("title-response").textContent =
-    `Response spectrum: pseudo-acceleration [${unit("acceleration").name}] over the period [s]`;
+    `Response spectrum: pseudo-acceleration [${unit("acceleration").name}] over the period [s], damping ratio ${zeta()}`;
   const values = spectralAccelerations();
   element("figure-response").dataset.si = JSON.stringify([...values]);
   plots.response.show(PERIODS, [inUnits(values, "acceleration")]);
@@ -323,7 +327,11 @@ function downloadResponse() {
 /** @type {{row: Row, summary: Summary, time: Float64Array, axis: Float64Array, transverse: Float64Array} | null} */
 let path = null;
 
+const SLOW = 100; // [ms]: a path that takes longer waits until the slider rests
+let pathTime = 0; // that the last path took [ms]
+
 const updatePath = latest(async () => {
+  if (pathTime > SLOW) await untilIdle();
   const row = selected;
   const id = row?.motion?.planarId ?? null;
   const full = completed(settings);
@@ -331,7 +339,9 @@ const updatePath = latest(async () => {
   const figure = element("figure-path");
   const change = changes;
   const refuse = (/** @type {Error} */ error) => ((trouble = error.message), null);
+  const begin = performance.now();
   const found = id === null ? null : await worker.path(id, full).catch(refuse);
+  pathTime = performance.now() - begin;
   if (row !== selected) return;
   figure.hidden = id === null;
   element("path").hidden = found === null;
@@ -342,6 +352,7 @@ const updatePath = latest(async () => {
   if (!path || !row?.motion) return;
   plots.path.resize();
   plots.path.show(inUnits(path.axis, "length"), inUnits(path.transverse, "length"), true);
+  showPointOfPath();
   element("path-numbers").tBodies[0].replaceChildren(...pathNumbers().map((line) => tableRow(line)));
   const hasVertical = row.motion.verticalId !== null;
   element("path-command").textContent = pathCommand(full, row.source(false), hasVertical) ?? NO_COMMAND;
@@ -518,8 +529,8 @@ function show(s, row) {
     },
     },
   );
-  element("title-hysteresis").textContent = `Force over the weight [g] over displacement [${length.name}]`;
-  plots.hysteresis.show(inUnits(displacement, "length"), force.map((value) => value / GRAVITY));
+  element("title-hysteresis").textContent = `Force per unit mass [${ground.name}] over displacement [${length.name}]`;
+  plots.hysteresis.show(inUnits(displacement, "length"), inUnits(force, "acceleration"));
   showNumbers();
   showSliding();
   element("report").textContent = report(s, row);
@@ -595,6 +606,9 @@ const slideNumbers = (summary) => [
   ["slips", summary.slips, "none", ""],
   ["impacts", summary.impacts, "none", ""],
   ["lift-offs", summary.liftoffs, "none", ""],
+  ...(Number.isNaN(summary.temperature)
+    ? []
+    : [/** @type {Line} */ (["highest temperature", summary.temperature, "temperature", "degrees Celsius"])]),
 ];
 
 /** How far to trust a response. @param {Summary} summary  @returns {Line[]} */
@@ -706,14 +720,8 @@ let moving = false; // whether the page moves the cursors
 function setTime(time, cursors = true) {
   if (!response) return;
   now = time;
-  const { summary, displacement, velocity, acceleration } = response;
-  const i = indexAt(response.time, time);
-  const [before = 0, after = before] = [response.time[i], response.time[i + 1]];
-  const part = after > before ? (time - before) / (after - before) : 0;
-  const at = (/** @type {Float64Array} */ values) => {
-    const [a = 0, b = a] = [values[i], values[i + 1]];
-    return a + part * (b - a);
-  };
+  const { summary, displacement, velocity, acceleration, force } = response;
+  const at = interpolated(response.time, time);
   drawScene(element("scene"), {
     settings: completed(settings),
     x: at(displacement),
@@ -725,6 +733,11 @@ function setTime(time, cursors = true) {
   element("readout").textContent =
     `t = ${time.toFixed(2)} s: ground ${shown(plain(at(acceleration)), "acceleration")}, ` +
     `velocity ${shown(plain(at(velocity)), "velocity")}, displacement ${shown(plain(at(displacement)), "length")}`;
+  const [x, f] = [plain(at(displacement)), plain(at(force))];
+  plots.hysteresis.point(x / unit("length").size, f / unit("acceleration").size);
+  element("read-hysteresis").textContent =
+    `t = ${time.toFixed(2)} s: displacement ${shown(x, "length")}, force per unit mass ${shown(f, "acceleration")}`;
+  showPointOfPath();
   element("time").value = String(time);
   if (!cursors) return;
   moving = true;
@@ -732,8 +745,36 @@ function setTime(time, cursors = true) {
   moving = false;
 }
 
+/** The point of the path at the present time. */
+function showPointOfPath() {
+  if (!path) return;
+  const at = interpolated(path.time, now);
+  const [x, y] = [plain(at(path.axis)), plain(at(path.transverse))];
+  const { size } = unit("length");
+  plots.path.point(x / size, y / size);
+  element("read-path").textContent =
+    `t = ${now.toFixed(2)} s: ${shown(x, "length")} along, ${shown(y, "length")} across, ` +
+    `${shown(Math.hypot(x, y), "length")} from the start`;
+}
+
 /** Round-off as zero: nobody reads 1e-17 m. @param {number} value */
 const plain = (value) => (Math.abs(value) < 1e-12 ? 0 : value);
+
+/**
+ * Reads histories at a time.
+ * @param {Float64Array} times
+ * @param {number} time  [s]
+ * @returns {(values: Float64Array) => number}
+ */
+function interpolated(times, time) {
+  const i = indexAt(times, time);
+  const [before = 0, after = before] = [times[i], times[i + 1]];
+  const part = after > before ? Math.min((time - before) / (after - before), 1) : 0;
+  return (values) => {
+    const [a = 0, b = a] = [values[i], values[i + 1]];
+    return a + part * (b - a);
+  };
+}
 
 /**
  * The last sample at or before a time.
@@ -1121,10 +1162,21 @@ function listen() {
   };
   for (const button of /** @type {NodeListOf<HTMLButtonElement>} */ (document.querySelectorAll(".copy")))
     button.onclick = () => copy(element(button.dataset.of ?? "").textContent ?? "", button);
-  new ResizeObserver(() => {
-    for (const plot of Object.values(plots)) plot.resize();
-    setTime(now);
-  }).observe(element("output"));
+  new ResizeObserver(resize).observe(element("output"));
+  addEventListener("beforeprint", () => onPaper(true));
+  addEventListener("afterprint", () => onPaper(false));
+}
+
+function resize() {
+  for (const plot of Object.values(plots)) plot.resize();
+  setTime(now);
+}
+
+/** Draws in light colors and as wide as a sheet, or as before. @param {boolean} on */
+function onPaper(on) {
+  document.documentElement.classList.toggle("paper", on);
+  document.documentElement.dataset.theme = on ? "light" : element("theme").value;
+  resize();
 }
 
 /**

@@ -10,6 +10,7 @@ import uPlot from "uplot";
 export const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 const HEIGHT = 150;
+const CURVE_HEIGHT = 240;
 const FONT = "12px system-ui, sans-serif";
 
 /** @param {boolean} time  whether that over which the lines are drawn is the time */
@@ -28,6 +29,14 @@ const axes = (time) => {
     { ...common, size: 56 },
   ];
 };
+
+/**
+ * Draws at once, because paper does not wait.
+ * @param {uPlot} plot
+ * @param {HTMLElement} container
+ * @param {number} height
+ */
+const resize = (plot, container, height) => plot.batch(() => plot.setSize({ width: container.clientWidth, height }));
 
 /** A picture of lines over time, whose cursor all pictures over time share; or over another number. */
 export class LinePlot {
@@ -123,7 +132,7 @@ export class LinePlot {
   }
 
   resize() {
-    this.#plot.setSize({ width: this.#container.clientWidth, height: HEIGHT });
+    resize(this.#plot, this.#container, HEIGHT);
   }
 
   destroy() {
@@ -131,11 +140,13 @@ export class LinePlot {
   }
 }
 
-/** A curve in a plane: the force over the displacement. */
+/** A curve in a plane, with a mark on it: the force over the displacement. */
 export class CurvePlot {
   /** @type {uPlot} */
   #plot;
   #container;
+  #mark = document.createElement("div");
+  #marked = [NaN, NaN];
 
   /**
    * @param {HTMLElement} container
@@ -147,12 +158,13 @@ export class CurvePlot {
       {
         mode: 2,
         width: container.clientWidth || 300,
-        height: 240,
+        height: CURVE_HEIGHT,
         padding: [8, 12, 0, 0],
         legend: { show: false },
         scales: { x: { time: false } },
         axes: axes(false),
         cursor: { show: false },
+        hooks: { draw: [() => this.#place()] }, // the scales may be new
         series: [
           {},
           {
@@ -181,6 +193,25 @@ export class CurvePlot {
       /** @type {any} */ ([null, [[], []]]),
       container,
     );
+    this.#mark.className = "mark";
+    this.#plot.over.append(this.#mark);
+  }
+
+  /**
+   * Marks a point, without drawing the curve again.
+   * @param {number} x
+   * @param {number} y
+   */
+  point(x, y) {
+    this.#marked = [x, y];
+    this.#place();
+  }
+
+  #place() {
+    const [x = NaN, y = NaN] = this.#marked;
+    const [left, top] = [this.#plot.valToPos(x, "x"), this.#plot.valToPos(y, "y")];
+    this.#mark.hidden = !Number.isFinite(left + top);
+    if (!this.#mark.hidden) this.#mark.style.transform = `translate(${left}px, ${top}px)`;
   }
 
   /**
@@ -201,7 +232,7 @@ export class CurvePlot {
   }
 
   resize() {
-    this.#plot.setSize({ width: this.#container.clientWidth, height: 240 });
+    resize(this.#plot, this.#container, CURVE_HEIGHT);
   }
 
   destroy() {
@@ -230,7 +261,13 @@ export function levelLine(u, ctx, value, { stroke, dash = [], label = "", below 
   ctx.stroke();
   ctx.textAlign = "right";
   ctx.textBaseline = "alphabetic";
-  ctx.fillText(label, right - 4, below ? y + 13 : y - 4);
+  const place = /** @type {const} */ ([label, right - 4, below ? y + 13 : y - 4]);
+  // On what is drawn there.
+  ctx.setLineDash([]);
+  ctx.strokeStyle = color("paper");
+  ctx.lineWidth = 3;
+  ctx.strokeText(...place);
+  ctx.fillText(...place);
 }
 
 /**

@@ -16,6 +16,12 @@ export const NOT_GIVEN = Object.freeze({
   distance: NaN,
   stribeck_speed: NaN,
   exponent: NaN,
+  static_pressure: NaN,
+  reference_pressure: NaN,
+  contact_radius: NaN,
+  temperature: NaN,
+  diffusivity: NaN,
+  conductivity: NaN,
   period: NaN,
   damping_ratio: NaN,
   pendulum: 0,
@@ -39,6 +45,7 @@ export const LAWS = /** @type {const} */ ([
   { name: "degrading", label: "degrading" },
   { name: "stribeck", label: "Stribeck" },
   { name: "pendulum", label: "multi-surface pendulum" },
+  { name: "kumar", label: "pressure, speed, temperature (Kumar)" },
 ]);
 
 /** @typedef {"radii" | "mus" | "capacities"} List  a setting of several numbers */
@@ -69,6 +76,13 @@ export const FIELDS = Object.freeze([
   { key: "mu_static", label: "\u03bc static", unit: "", value: 0.15, laws: ["stribeck"], hint: "at rest, at least \u03bc, which is that at high speed" },
   { key: "stribeck_speed", label: "speed", unit: "m/s", value: 0.05, laws: ["stribeck"], hint: "at which 63 % of the difference is gone" },
   { key: "exponent", label: "exponent", unit: "", value: 1, laws: ["stribeck"], hint: "a whole number from 1 to 31" },
+  { key: "static_pressure", label: "pressure", unit: "Pa", value: 50e6, laws: ["kumar"], hint: "on the sliding surface under the weight alone" },
+  { key: "reference_pressure", label: "reference p", unit: "Pa", value: 50e6, laws: ["kumar"], hint: "pressure at which \u03bc holds, at high speed and 20 \u00b0C" },
+  { key: "contact_radius", label: "contact radius", unit: "m", value: 0.2, laws: ["kumar"], hint: "of the slider, which heats the middle of the surface while it covers it" },
+  { key: "temperature", label: "temperature", unit: "\u00b0C", value: 20, laws: ["kumar"], hint: "of the surface at the start" },
+  { key: "rate", label: "rate", unit: "s/m", value: 100, laws: ["kumar"], hint: "of the change with the speed; \u03bc at rest is half that at high speed" },
+  { key: "diffusivity", label: "diffusivity", unit: "m\u00b2/s", value: 4.44e-6, laws: ["kumar"], hint: "thermal, of the steel" },
+  { key: "conductivity", label: "conductivity", unit: "W/(m K)", value: 18, laws: ["kumar"], hint: "thermal, of the steel" },
   { key: "mu_static", label: "\u03bc static", unit: "", hint: "at rest, at least \u03bc", laws: ["coulomb", "caster", "one-way", "speed", "degrading"] },
   { key: "period", label: "period", unit: "s", hint: "of the mass on its spring; empty without a spring" },
   { key: "damping_ratio", label: "damping ratio", unit: "", needs: ["period"], hint: "of a damper beside the spring" },
@@ -284,6 +298,10 @@ function slider(s) {
     friction = `ss.Degrading(distance=[0, ${s.distance}], mu=[${s.mu}, ${s.mu_residual}])`;
   if (law === "stribeck")
     friction = `ss.Stribeck(mu_static=${s.mu_static}, mu_kinetic=${s.mu}, velocity=${s.stribeck_speed}, exponent=${s.exponent})`;
+  if (law === "kumar") {
+    const parts = /** @type {const} */ (["static_pressure", "reference_pressure", "contact_radius", "temperature", "rate", "diffusivity", "conductivity"]);
+    friction = `ss.KumarFriction(mu_ref=${s.mu}, ${parts.map((key) => `${key}=${s[key]}`).join(", ")})`;
+  }
   if (law === "pendulum") {
     const name = { 2: "Double", 3: "Triple", 5: "Quintuple" }[s.radii.length] ?? "Multi";
     const stops = s.capacities.length ? `, capacities=[${s.capacities.join(", ")}], restitution=${s.restitution}` : "";

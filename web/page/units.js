@@ -8,12 +8,13 @@
 
 const GRAVITY = 9.80665;
 
-/** @type {Record<"length" | "acceleration" | "velocity" | "time" | "none", Record<string, Unit>>} */
+/** @type {Record<"length" | "acceleration" | "velocity" | "time" | "temperature" | "none", Record<string, Unit>>} */
 export const UNITS = {
   length: { cm: { name: "cm", size: 0.01 }, in: { name: "in", size: 0.0254 } },
   velocity: { cm: { name: "cm/s", size: 0.01 }, in: { name: "in/s", size: 0.0254 } },
   acceleration: { g: { name: "g", size: GRAVITY }, si: { name: "m/s\u00b2", size: 1 } },
   time: { s: { name: "s", size: 1 } },
+  temperature: { celsius: { name: "\u00b0C", size: 1 } },
   none: { none: { name: "", size: 1 } },
 };
 
@@ -28,9 +29,14 @@ export const UNITS = {
  * @returns {Unit}
  */
 export function unitOf(quantity, choice) {
-  const key = { length: choice.length, velocity: choice.length, acceleration: choice.acceleration, time: "s", none: "none" }[
-    quantity
-  ];
+  const key = {
+    length: choice.length,
+    velocity: choice.length,
+    acceleration: choice.acceleration,
+    time: "s",
+    temperature: "celsius",
+    none: "none",
+  }[quantity];
   return /** @type {Unit} */ (UNITS[quantity][key]);
 }
 

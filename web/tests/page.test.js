@@ -140,6 +140,8 @@ test("the command and the Python lines give the numbers of the page", async () =
     "mu=0.1&law=stribeck&mu_static=0.12&stribeck_speed=0.1&exponent=2",
     "mu=0.08&law=pendulum&mus=0.01 0.04 0.08",
     "mu=0.1&law=pendulum&radii=0.4 0.9&mus=0.05 0.1&capacities=0.3 0.3&restitution=0.2",
+    "mu=0.06&law=kumar&period=3&pendulum=1",
+    "mu=0.08&law=kumar&static_pressure=3e7&contact_radius=0.1&temperature=-5&rate=50&diffusivity=5e-6&conductivity=20&vertical=1",
   ]) {
     await open(settings);
     await drop("three.csv");
@@ -161,6 +163,7 @@ test("the path in the plane: all laws that can, its command and its Python lines
     "mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1",
     "mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&stop_gap=0.2&restitution=0.3",
     "mu=0.1&law=stribeck&mu_static=0.12&stribeck_speed=0.1&exponent=2&scale=0.8",
+    "mu=0.06&law=kumar&period=3&pendulum=1",
   ]) {
     await open(settings);
     await drop("three.csv");
@@ -207,6 +210,13 @@ test("the slider moves by mouse and by keyboard", async () => {
   await page.keyboard.press("PageDown");
   await page.keyboard.press("ArrowRight");
   assert.match(await textOf("readout"), /^t = 0\.51 s: ground .* g, velocity .* cm\/s, displacement .* cm$/);
+  await page.focus("figure:has(#plot-hysteresis)");
+  await page.keyboard.press("ArrowRight");
+  assert.match(await textOf("read-hysteresis"), /^t = 0\.52 s: displacement .* cm, force per unit mass .* g$/);
+  await pathShown();
+  await page.focus("#figure-path");
+  await page.keyboard.press("ArrowRight");
+  assert.match(await textOf("read-path"), /^t = 0\.53 s: .* cm along, .* cm across, .* cm from the start$/);
   assert.deepEqual(complaints, []);
 });
 
@@ -353,6 +363,243 @@ test("an invalid setting is refused in the library's words, and the page goes on
   for (let i = 0; i < 40; ++i) await page.keyboard.press("ArrowRight");
   await settled();
   assert.equal(await textOf("trouble"), "");
+  assert.deepEqual(complaints, []);
+});
+
+/** Four digits, as the page shows them. @param {number} value  in SI units  @param {number} size  of the unit */
+const four = (value, size) => String(Number((value / size).toPrecision(4))).replace("-", "\u2212");
+
+test("all shown numbers change their units", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  await pathShown();
+  await page.click("#view-many");
+  await page.waitForFunction(() => document.querySelectorAll("#many-table tbody tr").length === 3);
+  await page.click("#view-one");
+  for (const [length, meters] of /** @type {[string, number][]} */ ([["in", 0.0254], ["cm", 0.01]]))
+    for (const [acceleration, size, name] of /** @type {[string, number, string][]} */ ([["si", 1, "m/s\u00b2"], ["g", 9.80665, "g"]])) {
+      await page.select("#unit-length", length);
+      await page.select("#unit-acceleration", acceleration);
+      await settled();
+      await pathShown();
+      const factor = new Map([["length", meters], ["velocity", meters], ["acceleration", size]]);
+      const units = new Map([["length", length], ["velocity", `${length}/s`], ["acceleration", name]]);
+      const quantity = new Map([["peak", "length"], ["residual", "length"], ["sliding distance", "length"], ["PGA", "acceleration"], ["PGV", "velocity"], ["Arias intensity", "velocity"]]);
+      for (const id of ["numbers", "path-numbers"]) {
+        const rows = await page.$$eval(`#${id} tr[data-name]`, (all) =>
+          all.map((one) => {
+            const { name = "", si = "" } = /** @type {HTMLElement} */ (one).dataset;
+            return { name, si, text: one.querySelector("td")?.textContent ?? "" };
+          }),
+        );
+        assert.ok(rows.length >= 8);
+        for (const { name, si, text } of rows) {
+          const of = quantity.get(name);
+          if (of) assert.equal(text, `${four(Number(si), factor.get(of) ?? 1)} ${units.get(of)}`, name);
+        }
+      }
+      const { peak = NaN, residual = NaN, PGA = NaN, "sliding distance": way = NaN } = await table();
+      const [long, pga] = [(/** @type {number} */ x) => `${four(x, meters)} ${length}`, `${four(PGA, size)} ${name}`];
+      assert.ok((await textOf("records")).includes(`(N00E) ${pga}`));
+      const report = await textOf("report");
+      for (const part of [`PGA ${pga}`, `slides ${long(way)}`, `reaches ${long(peak)}`, `displacement of ${long(residual)}`])
+        assert.ok(report.includes(part), `${part} in: ${report}`);
+      for (const [id, unit] of [
+        ["acceleration", name],
+        ["velocity", `${length}/s`],
+        ["displacement", length],
+        ["sliding", length],
+        ["response", name],
+        ["path", length],
+      ])
+        await page.waitForFunction((id, unit) => document.getElementById(id)?.textContent?.includes(unit), {}, `title-${id}`, `[${unit}]`);
+      assert.ok((await textOf("title-hysteresis")).includes(`[${name}] over displacement [${length}]`));
+      assert.match(await textOf("readout"), new RegExp(`ground .* ${name}, velocity .* ${length}/s, displacement .* ${length}$`));
+      assert.match(await textOf("read-hysteresis"), new RegExp(`displacement .* ${length}, force per unit mass .* ${name}$`));
+      assert.match(await textOf("read-path"), new RegExp(`${length} along, .* ${length} across, .* ${length} from the start$`));
+      for (const spectrum of ["sliding", "response"]) {
+        await page.focus(`figure[data-spectrum=${spectrum}]`);
+        await page.keyboard.press("ArrowRight");
+        assert.match(await textOf(`read-${spectrum}`), new RegExp(` ${spectrum === "sliding" ? length : name}$`));
+      }
+      assert.ok((await downloaded("#svg", ".svg")).includes(`Displacement relative to the ground [${length}], peak ${four(peak, meters)}`));
+      await page.click("#view-many");
+      await settled();
+      const many = await page.$$eval("#many-table tr", (all) => all.map((one) => [...one.children].map((cell) => cell.textContent ?? "")));
+      assert.equal(many[0]?.[2], `peak normal [${length}]`);
+      const row = many.find(([label]) => label?.includes("(N00E)"));
+      assert.deepEqual(row?.slice(1, 3), [pga, four(peak, meters)]);
+      await page.click("#view-one");
+    }
+  assert.deepEqual(complaints, []);
+});
+
+/** Where the object is in the scene, relative to the middle [pixels], and its largest possible place. */
+const objectAt = () =>
+  page.evaluate(() => {
+    const canvas = /** @type {HTMLCanvasElement} */ (document.querySelector("#scene"));
+    const [width, height] = [canvas.width, canvas.height];
+    const ctx = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true }));
+    ctx.drawImage(canvas, 0, 0);
+    const row = ctx.getImageData(0, height - 34 - 20, width, 1).data; // 20 pixels above the floor
+    let [sum, count] = [0, 0];
+    for (let i = 0; i < width; ++i)
+      if (row[4 * i] === 0xd5 && row[4 * i + 1] === 0x5e && row[4 * i + 2] === 0 && row[4 * i + 3] === 255) [sum, count] = [sum + i + 0.5, count + 1];
+    return { at: sum / count - width / 2, wide: count, most: width / 2 - Math.min(64, width / 5) - 8 };
+  });
+
+test("the object slides in real time and slower, and is where the response is", async () => {
+  await open("mu=0.1");
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
+  await drop("three.csv");
+  const { peak = NaN } = await table();
+  /** Moves the time, as by hand. @param {number} time */
+  const seek = (time) =>
+    page.$eval("#time", (one, time) => {
+      const slider = /** @type {HTMLInputElement} */ (one);
+      slider.value = String(time);
+      slider.dispatchEvent(new Event("input"));
+    }, time);
+  const displacement = async () => {
+    const [, value = "", unit] = /displacement (\S+) (\w+)$/.exec(await textOf("readout")) ?? [];
+    assert.equal(unit, "cm");
+    return Number(value.replace("\u2212", "-")) / 100;
+  };
+  let farthest = 0;
+  for (let time = 6; time < 16; time += 0.5) {
+    await seek(time);
+    const [{ at, wide, most }, x] = [await objectAt(), await displacement()];
+    assert.ok(wide > 50);
+    assert.ok(Math.abs(at - (x / peak) * most) < 1, `at ${at} pixels, ${x} m of ${peak} m`);
+    farthest = Math.max(farthest, Math.abs(at));
+  }
+  assert.ok(farthest > 30);
+
+  /** Seconds of the record in a second of the clock. @param {string} speed */
+  const pace = async (speed) => {
+    await seek(6);
+    await page.select("#speed", speed);
+    await page.click("#play");
+    assert.equal(await textOf("play"), "Pause");
+    const found = await page.evaluate(async () => {
+      const slider = /** @type {HTMLInputElement} */ (document.querySelector("#time"));
+      const frame = () => new Promise(requestAnimationFrame);
+      for (let i = 0; i < 3; ++i) await frame();
+      const [begin, from] = [await frame(), Number(slider.value)];
+      let now = begin;
+      while (now - begin < 1000) now = await frame();
+      return (1000 * (Number(slider.value) - from)) / (now - begin);
+    });
+    await page.click("#play");
+    const stopped = await textOf("readout");
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    assert.equal(await textOf("readout"), stopped);
+    return found;
+  };
+  // A frame may come before or after the page's own: one of 60 in a second, more on a busy machine.
+  for (const speed of [1, 0.5, 0.25]) {
+    const found = await pace(String(speed));
+    assert.ok(Math.abs(found / speed - 1) < 0.2, `${found} s in a second at speed ${speed}`);
+  }
+  const end = await page.$eval("#time", (one) => Number(/** @type {HTMLInputElement} */ (one).max));
+  await seek(end - 0.5);
+  await page.select("#speed", "4");
+  await page.click("#play");
+  await page.waitForFunction(() => document.querySelector("#play")?.textContent === "Play");
+  assert.ok((await textOf("readout")).startsWith(`t = ${end.toFixed(2)} s`));
+  assert.deepEqual(complaints, []);
+});
+
+/** Drops many files at once, and clicks a button as soon as a text is there. @param {number} count  @param {string} id  @param {string} text  @param {string} button */
+const dropManyAndClick = (count, id, text, button) =>
+  page.evaluate(
+    async (count, id, text, button, content) => {
+      const transfer = new DataTransfer();
+      for (let k = 0; k < count; ++k) transfer.items.add(new File([content], `${k}.csv`));
+      /** @type {string[]} */
+      const seen = [];
+      const status = /** @type {HTMLElement} */ (document.getElementById(id));
+      const done = new Promise((resolve) => {
+        const observer = new MutationObserver(() => {
+          seen.push(status.textContent ?? "");
+          if (!status.textContent?.startsWith(text)) return;
+          document.getElementById(button)?.click();
+          observer.disconnect();
+          resolve(undefined);
+        });
+        observer.observe(status, { childList: true, characterData: true, subtree: true });
+      });
+      document.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
+      await done;
+      return seen;
+    },
+    count,
+    id,
+    text,
+    button,
+    readFileSync(`${samples}three.csv`, "utf8"),
+  );
+
+test("many files show their progress and can be cancelled", async () => {
+  await open("mu=0.1");
+  const read = await dropManyAndClick(30, "progress", "Reading file 4 of 30", "reading-cancel");
+  assert.deepEqual(read.slice(0, 4), [1, 2, 3, 4].map((k) => `Reading file ${k} of 30`));
+  await page.waitForFunction(() => document.querySelector("#progress")?.textContent === "");
+  await settled();
+  // The generated motion, and two components of each file that was read.
+  const rows = await page.$$eval("#records li", (all) => all.length);
+  assert.ok(rows >= 1 + 2 * 3 && rows <= 1 + 2 * 6, `${rows} rows`);
+  compare(await table(), answers.components[0]);
+
+  await page.click("#view-many");
+  await page.waitForFunction((rows) => document.querySelectorAll("#many-table tbody tr").length === rows, {}, rows);
+  const slid = await dropManyAndClick(30, "many-progress", `Record 9 of ${rows + 60}`, "many-cancel");
+  assert.ok(slid.includes(`Record 8 of ${rows + 60}`));
+  await page.waitForFunction(() => document.querySelector("#many-progress")?.textContent?.startsWith("Cancelled"));
+  const [, count = "", of] = /^Cancelled after (\d+) of (\d+)$/.exec(await textOf("many-progress")) ?? [];
+  assert.equal(Number(of), rows + 60);
+  assert.ok(Number(count) >= 9 && Number(count) < 20);
+  assert.equal(await page.$$eval("#many-table tbody tr", (all) => all.length), Number(count));
+  // The page goes on: a change of friction slides them all.
+  await page.focus("#mu-slider");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((all) => document.querySelectorAll("#many-table tbody tr").length === all, { timeout: 60_000 }, rows + 60);
+  assert.deepEqual(complaints, []);
+});
+
+test("on paper it is light, without controls, and fits the sheet", async () => {
+  await open("mu=0.12&period=3&motion=kanai-tajimi");
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+  await drop("three.csv");
+  await pathShown();
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  const found = await page.evaluate(() => ({
+    wide: document.documentElement.scrollWidth,
+    ink: getComputedStyle(document.body).color,
+    controls: [...document.querySelectorAll("button, select, input, .choices, footer")].filter(
+      (one) => one.getClientRects().length > 0,
+    ).length,
+    pictures: [...document.querySelectorAll("canvas")].map((one) => one.getBoundingClientRect()).map(({ left, right, width }) => ({ left, right, width })),
+  }));
+  assert.equal(found.ink, "rgb(34, 34, 34)");
+  assert.equal(found.controls, 0);
+  assert.ok(found.pictures.length >= 8);
+  for (const { width } of found.pictures) assert.ok(width > 300 && width <= 680, `a picture is ${width} pixels wide`);
+  // The line of the ground acceleration in the light palette, although the page was dark.
+  const light = await page.$eval("#plot-acceleration canvas", (one) => {
+    const canvas = /** @type {HTMLCanvasElement} */ (one);
+    const { data } = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d")).getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) count += data[i] === 0x56 && data[i + 1] === 0x61 && data[i + 2] === 0x6c ? 1 : 0;
+    return count;
+  });
+  assert.ok(light > 100, `${light} pixels`);
+  await page.screenshot({ path: `${screenshots}print.png`, fullPage: true });
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.evaluate(() => getComputedStyle(document.body).color), "rgb(230, 230, 230)");
+  const file = `${screenshots}print.pdf`;
+  await page.pdf({ path: file, format: "A4" });
+  assert.ok(statSync(file).size > 20_000);
   assert.deepEqual(complaints, []);
 });
 

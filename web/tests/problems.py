@@ -12,8 +12,17 @@ from typing import Any
 import numpy as np
 import stickslip as ss
 
-LAWS = ("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum")
-PLANAR = ("coulomb", "speed", "degrading", "stribeck")
+LAWS = ("coulomb", "caster", "one-way", "speed", "degrading", "stribeck", "pendulum", "kumar")
+PLANAR = ("coulomb", "speed", "degrading", "stribeck", "kumar")
+KUMAR = (
+    "static_pressure",
+    "reference_pressure",
+    "contact_radius",
+    "temperature",
+    "rate",
+    "diffusivity",
+    "conductivity",
+)
 PENDULUMS = {2: ss.DoublePendulum, 3: ss.TriplePendulum, 5: ss.QuintuplePendulum}
 
 
@@ -42,6 +51,17 @@ def settings(rng: np.random.Generator) -> dict[str, Any]:
             "mu_static": mu * float(rng.uniform(1, 2)),
             "stribeck_speed": float(rng.uniform(0.01, 0.2)),
             "exponent": float(rng.integers(1, 4)),
+        }
+    if LAWS[law] == "kumar":
+        given.pop("mu_static", None)
+        given |= {
+            "static_pressure": float(rng.uniform(5e6, 60e6)),
+            "reference_pressure": 50e6,
+            "contact_radius": float(rng.uniform(0.02, 0.3)),
+            "temperature": float(rng.uniform(-20, 60)),
+            "rate": float(rng.uniform(5, 100)),
+            "diffusivity": 4.44e-6,
+            "conductivity": float(rng.uniform(10, 40)),
         }
     if LAWS[law] == "pendulum":
         given.pop("mu_static", None)
@@ -90,6 +110,8 @@ def slider(given: dict[str, Any]) -> ss.Slider:
             velocity=given["stribeck_speed"],
             exponent=given["exponent"],
         )
+    elif law == "kumar":
+        friction = ss.KumarFriction(mu_ref=mu, **{name: given[name] for name in KUMAR})
     elif law == "pendulum":
         friction = PENDULUMS[len(given["radii"])](
             given["radii"],
