@@ -11,6 +11,8 @@
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 #include "stickslip/units.hpp"
+#include "structure/modal_interface.hpp"
+#include "structure/stuck_motion.hpp"
 
 namespace stickslip {
 namespace {
@@ -35,6 +37,21 @@ SlidingStructure on_surface(const FlexibleSlope& slope, const SlopeProperties& p
   const Slider<Coulomb> slider(Coulomb(level, std::numeric_limits<double>::infinity()));
   if (slope.method == SlopeMethod::coupled) return IsolatedStructure(slider, column(slope, properties));
   return DecoupledStructure(slider, column(slope, properties));
+}
+
+// The largest displacement of the top of a column that does not slide, over all time [m].
+double largest_top_of(const FlexibleSlope& slope, const SlopeProperties& properties, const GroundMotion& motion) {
+  const Structure structure = column(slope, properties);
+  const Modes& modes = structure.modes();
+  detail::ModalInterface of;
+  of.stiffness = modes.frequencies.cwiseAbs2();
+  of.damping = structure.modal_damping();
+  of.load = modes.participation;
+  of.demand = of.reaction = of.jump = VectorXd::Zero(slope.modes);
+  of.shapes = modes.shapes;
+  if (const auto largest = detail::largest_top(of, motion)) return *largest;
+  const double never_reached = 1e100;
+  return integrate(on_surface(slope, properties, never_reached), motion).floors.peak_drift[0];
 }
 
 }  // namespace
@@ -99,10 +116,7 @@ SlopeProperties properties(const FlexibleSlope& slope, const GroundMotion& motio
   SlopeProperties now{slope.shear_velocity, slope.soil->damping_ratio(0) + radiates};
   constexpr int most = 200;
   for (int i = 1; i <= most; ++i) {
-    // A level that it never reaches.
-    const SlidingStructure stuck = on_surface(slope, now, 1e100);
-    const StructureResponse response = integrate(stuck, motion);
-    const double strain = 0.65 * pi / 2 * response.floors.peak_drift[0] / slope.height;
+    const double strain = 0.65 * pi / 2 * largest_top_of(slope, now, motion) / slope.height;
     const SlopeProperties next{slope.shear_velocity * std::sqrt(slope.soil->modulus_ratio(strain)),
                                slope.soil->damping_ratio(strain) + radiates, strain, i};
     const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };

@@ -11,7 +11,7 @@
 #include "stickslip/error.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "structure/modal_interface.hpp"
-#include "structure/motion.hpp"
+#include "structure/move.hpp"
 #include "structure/recorder.hpp"
 
 namespace stickslip {
@@ -25,67 +25,6 @@ struct SlidingStructure::Data {
 };
 
 namespace {
-
-// Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their memory.
-template <class Law>
-constexpr bool covered =
-    !HeatedLaw<Law> && form_of<Law> != Form::numeric && !requires(const Law& law, const State& state) {
-  law.elastic(state);
-};
-
-// Calls `use(law)` with the law of the interface.
-template <class Use>
-void with_law(const AnySlider& slider, Use&& use) {
-  std::visit(
-      [&](const auto& one) {
-        if constexpr (covered<std::remove_cvref_t<decltype(one.law())>>)
-          use(one.law());
-        else
-          throw std::invalid_argument(
-              "a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
-              "temperature, and pendulums with several surfaces are not covered");
-      },
-      slider);
-}
-
-// The parts of a segment between which the normal force changes its sign.
-template <class Move>
-void by_weight(const LoadSegment& segment, Move&& move) {
-  const double g = standard_gravity, first = segment.normal_start, last = segment.normal_end;
-  const detail::GroundLoad whole{segment.duration, -segment.load_start, -segment.load_end, std::max(first, 0.0) / g,
-                                 std::max(last, 0.0) / g};
-  if (!(segment.duration > 0)) return;
-  if ((first >= 0 && last >= 0) || (first <= 0 && last <= 0)) return move(whole, 0.0);
-  const double part = first / (first - last), time = part * segment.duration;
-  const double between = whole.start + part * (whole.end - whole.start);
-  move(detail::GroundLoad{time, whole.start, between, whole.weight_start, 0}, 0.0);
-  move(detail::GroundLoad{segment.duration - time, between, whole.end, 0, whole.weight_end}, time);
-}
-
-// Passes events with times from the start of the whole segment.
-template <class Observer>
-struct WithinStructureSegment {
-  Observer& observer;
-  double begin;  // of the part [s]
-
-  void event(EventKind kind, double time, const detail::InterfacePlace& place) {
-    observer.event(kind, begin + time, place);
-  }
-  void follow(const detail::Expansion& motion, Mode mode) { observer.follow(motion, mode); }
-  void lose(double energy) { observer.lose(energy); }
-  void decide(double difference) { observer.decide(difference); }
-};
-
-template <FrictionLaw Law, class Observer>
-void move(const detail::ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
-          detail::Expansion& expansion, Observer& observer) {
-  by_weight(segment, [&](const detail::GroundLoad& load, double begin) {
-    if (!(load.duration > 0)) return;
-    WithinStructureSegment<Observer> within{observer, begin};
-    detail::StructureMotion<Law, decltype(within)> motion(of, law, load, state, expansion, within);
-    detail::advance(motion, within);
-  });
-}
 
 void check_start(const SlidingStructure& system, const StructureState& state, const char* function) {
   const Mounting& on = mounting_of(system.slider());
@@ -109,11 +48,6 @@ std::pair<double, double> energy_of(const detail::ModalInterface& of, const Stru
     elastic += of.modal_mass * of.stiffness.dot(state.modal_displacement.cwiseAbs2()) / 2;
   }
   return {kinetic, elastic};
-}
-
-bool finite(const StructureState& state) {
-  return std::isfinite(state.displacement) && std::isfinite(state.velocity) && state.modal_displacement.allFinite() &&
-         state.modal_velocity.allFinite();
 }
 
 // Keeps the motion at the samples.
@@ -219,41 +153,28 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
       pieces, motion.segments(), detail::StructureRecorder::work_per_report,
       [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
         recorder.begin_segment(begin, end);
-        move(of, law, segment, state, expansion, recorder);
+        detail::move_structure(of, law, segment, state, expansion, recorder);
         keep(i + 1, segment.load_end, segment.normal_end);
       },
       [&] { recorder.report_progress(); });
   double end = motion.time(motion.segments());
 
   if (options.settle) {
-    constexpr std::size_t most_steps = 1'000'000;
     const detail::StuckBound bound(of);
     const auto settled = [&] {
-      if (state.mode != Mode::stuck) return false;
-      const State at{.displacement = state.displacement, .sliding_distance = state.sliding_distance};
-      const double x = state.displacement, gap = 0x1p-40;
-      const detail::Bounds bounds(of.stops, of.one_way);
-      const auto holds = [&](Direction direction) {
-        return bounds.bound(direction, x, hold(law_at(law, at), x, direction));
-      };
-      return bound(x, state.modal_displacement, state.modal_velocity) * (1 + gap) <=
-             std::min(holds(Direction::forward), holds(Direction::backward));
+      return state.mode == Mode::stuck &&
+             detail::holds_forever(bound(state.displacement, state.modal_displacement, state.modal_velocity),
+                                   detail::stuck_levels(of, law, state));
     };
     const double step = motion.last_step();
     const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
     std::size_t i = motion.segments();
     for (std::size_t steps = 0; !settled(); ++steps, ++i) {
-      if (steps == most_steps)
-        throw ConvergenceError(
-            "integrate: without ground motion the interface does not come to rest within " +
-            std::to_string(most_steps) + " steps of " + detail::shortest(step) +
-            " s; at x = " + detail::shortest(state.displacement) + " m it moves at " +
-            detail::shortest(state.velocity) + " m/s, and the structure can still load it with " +
-            detail::shortest(bound(state.displacement, state.modal_displacement, state.modal_velocity)) +
-            " m/s^2; use settle = false");
+      if (steps == detail::most_calm_steps)
+        detail::refuse_restless(step, state, bound(state.displacement, state.modal_displacement, state.modal_velocity));
       const double begin = std::exchange(end, motion.time(i + 1));
       recorder.begin_segment(begin, end);
-      move(of, law, calm, state, expansion, recorder);
+      detail::move_structure(of, law, calm, state, expansion, recorder);
       if (i + 1 < 10 * motion.samples())
         keep(i + 1, 0, standard_gravity);
       else
@@ -273,17 +194,38 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
                     .velocity = state.velocity,
                     .mode = state.mode,
                     .sliding_distance = state.sliding_distance};
-  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak) || !finite(state))
-    throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
-                              detail::shortest(response.peak) + " m), velocity or energy");
+  if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak) || !detail::finite(state))
+    detail::refuse_overflow(response.peak);
   response.final_state = std::move(state);
   return response;
 }
 
 }  // namespace
 
+namespace detail {
+
+bool finite(const StructureState& state) {
+  return std::isfinite(state.displacement) && std::isfinite(state.velocity) && state.modal_displacement.allFinite() &&
+         state.modal_velocity.allFinite();
+}
+
+void refuse_overflow(double peak) {
+  throw std::overflow_error("integrate: the motion leaves the range of doubles, in displacement (peak " +
+                            shortest(peak) + " m), velocity or energy");
+}
+
+void refuse_restless(double step, const StructureState& state, double demand) {
+  throw ConvergenceError("integrate: without ground motion the interface does not come to rest within " +
+                         std::to_string(most_calm_steps) + " steps of " + shortest(step) +
+                         " s; at x = " + shortest(state.displacement) + " m it moves at " + shortest(state.velocity) +
+                         " m/s, and the structure can still load it with " + shortest(demand) +
+                         " m/s^2; use settle = false");
+}
+
+}  // namespace detail
+
 SlidingStructure::SlidingStructure(AnySlider slider, Structure structure, detail::ModalInterface modal) {
-  with_law(slider, [](const auto&) {});
+  detail::with_law(slider, [](const auto&) {});
   const Mounting& on = mounting_of(slider);
   if (on.slope_degrees > 0)
     throw std::invalid_argument("a structure slides on level ground, got a slider on a slope of " +
@@ -322,7 +264,7 @@ StructureResponse integrate(const SlidingStructure& system, const GroundMotion& 
   require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
           "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
   StructureResponse response;
-  with_law(system.slider(), [&](const auto& law) { response = integrate_with(system, law, motion, options); });
+  detail::with_law(system.slider(), [&](const auto& law) { response = integrate_with(system, law, motion, options); });
   return response;
 }
 
@@ -335,13 +277,15 @@ void advance(const SlidingStructure& system, const LoadSegment& segment, Structu
   for (const double value : {segment.duration, segment.load_start, segment.load_end, segment.normal_start,
                              segment.normal_end, state.displacement, state.velocity})
     detail::require(std::isfinite(value), "advance: segment and state must be finite", value);
-  if (!finite(state)) throw std::invalid_argument("advance: the modes of the state must be finite");
+  if (!detail::finite(state)) throw std::invalid_argument("advance: the modes of the state must be finite");
   check_start(system, state, "advance");
   StructureState moved = state;
   detail::NoStructureObserver none;
   detail::Expansion expansion(system.modal());
-  with_law(system.slider(), [&](const auto& law) { move(system.modal(), law, segment, moved, expansion, none); });
-  if (!finite(moved)) throw std::overflow_error("advance: the motion leaves the range of doubles");
+  detail::with_law(system.slider(), [&](const auto& law) {
+    detail::move_structure(system.modal(), law, segment, moved, expansion, none);
+  });
+  if (!detail::finite(moved)) throw std::overflow_error("advance: the motion leaves the range of doubles");
   state = std::move(moved);
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/threads.hpp"
 #include "lanes/level_lanes.hpp"
+#include "sweep/sweep_groups.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -31,9 +32,16 @@ struct Lane {
   auto kind() const { return std::tuple(block.slope_degrees, has_static(), reversed); }
 };
 
+/// Sliders of a group that make one task.
+struct GroupPart {
+  const SweepGroup& group;
+  std::size_t begin, end;
+};
+
 class Sweep {
  public:
-  Sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions, const SweepOptions& options)
+  Sweep(std::span<const SweepSlider> sliders, std::span<const SweepGroup> groups,
+        std::span<const GroundMotion* const> motions, const SweepOptions& options)
       : sliders_(sliders), motions_(motions), options_(options) {
     table_.sliders = sliders.size();
     table_.records = motions.size();
@@ -49,8 +57,15 @@ class Sweep {
     for (std::size_t s = 0; s < sliders.size(); ++s)
       if (const auto& block = sliders[s].block; block && has_level_lanes(block->law))
         add_lanes(s, *block);
-      else
+      else if (sliders[s].integrate)
         singles_.push_back(s);
+    // With few records, threads share a group, and each of them does its common work.
+    const std::size_t most = motions.size() < 8 ? 64 : std::numeric_limits<std::size_t>::max();
+    for (const SweepGroup& group : groups)
+      for (std::size_t begin = 0; begin < group.sliders.size();) {
+        const std::size_t end = begin + std::min(most, group.sliders.size() - begin);
+        parts_.push_back({group, std::exchange(begin, end), end});
+      }
     // Neighbors in this order behave almost alike.
     std::ranges::stable_sort(lanes_, {}, [](const Lane& lane) {
       const double forward = lane.block.law.static_forward(), backward = lane.block.law.static_backward();
@@ -60,19 +75,20 @@ class Sweep {
 
   SweepTable run() {
     // Long tasks first would be fairer, but these are short: a record's lanes, or one slider under one record.
-    const std::size_t tasks_a_record = (lanes_.empty() ? 0 : 1) + singles_.size();
+    const std::size_t grouped = singles_.size() + parts_.size();
+    const std::size_t tasks_a_record = (lanes_.empty() ? 0 : 1) + grouped;
     const std::size_t tasks = tasks_a_record * motions_.size();
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
       Response storage;
       for (std::size_t task; !stopped_ && (task = next++) < tasks;) {
         const std::size_t record = task / tasks_a_record, part = task % tasks_a_record;
-        if (part == singles_.size())
+        if (part == grouped)
           run_lanes(record);
+        else if (part >= singles_.size())
+          run_group(parts_[part - singles_.size()], record);
         else
-          for (const bool reversed : {false, true})
-            if (options_.polarity != (reversed ? Polarity::recorded : Polarity::reversed))
-              run_single(singles_[part], record, reversed, storage);
+          for_each_polarity([&](bool reversed) { run_single(singles_[part], record, reversed, storage); });
       }
     };
     run_on_threads(options_.threads, tasks, stopped_, work, [this] {
@@ -91,6 +107,12 @@ class Sweep {
     const bool both = options_.polarity == Polarity::both;
     if (options_.polarity != Polarity::reversed) lanes_.push_back({slider, block, false, both && alike});
     if (options_.polarity == Polarity::reversed || (both && !alike)) lanes_.push_back({slider, block, true, false});
+  }
+
+  template <class Use>
+  void for_each_polarity(Use&& use) const {
+    for (const bool reversed : {false, true})
+      if (options_.polarity != (reversed ? Polarity::recorded : Polarity::reversed)) use(reversed);
   }
 
   std::size_t place(std::size_t slider, std::size_t record, bool reversed) const {
@@ -153,29 +175,66 @@ class Sweep {
     }
   }
 
-  void run_single(std::size_t slider, std::size_t record, bool reversed, Response& storage) {
-    const auto check_stopped = [this] {
-      if (stopped_) throw Stopped{};
-    };
-    const IntegrateOptions how{
-        .settle = options_.settle, .contact = options_.contact, .progress = check_stopped, .may_end_in_flight = true};
+  void check_stopped() const {
+    if (stopped_) throw Stopped{};
+  }
+
+  /// Does `work`; calls `failed` with the message if a combination fails.
+  template <class Work, class Failed>
+  static void attempt(Work&& work, Failed&& failed) {
     try {
-      const GroundMotion& motion = *motions_[record];
-      storage =
-          sliders_[slider].integrate(reversed ? motion.scaled(-1) : motion, how, std::exchange(storage, Response{}));
-      write(slider, record, reversed, storage.peak, storage.residual, storage.sliding_distance,
-            storage.events.size() - 1);
-      const std::size_t i = place(slider, record, reversed);
-      table_.airborne[i] = storage.state.in_flight ? 1 : 0;
-      if (!table_.impacts.empty()) table_.impacts[i] = impacts(storage.events);
+      work();
     } catch (const ConvergenceError& error) {
-      fail(slider, record, reversed, error.what());
+      failed(error.what());
     } catch (const std::overflow_error& error) {
-      fail(slider, record, reversed, error.what());
+      failed(error.what());
     } catch (const std::invalid_argument& error) {
-      fail(slider, record, reversed, error.what());
+      failed(error.what());
     }
+  }
+
+  void run_single(std::size_t slider, std::size_t record, bool reversed, Response& storage) {
+    const IntegrateOptions how{.settle = options_.settle,
+                               .contact = options_.contact,
+                               .progress = [this] { check_stopped(); },
+                               .may_end_in_flight = true};
+    attempt(
+        [&] {
+          const GroundMotion& motion = *motions_[record];
+          storage = sliders_[slider].integrate(reversed ? motion.scaled(-1) : motion, how,
+                                               std::exchange(storage, Response{}));
+          write(slider, record, reversed, storage.peak, storage.residual, storage.sliding_distance,
+                storage.events.size() - 1);
+          const std::size_t i = place(slider, record, reversed);
+          table_.airborne[i] = storage.state.in_flight ? 1 : 0;
+          if (!table_.impacts.empty()) table_.impacts[i] = impacts(storage.events);
+        },
+        [&](const char* message) { fail(slider, record, reversed, message); });
     ++done_;
+  }
+
+  void run_group(const GroupPart& part, std::size_t record) {
+    SweepGroup::Each integrate;
+    std::string failure;
+    attempt([&] { integrate = part.group.start(*motions_[record], options_.settle, [this] { check_stopped(); }); },
+            [&](const char* message) { failure = message; });
+    for (std::size_t k = part.begin; k < part.end; ++k)
+      for_each_polarity([&](bool reversed) {
+        check_stopped();
+        const std::size_t slider = part.group.sliders[k];
+        if (!integrate)
+          fail(slider, record, reversed, failure);
+        else
+          attempt(
+              [&] {
+                const SweepOutcome outcome = integrate(k, reversed);
+                write(slider, record, reversed, outcome.peak, outcome.residual, outcome.sliding_distance,
+                      outcome.events);
+                if (!table_.impacts.empty()) table_.impacts[place(slider, record, reversed)] = outcome.impacts;
+              },
+              [&](const char* message) { fail(slider, record, reversed, message); });
+        ++done_;
+      });
   }
 
   std::span<const SweepSlider> sliders_;
@@ -183,6 +242,7 @@ class Sweep {
   const SweepOptions& options_;
   std::vector<Lane> lanes_;
   std::vector<std::size_t> singles_;  // sliders integrated one at a time
+  std::vector<GroupPart> parts_;
   SweepTable table_;
   std::mutex mutex_;  // guards the failures
   std::atomic<bool> stopped_ = false;
@@ -191,11 +251,16 @@ class Sweep {
 
 }  // namespace
 
-SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions,
-                 const SweepOptions& options) {
+SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const SweepGroup> groups,
+                 std::span<const GroundMotion* const> motions, const SweepOptions& options) {
   if (sliders.empty()) throw std::invalid_argument("sweep: needs at least one slider, got an empty list");
   if (motions.empty()) throw std::invalid_argument("sweep: needs at least one ground motion, got an empty list");
-  return Sweep(sliders, motions, options).run();
+  return Sweep(sliders, groups, motions, options).run();
+}
+
+SweepTable sweep(std::span<const SweepSlider> sliders, std::span<const GroundMotion* const> motions,
+                 const SweepOptions& options) {
+  return sweep(sliders, {}, motions, options);
 }
 
 }  // namespace stickslip::detail

@@ -19,6 +19,7 @@
 #include "sliding/response.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
+#include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 
 namespace stickslip::python {
@@ -374,6 +375,52 @@ Returns
 Modes
     With frequencies, periods, damping ratios, participation factors, effective masses and shapes; a table by
     `to_dataframe` and a figure by `plot`.)")
+      .def(
+          "floor_motions",
+          [](const Structure& s, const GroundMotion& motion, int parts) {
+            const std::vector<GroundMotion> motions = [&] {
+              const py::gil_scoped_release released;
+              return floor_motions(s, motion, parts);
+            }();
+            py::list each, floors;
+            for (const GroundMotion& one : motions) {
+              each.append(one);
+              floors.append(py::len(floors) + 1);
+            }
+            return py::module_::import("stickslip.motions.suite")
+                .attr("Suite")(each, py::dict(py::arg("floor") = floors));
+          },
+          py::arg("motion"), py::kw_only(), py::arg("parts") = 1,
+          R"(The absolute accelerations of the floors, as ground motions for light sliders on them.
+
+One response of the structure, on the ground and without what stands on it, serves all sliders: `sweep` integrates many of
+them on every floor. It starts from rest and ends with the ground motion.
+
+Parameters
+----------
+motion : GroundMotion
+    Along the direction of the structure. A vertical component acts on the floors as on the ground.
+parts : int, optional
+    Equal parts of each segment, at least 1: the floor motions have that many times more samples.
+
+Returns
+-------
+Suite
+    One motion per floor, the lowest first, named after the motion and the floor; `suite.floor` has their numbers.
+
+Raises
+------
+ValueError
+    A structure made by `from_modes` without shapes; parts below 1.
+OverflowError
+    Accelerations above 1e100 m/s^2.
+
+Notes
+-----
+The motions are exact at their samples, to round-off. Between samples sliders see straight lines, where an
+`EquipmentOnFloor` with mass=0 sees the exact motion. FLOOR_ERRORS
+
+Cost: SECONDS)")
       .def("__repr__", &description);
 
   const auto inputs_of_isolated = [](const IsolatedStructure& s) {

@@ -4,6 +4,9 @@
 
 #include "ensemble/sources.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
+#include "stickslip/structure/equipment_on_floor.hpp"
+#include "stickslip/structure/isolated_structure.hpp"
+#include "stickslip/structure/sweep.hpp"
 #include "stickslip/sweep/planar_sweep.hpp"
 
 namespace stickslip::python {
@@ -90,6 +93,13 @@ std::optional<AnyPlanarSlider> planar_slider_of(const py::handle& object) {
   return std::nullopt;
 }
 
+std::optional<AnySlidingStructure> structure_of(const py::handle& object) {
+  if (py::isinstance<FlexibleSlope>(object)) return object.cast<const FlexibleSlope&>();
+  if (py::isinstance<IsolatedStructure>(object)) return object.cast<const IsolatedStructure&>();
+  if (py::isinstance<EquipmentOnFloor>(object)) return object.cast<const EquipmentOnFloor&>();
+  return std::nullopt;
+}
+
 py::dict run_any(const py::sequence& sliders, const py::sequence& motions, const std::string& polarity, bool settle,
                  const std::string& contact, unsigned threads, const py::object& progress) {
   SweepOptions options{polarity_of(polarity), settle, contact_of(contact, "sweep"), threads};
@@ -109,6 +119,8 @@ py::dict run_any(const py::sequence& sliders, const py::sequence& motions, const
   }
   if (py::len(sliders) > 0 && py::isinstance<AnyPlanarSlider>(sliders[0]))
     return run(items_of<AnyPlanarSlider>(sliders, "PlanarSlider, as sliders[0] is", planar_slider_of), those, options);
+  if (py::len(sliders) > 0 && structure_of(sliders[0]))
+    return run(items_of<AnySlidingStructure>(sliders, "structure, as sliders[0] is", structure_of), those, options);
   return run(items_of<AnySlider>(sliders, "Slider or friction law", slider_of), those, options);
 }
 
@@ -120,7 +132,7 @@ void bind_sweep(py::module_& m) {
         R"(Implementation of `stickslip.sweep` (see there).
 
 Calls `progress(done, combinations)` ten times a second with the interpreter lock held. Returns the arrays of the table
-by name, and its failures; impacts only if a slider has stops. The sliders are on one axis or all in the plane.)");
+by name, and its failures; impacts only if a slider has stops. The sliders are all on one axis, all in the plane or all structures.)");
 }
 
 }  // namespace stickslip::python

@@ -16,7 +16,10 @@ from .._core import (
     Caster,
     Coulomb,
     Degrading,
+    EquipmentOnFloor,
+    FlexibleSlope,
     GroundMotion,
+    IsolatedStructure,
     KumarFriction,
     Law,
     MultiPendulum,
@@ -38,7 +41,9 @@ from .table import POLARITIES, SweepTable, parameters_of
 
 Polarity = Literal["both", "recorded", "reversed"]
 
+_STRUCTURES = (IsolatedStructure, EquipmentOnFloor, FlexibleSlope)
 _SLIDERS = (
+    *_STRUCTURES,
     PlanarSlider,
     Slider,
     Coulomb,
@@ -74,11 +79,13 @@ def sweep(
 
     x'' + resist sgn(x') + c x' + wn^2 x = -n(t), thesis (4.51) to (4.53), (2.44), (2.50), (4.2);
     each combination is solved as by `integrate`. Sliders in the plane start from rest at r = 0.
+    Structures move, too: x is that of their interface.
 
     Parameters
     ----------
-    sliders : Slider, friction law, PlanarSlider, list of these, or Random
-        Sliders with any laws, all on one axis or all in the plane; `grid` makes lists. Of a
+    sliders : Slider, friction law, PlanarSlider, structure, list of these, or Random
+        Sliders with any laws, all on one axis, all in the plane, or all structures
+        (`IsolatedStructure`, `EquipmentOnFloor`, `FlexibleSlope`); `grid` makes lists. Of a
         `Random`, `members` sliders are drawn, the same for every record.
     motions : GroundMotion, Suite or list of GroundMotion
         Records, which may differ in length and time step. In the plane they need a transverse
@@ -95,7 +102,8 @@ def sweep(
         Continue under zero ground acceleration after each record until the slider rests, so that
         residuals are final.
     contact : {'flight', 'clipped'}, optional
-        What a slider does when it loses contact with the ground; see `integrate`.
+        What a slider does when it loses contact with the ground; see `integrate`. Structures are
+        always clipped.
     threads : int, optional
         Maximum number of threads, at least 1; default: all cores.
     progress : bool or callable, optional
@@ -122,7 +130,8 @@ def sweep(
         An empty list; ground motions of which some, but not all, are known to point up or down; a
         value out of range; a checkpoint that is damaged or of another sweep.
     TypeError
-        An argument of the wrong type; sliders on one axis together with sliders in the plane.
+        An argument of the wrong type; sliders on one axis, sliders in the plane and structures
+        together.
     SweepError
         A part failed in the executor; or the checkpoint could not be written at the end. `partial`
         has the results so far.
@@ -148,6 +157,12 @@ def sweep(
     `integrate` takes 12 to 40. Slopes and vertical motion take half as long again. All other
     combinations use `integrate`, one by one on all threads, as do those in which the normal force
     reaches zero, and sliders in the plane. Releases the interpreter lock.
+
+    A structure whose interface is stuck moves as if it could not slide, but for the decay of what
+    its slips have left. Structures that differ in their slider alone, and slopes that differ in
+    `ky_g` alone, share that motion, with bounds of its demand: only slips are integrated one by
+    one, and results equal those of `integrate` to 1e-12 of the largest displacement. This needs
+    even steps, classical damping and equipment without mass.
     """
     sliders = _drawn(sliders, members, seed, stratified)
     these = _sliders(sliders)
@@ -169,6 +184,8 @@ def sweep(
                 f"sweep: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
             )
     check_directions(those, "sweep")
+    if isinstance(these[0], _STRUCTURES):
+        contact = "clipped"
     table = SweepTable.empty(
         sliders=[repr(s) for s in these],
         parameters=parameters_of(these, getattr(sliders, "parameters", {})),
@@ -177,7 +194,7 @@ def sweep(
         polarity=POLARITIES if polarity == "both" else (polarity,),
         settle=settle,
         contact=contact,
-        has_stops=any(getattr(s, "stops", None) is not None for s in these),
+        has_stops=any(getattr(_interface(s), "stops", None) is not None for s in these),
         planar=isinstance(these[0], PlanarSlider),
     )
     how = {"polarity": polarity, "settle": settle, "contact": contact}
@@ -203,9 +220,20 @@ def sweep(
             RuntimeWarning,
             stacklevel=2,
         )
-    elif not table.peak.any():
+    elif not table.peak.any() and not isinstance(these[0], _STRUCTURES):
         warn_of_units("sweep", these, those)
     return table
+
+
+def _interface(swept: AnySwept) -> Any:
+    """What slides: the slider of a structure."""
+    return getattr(swept, "slider", swept)
+
+
+def _kind(swept: AnySwept) -> str:
+    if isinstance(swept, _STRUCTURES):
+        return "structures"
+    return "in the plane" if isinstance(swept, PlanarSlider) else "on one axis"
 
 
 def _metadata(motions: Any) -> dict[str, Any]:
@@ -236,24 +264,23 @@ def _sliders(given: Any) -> list[AnySwept]:
         return [given]
     if not isinstance(given, Iterable):
         raise TypeError(
-            "sweep: sliders must be a Slider, a friction law, a PlanarSlider, a list or a Random,"
-            " got"
-            f" {type(given).__name__}"
+            "sweep: sliders must be a Slider, a friction law, a PlanarSlider, a structure, a list"
+            f" or a Random, got {type(given).__name__}"
         )
     these = list(given)
     for i, one in enumerate(these):
         if not isinstance(one, _SLIDERS):
             raise TypeError(
-                f"sweep: sliders[{i}] must be a Slider, friction law or PlanarSlider, got"
-                f" {type(one).__name__}"
+                f"sweep: sliders[{i}] must be a Slider, friction law, PlanarSlider or structure,"
+                f" got {type(one).__name__}"
             )
-    planar = [isinstance(one, PlanarSlider) for one in these]
-    if any(planar) and not all(planar):
-        odd = planar.index(not planar[0])
+    kinds = [_kind(one) for one in these]
+    if len(set(kinds)) > 1:
+        odd = next(i for i, kind in enumerate(kinds) if kind != kinds[0])
         raise TypeError(
-            "sweep: sliders must all move on one axis or all in the plane; sliders[0] is a"
-            f" {type(these[0]).__name__}, sliders[{odd}] a {type(these[odd]).__name__}; run two"
-            " sweeps"
+            "sweep: sliders must all move on one axis, all in the plane, or all be structures;"
+            f" sliders[0] is a {type(these[0]).__name__}, sliders[{odd}] a"
+            f" {type(these[odd]).__name__}; run two sweeps"
         )
     return Grid(these) if isinstance(given, Grid) else these
 

@@ -1,0 +1,111 @@
+// Moves a structure with one sliding interface through segments of ground motion.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <type_traits>
+#include <variant>
+
+#include "stickslip/friction/law.hpp"
+#include "stickslip/ground/segment.hpp"
+#include "stickslip/sliding/any_slider.hpp"
+#include "stickslip/sliding/detail/bounds.hpp"
+#include "stickslip/sliding/detail/loop.hpp"
+#include "stickslip/structure/response.hpp"
+#include "stickslip/units.hpp"
+#include "structure/motion.hpp"
+
+namespace stickslip::detail {
+
+/// Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their
+/// memory.
+template <class Law>
+constexpr bool covered_by_structures =
+    !HeatedLaw<Law> && form_of<Law> != Form::numeric && !requires(const Law& law, const State& state) {
+  law.elastic(state);
+};
+
+/// Calls `use(law)` with the law of the interface.
+template <class Use>
+void with_law(const AnySlider& slider, Use&& use) {
+  std::visit(
+      [&](const auto& one) {
+        if constexpr (covered_by_structures<std::remove_cvref_t<decltype(one.law())>>)
+          use(one.law());
+        else
+          throw std::invalid_argument(
+              "a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
+              "temperature, and pendulums with several surfaces are not covered");
+      },
+      slider);
+}
+
+/// The parts of a segment between which the normal force changes its sign.
+template <class Move>
+void by_weight(const LoadSegment& segment, Move&& move) {
+  const double g = standard_gravity, first = segment.normal_start, last = segment.normal_end;
+  const GroundLoad whole{segment.duration, -segment.load_start, -segment.load_end, std::max(first, 0.0) / g,
+                         std::max(last, 0.0) / g};
+  if (!(segment.duration > 0)) return;
+  if ((first >= 0 && last >= 0) || (first <= 0 && last <= 0)) return move(whole, 0.0);
+  const double part = first / (first - last), time = part * segment.duration;
+  const double between = whole.start + part * (whole.end - whole.start);
+  move(GroundLoad{time, whole.start, between, whole.weight_start, 0}, 0.0);
+  move(GroundLoad{segment.duration - time, between, whole.end, 0, whole.weight_end}, time);
+}
+
+/// Passes events with times from the start of the whole segment.
+template <class Observer>
+struct WithinStructureSegment {
+  Observer& observer;
+  double begin;  // of the part [s]
+
+  void event(EventKind kind, double time, const InterfacePlace& place) { observer.event(kind, begin + time, place); }
+  void follow(const Expansion& motion, Mode mode) { observer.follow(motion, mode); }
+  void lose(double energy) { observer.lose(energy); }
+  void decide(double difference) { observer.decide(difference); }
+};
+
+template <FrictionLaw Law, class Observer>
+void move_structure(const ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
+                    Expansion& expansion, Observer& observer) {
+  by_weight(segment, [&](const GroundLoad& load, double begin) {
+    if (!(load.duration > 0)) return;
+    WithinStructureSegment<Observer> within{observer, begin};
+    StructureMotion<Law, decltype(within)> motion(of, law, load, state, expansion, within);
+    advance(motion, within);
+  });
+}
+
+/// What the interface can hold in both directions while it is stuck, under its weight [m/s^2].
+struct StuckLevels {
+  double forward, backward;
+};
+
+template <FrictionLaw Law>
+StuckLevels stuck_levels(const ModalInterface& of, const Law& law, const StructureState& state) {
+  const State at{.displacement = state.displacement, .sliding_distance = state.sliding_distance};
+  const double x = state.displacement;
+  const Bounds bounds(of.stops, of.one_way);
+  const auto level = [&](Direction direction) {
+    return bounds.bound(direction, x, hold(law_at(law, at), x, direction));
+  };
+  return {level(Direction::forward), level(Direction::backward)};
+}
+
+/// Whether demands of at most this magnitude are held.
+inline bool holds_forever(double demand, const StuckLevels& levels) {
+  constexpr double gap = 0x1p-40;
+  return demand * (1 + gap) <= std::min(levels.forward, levels.backward);
+}
+
+/// After the ground motion, an interface must settle within this number of steps.
+inline constexpr std::size_t most_calm_steps = 1'000'000;
+
+bool finite(const StructureState& state);
+[[noreturn]] void refuse_overflow(double peak);
+[[noreturn]] void refuse_restless(double step, const StructureState& state, double demand);
+
+}  // namespace stickslip::detail

@@ -1,0 +1,318 @@
+#include "stickslip/structure/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
+#include "stickslip/sliding/detail/run.hpp"
+#include "stickslip/units.hpp"
+#include "structure/modal_interface.hpp"
+#include "structure/move.hpp"
+#include "structure/stuck_motion.hpp"
+#include "sweep/sweep_groups.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+using Eigen::VectorXd;
+
+// Keeps what a sweep shows.
+class Tally {
+ public:
+  Tally(std::size_t event_limit, const SweepGroup::Check& check) : event_limit_(event_limit), check_(check) {}
+
+  void event(EventKind kind, double, const InterfacePlace& place) {
+    if (outcome_.events >= event_limit_) refuse_more_events(event_limit_);
+    ++outcome_.events;
+    outcome_.peak = std::max(outcome_.peak, std::abs(place.displacement));  // x is monotonic between events
+    if (kind == EventKind::impact) outcome_.impacts.add(place.displacement, place.velocity);
+  }
+  void follow(const Expansion& motion, Mode mode) {
+    if (++work_ % work_per_check == 0) check_();
+    if (mode == Mode::stuck) return;
+    outcome_.sliding_distance += std::max(motion.distance(static_cast<double>(static_cast<int>(mode)), 1), 0.0);
+  }
+  void lose(double) const noexcept {}
+  void decide(double) const noexcept {}
+
+  SweepOutcome end(const StructureState& state) {
+    outcome_.residual = state.displacement;
+    outcome_.peak = std::max(outcome_.peak, std::abs(state.displacement));
+    if (!std::isfinite(outcome_.peak) || !finite(state)) refuse_overflow(outcome_.peak);
+    return outcome_;
+  }
+
+ private:
+  static constexpr std::uint32_t work_per_check = 4096;
+  SweepOutcome outcome_{};
+  std::size_t event_limit_;
+  std::uint32_t work_ = 0;
+  const SweepGroup::Check& check_;
+};
+
+// One interface under one ground motion, or its mirror image. While it is stuck, the structure moves as the
+// StuckMotion, plus a deviation that slips have left, which decays without ground motion.
+template <FrictionLaw Law>
+class SweptInterface {
+ public:
+  SweptInterface(const ModalInterface& of, const Law& law, const GroundMotion& motion, const StuckMotion& stuck,
+                 bool reversed, const SweepGroup::Check& check)
+      : of_(of),
+        law_(law),
+        motion_(motion),
+        pieces_(motion, 0),
+        stuck_(stuck),
+        sign_(reversed ? -1 : 1),
+        tally_(max_events(motion.segments()), check),
+        expansion_(of),
+        deviation_(VectorXd::Zero(2 * of.modes())) {
+    state_.modal_displacement = state_.modal_velocity = VectorXd::Zero(of.modes());
+    hold_from_here();
+  }
+
+  SweepOutcome run(bool settle) {
+    const std::size_t segments = motion_.segments();
+    while (at_ < segments) {
+      if (!stuck_.empty() && state_.mode == Mode::stuck) {
+        pass_held(segments);
+        rejoin();
+        if (at_ == segments) break;
+      }
+      LoadSegment segment = pieces_.segment(at_++);
+      segment.load_start *= sign_;
+      segment.load_end *= sign_;
+      move_structure(of_, law_, segment, state_, expansion_, tally_);
+      if (!stuck_.empty() && state_.mode == Mode::stuck) part();
+    }
+    if (settle) come_to_rest();
+    return tally_.end(state_);
+  }
+
+ private:
+  // The state of the structure from the deviation, and the deviation from the state.
+  void rejoin() {
+    const Eigen::Index n = of_.modes();
+    const Eigen::Map<const VectorXd> whole(stuck_.state(at_), 2 * n);
+    state_.modal_displacement = sign_ * whole.head(n) + deviation_.head(n);
+    state_.modal_velocity = sign_ * whole.tail(n) + deviation_.tail(n);
+  }
+  void part() {
+    const Eigen::Index n = of_.modes();
+    const Eigen::Map<const VectorXd> whole(stuck_.state(at_), 2 * n);
+    deviation_.head(n) = state_.modal_displacement - sign_ * whole.head(n);
+    deviation_.tail(n) = state_.modal_velocity - sign_ * whole.tail(n);
+    bound_ = stuck_.flow().later_demand(deviation_.data());
+    forget_round_off();
+    hold_from_here();
+  }
+  void forget_round_off() {
+    if (bound_ > 0x1p-54 * stuck_.largest()) return;
+    bound_ = 0;
+    deviation_.setZero();
+  }
+
+  // What can be held, a little less than that, and the range of the pull of the spring.
+  void hold_from_here() {
+    levels_ = stuck_levels(of_, law_, state_);
+    const double x = state_.displacement, light = of_.spring.under(0) * x;
+    const double heavy = of_.spring.under(stuck_.largest_weight()) * x;
+    pull_low_ = std::min(light, heavy);
+    pull_high_ = std::max(light, heavy);
+  }
+  bool holds(double lowest, double highest, double least_weight) const {
+    constexpr double gap = 0x1p-40;
+    const auto level = [&](double full) { return weigh(least_weight, full) * (1 - gap); };
+    return highest - pull_low_ <= level(levels_.forward) && lowest - pull_high_ >= -level(levels_.backward);
+  }
+  bool holds(const StuckSpan& span) const {
+    const double low = (sign_ > 0 ? span.lowest : -span.highest) - bound_;
+    const double high = (sign_ > 0 ? span.highest : -span.lowest) + bound_;
+    return holds(low, high, span.least_weight);
+  }
+
+  // To the first segment in which the demand may exceed the friction.
+  void pass_held(std::size_t segments) {
+    constexpr std::size_t block = StuckMotion::block;
+    std::size_t passed = 0;  // segments through which the deviation has not been moved
+    const auto decay = [&] {
+      for (; passed > block; passed -= block) stuck_.flow().decay(deviation_.data(), block);
+      stuck_.flow().decay(deviation_.data(), std::exchange(passed, 0));
+    };
+    while (at_ < segments) {
+      std::size_t steps = 0;
+      if (at_ % block == 0 && at_ + block <= segments && holds(stuck_.block_from(at_)))
+        steps = block;
+      else if (holds(stuck_.segment(at_)))
+        steps = 1;
+      at_ += steps;
+      if (bound_ > 0) passed += steps;
+      if (steps > 0) continue;
+      if (passed == 0) return;
+      decay();
+      bound_ = stuck_.flow().later_demand(deviation_.data());
+      forget_round_off();
+    }
+    decay();
+  }
+
+  void come_to_rest() {
+    const double step = motion_.last_step();
+    const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
+    std::optional<StuckBound> bound;
+    if (stuck_.empty()) bound.emplace(of_);
+    for (std::size_t steps = 0;; ++steps) {
+      double demand = never;
+      if (state_.mode == Mode::stuck) {
+        hold_from_here();
+        demand =
+            bound ? (*bound)(state_.displacement, state_.modal_displacement, state_.modal_velocity) : pass_calm(steps);
+        if (holds_forever(demand, levels_)) return;
+      }
+      if (steps == most_calm_steps) refuse_restless(step, state_, demand);
+      move_structure(of_, law_, calm, state_, expansion_, tally_);
+    }
+  }
+
+  // To the first step without ground motion in which the demand may exceed the friction, or after which it cannot.
+  // @return a bound of the later demand
+  double pass_calm(std::size_t& steps) {
+    const StuckFlow& flow = stuck_.flow();
+    const double pull = std::abs(of_.spring.stiffness * state_.displacement);
+    const Eigen::Index n = of_.modes();
+    VectorXd now(2 * n), next(2 * n);
+    now << state_.modal_displacement, state_.modal_velocity;
+    double demand = never;
+    for (;; ++steps) {
+      demand = flow.later_demand(now.data()) + pull;
+      if (holds_forever(demand, levels_) || steps == most_calm_steps) break;
+      next = now;
+      const StuckSpan span = pass_step(flow, next.data(), 0, 0);
+      if (!holds(span.lowest, span.highest, 1)) break;
+      now.swap(next);
+    }
+    state_.modal_displacement = now.head(n);
+    state_.modal_velocity = now.tail(n);
+    return demand;
+  }
+
+  const ModalInterface& of_;
+  const Law& law_;
+  const GroundMotion& motion_;
+  LoadPieces pieces_;
+  const StuckMotion& stuck_;
+  double sign_;
+  Tally tally_;
+  Expansion expansion_;
+  StructureState state_{};
+  std::size_t at_ = 0;  // the segment that comes next
+  // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.
+  VectorXd deviation_;
+  double bound_ = 0, pull_low_ = 0, pull_high_ = 0;
+  StuckLevels levels_{};
+};
+
+template <FrictionLaw Law>
+SweepOutcome slide(const ModalInterface& of, const Law& law, const GroundMotion& motion, const StuckMotion& stuck,
+                   bool reversed, bool settle, const SweepGroup::Check& check) {
+  return SweptInterface<Law>(of, law, motion, stuck, reversed, check).run(settle);
+}
+
+// Slopes that differ in ky_g alone.
+SweepGroup::Each start_slopes(const std::vector<FlexibleSlope>& slopes, const std::optional<SlidingStructure>& linear,
+                              const GroundMotion& motion, bool settle, const SweepGroup::Check& check) {
+  const SlidingStructure column = linear ? *linear : sliding_structure(slopes[0], properties(slopes[0], motion));
+  auto stuck = std::make_shared<const StuckMotion>(column.modal(), motion);
+  return [&slopes, column, stuck, &motion, settle, check](std::size_t i, bool reversed) {
+    const Coulomb law(slopes[i].ky_g * standard_gravity, never);
+    return slide(column.modal(), law, motion, *stuck, reversed, settle, check);
+  };
+}
+
+// Structures that differ in the interface alone.
+SweepGroup::Each start_structures(const std::vector<SlidingStructure>& structures, const GroundMotion& motion,
+                                  bool settle, const SweepGroup::Check& check) {
+  auto stuck = std::make_shared<const StuckMotion>(structures[0].modal(), motion);
+  return [&structures, stuck, &motion, settle, check](std::size_t i, bool reversed) {
+    SweepOutcome outcome;
+    with_law(structures[i].slider(), [&](const auto& law) {
+      outcome = slide(structures[i].modal(), law, motion, *stuck, reversed, settle, check);
+    });
+    return outcome;
+  };
+}
+
+bool alike(const FlexibleSlope& a, const FlexibleSlope& b) {
+  const auto column = [](const FlexibleSlope& s) {
+    const std::optional<double> strain = s.soil ? std::optional(s.soil->reference_strain()) : std::nullopt;
+    return std::tuple(s.height, s.shear_velocity, s.damping_ratio, s.modes, s.rock_velocity, strain, s.method);
+  };
+  return column(a) == column(b);
+}
+
+// Whether both move alike while they are stuck.
+bool alike(const SlidingStructure& a, const SlidingStructure& b) {
+  const ModalInterface &one = a.modal(), &other = b.modal();
+  return one.modes() == other.modes() && one.stiffness == other.stiffness && one.damping == other.damping &&
+         one.load == other.load && one.demand == other.demand && one.reaction == other.reaction &&
+         equal(one.ground_demand, other.ground_demand);
+}
+
+template <class S>
+struct Group {
+  std::vector<S> members;
+  std::vector<std::size_t> places;
+};
+
+// Adds to the group of those that are alike.
+template <class S>
+void add(std::vector<Group<S>>& groups, const S& one, std::size_t place) {
+  auto group = std::ranges::find_if(groups, [&](const Group<S>& g) { return alike(g.members[0], one); });
+  if (group == groups.end()) group = groups.insert(group, Group<S>{});
+  group->members.push_back(one);
+  group->places.push_back(place);
+}
+
+}  // namespace
+
+SweepTable sweep_structures(const std::vector<AnySlidingStructure>& structures,
+                            std::span<const GroundMotion* const> motions, const SweepOptions& options) {
+  std::vector<Group<FlexibleSlope>> slopes;
+  std::vector<Group<SlidingStructure>> others;
+  std::vector<SweepSlider> sliders;
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    bool has_stops = false;
+    if (const auto* slope = std::get_if<FlexibleSlope>(&structures[i])) {
+      check(*slope);
+      add(slopes, *slope, i);
+    } else {
+      const auto& structure = std::get<SlidingStructure>(structures[i]);
+      has_stops = static_cast<bool>(structure.modal().stops);
+      add(others, structure, i);
+    }
+    sliders.push_back({{}, has_stops, {}});
+  }
+  std::vector<SweepGroup> groups;
+  for (const auto& group : slopes) {
+    std::optional<SlidingStructure> linear;
+    if (const FlexibleSlope& slope = group.members[0]; !slope.soil && !motions.empty())
+      linear = sliding_structure(slope, properties(slope, *motions[0]));
+    groups.push_back({group.places, [&group, linear](const GroundMotion& motion, bool settle, const auto& check) {
+                        return start_slopes(group.members, linear, motion, settle, check);
+                      }});
+  }
+  for (const auto& group : others)
+    groups.push_back({group.places, [&group](const GroundMotion& motion, bool settle, const auto& check) {
+                        return start_structures(group.members, motion, settle, check);
+                      }});
+  return sweep(sliders, groups, motions, options);
+}
+
+}  // namespace stickslip::detail
