@@ -13,6 +13,7 @@
 #include "numerics/fftw_plan.hpp"
 #include "numerics/kaiser_window.hpp"
 #include "stickslip/ensemble/ensemble.hpp"
+#include "stickslip/ensemble/floor_peaks.hpp"
 
 namespace stickslip::detail {
 
@@ -57,6 +58,7 @@ void Block::begin(std::size_t members) {
   members_ = members;
   grounds_ = 0;
   impacts_.clear();
+  floor_peaks_.clear();
   gaps_ = {};
   airborne_ = 0;
   tally_ = Tally(times_.count, spectrum_ ? spectrum_->complex.size() : 0, ground_acceleration_, in_plane_);
@@ -92,6 +94,12 @@ void Block::impacts(std::size_t member, const SmallestGaps& gaps, const Impacts&
   impacts_.resize(width_);
   impacts_[member] = impacts;
   gaps_.include(gaps);
+}
+
+void Block::floors(std::size_t member, std::span<const double> peaks) {
+  if (floor_peaks_.empty()) floor_peaks_.resize(members_ * peaks.size());
+  need_same_floors(floor_peaks_.size() / members_, peaks.size());
+  std::ranges::copy(peaks, floor_peaks_.begin() + static_cast<std::ptrdiff_t>(member * peaks.size()));
 }
 
 void Block::ground(std::span<const double> acceleration) {

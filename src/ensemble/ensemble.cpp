@@ -151,6 +151,14 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
       detail::require(std::isfinite(values.residual[i]), "Ensemble: a residual must be finite", values.residual[i],
                       "m");
     }
+    const std::size_t numbers = values.floor_peaks.size() / values.peak.size();
+    expect(values.floor_peaks.size() == numbers * values.peak.size() &&
+               (numbers == 0 || (numbers >= detail::floor_numbers(0) && numbers % 2 == 0)),
+           "block " + std::to_string(number) + " has peaks of floors that do not belong to its members");
+    for (const double peak : values.floor_peaks)
+      detail::require(std::isfinite(peak) && peak >= 0, "Ensemble: a peak of a floor must be finite and at least 0",
+                      peak);
+    expect(numbers == numbers_per_member(), "all members must be structures with the same number of floors, or none");
     expect(values.impacts.empty() || values.impacts.size() == values.peak.size(),
            "block " + std::to_string(number) + " has impacts of " + std::to_string(values.impacts.size()) +
                " members, which do not belong to it");
@@ -184,6 +192,7 @@ std::vector<double> Ensemble::time() const {
 
 void Ensemble::insert(std::uint64_t block, detail::Tally tally, Kept kept, const SmallestGaps& gaps,
                       std::size_t airborne) {
+  if (!parts_.kept.empty()) detail::need_same_floors(numbers_per_member(), kept.floor_peaks.size() / kept.peak.size());
   parts_.gaps.include(gaps);
   parts_.airborne += airborne;
   if (kept.peak.size() != Ensemble::block(parts_.times.count)) parts_.cut.emplace(block, kept.peak.size());
@@ -210,6 +219,8 @@ void Ensemble::merge(const Ensemble& other) {
                                   std::to_string((place.number << place.level) * size) + " to " +
                                   std::to_string(((place.number + 1) << place.level) * size - 1));
     }
+  if (!parts_.kept.empty() && !other.parts_.kept.empty())
+    detail::need_same_floors(numbers_per_member(), other.numbers_per_member());
   for (const auto& [place, tally] : other.parts_.tallies.nodes()) parts_.tallies.insert(place, tally);
   parts_.cut.insert(other.parts_.cut.begin(), other.parts_.cut.end());
   parts_.kept.insert(other.parts_.kept.begin(), other.parts_.kept.end());
@@ -515,6 +526,28 @@ std::uint64_t binomial_quantile(double share, double p, std::uint64_t n) {
   return low;
 }
 
+// The value of a rank, from 0; changes the order.
+double value_at(std::vector<double>& values, std::uint64_t rank) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
+  return values[rank];
+}
+
+// A quantile of n values, of which `at` gives that of a rank.
+template <class At>
+Interval quantile_of(std::uint64_t n, double probability, double confidence, const std::string& who, At&& at) {
+  check_probability((who + ": probability must lie between 0 and 1").c_str(), probability);
+  check_probability((who + ": confidence must lie between 0 and 1").c_str(), confidence);
+  need_two(n);
+  // The rank, from 0, of the value with a fraction `probability` of all values at or below it; and ranks that enclose
+  // it.
+  const auto rank = static_cast<std::uint64_t>(
+      std::clamp(std::ceil(probability * static_cast<double>(n)) - 1, 0.0, static_cast<double>(n - 1)));
+  const double tail = (1 - confidence) / 2;
+  const std::uint64_t below = binomial_quantile(tail, probability, n);
+  const std::uint64_t above = binomial_quantile(1 - tail, probability, n);
+  return {at(rank), below == 0 ? 0 : at(below - 1), above >= n ? std::numeric_limits<double>::infinity() : at(above)};
+}
+
 }  // namespace
 
 void Ensemble::need_impacts(double gap, const char* side) const {
@@ -548,31 +581,128 @@ Interval Ensemble::impact_probability(Direction side, double confidence) const {
   return fraction(forward ? kept.forward + parts_.hits.forward : kept.backward + parts_.hits.backward, confidence);
 }
 
+std::size_t Ensemble::numbers_per_member() const noexcept {
+  if (parts_.kept.empty()) return 0;
+  const Kept& first = parts_.kept.begin()->second;
+  return first.floor_peaks.size() / first.peak.size();
+}
+
+bool Ensemble::has_floors() const noexcept { return numbers_per_member() > 0; }
+
+void Ensemble::need_floors() const {
+  need_single_members(parts_);
+  if (!has_floors())
+    throw std::domain_error(
+        "Ensemble: sliders have no floors; run an IsolatedStructure, EquipmentOnFloor or "
+        "FlexibleSlope");
+}
+
+// Some of the numbers of each member.
+std::vector<double> Ensemble::floor_numbers(std::size_t first, std::size_t count) const {
+  std::vector<double> all;
+  const std::size_t width = numbers_per_member();
+  for (const auto& [block, values] : parts_.kept)
+    for (std::size_t i = first; i < values.floor_peaks.size(); i += width) {
+      const auto from = values.floor_peaks.begin() + static_cast<std::ptrdiff_t>(i);
+      all.insert(all.end(), from, from + static_cast<std::ptrdiff_t>(count));
+    }
+  return all;
+}
+
+std::vector<double> Ensemble::peak_base_acceleration() const {
+  need_floors();
+  return floor_numbers(0, 1);
+}
+std::vector<double> Ensemble::peak_base_shear() const {
+  need_floors();
+  return floor_numbers(1, 1);
+}
+FloorPeaks Ensemble::peak_floor_acceleration() const {
+  need_floors();
+  const std::size_t floors = detail::floors_of_numbers(numbers_per_member());
+  return {floor_numbers(2, floors), floors};
+}
+FloorPeaks Ensemble::peak_floor_drift() const {
+  need_floors();
+  const std::size_t floors = detail::floors_of_numbers(numbers_per_member());
+  return {floor_numbers(2 + floors, floors), floors};
+}
+
+std::vector<double> FloorPeaks::on_floor(std::size_t floor) const {
+  if (floor < 1 || floor > floors)
+    throw std::invalid_argument("FloorPeaks: floor must be from 1 to " + std::to_string(floors) + ", got " +
+                                std::to_string(floor));
+  std::vector<double> result;
+  for (std::size_t i = floor - 1; i < values.size(); i += floors) result.push_back(values[i]);
+  return result;
+}
+
+namespace {
+
+// Calls `statistic` with the peaks on each floor.
+template <class Statistic>
+void by_floor(const FloorPeaks& peaks, Statistic&& statistic) {
+  need_two(peaks.floors > 0 ? peaks.members() : 2);
+  for (std::size_t floor = 1; floor <= peaks.floors; ++floor) statistic(peaks.on_floor(floor));
+}
+
+// Mean and sums of even powers of the deviations from it.
+struct SampleMoments {
+  double n, mean = 0, second = 0, fourth = 0;
+  explicit SampleMoments(const std::vector<double>& values) : n(static_cast<double>(values.size())) {
+    for (const double value : values) mean += value / n;
+    for (const double value : values) {
+      const double square = (value - mean) * (value - mean);
+      second += square;
+      fourth += square * square;
+    }
+  }
+};
+
+}  // namespace
+
+Estimates FloorPeaks::mean() const {
+  Estimates result;
+  by_floor(*this, [&](const std::vector<double>& peaks) {
+    const SampleMoments m(peaks);
+    result.value.push_back(m.mean);
+    result.error.push_back(std::sqrt(m.second / (m.n - 1) / m.n));
+  });
+  return result;
+}
+
+Estimates FloorPeaks::deviation() const {
+  Estimates result;
+  by_floor(*this, [&](const std::vector<double>& peaks) {
+    const SampleMoments m(peaks);
+    const auto [variance, scatter] = covariance_of(m.n, m.second, m.second, m.second, m.fourth);
+    const double deviation = std::sqrt(variance);
+    result.value.push_back(deviation);
+    result.error.push_back(deviation > 0 ? std::sqrt(std::max(scatter, 0.0)) / (2 * deviation) : 0);
+  });
+  return result;
+}
+
+std::vector<Interval> FloorPeaks::quantile(double probability, double confidence) const {
+  std::vector<Interval> result;
+  by_floor(*this, [&](std::vector<double> peaks) {
+    result.push_back(quantile_of(peaks.size(), probability, confidence, "FloorPeaks",
+                                 [&](std::uint64_t place) { return value_at(peaks, place); }));
+  });
+  return result;
+}
+
 std::vector<double> Ensemble::peak() const { return gathered(parts_, &Kept::peak); }
 std::vector<double> Ensemble::residual(Component component) const {
   return gathered(parts_, pair_of(component) == Tally::transverse ? &Kept::residual_transverse : &Kept::residual);
 }
 
 Interval Ensemble::quantile(double probability, double confidence) const {
-  check_probability("Ensemble: probability must lie between 0 and 1", probability);
-  check_probability("Ensemble: confidence must lie between 0 and 1", confidence);
-  const std::uint64_t n = members();
-  need_two(n);
-  // The rank, from 0, of the value with a fraction `probability` of all values at or below it; and ranks that enclose
-  // it.
-  const auto rank = static_cast<std::uint64_t>(
-      std::clamp(std::ceil(probability * static_cast<double>(n)) - 1, 0.0, static_cast<double>(n - 1)));
-  const double tail = (1 - confidence) / 2;
-  const std::uint64_t below = binomial_quantile(tail, probability, n);
-  const std::uint64_t above = binomial_quantile(1 - tail, probability, n);
   std::vector<double> peaks;
   if (parts_.peaks.count() == 0) peaks = peak();
-  const auto at = [&](std::uint64_t place) {
-    if (peaks.empty()) return parts_.peaks.value_at(place);
-    std::nth_element(peaks.begin(), peaks.begin() + static_cast<std::ptrdiff_t>(place), peaks.end());
-    return peaks[place];
-  };
-  return {at(rank), below == 0 ? 0 : at(below - 1), above >= n ? std::numeric_limits<double>::infinity() : at(above)};
+  return quantile_of(members(), probability, confidence, "Ensemble", [&](std::uint64_t place) {
+    return peaks.empty() ? parts_.peaks.value_at(place) : value_at(peaks, place);
+  });
 }
 
 Interval Ensemble::exceedance(double level, double confidence) const {

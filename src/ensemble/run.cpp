@@ -31,6 +31,10 @@ void check_range(const Ensemble::Kept& kept, const Tally& tally, const EnsembleT
     for (const double x : {kept.peak[i], std::abs(kept.residual[i])})
       if (!(x <= Tally::max_motion))
         refuse("a displacement of " + shortest(x) + " m in member " + std::to_string(first + i));
+  for (const double peak : kept.floor_peaks)
+    if (!std::isfinite(peak))
+      throw std::overflow_error("run_ensemble: peaks of floors overflow in the members from " + std::to_string(first) +
+                                " on");
   const auto time = tally.out_of_range();
   if (!time) return;
   const std::string members = "members " + std::to_string(first) + " to " + std::to_string(first + tally.count - 1);
@@ -92,6 +96,8 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
       const auto across = block.residual_transverse();
       if (in_plane)
         kept.residual_transverse.assign(across.begin(), across.begin() + static_cast<std::ptrdiff_t>(members));
+      const auto floors = block.floor_peaks();
+      kept.floor_peaks.assign(floors.begin(), floors.end());
       if (const auto impacts = block.impacts(); !impacts.empty())
         kept.impacts.assign(impacts.begin(), impacts.begin() + static_cast<std::ptrdiff_t>(members));
       check_range(kept, tally, times, number * block_size);

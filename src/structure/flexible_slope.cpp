@@ -33,8 +33,10 @@ Structure column(const FlexibleSlope& slope, const SlopeProperties& properties) 
   return Structure::from_modes(fractions, frequencies, VectorXd::Constant(slope.modes, properties.damping_ratio), top);
 }
 
-SlidingStructure on_surface(const FlexibleSlope& slope, const SlopeProperties& properties, double level) {
-  const Slider<Coulomb> slider(Coulomb(level, std::numeric_limits<double>::infinity()));
+// Downhill only.
+AnySlider at_level(double level) { return Slider<Coulomb>(Coulomb(level, std::numeric_limits<double>::infinity())); }
+
+SlidingStructure on_surface(const FlexibleSlope& slope, const SlopeProperties& properties, const AnySlider& slider) {
   if (slope.method == SlopeMethod::coupled) return IsolatedStructure(slider, column(slope, properties));
   return DecoupledStructure(slider, column(slope, properties));
 }
@@ -70,6 +72,8 @@ void check(const FlexibleSlope& slope) {
   if (slope.rock_velocity)
     require(positive(*slope.rock_velocity), "FlexibleSlope: rock_velocity must be positive and finite",
             *slope.rock_velocity, "m/s");
+  if (slope.degrading && slope.ky_g > 0)
+    detail::refuse("FlexibleSlope: with a Degrading law, ky_g must be left out", slope.ky_g, "g");
   if (slope.soil && slope.damping_ratio > 0)
     detail::refuse("FlexibleSlope: with a soil, which has its own damping, damping_ratio must be left out",
                    slope.damping_ratio);
@@ -132,7 +136,8 @@ SlopeProperties properties(const FlexibleSlope& slope, const GroundMotion& motio
 
 SlidingStructure sliding_structure(const FlexibleSlope& slope, const SlopeProperties& properties) {
   check(slope);
-  return on_surface(slope, properties, slope.ky_g * standard_gravity);
+  if (slope.degrading) return on_surface(slope, properties, Slider(*slope.degrading, Mounting{.one_way = true}));
+  return on_surface(slope, properties, at_level(slope.ky_g * standard_gravity));
 }
 
 StructureResponse integrate(const FlexibleSlope& slope, const GroundMotion& motion,

@@ -1,4 +1,4 @@
-// Moves a structure with one sliding interface through segments of ground motion.
+// Moves a structure with one sliding interface through segments of ground motion, and until it has settled.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,8 @@
 #include "stickslip/sliding/detail/loop.hpp"
 #include "stickslip/structure/response.hpp"
 #include "stickslip/units.hpp"
+#include "structure/expansion.hpp"
+#include "structure/modal_interface.hpp"
 #include "structure/motion.hpp"
 
 namespace stickslip::detail {
@@ -22,17 +24,17 @@ namespace stickslip::detail {
 /// Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their
 /// memory.
 template <class Law>
-constexpr bool covered_by_structures =
+constexpr bool interface_law =
     !HeatedLaw<Law> && form_of<Law> != Form::numeric && !requires(const Law& law, const State& state) {
   law.elastic(state);
 };
 
 /// Calls `use(law)` with the law of the interface.
 template <class Use>
-void with_law(const AnySlider& slider, Use&& use) {
+void with_interface_law(const AnySlider& slider, Use&& use) {
   std::visit(
       [&](const auto& one) {
-        if constexpr (covered_by_structures<std::remove_cvref_t<decltype(one.law())>>)
+        if constexpr (interface_law<std::remove_cvref_t<decltype(one.law())>>)
           use(one.law());
         else
           throw std::invalid_argument(
@@ -68,6 +70,8 @@ struct WithinStructureSegment {
   void decide(double difference) { observer.decide(difference); }
 };
 
+/// Move through a segment.
+/// @param observer  as that of StructureMotion
 template <FrictionLaw Law, class Observer>
 void move_structure(const ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
                     Expansion& expansion, Observer& observer) {
@@ -107,5 +111,21 @@ inline constexpr std::size_t most_calm_steps = 1'000'000;
 bool finite(const StructureState& state);
 [[noreturn]] void refuse_overflow(double peak);
 [[noreturn]] void refuse_restless(double step, const StructureState& state, double demand);
+
+/// Continue without ground motion until it is certain that the interface will not slide again.
+/// @param step  duration of each segment [s]
+/// @param go    moves through a segment
+/// @throws ConvergenceError  the interface does not come to rest within `most_calm_steps`
+template <FrictionLaw Law, class Go>
+void settle_structure(const ModalInterface& of, const Law& law, double step, StructureState& state, Go&& go) {
+  const StuckBound bound(of);
+  const auto demand = [&] { return bound(state.displacement, state.modal_displacement, state.modal_velocity); };
+  const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
+  for (std::size_t steps = 0; state.mode != Mode::stuck || !holds_forever(demand(), stuck_levels(of, law, state));
+       ++steps) {
+    if (steps == most_calm_steps) refuse_restless(step, state, demand());
+    go(calm);
+  }
+}
 
 }  // namespace stickslip::detail

@@ -63,13 +63,10 @@ FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stori
 StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, double from,
                                      std::size_t event_limit, const std::function<void()>& progress,
                                      StructureResponse& response)
-    : of_(of), rows_(rows), response_(response), event_limit_(event_limit), progress_(progress) {
+    : of_(of), response_(response), event_limit_(event_limit), progress_(progress) {
   response_.peak = std::abs(from);
   response_.margin = std::numeric_limits<double>::infinity();
-  if (rows_ != nullptr) {
-    peaks_ = Eigen::VectorXd::Zero(rows_->forces.rows());
-    drifts_ = Eigen::VectorXd::Zero(rows_->drifts.rows());
-  }
+  if (rows != nullptr) floors_.emplace(of, *rows);
 }
 
 void StructureRecorder::event(EventKind kind, double time, const InterfacePlace& place) {
@@ -83,7 +80,7 @@ void StructureRecorder::event(EventKind kind, double time, const InterfacePlace&
 void StructureRecorder::follow(const Expansion& motion, Mode mode) {
   count_work();
   add_work(motion, mode);
-  if (rows_ != nullptr) look(motion);
+  if (floors_) floors_->include(motion);
 }
 
 void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
@@ -130,7 +127,7 @@ void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
   energy.damped += h * of_.modal_mass * power;
 }
 
-void StructureRecorder::look(const Expansion& motion) {
+void FloorMaxima::include(const Expansion& motion) {
   const int order = motion.order();
   const auto accelerations = motion.modal_acceleration(), displacements = motion.modal_displacement();
   Polynomial base;
@@ -141,32 +138,32 @@ void StructureRecorder::look(const Expansion& motion) {
     base[static_cast<std::size_t>(k)] = value;
     base_bound += std::abs(value);
   }
-  if (base_bound > response_.peak_base_acceleration)
-    response_.peak_base_acceleration = largest_magnitude(base.data(), order, response_.peak_base_acceleration);
+  if (base_bound > base_acceleration_) base_acceleration_ = largest_magnitude(base.data(), order, base_acceleration_);
   const double* slider = motion.acceleration();
   double slider_bound = 0;
   for (int k = 0; k <= order; ++k) slider_bound += std::abs(slider[k]);
   const auto examine = [&](const Eigen::MatrixXd& rows, const auto& modes, bool forces, Eigen::VectorXd& peaks) {
     const Eigen::VectorXd most = modes.cwiseAbs().colwise().sum();
     Eigen::VectorXd bounds = rows.cwiseAbs() * most;
-    if (forces) bounds += rows_->with_base.cwiseAbs() * base_bound + rows_->with_slider * slider_bound;
+    if (forces) bounds += rows_.with_base.cwiseAbs() * base_bound + rows_.with_slider * slider_bound;
     if ((bounds.array() <= peaks.array()).all()) return;
     Eigen::MatrixXd values = modes * rows.transpose();  // one polynomial per column
     if (forces)
-      values += Eigen::Map<const Eigen::VectorXd>(base.data(), order + 1) * rows_->with_base.transpose() +
-                Eigen::Map<const Eigen::VectorXd>(slider, order + 1) * rows_->with_slider.transpose();
+      values += Eigen::Map<const Eigen::VectorXd>(base.data(), order + 1) * rows_.with_base.transpose() +
+                Eigen::Map<const Eigen::VectorXd>(slider, order + 1) * rows_.with_slider.transpose();
     for (Eigen::Index i = 0; i < rows.rows(); ++i) peaks[i] = largest_magnitude(values.col(i).data(), order, peaks[i]);
   };
-  examine(rows_->forces, accelerations, true, peaks_);
-  examine(rows_->drifts, displacements, false, drifts_);
+  examine(rows_.forces, accelerations, true, forces_);
+  examine(rows_.drifts, displacements, false, drifts_);
 }
 
 void StructureRecorder::finish() {
-  if (rows_ == nullptr) return;
-  response_.floors.peak_acceleration = peaks_.head(rows_->floors);
-  response_.floors.peak_drift = drifts_;
-  response_.floors.peak_shear = peaks_.segment(rows_->floors, rows_->stories);
-  response_.peak_base_shear = peaks_[rows_->floors + rows_->stories];
+  if (!floors_) return;
+  response_.peak_base_acceleration = floors_->base_acceleration();
+  response_.floors.peak_acceleration = floors_->accelerations();
+  response_.floors.peak_drift = floors_->drifts();
+  response_.floors.peak_shear = floors_->shears();
+  response_.peak_base_shear = floors_->base_shear();
 }
 
 }  // namespace stickslip::detail

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,6 +30,30 @@ struct FloorRows {
   Eigen::VectorXd with_base, with_slider;
   Eigen::MatrixXd drifts;  // of the modal displacements
   Eigen::Index floors, stories;
+};
+
+/// The largest magnitudes of the quantities of the floors, over all time.
+class FloorMaxima {
+ public:
+  FloorMaxima(const ModalInterface& of, const FloorRows& rows)
+      : of_(of),
+        rows_(rows),
+        forces_(Eigen::VectorXd::Zero(rows.forces.rows())),
+        drifts_(Eigen::VectorXd::Zero(rows.drifts.rows())) {}
+
+  void include(const Expansion& motion);
+
+  double base_acceleration() const noexcept { return base_acceleration_; }  ///< absolute [m/s^2]
+  auto accelerations() const { return forces_.head(rows_.floors); }         ///< absolute [m/s^2]
+  auto shears() const { return forces_.segment(rows_.floors, rows_.stories); }
+  double base_shear() const { return forces_[rows_.floors + rows_.stories]; }
+  const Eigen::VectorXd& drifts() const noexcept { return drifts_; }  ///< [m]
+
+ private:
+  const ModalInterface& of_;
+  const FloorRows& rows_;
+  double base_acceleration_ = 0;
+  Eigen::VectorXd forces_, drifts_;  // in the order of the rows
 };
 
 class StructureRecorder {
@@ -58,16 +83,14 @@ class StructureRecorder {
     if (++work_ % work_per_report == 0) report_progress();
   }
   void add_work(const Expansion& motion, Mode mode);
-  void look(const Expansion& motion);
 
   const ModalInterface& of_;
-  const FloorRows* rows_;
+  std::optional<FloorMaxima> floors_{};
   StructureResponse& response_;
   double segment_begins_ = 0, segment_ends_ = 0;
   std::size_t event_limit_;
   std::uint32_t work_ = 0;
   const std::function<void()>& progress_;
-  Eigen::VectorXd peaks_, drifts_;
 };
 
 /// An observer that records nothing.

@@ -160,18 +160,8 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   double end = motion.time(motion.segments());
 
   if (options.settle) {
-    const detail::StuckBound bound(of);
-    const auto settled = [&] {
-      return state.mode == Mode::stuck &&
-             detail::holds_forever(bound(state.displacement, state.modal_displacement, state.modal_velocity),
-                                   detail::stuck_levels(of, law, state));
-    };
-    const double step = motion.last_step();
-    const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
     std::size_t i = motion.segments();
-    for (std::size_t steps = 0; !settled(); ++steps, ++i) {
-      if (steps == detail::most_calm_steps)
-        detail::refuse_restless(step, state, bound(state.displacement, state.modal_displacement, state.modal_velocity));
+    detail::settle_structure(of, law, motion.last_step(), state, [&](const LoadSegment& calm) {
       const double begin = std::exchange(end, motion.time(i + 1));
       recorder.begin_segment(begin, end);
       detail::move_structure(of, law, calm, state, expansion, recorder);
@@ -179,8 +169,8 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
         keep(i + 1, 0, standard_gravity);
       else
         response.truncated = true;
-      if (i % detail::StructureRecorder::work_per_report == 0) recorder.report_progress();
-    }
+      if (i++ % detail::StructureRecorder::work_per_report == 0) recorder.report_progress();
+    });
     response.settled = true;
   }
 
@@ -225,7 +215,7 @@ void refuse_restless(double step, const StructureState& state, double demand) {
 }  // namespace detail
 
 SlidingStructure::SlidingStructure(AnySlider slider, Structure structure, detail::ModalInterface modal) {
-  detail::with_law(slider, [](const auto&) {});
+  detail::with_interface_law(slider, [](const auto&) {});
   const Mounting& on = mounting_of(slider);
   if (on.slope_degrees > 0)
     throw std::invalid_argument("a structure slides on level ground, got a slider on a slope of " +
@@ -264,7 +254,8 @@ StructureResponse integrate(const SlidingStructure& system, const GroundMotion& 
   require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
           "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
   StructureResponse response;
-  detail::with_law(system.slider(), [&](const auto& law) { response = integrate_with(system, law, motion, options); });
+  detail::with_interface_law(system.slider(),
+                             [&](const auto& law) { response = integrate_with(system, law, motion, options); });
   return response;
 }
 
@@ -282,7 +273,7 @@ void advance(const SlidingStructure& system, const LoadSegment& segment, Structu
   StructureState moved = state;
   detail::NoStructureObserver none;
   detail::Expansion expansion(system.modal());
-  detail::with_law(system.slider(), [&](const auto& law) {
+  detail::with_interface_law(system.slider(), [&](const auto& law) {
     detail::move_structure(system.modal(), law, segment, moved, expansion, none);
   });
   if (!detail::finite(moved)) throw std::overflow_error("advance: the motion leaves the range of doubles");

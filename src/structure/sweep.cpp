@@ -242,7 +242,7 @@ SweepGroup::Each start_structures(const std::vector<SlidingStructure>& structure
   auto stuck = std::make_shared<const StuckMotion>(structures[0].modal(), motion);
   return [&structures, stuck, &motion, settle, check](std::size_t i, bool reversed) {
     SweepOutcome outcome;
-    with_law(structures[i].slider(), [&](const auto& law) {
+    with_interface_law(structures[i].slider(), [&](const auto& law) {
       outcome = slide(structures[i].modal(), law, motion, *stuck, reversed, settle, check);
     });
     return outcome;

@@ -348,3 +348,29 @@ TEST_CASE("structures refuse bad input by name", "[structure]") {
   CHECK_THROWS_WITH(integrate(FlexibleSlope{.ky_g = 0.1, .height = 0, .shear_velocity = 1}, motion()),
                     ContainsSubstring("height must be positive and finite, got 0 m"));
 }
+
+TEST_CASE("the level of a flexible slope may change with the distance", "[structure]") {
+  FlexibleSlope constant{.ky_g = 0.05, .height = 50, .shear_velocity = 600, .damping_ratio = 0.1, .modes = 2};
+  FlexibleSlope degrading = constant;
+  degrading.ky_g = 0;
+  const double level = constant.ky_g * standard_gravity;
+  degrading.degrading = Degrading({0, 0.1}, {level, level});
+  for (const SlopeMethod method : {SlopeMethod::coupled, SlopeMethod::decoupled}) {
+    constant.method = degrading.method = method;
+    const StructureResponse one = integrate(constant, motion()), other = integrate(degrading, motion());
+    CHECK(furthest(one.displacement, other.displacement) < 1e-12 * one.residual);
+    CHECK(other.sliding_distance == Approx(other.residual).epsilon(1e-12));
+  }
+  // A stiff column is a rigid block with the same law; softening makes it slide further.
+  FlexibleSlope stiff = degrading;
+  stiff.shear_velocity = 3e4;
+  stiff.method = SlopeMethod::decoupled;
+  stiff.degrading = Degrading({0, 0.3}, {level, level / 2});
+  const auto rigid = [](const auto& law) {
+    return integrate(Slider(law, Mounting{.one_way = true}), motion(), {.settle = true}).residual;
+  };
+  CHECK(integrate(stiff, motion()).residual == Approx(rigid(*stiff.degrading)).epsilon(0.01));
+  CHECK(rigid(*stiff.degrading) > 1.1 * rigid(Coulomb(level)));
+  stiff.ky_g = 0.1;
+  CHECK_THROWS_WITH(integrate(stiff, motion()), ContainsSubstring("with a Degrading law, ky_g must be left out"));
+}

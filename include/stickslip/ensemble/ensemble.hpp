@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stickslip/ensemble/configuration.hpp"
+#include "stickslip/ensemble/floor_peaks.hpp"
 #include "stickslip/ensemble/smallest_gaps.hpp"
 #include "stickslip/ensemble/stationary.hpp"
 #include "stickslip/ensemble/times.hpp"
@@ -43,6 +44,9 @@ Ensemble run_ensemble(EnsembleConfiguration configuration, const EnsembleTimes& 
 /// they have neither stationary averages nor a spectrum of the velocity. Their impacts on the circular stop count as
 /// impacts forward.
 ///
+/// Structures (SlidingStructure, FlexibleSlope) have the statistics of the displacement of their interface, and peaks
+/// of the base and of each floor.
+///
 /// Statistics by time, stationary averages and the spectrum of the velocity exist only if all ground motions have the
 /// same duration; otherwise these functions throw std::domain_error. Peaks, residuals, quantiles and exceedances always
 /// exist.
@@ -56,6 +60,9 @@ class Ensemble {
     std::vector<double> peak, residual;         ///< [m]
     std::vector<Impacts> impacts{};             ///< empty if no slider of the block has stops
     std::vector<double> residual_transverse{};  ///< [m]; empty on one axis
+    /// Of each member that is a structure: peak acceleration of the base [m/s^2], peak base shear, peak accelerations
+    /// of the floors [m/s^2] and peak drifts [m]; empty for sliders.
+    std::vector<double> floor_peaks{};
     friend bool operator==(const Kept&, const Kept&) = default;
   };
 
@@ -148,6 +155,19 @@ class Ensemble {
   /// Last x of each member [m]; in the plane also Component::transverse, for y.
   std::vector<double> residual(Component component = Component::axis) const;
 
+  /// Whether the members are structures, whose peaks are kept: not with more than `max_kept` members.
+  bool has_floors() const noexcept;
+  /// Largest absolute acceleration on each floor of each member, over all time [m/s^2]. Without shapes of the structure
+  /// there are no floors.
+  /// @throws std::domain_error for sliders, and for more than `max_kept` members; the following three also do
+  FloorPeaks peak_floor_acceleration() const;
+  /// Largest drift of each floor relative to the one below [m].
+  FloorPeaks peak_floor_drift() const;
+  /// Largest absolute acceleration of what the structure stands on [m/s^2], by member: its base, or the ground.
+  std::vector<double> peak_base_acceleration() const;
+  /// Largest sum of the inertia forces of the structure, as StructureResponse::peak_base_shear, by member.
+  std::vector<double> peak_base_shear() const;
+
   /// The impacts of each member on its stops, in the order of the members.
   /// @throws std::domain_error if no member has stops; for more than `max_kept` members; if members come from a file
   ///         written before impacts were kept
@@ -190,6 +210,9 @@ class Ensemble {
   void need_one_axis(const char* what) const;
   void need_plane() const;
   detail::Tally::Pair pair_of(Component component) const;
+  std::vector<double> floor_numbers(std::size_t first, std::size_t count) const;
+  std::size_t numbers_per_member() const noexcept;
+  void need_floors() const;
   void need_impacts(double gap, const char* side) const;
   Interval fraction(std::uint64_t count, double confidence) const;
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "stickslip/friction/degrading.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
 
@@ -46,6 +47,7 @@ struct FlexibleSlope {
   std::optional<double> rock_velocity{};  ///< Vr [m/s]; rigid rock if not given
   std::optional<HyperbolicSoil> soil{};   ///< linear if not given
   SlopeMethod method = SlopeMethod::coupled;
+  std::optional<Degrading> degrading{};  ///< instead of `ky_g`, a level that depends on the distance slid downhill
 };
 
 /// @throws std::invalid_argument  naming a value that is out of range

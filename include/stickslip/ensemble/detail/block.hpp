@@ -49,11 +49,16 @@ class Block {
 
   /// Enter the impacts of a member whose slider has stops.
   void impacts(std::size_t member, const SmallestGaps& gaps, const Impacts& impacts);
+  /// Enter the peaks of the floors of a member that is a structure, as in Ensemble::Kept.
+  /// @throws std::invalid_argument  another number of floors than the structures before it
+  void floors(std::size_t member, std::span<const double> peaks);
   /// Count a member that ends in flight.
   void ends_airborne() noexcept { ++airborne_; }
 
   /// Impacts per member; empty if no slider of the block has stops.
   std::span<const Impacts> impacts() const noexcept { return impacts_; }
+  /// Peaks of the floors, member by member; empty if no member of the block is a structure.
+  std::span<const double> floor_peaks() const noexcept { return floor_peaks_; }
   const SmallestGaps& gaps() const noexcept { return gaps_; }
   std::size_t airborne() const noexcept { return airborne_; }
 
@@ -76,6 +81,7 @@ class Block {
   const std::atomic<bool>& stopped_;
   std::vector<double> peak_, residual_, residual_transverse_;
   std::vector<Impacts> impacts_;
+  std::vector<double> floor_peaks_;
   SmallestGaps gaps_;
   std::size_t airborne_ = 0;
   std::vector<double> central_, first_half_, marks_, velocities_;

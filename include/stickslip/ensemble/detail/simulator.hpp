@@ -27,6 +27,11 @@
 #include "stickslip/sliding/impacts.hpp"
 #include "stickslip/sliding/integrate.hpp"
 
+namespace stickslip {
+class SlidingStructure;
+struct FlexibleSlope;
+}  // namespace stickslip
+
 namespace stickslip::detail {
 
 /// Simulates the members of a block. Each thread has its own.
@@ -220,7 +225,14 @@ void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool
 void simulate_member(const AnySlider& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place);
 
-/// The same for a slider of one of several laws.
+/// The same for a structure with a sliding interface, from rest; with the peaks of its floors. Where the normal force
+/// would be negative the interface slides without friction, whatever the contact.
+void simulate_member(const SlidingStructure& system, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place);
+void simulate_member(const FlexibleSlope& slope, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place);
+
+/// The same for a slider of one of several laws, or for one of several kinds of structures.
 template <class... Sliders>
 void simulate_member(const std::variant<Sliders...>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {

@@ -1,0 +1,93 @@
+// Members that are structures with a sliding interface.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "stickslip/ensemble/detail/simulator.hpp"
+#include "stickslip/ensemble/floor_peaks.hpp"
+#include "stickslip/structure/flexible_slope.hpp"
+#include "stickslip/structure/sliding_structure.hpp"
+#include "structure/recorder.hpp"
+#include "structure/move.hpp"
+
+namespace stickslip::detail {
+namespace {
+
+// Computes the peaks and the impacts of a member, and checks regularly whether the run was stopped.
+class StructurePeakObserver {
+ public:
+  StructurePeakObserver(const ModalInterface& of, const FloorRows& rows, const Block& block, std::size_t event_limit)
+      : block_(block), floors_(of, rows), event_limit_(event_limit) {}
+
+  double peak() const noexcept { return peak_; }
+  const Impacts& impacts() const noexcept { return impacts_; }
+  std::vector<double> floor_peaks() const {
+    std::vector<double> numbers{floors_.base_acceleration(), floors_.base_shear()};
+    const auto add = [&](const Eigen::VectorXd& values) {
+      numbers.insert(numbers.end(), values.begin(), values.end());
+    };
+    add(floors_.accelerations());
+    add(floors_.drifts());
+    return numbers;
+  }
+
+  void event(EventKind kind, double, const InterfacePlace& place) {
+    if (kind == EventKind::impact) impacts_.add(place.displacement, place.velocity);
+    reach(place.displacement);  // x is monotonic between events
+    count_work();
+    if (++events_ > event_limit_) refuse_more_events(event_limit_);
+  }
+  void follow(const Expansion& motion, Mode) {
+    count_work();
+    floors_.include(motion);
+  }
+  void lose(double) const noexcept {}
+  void decide(double) const noexcept {}
+  void reach(double x) noexcept { peak_ = std::max(peak_, std::abs(x)); }
+
+ private:
+  void count_work() {
+    if (++work_ % StructureRecorder::work_per_report == 0) block_.check_stopped();
+  }
+
+  const Block& block_;
+  FloorMaxima floors_;
+  std::size_t event_limit_, events_ = 0;
+  std::uint32_t work_ = 0;
+  double peak_ = 0;
+  Impacts impacts_;
+};
+
+}  // namespace
+
+void simulate_member(const SlidingStructure& system, const GroundMotion& motion, bool settle, Contact,
+                     const MemberPlace& place) {
+  Block& block = place.block;
+  const ModalInterface& of = system.modal();
+  const FloorRows rows(of);
+  Expansion expansion(of);
+  StructureState state = system.rest();
+  StructurePeakObserver observer(of, rows, block, max_events(motion.segments() + block.times().count));
+  with_interface_law(system.slider(), [&](const auto& law) {
+    const auto go = [&](const LoadSegment& segment) { move_structure(of, law, segment, state, expansion, observer); };
+    const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
+    go_through(LoadPieces(motion, 0), motion.segments(), block, go, keep);
+    if (settle)
+      settle_structure(of, law, motion.last_step(), state, [&](const LoadSegment& calm) {
+        block.check_stopped();
+        go(calm);
+      });
+  });
+  observer.reach(state.displacement);
+  place.end(observer.peak(), state.displacement);
+  if (of.stops) block.impacts(place.index, gaps_of(of.stops), observer.impacts());
+  block.floors(place.index, observer.floor_peaks());
+}
+
+void simulate_member(const FlexibleSlope& slope, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place) {
+  simulate_member(sliding_structure(slope, properties(slope, motion)), motion, settle, contact, place);
+}
+
+}  // namespace stickslip::detail
