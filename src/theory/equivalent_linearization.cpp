@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "stickslip/error.hpp"
+#include "stickslip/structure/sliding_structure.hpp"
+#include "structure/modal_interface.hpp"
 #include "theory/covariance.hpp"
 #include "theory/linear_friction.hpp"
 #include "theory/ranges.hpp"
@@ -170,6 +172,25 @@ Moments moments_of(std::span<const double> times, std::span<const detail::Shaped
   return moments;
 }
 
+/// The law of the sliding interface of a structure.
+detail::LinearizedLaw law_of(const SlidingStructure& system) {
+  return std::visit(
+      [&]<FrictionLaw Law>(const Slider<Law>& slider) -> detail::LinearizedLaw {
+        detail::require_one_level(slider, noun);
+        if constexpr (PositionLaw<Law>)
+          return detail::linearized_law(slider.law());
+        else
+          detail::refuse_law<Law>(noun);
+      },
+      system.slider());
+}
+
+detail::ShapedProblem problem_of(const SlidingStructure& system, const detail::LinearizedLaw& law,
+                                 const ShapedNoise& noise, const ShapingFilter& filter, const Options& options) {
+  const Mounting& on = mounting_of(system.slider());
+  return {law, on.natural_frequency, on.damping, noise, filter, options, &system.modal()};
+}
+
 std::string percent(double fraction) { return shortest(std::round(1000 * fraction) / 10) + " %"; }
 
 /// @param ratio  the least of the rms ground accelerations, over that below which no motion is predicted
@@ -182,8 +203,8 @@ std::string shaped_remark(const detail::ShapedProblem& problem, double ratio, st
     add("the spectrum is approximated by a filter of order " + std::to_string(problem.filter.order()) + " (misfit " +
         percent(problem.filter.misfit()) + " of its variance)");
   if (ratio < 1.5)
-    add("the rms acceleration of the ground is" + std::string(times > 1 ? " as low as " : " ") +
-        shortest(std::round(1000 * ratio) / 1000) +
+    add((problem.structure ? "the rms force on the stuck interface is" : "the rms acceleration of the ground is") +
+        std::string(times > 1 ? " as low as " : " ") + shortest(std::round(1000 * ratio) / 1000) +
         " times that below which no motion is predicted, thesis (4.22): displacements may be far too small");
   if (held > 0)
     add("at " + std::to_string(held) + " of " + std::to_string(times) +
@@ -195,7 +216,7 @@ std::string shaped_remark(const detail::ShapedProblem& problem, double ratio, st
       problem.natural_frequency == 0) {
     const double low = std::min(coulomb->forward(), coulomb->backward()),
                  high = std::max(coulomb->forward(), coulomb->backward());
-    if (problem.noise.white() && problem.damping == 0)
+    if (problem.noise.white() && problem.damping == 0 && !problem.structure)
       add(problem.options.dimensions > 1
               ? remark_in_dimensions(problem.options)
               : detail::laplace_white_range + std::string(": WhiteNoise has the exact figures"));
@@ -248,6 +269,18 @@ void EquivalentLinearization::check(const detail::LinearizedLaw& given, double d
   detail::AverageFriction(law, options_.force, 0);
 }
 
+void EquivalentLinearization::check(const SlidingStructure& system, const ShapedNoise&) const {
+  require(options_.dimensions == 1, noun + ": structures move along one axis: dimensions must be 1",
+          options_.dimensions);
+  if (options_.start == Start::thesis)
+    throw std::invalid_argument(noun + ": (3.38) to (3.40) are of sliders under white noise, not of structures");
+  if (const auto modes = system.modal().modes(); modes > detail::ShapedProblem::most_modes)
+    throw std::invalid_argument(noun + ": covers structures of at most " +
+                                std::to_string(detail::ShapedProblem::most_modes) + " modes, got " +
+                                std::to_string(modes) + "; take the first ones by from_modes");
+  detail::AverageFriction(law_of(system), options_.force, 0);
+}
+
 Moments EquivalentLinearization::predict(const detail::LinearizedLaw& given, double natural_frequency, double damping,
                                          const ShapedNoise& noise, std::span<const double> times,
                                          const std::function<void()>& progress) const {
@@ -266,13 +299,26 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& given, dou
     return moments;
   }
   check(given, damping, noise);
-  detail::check_times(noun, times);
   const ShapingFilter filter = noise.filter(options_.filter);
-  const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
+  return predict(detail::ShapedProblem{law, natural_frequency, damping, noise, filter, options_}, times, progress);
+}
+
+Moments EquivalentLinearization::predict(const SlidingStructure& system, const ShapedNoise& noise,
+                                         std::span<const double> times, const std::function<void()>& progress) const {
+  check(system, noise);
+  const detail::LinearizedLaw law = law_of(system);
+  const ShapingFilter filter = noise.filter(options_.filter);
+  return predict(problem_of(system, law, noise, filter, options_), times, progress);
+}
+
+Moments EquivalentLinearization::predict(const detail::ShapedProblem& problem, std::span<const double> times,
+                                         const std::function<void()>& progress) const {
+  detail::check_times(noun, times);
   const std::vector<detail::ShapedState> states = detail::solve_shaped(problem, times, progress).state;
   Moments moments = moments_of(times, states);
   try {
-    if (!noise.envelope()) moments.growth_rate.value = detail::late_growth(problem, times.empty() ? 0 : times.back());
+    if (!problem.noise.envelope())
+      moments.growth_rate.value = detail::late_growth(problem, times.empty() ? 0 : times.back());
   } catch (const std::invalid_argument&) {  // there is no stationary solution
   }
   double ratio = std::numeric_limits<double>::infinity();
@@ -282,7 +328,9 @@ Moments EquivalentLinearization::predict(const detail::LinearizedLaw& given, dou
     if (state.motion_ratio < 1 && state.q22 == 0) ++held;
   }
   moments.remark = shaped_remark(problem, ratio, held, times.size());
-  if (const std::string loose = caster_remark(law, options_, natural_frequency, filter(0), moments); !loose.empty())
+  if (const std::string loose =
+          caster_remark(problem.law, options_, problem.natural_frequency, problem.filter(0), moments);
+      !loose.empty())
     moments.remark += (moments.remark.empty() ? "" : "; ") + loose;
   return moments;
 }
@@ -291,7 +339,17 @@ Moments EquivalentLinearization::stationary(const detail::LinearizedLaw& given, 
                                             double damping, const ShapedNoise& noise) const {
   const detail::LinearizedLaw law = along_one_axis(given, options_);
   const ShapingFilter filter = noise.filter(options_.filter);
-  const detail::ShapedProblem problem{law, natural_frequency, damping, noise, filter, options_};
+  return stationary(detail::ShapedProblem{law, natural_frequency, damping, noise, filter, options_});
+}
+
+Moments EquivalentLinearization::stationary(const SlidingStructure& system, const ShapedNoise& noise) const {
+  check(system, noise);
+  const detail::LinearizedLaw law = law_of(system);
+  const ShapingFilter filter = noise.filter(options_.filter);
+  return stationary(problem_of(system, law, noise, filter, options_));
+}
+
+Moments EquivalentLinearization::stationary(const detail::ShapedProblem& problem) const {
   const detail::StationaryState found = detail::solve_stationary(problem);
   const double never = std::numeric_limits<double>::infinity();
   Moments moments = moments_of(std::span(&never, 1), std::span(&found.state, 1));

@@ -16,6 +16,7 @@
 #include "numerics/ode.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/root.hpp"
+#include "structure/modal_interface.hpp"
 #include "theory/linear_friction.hpp"
 #include "theory/theory_moments.hpp"
 
@@ -27,11 +28,11 @@ using std::numbers::pi;
 const std::string noun = "EquivalentLinearization";
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// x, x' and the states of the filter. Their room is in the object.
-constexpr int max_states = 18;
+// x, x', the modes of a structure and their rates, and the states of the filter. Their room is in the object.
+constexpr int max_states = 18 + 2 * ShapedProblem::most_modes;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_states, max_states>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_states, 1>;
-constexpr int x = 0, v = 1, f = 2;
+constexpr int x = 0, v = 1;
 
 double squared(double value) { return value * value; }
 
@@ -54,26 +55,33 @@ Matrix lyapunov(const Matrix& a, const Matrix& w) {
   return (q + q.transpose()) / 2;
 }
 
-/// The linear part of z' = A z + b w, z = (x, x', filter), without friction.
+/// The linear part of z' = A z + b w, z = (x, x', filter), without friction. With a structure, z = (x, x', y, y',
+/// filter).
 struct System {
-  Matrix a;                 // (x', acceleration of the filter) with a gain of 1
+  Eigen::Index f = 2;       // first state of the filter
+  Matrix a;                 // with an acceleration of the filter of gain 1
   Vector b;                 // of the white noise, with a gain of 1
+  Vector resist;            // what a force of friction takes from each rate, per unit of the reference mass
+  double mass = 1;          // that resists a force at the interface, per unit of the reference mass
   double intensity;         // 2 pi S0
   Matrix filter;            // stationary covariance of the filter's states
+  Vector output;            // acceleration of the filter, of its states and
+  double direct = 1;        // of the white noise
   double acceleration_std;  // of the ground [m/s^2]; infinite for white noise
   double time_scale;        // of the filter, by the geometric mean of its poles [s]; infinite without one
 
   explicit System(const ShapedProblem& problem) {
     const auto& sections = problem.filter.sections();
-    const int n = f + problem.filter.order();
+    if (problem.structure) f += 2 * problem.structure->modes();
+    const Eigen::Index n = f + problem.filter.order();
     a = Matrix::Zero(n, n);
     b = Vector::Zero(n);
     // The signal between sections is out . z + direct w.
     Vector out = Vector::Zero(n);
-    double direct = 1, log_rate = 0;
+    double log_rate = 0;
     for (std::size_t i = 0; i < sections.size(); ++i) {
       const auto& s = sections[i];
-      const int at = f + 2 * static_cast<int>(i);
+      const Eigen::Index at = f + 2 * static_cast<Eigen::Index>(i);
       a(at, at + 1) = 1;
       a.row(at + 1) = out.transpose();
       b(at + 1) = direct;
@@ -91,11 +99,34 @@ struct System {
     filter = n > f ? lyapunov(inner, intensity * source * source.transpose()) : Matrix::Zero(0, 0);
     acceleration_std = direct != 0 ? infinity : std::sqrt(out.tail(n - f).dot(filter * out.tail(n - f)));
     time_scale = sections.empty() ? infinity : std::exp(-log_rate);
-    a.row(v) = -out.transpose();
-    b(v) = -direct;
-    a(x, v) = 1;
-    a(v, x) = -squared(problem.natural_frequency);
-    a(v, v) = -problem.damping;
+    output = out.tail(n - f);
+    // What the ground acceleration adds to each rate.
+    Vector ground = Vector::Zero(f);
+    resist = Vector::Zero(f);
+    if (problem.structure) {
+      const ModalInterface& of = *problem.structure;
+      const Eigen::Index modes = of.modes();
+      mass = of.mass;
+      a.topLeftCorner(f, f) = flow_matrix(of, true);
+      ground(v) = -of.ground_demand / mass;
+      resist(v) = 1 / mass;
+      ground.tail(modes) = -of.load - of.jump * ground(v);
+      resist.tail(modes) = -of.jump / mass;
+    } else {
+      a(x, v) = 1;
+      a(v, x) = -squared(problem.natural_frequency);
+      a(v, v) = -problem.damping;
+      ground(v) = -1;
+      resist(v) = 1;
+    }
+    a.topRightCorner(f, n - f) = ground * output.transpose();
+    b.head(f) = ground * direct;
+  }
+
+  /// The linear equivalent of friction, -F = a21 x + a22 x', as a change of A.
+  void add_friction(double a21, double a22, Matrix& to) const {
+    to.col(x).head(f) += a21 * resist;
+    to.col(v).head(f) += a22 * resist;
   }
 
   Eigen::Index size() const { return a.rows(); }
@@ -127,7 +158,7 @@ class Equations {
         columns_(columns),
         q_(Matrix::Zero(system.size(), system.size())),
         product_(q_) {
-    q_.bottomRightCorner(system.size() - f, system.size() - f) = system.filter;
+    q_.bottomRightCorner(system.size() - system.f, system.size() - system.f) = system.filter;
     for (Eigen::Index i = 0; i < q_.rows(); ++i)
       for (Eigen::Index k = 0; k < q_.cols(); ++k)
         if (system.a(i, k) != 0) entries_.push_back({i, k, system.a(i, k)});
@@ -138,7 +169,8 @@ class Equations {
     const auto [out, in] = factors(t);
     product_.setZero();
     for (const Entry& entry : entries_)
-      add(entry.row, entry.column, entry.row == v && entry.column >= f ? out * entry.value : entry.value);
+      add(entry.row, entry.column,
+          entry.row < system_.f && entry.column >= system_.f ? out * entry.value : entry.value);
 
     const bool drifts = friction_.drifts();
     const double* const mean = y.data() + packed_size(q_.rows(), columns_);
@@ -147,14 +179,21 @@ class Equations {
       const double q11 = std::max(q_(x, x), 0.0), q22 = std::max(q_(v, v), 0.0) + floor_ * floor_;
       const MeanFriction average = friction_(drifts ? mean[1] : 0, q11, q_(x, v), q22);
       if (drifts) {
-        double* const mean_slope = slope.data() + packed_size(q_.rows(), columns_);
-        mean_slope[0] = mean[1];
-        mean_slope[1] = system_.a(v, x) * mean[0] + system_.a(v, v) * mean[1] - average.mean;
+        using Means = Eigen::VectorXd;
+        const Eigen::Index f = system_.f;
+        Eigen::Map<Means>(slope.data() + packed_size(q_.rows(), columns_), f) =
+            system_.a.topLeftCorner(f, f) * Eigen::Map<const Means>(mean, f) - average.mean * system_.resist;
       }
-      add(v, x, average.a21);
-      add(v, v, average.a22);
+      for (Eigen::Index i = 0; i < system_.f; ++i) {
+        const double gain = system_.resist(i);
+        if (gain == 0) continue;
+        add(i, x, gain * average.a21);
+        add(i, v, gain * average.a22);
+      }
     }
-    const auto enters = [&, out = out, in = in](Eigen::Index i) { return (i == v ? out : 1) * in * system_.b(i); };
+    const auto enters = [&, out = out, in = in](Eigen::Index i) {
+      return (i < system_.f ? out : 1) * in * system_.b(i);
+    };
     double* to = slope.data();
     for (Eigen::Index j = 0; j < columns_; ++j) {
       const double source = system_.intensity * enters(j);
@@ -165,7 +204,7 @@ class Equations {
 
   /// Rms values in the state y at time t [m/s^2], infinite under white noise.
   struct Drive {
-    double ground;  ///< of the ground acceleration
+    double ground;  ///< of the ground acceleration, or of the demand on the interface of a structure without its spring
     double force;   ///< of it and the spring together
     double held;    ///< of that below which linearized friction holds the slider
   };
@@ -175,10 +214,11 @@ class Equations {
     const double held = friction_.drifts() ? friction_.threshold(spring)
                                            : -friction_(0, std::max(q_(x, x), 0.0), 0, floor_ * floor_).a22 * floor_;
     if (system_.b(v) != 0) return {infinity, infinity, held};
-    Vector row = factors(t).out * system_.a.row(v).transpose();
+    Vector row = system_.mass * system_.a.row(v).transpose();
+    row.tail(row.size() - system_.f) *= factors(t).out;
     row(x) = row(v) = 0;
     const double ground = row.dot(q_ * row);
-    row(x) = system_.a(v, x);
+    row(x) = system_.mass * system_.a(v, x);
     return {std::sqrt(std::max(ground, 0.0)), std::sqrt(std::max(row.dot(q_ * row), 0.0)), held};
   }
 
@@ -210,7 +250,7 @@ class Equations {
   const AverageFriction& friction_;
   const theory::ShapedNoise& noise_;
   double floor_;
-  Eigen::Index columns_;        // that change: those of x and x' alone where the filter's own covariance is stationary
+  Eigen::Index columns_;        // that change: not those of the filter where its own covariance is stationary
   std::vector<Entry> entries_;  // of A that are not 0: few, for the filter is a chain of companion matrices
   Matrix q_, product_;
 };
@@ -233,13 +273,35 @@ double frictionless_velocity(const System& system, double time) {
   return std::isinf(system.acceleration_std) ? std::sqrt(system.intensity * time) : system.acceleration_std * time;
 }
 
+/// The stationary rms of the force on a stuck interface without its spring, per unit of the reference mass: that of the
+/// ground acceleration for a slider; infinite for a structure with undamped modes.
+double stuck_demand(const ShapedProblem& problem, const System& system) {
+  if (!problem.structure || system.b(v) != 0) return system.acceleration_std;
+  const ModalInterface& of = *problem.structure;
+  const Eigen::Index modes = of.modes(), filter = system.size() - system.f, n = 2 * modes + filter;
+  Matrix a = Matrix::Zero(n, n);
+  a.topLeftCorner(2 * modes, 2 * modes) = flow_matrix(of, false);
+  a.block(modes, 2 * modes, modes, filter) = -of.load * system.output.transpose();
+  a.bottomRightCorner(filter, filter) = system.a.bottomRightCorner(filter, filter);
+  Vector b = Vector::Zero(n);
+  b.segment(modes, modes) = -of.load * system.direct;
+  b.tail(filter) = system.b.tail(filter);
+  if (!(a.topLeftCorner(2 * modes, 2 * modes).eigenvalues().real().maxCoeff() < 0)) return infinity;
+  const Matrix q = lyapunov(a, system.intensity * b * b.transpose());
+  Vector row(n);
+  row.head(modes) = of.stiffness.cwiseProduct(of.demand);
+  row.segment(modes, modes) = of.damping * of.demand;
+  row.tail(filter) = -of.ground_demand * system.output;
+  return std::sqrt(std::max(row.dot(q * row), 0.0));
+}
+
 }  // namespace
 
 double motion_ratio(const ShapedProblem& problem) {
   const System system(problem);
   const AverageFriction friction(problem.law, problem.options.force, 1);
   if (friction.none()) return infinity;
-  return course(problem.noise.envelope()).largest * system.acceleration_std /
+  return course(problem.noise.envelope()).largest * stuck_demand(problem, system) /
          friction.threshold(problem.natural_frequency > 0);
 }
 
@@ -251,7 +313,7 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   const System system(problem);
   const auto& envelope = problem.noise.envelope();
   const bool steady = problem.noise.stationary_start() && !(envelope && problem.noise.envelope_at_source());
-  const Eigen::Index n = system.size(), columns = steady ? f : n, packed = packed_size(n, columns);
+  const Eigen::Index f = system.f, n = system.size(), columns = steady ? f : n, packed = packed_size(n, columns);
   const Course changes = course(envelope);
   const double last = times.back(), first = times.front() > 0 ? times.front() : times.size() > 1 ? times[1] : 0;
   solution.state.resize(times.size());
@@ -273,6 +335,16 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   Vector scale(n);
   scale(x) = 0.1 * displacement;
   scale(v) = 0.1 * velocity;
+  if (problem.structure) {
+    // Relative to the base, as an oscillator under the acceleration of these scales.
+    const ModalInterface& of = *problem.structure;
+    const double shortest_time = white ? first : early, gain = of.load.cwiseAbs().maxCoeff() / shortest_time;
+    for (Eigen::Index j = 0; j < of.modes(); ++j) {
+      const double time = std::min(shortest_time, 1 / std::sqrt(of.stiffness[j]));
+      scale(v + 1 + j) = scale(v) * gain * time * time;
+      scale(v + 1 + of.modes() + j) = scale(v) * gain * time;
+    }
+  }
   for (Eigen::Index i = f; i < n; ++i) scale(i) = changes.largest * std::sqrt(system.filter(i - f, i - f));
   const double tolerance = problem.options.tolerance / 10;
   // Motion that never comes to rest needs no implicit steps, unless it lasts a thousand times the shortest time scale.
@@ -280,7 +352,8 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   const double rate = std::max({1 / system.time_scale, problem.damping, problem.natural_frequency,
                                 white ? squared(friction.level()) / system.intensity : 0,
                                 friction.drifts() ? friction.level() / velocity : 0});
-  const bool moves = friction.none() || (steady && !envelope && motion_ratio(problem) > 1.5);
+  // The demand on the interface of a structure builds up from a smaller one.
+  const bool moves = friction.none() || (!problem.structure && steady && !envelope && motion_ratio(problem) > 1.5);
   const bool stiff = !friction.none() && !(moves && last * rate < 1000);
   // Slopes are cheap: explicit steps of fifth order are the fastest unless the tolerance is so tight that Adams' orders
   // up to 12 need far fewer.
@@ -305,8 +378,9 @@ ShapedSolution solve_shaped(const ShapedProblem& problem, std::span<const double
   std::vector<double> state(static_cast<std::size_t>(packed));
   pack(start, columns, state.data());
   if (friction.drifts()) {
-    state.insert(state.end(), {0, 0});
+    state.insert(state.end(), static_cast<std::size_t>(f), 0);
     ode.absolute_tolerance.insert(ode.absolute_tolerance.end(), {tolerance * displacement, tolerance * velocity});
+    for (Eigen::Index i = v + 1; i < f; ++i) ode.absolute_tolerance.push_back(10 * tolerance * scale(i));
   }
 
   Equations equations(system, friction, problem.noise, floor, columns);
@@ -384,8 +458,7 @@ StationaryState solve_stationary(const ShapedProblem& problem) {
   Matrix q = Matrix::Zero(n, n);
   const auto solve = [&](double a21, double a22) {
     a = system.a;
-    a(v, x) += a21;
-    a(v, v) += a22;
+    system.add_friction(a21, a22, a);
     q.bottomRightCorner(m, m) = lyapunov(a.bottomRightCorner(m, m), noise);
   };
 
@@ -471,7 +544,7 @@ double late_growth(const ShapedProblem& problem, double last) {
     highest = std::get<Caster>(problem.law).slip_level();
   const LinearizedLaw last_law = Coulomb(*level), highest_law = Coulomb(highest);
   const auto with = [&](const LinearizedLaw& law) {
-    return ShapedProblem{law, 0, problem.damping, problem.noise, problem.filter, problem.options};
+    return ShapedProblem{law, 0, problem.damping, problem.noise, problem.filter, problem.options, problem.structure};
   };
   if (motion_ratio(with(highest_law)) > 1) return solve_stationary(with(last_law)).growth_rate;
   return motion_ratio(problem) <= 1 ? 0 : std::numeric_limits<double>::quiet_NaN();

@@ -13,8 +13,8 @@ namespace stickslip::detail {
 /// Moments of x and x'.
 struct ShapedState {
   double displacement_mean = 0, velocity_mean = 0, q11 = 0, q12 = 0, q22 = 0;
-  /// Rms acceleration of the ground over that below which linearized friction holds the slider; infinite at rest at
-  /// time 0, under white noise and without friction.
+  /// Rms acceleration of the ground, or demand on the interface of a structure without its spring, over that below
+  /// which linearized friction holds the slider; infinite at rest at time 0, under white noise and without friction.
   double motion_ratio = std::numeric_limits<double>::infinity();
 };
 
@@ -29,12 +29,19 @@ struct StationaryState {
   double growth_rate = 0;  ///< of q11 [m^2/s]
 };
 
+struct ModalInterface;
+
 struct ShapedProblem {
   const LinearizedLaw& law;
   double natural_frequency, damping;
   const theory::ShapedNoise& noise;
   const theory::ShapingFilter& filter;
   const theory::EquivalentLinearization::Options& options;
+  /// The structure whose interface slides, with spring and damper as above; null for a slider.
+  const ModalInterface* structure = nullptr;
+
+  /// Largest number of modes of a structure: the covariances of all states are integrated together.
+  static constexpr int most_modes = 12;
 };
 
 /// @throws ConvergenceError with the time reached
@@ -50,8 +57,9 @@ StationaryState solve_stationary(const ShapedProblem& problem);
 /// @throws as solve_stationary
 double late_growth(const ShapedProblem& problem, double last);
 
-/// Ratio of the rms ground acceleration, at the maximum of the envelope, to that below which equivalent linearization
-/// predicts no motion; infinite for white noise and without friction.
+/// Ratio of the rms ground acceleration, or of the demand on a stuck interface of a structure, at the maximum of the
+/// envelope, to that below which equivalent linearization predicts no motion; infinite for white noise and without
+/// friction.
 double motion_ratio(const ShapedProblem& problem);
 
 }  // namespace stickslip::detail

@@ -17,7 +17,13 @@
 #include "stickslip/theory/shaping_filter.hpp"
 #include "stickslip/theory/theory.hpp"
 
+namespace stickslip {
+class SlidingStructure;
+}
+
 namespace stickslip::detail {
+
+struct ShapedProblem;
 
 /// A law in the form that the compiled library uses: Coulomb friction and casters without rolling resistance, for which
 /// it has closed forms, or the level of any other law.
@@ -79,6 +85,11 @@ struct LinearFriction {
 /// the slip level; at such times the velocity variance is 0. The remark of a prediction states which of these concern
 /// it. docs/equivalent_linearization.md has measured errors.
 ///
+/// With a structure whose interface slides (IsolatedStructure, EquipmentOnFloor), z = (x, x', y, y', filter), y its
+/// modes; the rows of their rates hold the equations of the sliding structure, and friction acts on those of x' and y'
+/// through the mass of the interface. While friction holds the interface its damping is so large that the structure
+/// moves as if it were stuck.
+///
 /// In d dimensions, friction opposes the velocity vector, and the same excitation acts in each coordinate,
 /// independently of the others. The linear force a22 v with the least mean-square error has
 ///
@@ -137,6 +148,14 @@ class EquivalentLinearization {
         });
   }
 
+  /// The same for a structure with a sliding interface, of at most 12 modes.
+  template <class E>
+  Coverage covers(const SlidingStructure& system, const E& excitation) const {
+    return detail::coverage<ShapedNoise>(
+        excitation, "EquivalentLinearization: covers white noise, spectra, GaussianExcitation and PoissonPulses",
+        [&](const ShapedNoise& noise) { check(system, noise); });
+  }
+
   /// Means and covariances by time, from rest. Means are zero unless the levels differ.
   ///
   /// Under white noise without an envelope, unequal levels or a damper, the equations are integrated over the logarithm
@@ -175,6 +194,13 @@ class EquivalentLinearization {
     return predict(Slider<Law>(law), noise, times, progress);
   }
 
+  /// The same of the sliding interface of a structure, from rest: an IsolatedStructure or EquipmentOnFloor of at most
+  /// 12 modes, whose law depends on the position at most, without stops and not one way. Always by the covariance in
+  /// time. `motion_ratio` of the remark is then that of the force on the interface while it is stuck.
+  /// Cost: 10 ms with three modes, 1 s with ten.
+  Moments predict(const SlidingStructure& system, const ShapedNoise& noise, std::span<const double> times,
+                  const std::function<void()>& progress = {}) const;
+
   /// The stationary moments, A Q + (A Q)^T + 2 pi S0 b b^T = 0 with the A that belongs to Q, at a single, infinite
   /// time.
   ///
@@ -192,6 +218,9 @@ class EquivalentLinearization {
     return stationary(detail::linearized_law(slider.law()), slider.natural_frequency(), slider.damping(), noise);
   }
 
+  /// The same of the sliding interface of a structure.
+  Moments stationary(const SlidingStructure& system, const ShapedNoise& noise) const;
+
   /// The equivalent linear friction for a given covariance of displacement and velocity,
   ///     a22 = -sqrt(2 / (pi q22)) E[level(x) | x' = 0],                                                (3.25)
   ///     a21 = -E[level'(x) sgn(x')],                                                                   (3.22)
@@ -207,6 +236,10 @@ class EquivalentLinearization {
 
  private:
   void check(const detail::LinearizedLaw& law, double damping, const ShapedNoise& noise) const;
+  void check(const SlidingStructure& system, const ShapedNoise& noise) const;
+  Moments predict(const detail::ShapedProblem& problem, std::span<const double> times,
+                  const std::function<void()>& progress) const;
+  Moments stationary(const detail::ShapedProblem& problem) const;
   Moments predict(const detail::LinearizedLaw& law, double natural_frequency, double damping, const ShapedNoise& noise,
                   std::span<const double> times, const std::function<void()>& progress) const;
   Moments stationary(const detail::LinearizedLaw& law, double natural_frequency, double damping,
