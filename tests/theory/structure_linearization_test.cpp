@@ -87,20 +87,21 @@ TEST_CASE("a stiff structure is linearized as the rigid block", "[theory][struct
 TEST_CASE("the covariance of a structure tends to the stationary one", "[theory][structure]") {
   const Structure building = Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), Rayleigh{0.6, 0.004});
   const std::vector<double> late{40};
+  // Of the slowest transient, 1e-5 is left.
   for (const Force force : {Force::gaussian, Force::laplace}) {
-    const EquivalentLinearization method({.force = force});
+    const EquivalentLinearization method({.force = force, .tolerance = 1e-7});
     const IsolatedStructure base(Slider<Coulomb>(Coulomb(0.3), {.natural_frequency = 2, .damping = 0.1}), building, 1);
-    CHECK(apart(method.predict(base, soil, late), method.stationary(base, soil)) < 1e-6);
+    CHECK(apart(method.predict(base, soil, late), method.stationary(base, soil)) < 1e-4);
     const EquipmentOnFloor rack(Slider<Coulomb>(Coulomb(0.3), 3), building, 2, 0.2);
-    CHECK(apart(method.predict(rack, soil, late), method.stationary(rack, soil)) < 1e-6);
+    CHECK(apart(method.predict(rack, soil, late), method.stationary(rack, soil)) < 1e-4);
     // White noise on equipment that the ground reaches through the floors alone.
     const std::vector<double> both{1, 40};
     const Moments white = method.predict(rack, 0.02, both);
-    CHECK(relative(white.velocity_variance.value[1], method.stationary(rack, 0.02).velocity_variance.value[0]) < 1e-6);
+    CHECK(relative(white.velocity_variance.value[1], method.stationary(rack, 0.02).velocity_variance.value[0]) < 1e-4);
     const IsolatedStructure free(Slider<Coulomb>(Coulomb(0.3)), building, 1);
     const Moments grows = method.predict(free, soil, late), stationary = method.stationary(free, soil);
-    CHECK(relative(grows.velocity_variance.value[0], stationary.velocity_variance.value[0]) < 1e-7);
-    CHECK(relative(2 * grows.covariance.value[0], stationary.growth_rate.value) < 1e-6);
+    CHECK(relative(grows.velocity_variance.value[0], stationary.velocity_variance.value[0]) < 1e-4);
+    CHECK(relative(2 * grows.covariance.value[0], stationary.growth_rate.value) < 1e-4);
     CHECK(relative(grows.growth_rate.value, stationary.growth_rate.value) < 1e-12);
   }
 }
