@@ -53,7 +53,7 @@ double largest_top_of(const FlexibleSlope& slope, const SlopeProperties& propert
   of.shapes = modes.shapes;
   if (const auto largest = detail::largest_top(of, motion)) return *largest;
   const double never_reached = 1e100;
-  return integrate(on_surface(slope, properties, never_reached), motion).floors.peak_drift[0];
+  return integrate(on_surface(slope, properties, at_level(never_reached)), motion).floors.peak_drift[0];
 }
 
 }  // namespace
