@@ -1,5 +1,6 @@
 #include "stickslip/structure/flexible_slope.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -51,6 +52,7 @@ double largest_top_of(const FlexibleSlope& slope, const SlopeProperties& propert
   of.load = modes.participation;
   of.demand = of.reaction = of.jump = VectorXd::Zero(slope.modes);
   of.shapes = modes.shapes;
+  of.fastest = std::max(modes.frequencies.maxCoeff(), of.damping.diagonal().maxCoeff());
   if (const auto largest = detail::largest_top(of, motion)) return *largest;
   const double never_reached = 1e100;
   return integrate(on_surface(slope, properties, at_level(never_reached)), motion).floors.peak_drift[0];
@@ -117,17 +119,28 @@ SlopeProperties properties(const FlexibleSlope& slope, const GroundMotion& motio
   check(slope);
   const double radiates = slope.rock_velocity ? radiation_damping(*slope.rock_velocity, slope.shear_velocity) : 0;
   if (!slope.soil) return {slope.shear_velocity, slope.damping_ratio + radiates};
-  SlopeProperties now{slope.shear_velocity, slope.soil->damping_ratio(0) + radiates};
+  const auto at = [&](double strain, int iterations) {
+    return SlopeProperties{slope.shear_velocity * std::sqrt(slope.soil->modulus_ratio(strain)),
+                           slope.soil->damping_ratio(strain) + radiates, strain, iterations};
+  };
+  const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
+  // The strain that a column of assumed strain has exceeds it at 0, and is below it at high strains. Secants find where
+  // both are equal, also where the iteration by itself would swing; where they leave the bracket, it is halved.
   constexpr int most = 200;
+  double low = 0, high = std::numeric_limits<double>::infinity();
+  double last_strain = 0, last_excess = 0;
+  SlopeProperties now = at(0, 0);
   for (int i = 1; i <= most; ++i) {
-    const double strain = 0.65 * pi / 2 * largest_top_of(slope, now, motion) / slope.height;
-    const SlopeProperties next{slope.shear_velocity * std::sqrt(slope.soil->modulus_ratio(strain)),
-                               slope.soil->damping_ratio(strain) + radiates, strain, i};
-    const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
-    const bool converged =
-        close(now.shear_velocity, next.shear_velocity) && close(now.damping_ratio, next.damping_ratio);
-    now = next;
-    if (converged) return now;
+    const double found = 0.65 * pi / 2 * largest_top_of(slope, now, motion) / slope.height;
+    const SlopeProperties next = at(found, i);
+    if (close(now.shear_velocity, next.shear_velocity) && close(now.damping_ratio, next.damping_ratio)) return next;
+    const double excess = found - now.strain;
+    (excess > 0 ? low : high) = now.strain;
+    double strain = found;
+    if (i > 1) strain = now.strain - excess * (now.strain - last_strain) / (excess - last_excess);
+    if (!(strain > low && strain < high)) strain = std::isfinite(high) ? low + (high - low) / 2 : found;
+    last_strain = std::exchange(now, at(strain, i)).strain;
+    last_excess = excess;
   }
   throw ConvergenceError("FlexibleSlope: the equivalent-linear column does not converge within " +
                          std::to_string(most) + " iterations, at an effective strain of " +

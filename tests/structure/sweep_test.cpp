@@ -164,21 +164,21 @@ TEST_CASE("a sweep of structures has the same bits for any threads, and other gr
   for (std::size_t k = 1; k < 80; ++k) CHECK(one.peak[one.at(k, 0, 0)] <= one.peak[one.at(k - 1, 0, 0)]);
 }
 
-TEST_CASE("a combination that fails does not end a sweep of structures", "[structure][sweep]") {
+TEST_CASE("a combination that fails does not end a sweep of structures", "[structure][sweep][long]") {
   const GroundMotion quake({0, 3, -3, 0, 2, 0}, 0.2);
-  // Undamped, it can slide again at any time.
-  const Structure undamped = Structure::from_modes(list({0.7}), list({8}), list({0}));
-  std::vector<AnySlidingStructure> structures;
-  for (const double level : {0.05, 100.0})
-    structures.emplace_back(IsolatedStructure(Slider(Coulomb(level, never)), undamped));
+  // Undamped and not slowed by the sliding, it makes the block slide again at any time.
+  std::vector<FlexibleSlope> slopes;
+  for (const double ky : {0.005, 10.0})
+    slopes.push_back({.ky_g = ky, .height = 50, .shear_velocity = 300, .method = SlopeMethod::decoupled});
   SweepOptions options;
   options.settle = true;
-  const SweepTable table = sweep(structures, {GroundMotion(quake)}, options);
-  REQUIRE(table.failures.size() == 2);
+  options.polarity = Polarity::recorded;
+  const SweepTable table = sweep(slopes, {GroundMotion(quake)}, options);
+  REQUIRE(table.failures.size() == 1);
   CHECK(table.failures[0].slider == 0);
   CHECK_THAT(table.failures[0].message, ContainsSubstring("does not come to rest within 1000000 steps"));
   CHECK(std::isnan(table.peak[0]));
-  CHECK(table.peak[table.at(1, 0)] == 0);
+  CHECK(table.peak[1] <= 0);
 
   CHECK_THROWS_WITH(sweep(std::vector<FlexibleSlope>{{.ky_g = 0.1, .height = -1}}, {GroundMotion(quake)}),
                     ContainsSubstring("height must be positive and finite, got -1 m"));

@@ -67,8 +67,8 @@ struct SlopeProperties {
 
 /// The properties of a slope under a ground motion. Without `soil` they do not depend on it. With `soil`, the column
 /// that does not slide has the effective strain g = 0.65 (pi/2) u_max / H, u_max the largest displacement of its top
-/// relative to the base, over all time; velocity and damping are iterated until neither changes by more than 1e-12 of
-/// itself. The radiation formula takes Vs at small strains.
+/// relative to the base, over all time; velocity and damping are iterated, by secants within a bracket, until neither
+/// changes by more than 1e-12 of itself. The radiation formula takes Vs at small strains.
 /// @throws std::invalid_argument  naming the value
 /// @throws ConvergenceError       no convergence within 200 iterations
 SlopeProperties properties(const FlexibleSlope& slope, const GroundMotion& motion);
