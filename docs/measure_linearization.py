@@ -321,6 +321,40 @@ def laplacian(members: int = 4000) -> Iterator[list[str]]:
         ]
 
 
+# ---- structures on a sliding base
+
+STRUCTURES = [
+    # sigma_n / a, spring, fraction of the mass in the mode, its frequency [rad/s]
+    *itertools.product((1.5, 3.0), (0.0, 2.0), (0.7,), (6.0, 15.0, 40.0)),
+    *itertools.product((3.0,), (0.0, 2.0), (0.4, 0.9), (15.0,)),
+]
+STRUCTURE_SOIL = (15.0, 0.6)
+STRUCTURE_TIMES = (5.0, 20.0)
+
+
+def isolated(spring: float, fraction: float, frequency: float) -> ss.IsolatedStructure:
+    """One mode with a damping ratio of 5 % on a base with friction of the level 1 m/s^2."""
+    column = ss.Structure.from_modes(
+        mass_fractions=[fraction], frequencies=[frequency], damping_ratios=[0.05]
+    )
+    slider = ss.Slider(ss.Coulomb(slip_level=LEVEL), natural_frequency=spring)
+    return ss.IsolatedStructure(slider, column)
+
+
+def structures(members: int = 2000) -> Iterator[list[str]]:
+    for strength, spring, fraction, frequency in STRUCTURES:
+        system = isolated(spring, fraction, frequency)
+        spectrum = kanai_tajimi(strength, *STRUCTURE_SOIL)
+        e, at = run(system, spectrum, members, 17, STRUCTURE_TIMES)
+        found = [EL(f).predict(system, spectrum, STRUCTURE_TIMES) for f in ("gaussian", "laplace")]
+        row = [f"{strength:g}", f"{spring:g}", f"{fraction:g}", f"{frequency:g}"]
+        for name in ("displacement_variance", "velocity_variance"):
+            values, errors = getattr(e, name)[at], getattr(e, f"{name}_error")[at]
+            row.append(", ".join(number(*pair) for pair in zip(values, errors)))
+            row += [", ".join(ratio(*p) for p in zip(getattr(m, name), values)) for m in found]
+        yield row
+
+
 # ---- stationary linearization
 
 GROUNDS = {  # name: spectrum of a strength, the frequency of its center [rad/s]
@@ -447,6 +481,12 @@ TABLES = {
         "equivalent_linearization.md",
         "| soil | sigma_n / a | spring | backward | E[x^2] | ratio | E[x'^2] | ratio |",
         laplacian,
+    ),
+    "structures": (
+        "equivalent_linearization.md",
+        "| sigma_n / a | spring | fraction | frequency | E[x^2] | Gaussian | Laplacian | E[x'^2] |"
+        " Gaussian | Laplacian |",
+        structures,
     ),
     "stationary": (
         "filtered_noise.md",

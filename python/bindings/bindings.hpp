@@ -87,6 +87,7 @@ void bind_stationary_linearization(py::module_& m);
 void bind_estimates(py::module_& m);
 void bind_distributions(py::module_& m);
 void bind_stationary(py::module_& m);
+void bind_floor_peaks(py::module_& m);
 void bind_velocity_spectrum(py::module_& m);
 void bind_drawn(py::module_& m);
 void bind_ensemble(py::module_& m);

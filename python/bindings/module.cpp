@@ -74,6 +74,7 @@ PYBIND11_MODULE(_core, m) {
   bind_estimates(m);
   bind_distributions(m);
   bind_stationary(m);
+  bind_floor_peaks(m);
   bind_velocity_spectrum(m);
   bind_drawn(m);
   bind_ensemble(m);

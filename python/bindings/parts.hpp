@@ -115,6 +115,8 @@ inline constexpr auto parts<Estimates> = std::tuple(&Estimates::value, &Estimate
 template <>
 inline constexpr auto parts<Interval> = std::tuple(&Interval::value, &Interval::low, &Interval::high);
 template <>
+inline constexpr auto parts<FloorPeaks> = std::tuple(&FloorPeaks::values, &FloorPeaks::floors);
+template <>
 inline constexpr auto parts<Moments> = std::tuple(&Moments::time, &Moments::displacement_mean,
                                                   &Moments::displacement_variance, &Moments::covariance,
                                                   &Moments::velocity_mean, &Moments::velocity_variance,

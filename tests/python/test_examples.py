@@ -238,3 +238,40 @@ def test_11_triple_pendulum(run, capsys):
     largest = np.abs(r.force).max() / G
     assert largest == pytest.approx(np.abs(loop.force).max(), rel=1e-4)  # at samples
     assert f"peak displacement      {100 * r.peak:7.2f} cm" in capsys.readouterr().out
+
+
+def test_12_isolated_hospital(run):
+    names = run("12_isolated_hospital")
+    fixed, isolated = names["ensembles"].values()
+    assert fixed.peak.max() == 0
+    assert fixed.members == len(names["quakes"]) == 18
+    # Isolation pays: in the median every floor accelerates less, and every story drifts less.
+    for name in ("peak_floor_acceleration", "peak_floor_drift"):
+        before, after = (np.median(getattr(e, name).values, axis=0) for e in (fixed, isolated))
+        assert (after < 0.7 * before).all(), name
+    # The ensemble holds what integrate says of a record.
+    quake, slider = names["quakes"][3], names["designs"]["isolated"]
+    r = ss.integrate(
+        ss.IsolatedStructure(slider, names["hospital"], base_mass=1.5e6), quake, settle=True
+    )
+    assert isolated.peak[3] == pytest.approx(r.peak, rel=1e-9)
+    # Very stiff equipment on a floor accelerates as the floor does.
+    stiff = ss.response_spectrum(r, 0.01, floor=3).values
+    assert stiff == pytest.approx(r.floors.peak_acceleration[2], rel=0.05)
+
+
+def test_13_dam(run):
+    names = run("13_dam")
+    coupled, decoupled, rigid = names["coupled"], names["decoupled"], names["rigid"]
+    # A low dam is nearly a rigid block; a very high one moves less than that.
+    slides = names["slides"]
+    assert slides.sum() > 10
+    low = np.median(coupled[slides, 0] / rigid[slides])
+    assert low == pytest.approx(1, abs=0.25)
+    assert np.median(coupled[slides, -1] / rigid[slides]) < 0.5
+    # Decoupled analysis is mostly conservative.
+    moved = coupled > 0.01
+    assert np.mean(decoupled[moved] > coupled[moved]) > 0.5
+    quake, height = names["quakes"][2], names["heights"][4]
+    both = [names["dam"](height).coupled(q).residual for q in (quake, quake.scaled(-1))]
+    assert coupled[2, 4] == pytest.approx(np.mean(both), rel=1e-12)

@@ -121,6 +121,20 @@ def test_the_transition_times_are_those_shown():
         assert "simulated casters break loose earlier" in repr(t)
 
 
+def test_structures_have_the_errors_shown():
+    rows = shown("structures")
+    assert len(rows) == len(measured.STRUCTURES)
+    for strength, spring, fraction, frequency, *cells in rows:
+        system = measured.isolated(*map(float, (spring, fraction, frequency)))
+        spectrum = measured.kanai_tajimi(float(strength), *measured.STRUCTURE_SOIL)
+        for force, columns in (("gaussian", (1, 4)), ("laplace", (2, 5))):
+            m = EL(force).predict(system, spectrum, measured.STRUCTURE_TIMES)
+            for theory, column in zip((m.displacement_variance, m.velocity_variance), columns):
+                ratios, simulated = pairs(cells[column]), pairs(cells[0 if column < 3 else 3])
+                for r, q, s in zip(ratios, theory, simulated, strict=True):
+                    assert agree(r, q, s), (strength, spring, fraction, frequency, force)
+
+
 def test_filtered_noise_has_the_errors_shown():
     for name, force in (("casters", "gaussian"), ("laplace", "laplace")):
         for soil, strength, spring, last, *cells in shown(name):

@@ -232,3 +232,19 @@ def test_slopes_under_records(record, scale, frequency, level, residual, slips) 
     r = ss.integrate(ss.IsolatedStructure(block, column), motion)
     assert r.residual == pytest.approx(residual, rel=1e-12)
     assert r.slips == slips
+
+
+def test_a_yield_acceleration_that_falls_with_the_distance() -> None:
+    law = ss.Degrading(distance=[0, 0.05], ky_g=[0.05, 0.02])
+    softens = ss.FlexibleSlope(ky_g=law, height=50, shear_velocity=600, damping_ratio=0.05)
+    assert softens.ky_g == law
+    assert "ky_g=Degrading(" in repr(softens)
+    assert softens.coupled(QUAKE).residual > SLOPE.coupled(QUAKE).residual > 0
+    same = ss.Degrading(distance=[0], ky_g=[0.05])
+    other = ss.FlexibleSlope(ky_g=same, height=50, shear_velocity=600, damping_ratio=0.05)
+    assert other.coupled(QUAKE).residual == pytest.approx(SLOPE.coupled(QUAKE).residual, 1e-12)
+    noise = ss.GaussianExcitation(
+        ss.Spectrum.kanai_tajimi(s0=0.02, frequency=12.0, damping=0.6), 0.02, 257
+    )
+    e = ss.run_ensemble(softens, noise, members=3, seed=1)
+    assert e.configuration["slider"]["law"] == "Degrading"

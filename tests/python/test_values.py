@@ -61,6 +61,9 @@ HAZARD = ss.Hazard([0.01, 0.1, 1, 10], [1, 1e-2, 1e-4, 1e-7], name="pga_g", unit
 
 BUILDING = ss.Structure.shear_building(masses=[2], stiffnesses=[30], damping_ratio=0.05)
 COLUMN = ss.Structure.from_modes(mass_fractions=[0.5], frequencies=[8], damping_ratios=[0.05])
+FLOORS = ss.run_ensemble(
+    ss.IsolatedStructure(BLOCK, BUILDING, base_mass=1), SHAKING, members=3, seed=1
+)
 ON_BASE = ss.integrate(ss.IsolatedStructure(BLOCK, BUILDING, base_mass=1), EVEN)
 
 # Of each class, objects that differ.
@@ -171,6 +174,9 @@ EXAMPLES = {
             height=50,
             shear_velocity=600,
             soil=ss.HyperbolicSoil(reference_strain=1e-3),
+        ),
+        ss.FlexibleSlope(
+            ky_g=ss.Degrading(distance=[0, 0.1], ky_g=[0.1, 0.05]), height=50, shear_velocity=600
         ),
     ],
     ss.StructureResponse: [
@@ -305,6 +311,7 @@ EXAMPLES = {
     ss.Estimate: [ENSEMBLE.stationary.growth_rate, COMPARED.theories["PulseChain"].growth_rate],
     ss.Interval: [ENSEMBLE.quantile(0.5), ENSEMBLE.quantile(0.999)],
     ss.Stationary: [ENSEMBLE.stationary, SMALLER.stationary],
+    ss.FloorPeaks: [FLOORS.peak_floor_acceleration, FLOORS.peak_floor_drift],
     ss.VelocitySpectrum: [ENSEMBLE.velocity_spectrum, SMALLER.velocity_spectrum],
     ss.Moments: [
         ENSEMBLE.moments,
@@ -318,6 +325,7 @@ EXAMPLES = {
         SMALLER,
         ss.run_ensemble(BLOCK, SHAKING, members=70, seed=1, velocity_spectrum=False),
         ss.run_ensemble(BLOCK, SHAKING, members=70, seed=2),
+        FLOORS,
     ],
     ss.Comparison: [COMPARED, ss.compare(CART.law, PULSES, [2, 4], members=64)],
     ss.ConvergenceError: [ss.ConvergenceError("not yet")],

@@ -196,8 +196,8 @@ class EquivalentLinearization {
 
   /// The same of the sliding interface of a structure, from rest: an IsolatedStructure or EquipmentOnFloor of at most
   /// 12 modes, whose law depends on the position at most, without stops and not one way. Always by the covariance in
-  /// time. `motion_ratio` of the remark is then that of the force on the interface while it is stuck.
-  /// Cost: 10 ms with three modes, 1 s with ten.
+  /// time. The remark then compares the threshold of motion with the force on the interface while it is stuck.
+  /// Cost: 0.03 s with one mode, 0.2 s with three, 1 s with five, 16 s with ten.
   Moments predict(const SlidingStructure& system, const ShapedNoise& noise, std::span<const double> times,
                   const std::function<void()>& progress = {}) const;
 

@@ -105,6 +105,9 @@ Every statistic has a standard error, from the scatter between members. All sums
 (Pebay 2008), and merge in an order that the member numbers determine: the same members give identical bits on any
 number of threads and in any parts that end on block boundaries.
 
+Structures with a sliding interface (`has_floors`) have the statistics of the displacement of their interface, and those
+of the peaks on their floors.
+
 If ground motions differ in duration, `time` is empty, and statistics by time, stationary averages and the velocity
 spectrum raise ValueError; peaks, residuals, quantiles and exceedances are always available.
 
@@ -195,6 +198,28 @@ ValueError above 2^24 = 16,777,216 members: their peaks are counted in bins 0.1 
                                 : array_of(e.residual());
           },
           "Last x of each member [m]; in the plane both components, shape (members, 2). ValueError as for `peak`.")
+      .def_property_readonly("has_floors", &Ensemble::has_floors,
+                             "Whether the members are structures with a sliding interface.")
+      .def_property_readonly("peak_floor_acceleration", &Ensemble::peak_floor_acceleration,
+                             R"(Largest absolute acceleration on each floor of each member, as `FloorPeaks` [m/s^2].
+
+Over all time, also between samples. ValueError for sliders, and as for `peak`.)")
+      .def_property_readonly("peak_floor_drift", &Ensemble::peak_floor_drift,
+                             R"(Largest drift of each floor relative to the one below, as `FloorPeaks` [m].
+
+ValueError as for `peak_floor_acceleration`.)")
+      .def_property_readonly(
+          "peak_base_acceleration", [](const Ensemble& e) { return array_of(e.peak_base_acceleration()); },
+          R"(Largest absolute acceleration of what the structure stands on, by member [m/s^2].
+
+That of its sliding base, or of the ground below an `EquipmentOnFloor` and a decoupled `FlexibleSlope`. ValueError as for
+`peak_floor_acceleration`.)")
+      .def_property_readonly(
+          "peak_base_shear", [](const Ensemble& e) { return array_of(e.peak_base_shear()); },
+          R"(Largest sum of the inertia forces of the structure, by member.
+
+[N] where masses are in kg; with `Structure.from_modes` per total mass [m/s^2]. ValueError as for
+`peak_floor_acceleration`.)")
       .def_property_readonly(
           "moments", &Ensemble::moments,
           "Means, variances and covariance by time and the growth rate, as Moments, like those of theories.")
@@ -356,6 +381,12 @@ OSError
            R"(Plot the variances of displacement and velocity, the distribution of the peaks, and the velocity spectrum.
 
 Needs matplotlib (`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
+      .def("plot_floors", plot_in("plot_floors", "figure"), py::kw_only(), py::arg("figure") = py::none(),
+           py::arg("title") = py::none(),
+           R"(Plot the peak accelerations and drifts of the floors by height, with quantiles.
+
+ValueError for sliders, for structures without floors, and with fewer than two members. Needs matplotlib
+(`pip install stickslip[plot]`). Returns the matplotlib Figure.)")
       .def(
           "to_dataframe",
           [](const py::object& self, const std::string& by) {
@@ -368,7 +399,8 @@ Parameters
 ----------
 by : {'member', 'time'}
     A row for each member: `peak`, `residual` and, with stops, `impacts_forward`, `impact_speed_forward`,
-    `impacts_backward`, `impact_speed_backward`. Or a row for each time: `displacement_mean`, `displacement_variance`,
+    `impacts_backward`, `impact_speed_backward`; of structures also `peak_base_acceleration`, `peak_base_shear`,
+    `floor_1_peak_acceleration`, `floor_1_peak_drift` and so on. Or a row for each time: `displacement_mean`, `displacement_variance`,
     `covariance`, `velocity_mean`, `velocity_variance`, and if they were requested `ground_acceleration_mean` and
     `ground_acceleration_variance`, each followed by its standard error, as `displacement_mean_error`.
 

@@ -36,14 +36,15 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
     }
   };
   FirstSample first;
-  const bool planar = are_in_plane(sliders, seed, first_member, first);
+  const py::object kind = first_of(sliders, seed, first_member, first);
   return with_motions(motions, ended, [&](const auto& these) {
     const auto run_those = [&](const auto& those) {
       const py::gil_scoped_release released;
       return run_ensemble(those, these, options, start);
     };
-    return planar ? with_planar_sliders(sliders, ended, run_those, first)
-                  : with_sliders(sliders, ended, run_those, first);
+    if (MemberKind<AnyPlanarSlider>::read(kind)) return with_members<AnyPlanarSlider>(sliders, ended, run_those, first);
+    if (structure_of(kind)) return with_members<AnyStructure>(sliders, ended, run_those, first);
+    return with_sliders(sliders, ended, run_those, first);
   });
 }
 

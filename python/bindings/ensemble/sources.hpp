@@ -18,6 +18,8 @@
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
+#include "stickslip/structure/identity.hpp"
+#include "structure/structure.hpp"
 
 namespace stickslip::python {
 
@@ -126,17 +128,35 @@ class PythonSliders : public PythonSource {
   }
 };
 
-/// Sliders in the plane from Python.
-class PythonPlanarSliders : public PythonSource {
+/// What an ensemble can have as members beside sliders on one axis: how an object is read, and its name in messages.
+template <class Member>
+struct MemberKind;
+template <>
+struct MemberKind<AnyPlanarSlider> {
+  static constexpr const char* noun = "PlanarSlider";
+  static std::optional<AnyPlanarSlider> read(const py::handle& object) {
+    if (py::isinstance<AnyPlanarSlider>(object)) return object.cast<const AnyPlanarSlider&>();
+    return std::nullopt;
+  }
+};
+template <>
+struct MemberKind<AnyStructure> {
+  static constexpr const char* noun = "structure";
+  static std::optional<AnyStructure> read(const py::handle& object) { return structure_of(object); }
+};
+
+/// Members of one kind from Python.
+template <class Member>
+class PythonMembers : public PythonSource {
  public:
-  PythonPlanarSliders(const py::object& object, const std::atomic<bool>& ended, FirstSample first)
+  PythonMembers(const py::object& object, const std::atomic<bool>& ended, FirstSample first)
       : PythonSource(object, ended, "sliders must have sample(*, seed, member) and configuration", std::move(first)) {}
 
-  AnyPlanarSlider sample(std::uint64_t seed, std::uint64_t member) const {
+  Member sample(std::uint64_t seed, std::uint64_t member) const {
     return ask(seed, member, [&](const py::object& made) {
-      if (py::isinstance<AnyPlanarSlider>(made)) return made.cast<AnyPlanarSlider>();
-      throw py::type_error("ensemble: a sample of sliders in the plane must be a PlanarSlider; that of member " +
-                           std::to_string(member) + " is of type " + type_of(made));
+      if (auto one = MemberKind<Member>::read(made)) return *std::move(one);
+      throw py::type_error(std::string("ensemble: as the first sample of sliders is a ") + MemberKind<Member>::noun +
+                           ", all must be; that of member " + std::to_string(member) + " is of type " + type_of(made));
     });
   }
 };
@@ -156,32 +176,32 @@ inline std::optional<std::pair<py::sequence, Order>> list_of(const py::object& o
                        ", got " + type_of(item));
 }
 
-/// Whether sliders are in the plane: those of a list if its first one is, those of a source if that of the first member
-/// is.
+/// An object of the kind of all members: a single one, the first of a list, the sample of a source for the first
+/// member.
 /// @param first  receives this sample
-inline bool are_in_plane(const py::object& sliders, std::uint64_t seed, std::uint64_t first_member,
-                         FirstSample& first) {
-  if (py::isinstance<AnyPlanarSlider>(sliders)) return true;
-  if (const auto list = list_of(sliders, "sliders")) return py::isinstance<AnyPlanarSlider>(list->first[0]);
-  if (!py::hasattr(sliders, "sample")) return false;
+inline py::object first_of(const py::object& sliders, std::uint64_t seed, std::uint64_t first_member,
+                           FirstSample& first) {
+  if (const auto list = list_of(sliders, "sliders")) return list->first[0];
+  if (!py::hasattr(sliders, "sample")) return sliders;
   first = {seed, first_member, sliders.attr("sample")(py::arg("seed") = seed, py::arg("member") = first_member)};
-  return py::isinstance<AnyPlanarSlider>(first.made);
+  return first.made;
 }
 
-/// Calls `f` with sliders in the plane.
-template <class F>
-auto with_planar_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f, FirstSample first = {}) {
-  if (py::isinstance<AnyPlanarSlider>(sliders)) return f(sliders.cast<const AnyPlanarSlider&>());
+/// Calls `f` with members of one kind: one for all, those of a list, or those of a source.
+template <class Member, class F>
+auto with_members(const py::object& sliders, const std::atomic<bool>& ended, F&& f, FirstSample first = {}) {
+  using Kind = MemberKind<Member>;
+  if (const auto one = Kind::read(sliders)) return f(*one);
   if (const auto list = list_of(sliders, "sliders")) {
-    std::vector<AnyPlanarSlider> items;
+    std::vector<Member> items;
     for (const py::handle item : list->first) {
-      if (!py::isinstance<AnyPlanarSlider>(item))
-        refuse_item("sliders", items.size(), "PlanarSlider, as the first one", item);
-      items.push_back(item.cast<AnyPlanarSlider>());
+      auto one = Kind::read(item);
+      if (!one) refuse_item("sliders", items.size(), (std::string(Kind::noun) + ", as the first one").c_str(), item);
+      items.push_back(*std::move(one));
     }
     return f(OneOf(std::move(items), list->second));
   }
-  return f(PythonPlanarSliders(sliders, ended, std::move(first)));
+  return f(PythonMembers<Member>(sliders, ended, std::move(first)));
 }
 
 /// Calls `f` with the sliders in their static type.

@@ -50,7 +50,7 @@ py::dict state_of(const Ensemble& ensemble) {
     cut_block.push_back(block);
     cut_size.push_back(size);
   }
-  std::vector<double> peak, residual, residual_transverse, speed_forward, speed_backward;
+  std::vector<double> peak, residual, residual_transverse, floor_peaks, speed_forward, speed_backward;
   std::vector<std::uint64_t> impact_block, impacts_forward, impacts_backward;
   for (const auto& [block, kept] : parts.kept) {
     kept_block.push_back(block);
@@ -59,6 +59,7 @@ py::dict state_of(const Ensemble& ensemble) {
     residual.insert(residual.end(), kept.residual.begin(), kept.residual.end());
     residual_transverse.insert(residual_transverse.end(), kept.residual_transverse.begin(),
                                kept.residual_transverse.end());
+    floor_peaks.insert(floor_peaks.end(), kept.floor_peaks.begin(), kept.floor_peaks.end());
     if (!kept.impacts.empty()) impact_block.push_back(block);
     for (const Impacts& one : kept.impacts) {
       impacts_forward.push_back(one.forward.count);
@@ -90,6 +91,7 @@ py::dict state_of(const Ensemble& ensemble) {
   state["peak"] = array_of(std::move(peak));
   state["residual"] = array_of(std::move(residual));
   state["residual_transverse"] = array_of(std::move(residual_transverse));
+  state["floor_peaks"] = array_of(std::move(floor_peaks));
   state["bin"] = array_of(std::move(bin));
   state["bin_count"] = array_of(std::move(bin_count));
   state["has_impacts"] = parts.has_impacts;
@@ -144,11 +146,14 @@ Ensemble ensemble_of(const py::dict& state) {
   const auto kept_block = column<std::uint64_t>(state, "kept_block"),
              kept_size = column<std::uint64_t>(state, "kept_size");
   const auto peak = column<double>(state, "peak"), residual = column<double>(state, "residual"),
-             residual_transverse = column<double>(state, "residual_transverse");
+             residual_transverse = column<double>(state, "residual_transverse"),
+             floor_peaks = column<double>(state, "floor_peaks");
   expect(kept_block.size() == kept_size.size() && peak.size() == residual.size(),
          "kept_block and kept_size, peak and residual must go together");
   expect(residual_transverse.size() == (parts.in_plane ? residual.size() : 0),
          "sliders in the plane, and only they, must have transverse residuals");
+  const std::size_t numbers = peak.empty() ? 0 : floor_peaks.size() / peak.size();
+  expect(floor_peaks.size() == numbers * peak.size(), "peaks of floors must be those of the members");
   std::size_t from = 0;
   for (std::size_t i = 0; i < kept_block.size(); ++i) {
     expect(kept_size[i] <= peak.size() - from, "a block has more members than peaks");
@@ -156,6 +161,9 @@ Ensemble ensemble_of(const py::dict& state) {
     Ensemble::Kept kept{{peak.begin() + begin, peak.begin() + end}, {residual.begin() + begin, residual.begin() + end}};
     if (parts.in_plane)
       kept.residual_transverse.assign(residual_transverse.begin() + begin, residual_transverse.begin() + end);
+    const auto floors = floor_peaks.begin();
+    const auto each = static_cast<std::ptrdiff_t>(numbers);
+    kept.floor_peaks.assign(floors + begin * each, floors + end * each);
     parts.kept.emplace_hint(parts.kept.end(), kept_block[i], std::move(kept));
   }
   expect(from == peak.size(), "there are more peaks than members");

@@ -132,7 +132,9 @@ SlopeMethod method_of(const std::string& name) {
 }
 
 std::string text_of(const FlexibleSlope& s) {
-  std::string text = "FlexibleSlope(ky_g=" + detail::shortest(s.ky_g) + ", height=" + detail::shortest(s.height) +
+  std::string text = "FlexibleSlope(ky_g=" +
+                     (s.degrading ? py::repr(py::cast(*s.degrading)).cast<std::string>() : detail::shortest(s.ky_g)) +
+                     ", height=" + detail::shortest(s.height) +
                      ", shear_velocity=" + detail::shortest(s.shear_velocity);
   if (!s.soil) text += ", damping_ratio=" + detail::shortest(s.damping_ratio);
   if (s.modes != 1) text += ", modes=" + std::to_string(s.modes);
@@ -151,7 +153,8 @@ template <>
 inline constexpr auto parts<FlexibleSlope> = std::tuple(&FlexibleSlope::ky_g, &FlexibleSlope::height,
                                                         &FlexibleSlope::shear_velocity, &FlexibleSlope::damping_ratio,
                                                         &FlexibleSlope::modes, &FlexibleSlope::rock_velocity,
-                                                        &FlexibleSlope::soil, &FlexibleSlope::method);
+                                                        &FlexibleSlope::soil, &FlexibleSlope::method,
+                                                        &FlexibleSlope::degrading);
 
 namespace {
 
@@ -597,8 +600,8 @@ points downhill, and displacements are positive downhill.
 
 Parameters
 ----------
-ky_g : float
-    Yield acceleration [g], finite and at least 0.
+ky_g : float or Degrading
+    Yield acceleration [g], finite and at least 0; or a law by which it changes with the distance slid downhill.
 height : float
     H [m], positive and finite.
 shear_velocity : float
@@ -627,18 +630,32 @@ Examples
 >>> quake = ss.GroundMotion([0, 3, -3, 0, 2, 0], dt=0.2)
 >>> bool(slope.coupled(quake).residual > 0)
 True)")
-      .def(py::init([](double ky_g, double height, double shear_velocity, double damping_ratio, int modes,
-                       std::optional<double> rock_velocity, const std::optional<HyperbolicSoil>& soil,
-                       const std::string& method) {
-             FlexibleSlope slope{ky_g,  height,        shear_velocity, damping_ratio,
-                                 modes, rock_velocity, soil,           method_of(method)};
+      .def(py::init([](const std::variant<double, Degrading>& ky_g, double height, double shear_velocity,
+                       double damping_ratio, int modes, std::optional<double> rock_velocity,
+                       const std::optional<HyperbolicSoil>& soil, const std::string& method) {
+             const auto* const degrading = std::get_if<Degrading>(&ky_g);
+             FlexibleSlope slope{degrading ? 0 : std::get<double>(ky_g),
+                                 height,
+                                 shear_velocity,
+                                 damping_ratio,
+                                 modes,
+                                 rock_velocity,
+                                 soil,
+                                 method_of(method),
+                                 degrading ? std::optional(*degrading) : std::nullopt};
              check(slope);
              return slope;
            }),
            py::kw_only(), py::arg("ky_g"), py::arg("height"), py::arg("shear_velocity"), py::arg("damping_ratio") = 0.0,
            py::arg("modes") = 1, py::arg("rock_velocity") = py::none(), py::arg("soil") = py::none(),
            py::arg("method") = "coupled")
-      .def_readonly("ky_g", &FlexibleSlope::ky_g, "Yield acceleration [g].")
+      .def_property_readonly(
+          "ky_g",
+          [](const FlexibleSlope& s) -> std::variant<double, Degrading> {
+            if (s.degrading) return *s.degrading;
+            return s.ky_g;
+          },
+          "Yield acceleration [g], or the law by which it changes.")
       .def_readonly("height", &FlexibleSlope::height, "H [m].")
       .def_readonly("shear_velocity", &FlexibleSlope::shear_velocity, "Vs at small strains [m/s].")
       .def_readonly("damping_ratio", &FlexibleSlope::damping_ratio, "Of each mode, without radiation.")

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "bindings.hpp"
+#include "structure/structure.hpp"
 
 namespace stickslip::python {
 
@@ -27,6 +28,13 @@ inline theory::ShapedNoise shaped_noise(const AnyShapedNoise& noise) {
 
 inline theory::StationaryNoise stationary_noise(const AnyNoise& noise) {
   return std::visit([](const auto& any) { return theory::StationaryNoise(any); }, noise);
+}
+
+/// The structure with a linear response that an object is, apart from its interface; nullopt for other objects.
+inline std::optional<SlidingStructure> sliding_structure_of(const py::handle& object) {
+  if (py::isinstance<IsolatedStructure>(object)) return object.cast<const IsolatedStructure&>();
+  if (py::isinstance<EquipmentOnFloor>(object)) return object.cast<const EquipmentOnFloor&>();
+  return std::nullopt;
 }
 
 /// A user-defined excitation.
@@ -54,6 +62,9 @@ void def_theory(py::class_<T>& theory) {
       .def(
           "covers",
           [](const T& self, const py::object& slider, const py::object& excitation) -> theory::Coverage {
+            if constexpr (requires(const SlidingStructure& system) { self.covers(system, 1.0); })
+              if (const auto structure = sliding_structure_of(slider))
+                return with_excitation(excitation, [&](const auto& e) { return self.covers(*structure, e); });
             py::detail::make_caster<AnySlider> any;
             const bool known = any.load(slider, true);
             const AnySlider friction = known ? py::detail::cast_op<const AnySlider&>(any) : Slider(Coulomb(1));
@@ -71,8 +82,8 @@ Takes microseconds; `predict` raises errors that only the computation finds.
 
 Parameters
 ----------
-slider : Slider or friction law
-    For other objects the result is False.
+slider : Slider, friction law or structure
+    For other objects, and structures where only sliders are covered, the result is False.
 excitation : float, Spectrum, ShapingFilter, GaussianExcitation, PoissonPulses or HarmonicMotion
     A number is the level S0 of white noise [m^2/s^3]. For other objects the result is False.
 

@@ -15,7 +15,7 @@ from .. import _core
 from .._core import Ensemble
 from .._files import check_regular, replacing
 
-_FORMAT = "stickslip ensemble 5"
+_FORMAT = "stickslip ensemble 6"
 # What earlier formats did not hold, and what then stands for it.
 _IMPACTS = {
     "airborne": 0,
@@ -26,17 +26,19 @@ _IMPACTS = {
     **{f"impact_speed_{side}": np.zeros(0) for side in ("forward", "backward")},
 }
 _PLANE = {"in_plane": False, "residual_transverse": np.zeros(0)}
+_FLOORS = {"floor_peaks": np.zeros(0)}
 _FORMER: dict[str, dict[str, Any]] = {
-    "stickslip ensemble 4": _PLANE,
-    "stickslip ensemble 3": _PLANE | _IMPACTS,
-    "stickslip ensemble 2": _PLANE | _IMPACTS | {"ground_acceleration": False},
+    "stickslip ensemble 5": _FLOORS,
+    "stickslip ensemble 4": _FLOORS | _PLANE,
+    "stickslip ensemble 3": _FLOORS | _PLANE | _IMPACTS,
+    "stickslip ensemble 2": _FLOORS | _PLANE | _IMPACTS | {"ground_acceleration": False},
 }
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
     *("configuration", "dt", "times", "velocity_spectrum", "ground_acceleration"),
     *("level", "number", "count", "sums", "cut_block", "cut_size"),
     *("kept_block", "kept_size", "peak", "residual", "bin", "bin_count"),
-    *("has_impacts", *_IMPACTS, *_PLANE),
+    *("has_impacts", *_IMPACTS, *_PLANE, *_FLOORS),
 }
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from .. import _core
 from .._core import Lognormal, Normal, Uniform
 from .._optional import optional
-from .sources import AnySlider
+from .sources import AnyMember
 
 Distribution: TypeAlias = Lognormal | Normal | Uniform | float
 _Path: TypeAlias = tuple[str, ...]  # the names of the arguments that lead to a parameter
@@ -31,9 +31,9 @@ class Random:
     Parameters
     ----------
     kind : callable
-        Makes the slider or the law: a law such as `Coulomb`, `Slider`, `PlanarSlider`, one of
-        their constructors, such as `Caster.from_geometry`, or a function. For other processes it
-        must pickle, as classes and module functions do.
+        Makes the slider, the law or the structure: a law such as `Coulomb`, `Slider`,
+        `PlanarSlider`, one of their constructors, such as `Caster.from_geometry`, or a function.
+        For other processes it must pickle, as classes and module functions do.
     **parameters
         Its keyword arguments. A `Lognormal`, `Normal` or `Uniform` is sampled for each member; a
         `Random` makes an object for each member, such as the law of a slider; all other values are
@@ -63,7 +63,7 @@ class Random:
     and the value: give a `Normal` bounds. A member costs some 20 us, one thread at a time.
     """
 
-    def __init__(self, kind: Callable[..., AnySlider], /, **parameters: Any) -> None:
+    def __init__(self, kind: Callable[..., AnyMember], /, **parameters: Any) -> None:
         if not callable(kind):
             raise TypeError(f"Random: kind must be callable, such as Coulomb, got {kind!r}")
         self._kind = kind
@@ -78,7 +78,7 @@ class Random:
         ]
 
     @property
-    def kind(self) -> Callable[..., AnySlider]:
+    def kind(self) -> Callable[..., AnyMember]:
         """The callable that makes the slider or the law."""
         return self._kind
 
@@ -193,7 +193,7 @@ class Random:
             uniforms = [min(normal.cdf(score), 1 - 2**-53) for score in scores]
         return [_core.quantile(one, u) for one, u in zip(self._drawn, uniforms)]
 
-    def sample(self, *, seed: SupportsIndex, member: SupportsIndex) -> AnySlider:
+    def sample(self, *, seed: SupportsIndex, member: SupportsIndex) -> AnyMember:
         """Make the slider of a member.
 
         Parameters
@@ -216,7 +216,7 @@ class Random:
 
     def draw(
         self, members: SupportsIndex, *, seed: SupportsIndex, stratified: bool = False
-    ) -> tuple[list[AnySlider], dict[str, list[float]]]:
+    ) -> tuple[list[AnyMember], dict[str, list[float]]]:
         """Make the sliders of the members 0 to members - 1, with the parameters of each.
 
         Parameters
@@ -265,7 +265,7 @@ class Random:
         even = [Uniform(0, 1)] * len(self._drawn)
         return self._values(_core.draw(even, seed=seed, member=member))
 
-    def _member(self, number: int, values: Sequence[float]) -> AnySlider:
+    def _member(self, number: int, values: Sequence[float]) -> AnyMember:
         try:
             return self._make(iter(values))
         except ValueError as error:
@@ -279,7 +279,7 @@ class Random:
             elif _is_distribution(value):
                 yield (name,), value
 
-    def _make(self, values: Iterator[float]) -> AnySlider:
+    def _make(self, values: Iterator[float]) -> AnyMember:
         def argument(value: Any) -> Any:
             if isinstance(value, Random):
                 return value._make(values)

@@ -45,12 +45,15 @@ def run_ensemble(
 
     Parameters
     ----------
-    sliders : Slider, PlanarSlider, friction law, a list of these, Drawn, Random or SliderSource
+    sliders : Slider, PlanarSlider, friction law, structure, a list of these, Drawn, Random, ...
         A law alone is a slider without spring and damper. From a list of m sliders, member i takes
         number i modulo m; from `Drawn(list)`, a random one. `Random` has random parameters. For
         your own source see `stickslip.ensemble.SliderSource`. With `PlanarSlider` all members slide
         in the plane, under ground motions with a transverse component, and statistics are those of
-        vectors (see `Ensemble`).
+        vectors (see `Ensemble`). With `IsolatedStructure`, `EquipmentOnFloor` or `FlexibleSlope`
+        all members are structures with the same number of floors: statistics are those of the
+        sliding interface, and of the peaks on the floors. A structure slides without friction
+        where it would lose contact.
     motions : GaussianExcitation, PoissonPulses, WithTransverse, WithVertical, GroundMotion, ...
         A random source, `WithVertical` also with a vertical component, `WithTransverse` with a
         second horizontal one, which sliders on one axis do not feel; or a record, a list of records
@@ -108,7 +111,8 @@ def run_ensemble(
         value); an empty list; ground motions of which some, but not all, are known to point up or
         down; sliders in the plane with `ground_acceleration`, or under a ground motion without a
         transverse component (names the member); a checkpoint that is damaged, of another
-        configuration (names the difference), or with members outside the run.
+        configuration (names the difference), or with members outside the run; structures with
+        different numbers of floors.
     TypeError
         An argument of the wrong type.
     OverflowError
@@ -177,7 +181,7 @@ def run_ensemble(
                 raise
             raise ValueError(f"run_ensemble: with checkpoint '{checkpoint}': {error}") from error
     keeper.save(whole)
-    if whole.members <= 2**20 and not whole.peak.any():
+    if whole.members <= 2**20 and not whole.has_floors and not whole.peak.any():
         warn_of_units("run_ensemble", sliders, motions, options["seed"])
     return whole
 

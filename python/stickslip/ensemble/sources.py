@@ -10,8 +10,11 @@ from .._core import (
     Coulomb,
     Degrading,
     Drawn,
+    EquipmentOnFloor,
+    FlexibleSlope,
     GaussianExcitation,
     GroundMotion,
+    IsolatedStructure,
     KumarFriction,
     Law,
     MultiPendulum,
@@ -74,10 +77,10 @@ class SliderSource(Protocol):
     def configuration(self) -> Any:
         """Everything that determines the sliders, as JSON types; must be equal to merge."""
 
-    def sample(self, *, seed: int, member: int) -> AnySlider:
+    def sample(self, *, seed: int, member: int) -> AnyMember:
         """The slider of a member: the same for equal arguments, always.
 
-        Those of all members are in the plane (PlanarSlider), or none.
+        Those of all members are in the plane (PlanarSlider), or none; all are structures, or none.
         """
 
 
@@ -94,7 +97,9 @@ AnySlider: TypeAlias = (
     | StaticKinetic
     | PlanarSlider
 )
-AnySliders: TypeAlias = "AnySlider | Sequence[AnySlider] | Drawn[AnySlider] | SliderSource"
+AnyStructure: TypeAlias = IsolatedStructure | EquipmentOnFloor | FlexibleSlope
+AnyMember: TypeAlias = "AnySlider | AnyStructure"
+AnySliders: TypeAlias = "AnyMember | Sequence[AnyMember] | Drawn[AnyMember] | SliderSource"
 Records: TypeAlias = "GroundMotion | Sequence[GroundMotion] | Drawn[GroundMotion]"
 AnyMotions: TypeAlias = (
     "GaussianExcitation | PoissonPulses | WithTransverse | WithVertical | Excitation | Records"

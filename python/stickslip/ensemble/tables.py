@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,15 @@ _IMPACTS = (
     ("impact_speed_forward", "m/s", "largest speed just before an impact forward"),
     ("impacts_backward", "", "number of impacts on the stop backward"),
     ("impact_speed_backward", "m/s", "largest speed just before an impact backward"),
+)
+# Of structures alone.
+_BASE = (
+    ("peak_base_acceleration", "m/s^2", "largest absolute acceleration of the base"),
+    ("peak_base_shear", "", "largest base shear"),
+)
+_FLOORS = (
+    ("peak_acceleration", "m/s^2", "largest absolute acceleration"),
+    ("peak_drift", "m", "largest drift"),
 )
 # Of sliders in the plane alone.
 _COVARIANCES = (
@@ -47,6 +57,7 @@ _ABOUT = {
     for name, unit, what in (
         *_BY_MEMBER,
         *_IMPACTS,
+        *_BASE,
         *(
             one
             for name, unit, what in (*_BY_TIME, *_COVARIANCES, *_GROUND)
@@ -68,12 +79,14 @@ _PROBABILITIES = (0.05, 0.16, 0.5, 0.84, 0.95, 0.99)
 
 def to_dataframe(ensemble: Ensemble, by: str = "member") -> Any:
     """Implementation of `Ensemble.to_dataframe` (see there)."""
-    return frame_of(_columns(ensemble, by), _UNITS, "Ensemble.to_dataframe", index=by)
+    columns = _columns(ensemble, by)
+    return frame_of(columns, _units(columns), "Ensemble.to_dataframe", index=by)
 
 
 def to_csv(ensemble: Ensemble, path: str | os.PathLike[str], by: str = "member") -> Path:
     """Implementation of `Ensemble.to_csv` (see there)."""
-    return write_csv(_columns(ensemble, by), _UNITS, path)
+    columns = _columns(ensemble, by)
+    return write_csv(columns, _units(columns), path)
 
 
 def to_xarray(ensemble: Ensemble) -> Any:
@@ -92,20 +105,20 @@ def to_xarray(ensemble: Ensemble) -> Any:
 def to_json(ensemble: Ensemble) -> str:
     """Implementation of `Ensemble.to_json` (see there)."""
     several = ensemble.members > 1
+    tables = {f"by_{by}": _columns(ensemble, by) for by in _forms(ensemble)}
     document: dict[str, Any] = {
         "stickslip": build_info()["version"],
         "configuration": ensemble.configuration,
         "members": ensemble.members,
         "airborne": ensemble.airborne,
-        "units": _UNITS,
+        "units": _units(name for columns in tables.values() for name in columns),
         "quantiles": [
             {"probability": p, **_bounds(ensemble.quantile(p))} for p in _PROBABILITIES if several
         ],
     }
     if several:
         document |= {name: _bounds(one) for name, one in impact_probabilities(ensemble).items()}
-    document |= {f"by_{by}": _columns(ensemble, by) for by in _forms(ensemble)}
-    return json_text(document)
+    return json_text(document | tables)
 
 
 def _forms(ensemble: Ensemble) -> list[str]:
@@ -128,6 +141,7 @@ def _columns(ensemble: Ensemble, by: str) -> dict[str, NDArray[Any]]:
             names += [name for name, _, _ in _IMPACTS]
         except ValueError:  # no stops, or not kept
             pass
+        names += [name for name, _, _ in _BASE if ensemble.has_floors]
     elif by == "time":
         columns = {"time": ensemble.time}
         with_ground = ensemble.configuration.get("ground_acceleration", False)
@@ -142,11 +156,29 @@ def _columns(ensemble: Ensemble, by: str) -> dict[str, NDArray[Any]]:
             columns[name] = values
         else:  # in the plane
             columns |= {f"{name}_{one}": values[:, i] for i, one in enumerate(_COMPONENTS)}
+    if by == "member" and ensemble.has_floors:
+        accelerations, drifts = ensemble.peak_floor_acceleration, ensemble.peak_floor_drift
+        for i in range(drifts.values.shape[1]):
+            columns[f"floor_{i + 1}_peak_acceleration"] = accelerations.values[:, i]
+            columns[f"floor_{i + 1}_peak_drift"] = drifts.values[:, i]
     return columns
 
 
+def _unit_and_what(name: str) -> tuple[str, str]:
+    if name.startswith("floor_"):
+        _, floor, statistic = name.split("_", 2)
+        for known, unit, what in _FLOORS:
+            if known == statistic:
+                return unit, f"{what}, floor {floor}"
+    return _ABOUT[name]
+
+
+def _units(columns: Iterable[str]) -> dict[str, str]:
+    return _UNITS | {name: _unit_and_what(name)[0] for name in columns if name.startswith("floor_")}
+
+
 def _attributes(name: str) -> dict[str, str]:
-    unit, what = _ABOUT[name]
+    unit, what = _unit_and_what(name)
     return {"long_name": what} | ({"units": unit} if unit else {})
 
 

@@ -31,7 +31,7 @@ from .hysteresis import plot_hysteresis
 from .pendulum import plot_pendulum_loop, plot_surfaces
 from .planar import plot_planar_response
 from .response import plot_response, plot_responses
-from .structure import plot_modes, plot_structure_response
+from .structure import plot_floors, plot_modes, plot_structure_response
 from .styles import BLUE as BLUE
 from .styles import COLORS as COLORS
 from .styles import GRAY as GRAY
@@ -50,6 +50,7 @@ __all__ = [
     "plot_design_chart",
     "plot_ensemble",
     "plot_exceedances",
+    "plot_floors",
     "plot_fragility",
     "plot_friction_sweep",
     "plot_ground_motion",

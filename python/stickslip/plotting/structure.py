@@ -6,12 +6,15 @@ from typing import Any, overload
 
 import numpy as np
 from matplotlib.figure import Figure, FigureBase
+from numpy.typing import NDArray
 
-from .._core import StructureResponse
+from .._core import Ensemble, FloorPeaks, StructureResponse
 from .._tables import has_floors
 from .figures import Place, new_figure
-from .styles import BLUE, COLORS, GRAY, VERMILION, put_title, style
-from .words import unit_for
+from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
+from .words import describe_ensemble, unit_for
+
+_BANDS = (0.05, 0.16, 0.5, 0.84, 0.95)
 
 
 @overload
@@ -70,6 +73,70 @@ def plot_structure_response(
                 panel.set_yticks(number[:: 1 + len(number) // 12])
                 panel.set_xlabel(name)
                 panel.set_ylabel("floor")
+        return figure
+
+
+@overload
+def plot_floors(ensemble: Ensemble, figure: None = None, title: str | None = None) -> Figure: ...
+@overload
+def plot_floors(ensemble: Ensemble, figure: Place, title: str | None = None) -> Place: ...
+def plot_floors(
+    ensemble: Ensemble, figure: FigureBase | None = None, title: str | None = None
+) -> FigureBase:
+    """Plot the peaks of the floors of an ensemble of structures by height, with their quantiles.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        Of structures with floors, with at least two members.
+    figure : matplotlib Figure or SubFigure, optional
+        Where to draw; default: a new figure of 7 x 4 inches.
+    title : str, optional
+        Default: the number of members, and the structure.
+
+    Returns
+    -------
+    matplotlib Figure or SubFigure
+        With axes for the largest absolute acceleration, from the base up, and the largest drift:
+        the median, and bands from the 16 % to the 84 % and from the 5 % to the 95 % quantile.
+
+    Raises
+    ------
+    ValueError
+        Sliders; structures without floors; fewer than two members.
+    """
+    accelerations, drifts = ensemble.peak_floor_acceleration, ensemble.peak_floor_drift
+    count = accelerations.values.shape[1]
+    if count == 0:
+        raise ValueError(
+            "plot_floors: the structure has no floors; give Structure.from_modes the shapes"
+        )
+    base = np.quantile(ensemble.peak_base_acceleration, _BANDS, method="inverted_cdf")
+    length, unit = unit_for(float(drifts.values.max()))
+
+    def quantiles(peaks: FloorPeaks) -> NDArray[np.float64]:
+        return np.array([[one.value for one in peaks.quantile(p)] for p in _BANDS])
+
+    with_base = np.column_stack([base, quantiles(accelerations)])
+    with style():
+        figure = figure or new_figure(7, 4)
+        put_figure_title(figure, title or describe_ensemble(ensemble))
+        for panel, values, first, name in zip(
+            figure.subplots(1, 2),
+            (with_base, quantiles(drifts) * length),
+            (0, 1),
+            ("largest absolute acceleration [m/s²]", f"largest drift [{unit}]"),
+        ):
+            number = np.arange(first, count + 1)
+            for low, high, opacity in ((0, 4, 0.15), (1, 3, 0.3)):
+                panel.fill_betweenx(
+                    number, values[low], values[high], color=BLUE, alpha=opacity, linewidth=0
+                )
+            panel.plot(values[2], number, "o-", color=BLUE, markersize=4)
+            panel.set_xlim(left=0)
+            panel.set_yticks(number[:: 1 + len(number) // 12])
+            panel.set_xlabel(name)
+            panel.set_ylabel("floor")
         return figure
 
 

@@ -33,6 +33,15 @@ def describe_ensemble(ensemble: Ensemble) -> str:
         words.append(f"{len(slider['one_of'])} sliders")
     elif "law" in slider:
         words += in_words(slider)
+    elif "isolated_structure" in slider:
+        words += ["isolated structure", *in_words(slider["slider"])]
+    elif "equipment_on_floor" in slider:
+        floor = slider["equipment_on_floor"]
+        words += [f"equipment on floor {floor}", *in_words(slider["slider"])]
+    elif "flexible_slope" in slider:
+        words.append("flexible slope")
+        if "ky_g" in slider:
+            words.append(f"yield acceleration {digits(slider['ky_g'])} g")
     return ", ".join(words)
 
 
