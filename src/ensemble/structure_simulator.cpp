@@ -8,8 +8,8 @@
 #include "stickslip/ensemble/floor_peaks.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
-#include "structure/recorder.hpp"
 #include "structure/move.hpp"
+#include "structure/recorder.hpp"
 
 namespace stickslip::detail {
 namespace {

@@ -102,7 +102,8 @@ def test_nothing_to_sweep_is_refused(arguments, error):
 def test_what_is_no_slider_motion_or_option_is_refused_by_name():
     one = ss.Coulomb(mu=0.1)
     with pytest.raises(
-        TypeError, match=r"sliders\[1\] must be a Slider, friction law, PlanarSlider or structure, got int"
+        TypeError,
+        match=r"sliders\[1\] must be a Slider, friction law, PlanarSlider or structure, got int",
     ):
         ss.sweep([one, 3], QUAKES)
     with pytest.raises(TypeError, match=r"motions\[0\] must be a GroundMotion, got str"):

@@ -77,7 +77,8 @@ TransportProblem::Window TransportProblem::free_window(double time) const noexce
 TransportProblem::Steps TransportProblem::steps_to(double time) const {
   const double step = first_step();
   if (!(time > 0)) return {step, 0};
-  const double count = held_ > 0 ? std::ceil(time / step - 1e-9) : std::max(white() ? 24.0 : 8.0, std::ceil(time / step));
+  const double count =
+      held_ > 0 ? std::ceil(time / step - 1e-9) : std::max(white() ? 24.0 : 8.0, std::ceil(time / step));
   require(count < 1e6, "Transport: the last time must be less than a million steps, of " + shortest(step) + " s; it",
           time, "s");
   return {held_ > 0 ? step : time / count, static_cast<std::size_t>(count)};
