@@ -103,7 +103,7 @@ OTHERS = [
 ]
 
 CASTERS = {0.01: 32.8, 0.005: 64.9, 0.003: 115.6, 0.002: 192.9, 0.001: 518.0}  # gamma, first guess
-DRIFTS = [0.6, 1.0, 1.5, 3.0, 6.0]  # rms / a of the damper alone, levels 1 : 1.5
+DRIFTS = [0.6, 1.0, 1.5, 3.0]  # rms / a of the damper alone, levels 1 : 1.5
 
 
 def drawn(count: int, seed: int = 1) -> Iterator[Setting]:

@@ -524,18 +524,21 @@ def test_an_ensemble_pickles(ensemble):
 def test_a_file_needs_nothing_but_numpy_to_be_read(ensemble, tmp_path):
     ensemble.save(tmp_path / "run.npz")
     with np.load(tmp_path / "run.npz", allow_pickle=False) as arrays:
-        assert str(arrays["format"]) == "stickslip ensemble 5"
+        assert str(arrays["format"]) == "stickslip ensemble 6"
         assert str(arrays["library"]) == ss.__version__
         assert np.array_equal(arrays["peak"], ensemble.peak)
         assert dict(json.loads(str(arrays["configuration"])))["seed"] == "1"
 
 
 def test_a_file_of_the_former_format_is_read(ensemble, tmp_path):
-    # Format 4 lacks sliders in the plane; format 3 also impacts; format 2 also whether there are
+    # Format 5 lacks structures; format 4 also sliders in the plane; format 3 also impacts; format 2 also whether there are
     # statistics of the ground acceleration.
     ensemble.save(tmp_path / "new.npz")
     with np.load(tmp_path / "new.npz", allow_pickle=False) as arrays:
         former = dict(arrays)
+    assert not former.pop("floor_peaks").size
+    np.savez(tmp_path / "5.npz", **former | {"format": "stickslip ensemble 5"})
+    assert same_bits(ss.Ensemble.load(tmp_path / "5.npz"), ensemble)
     assert not former.pop("in_plane")
     assert not former.pop("residual_transverse").size
     np.savez(tmp_path / "4.npz", **former | {"format": "stickslip ensemble 4"})
@@ -632,7 +635,7 @@ def test_a_file_of_something_else_is_refused_by_name(ensemble, tmp_path):
         archive.writestr("letter.txt", "hello")
     with pytest.raises(ValueError, match=r"words\.npz' is "):
         ss.Ensemble.load(tmp_path / "words.npz")
-    for form in ("stickslip ensemble 1", "stickslip ensemble 6"):
+    for form in ("stickslip ensemble 1", "stickslip ensemble 7"):
         np.savez(tmp_path / "other.npz", format=form, library="9.0")
         with pytest.raises(ValueError, match=rf"of format '{form}', of stickslip 9\.0"):
             ss.Ensemble.load(tmp_path / "other.npz")

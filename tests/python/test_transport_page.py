@@ -32,7 +32,7 @@ def test_casters_break_loose_when_the_page_says():
 
 def test_the_drift_is_that_of_the_page():
     # Theory and simulation agree within the stated error and three standard errors: one false alarm
-    # in 370 for each of five rows, were the seed not fixed.
+    # in 370 for each of four rows, were the seed not fixed.
     table = rows(TRANSPORT, measured.DRIFT_HEADING)
     assert [float(row[0]) for row in table] == measured.DRIFTS
     for row in table:
