@@ -265,26 +265,25 @@ void summarize(const Found& found, const Margins& margin, bool at_rest, double p
     for (const auto& event : found.events) total += event.kind == kind ? 1 : 0;
     return total;
   };
-  const Summary summary{found.peak,
-                        size(found.residual),
-                        found.sliding_distance,
-                        found.time_sliding,
-                        count(EventKind::breakaway) + count(EventKind::reversal),
-                        count(EventKind::impact),
-                        count(EventKind::liftoff),
-                        at_rest ? 1.0 : 0.0,
-                        static_cast<double>(found.events.size()),
-                        static_cast<double>(found.displacement.size()),
-                        found.events.back().time,
-                        found.energy.input,
-                        found.energy.imbalance(),
-                        margin.load,
-                        margin.impact,
-                        pga,
-                        hold,
-                        found.temperature.empty()
-                            ? undefined
-                            : *std::max_element(found.temperature.begin(), found.temperature.end())};
+  const Summary summary{
+      found.peak,
+      size(found.residual),
+      found.sliding_distance,
+      found.time_sliding,
+      count(EventKind::breakaway) + count(EventKind::reversal),
+      count(EventKind::impact),
+      count(EventKind::liftoff),
+      at_rest ? 1.0 : 0.0,
+      static_cast<double>(found.events.size()),
+      static_cast<double>(found.displacement.size()),
+      found.events.back().time,
+      found.energy.input,
+      found.energy.imbalance(),
+      margin.load,
+      margin.impact,
+      pga,
+      hold,
+      found.temperature.empty() ? undefined : *std::max_element(found.temperature.begin(), found.temperature.end())};
   answer.resize(sizeof summary / sizeof(double));
   std::memcpy(answer.data(), &summary, sizeof summary);
 }
