@@ -531,8 +531,8 @@ def test_a_file_needs_nothing_but_numpy_to_be_read(ensemble, tmp_path):
 
 
 def test_a_file_of_the_former_format_is_read(ensemble, tmp_path):
-    # Format 5 lacks structures; format 4 also sliders in the plane; format 3 also impacts; format 2 also whether there are
-    # statistics of the ground acceleration.
+    # Format 5 lacks structures; format 4 also sliders in the plane; format 3 also impacts; format 2
+    # also whether there are statistics of the ground acceleration.
     ensemble.save(tmp_path / "new.npz")
     with np.load(tmp_path / "new.npz", allow_pickle=False) as arrays:
         former = dict(arrays)
