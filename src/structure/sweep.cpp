@@ -225,14 +225,17 @@ SweepOutcome slide(const ModalInterface& of, const Law& law, const GroundMotion&
   return SweptInterface<Law>(of, law, motion, stuck, reversed, check).run(settle);
 }
 
-// Slopes that differ in ky_g alone.
+// Slopes that differ in ky_g alone, or in their Degrading law.
 SweepGroup::Each start_slopes(const std::vector<FlexibleSlope>& slopes, const std::optional<SlidingStructure>& linear,
                               const GroundMotion& motion, bool settle, const SweepGroup::Check& check) {
   const SlidingStructure column = linear ? *linear : sliding_structure(slopes[0], properties(slopes[0], motion));
   auto stuck = std::make_shared<const StuckMotion>(column.modal(), motion);
   return [&slopes, column, stuck, &motion, settle, check](std::size_t i, bool reversed) {
-    const Coulomb law(slopes[i].ky_g * standard_gravity, never);
-    return slide(column.modal(), law, motion, *stuck, reversed, settle, check);
+    const auto with = [&](const auto& law) {
+      return slide(column.modal(), law, motion, *stuck, reversed, settle, check);
+    };
+    if (slopes[i].degrading) return with(*slopes[i].degrading);
+    return with(Coulomb(slopes[i].ky_g * standard_gravity, never));
   };
 }
 
@@ -252,7 +255,8 @@ SweepGroup::Each start_structures(const std::vector<SlidingStructure>& structure
 bool alike(const FlexibleSlope& a, const FlexibleSlope& b) {
   const auto column = [](const FlexibleSlope& s) {
     const std::optional<double> strain = s.soil ? std::optional(s.soil->reference_strain()) : std::nullopt;
-    return std::tuple(s.height, s.shear_velocity, s.damping_ratio, s.modes, s.rock_velocity, strain, s.method);
+    return std::tuple(s.height, s.shear_velocity, s.damping_ratio, s.modes, s.rock_velocity, strain, s.method,
+                      s.degrading.has_value());
   };
   return column(a) == column(b);
 }

@@ -76,6 +76,11 @@ std::vector<FlexibleSlope> levels_of(FlexibleSlope slope) {
     slope.ky_g = ky;
     slopes.push_back(slope);
   }
+  slope.ky_g = 0;
+  for (const double peak : {0.5, 2.0}) {
+    slope.degrading = Degrading({0, 0.02, 0.1}, {peak, 0.7 * peak, 0.6 * peak});
+    slopes.push_back(slope);
+  }
   return slopes;
 }
 
