@@ -4,8 +4,8 @@ import { decompress } from "fzstd";
 
 import { latest, startWorker } from "./client.js";
 import { csv, download } from "./csv.js";
-import { color, CurvePlot, levelLine, LinePlot, shade } from "./plots.js";
-import { drawScene } from "./scene.js";
+import { color, CurvePlot, forgetColors, levelLine, LinePlot, shade } from "./plots.js";
+import { drawScene, measureScene } from "./scene.js";
 import {
   applies,
   command,
@@ -99,7 +99,9 @@ const shown = (value, quantity) => {
 /** @param {Float64Array} values  @param {Quantity} quantity */
 const inUnits = (values, quantity) => {
   const { size } = unit(quantity);
-  return values.map((value) => value / size);
+  const result = new Float64Array(values.length);
+  for (let i = 0; i < result.length; ++i) result[i] = (values[i] ?? 0) / size;
+  return result;
 };
 
 const plots = makePlots();
@@ -186,29 +188,31 @@ let sliding = null;
 const LEVELS = 100;
 const PART_TIME = 20; // of a part [ms]: a change waits for it
 
+/** What the spectrum depends on: not mu, to which the coefficients of several surfaces are scaled. @param {Motion} motion */
+const slidingKey = (motion) => JSON.stringify(problemOf({ ...settings, mu: 1 }, motion));
+
 /** In parts, while nothing else is asked: it does not depend on mu, so that a moving slider can wait for it. */
 const updateSliding = latest(async () => {
   const row = selected;
   if (!row?.motion) return;
   const [full, id] = problemOf(settings, row.motion);
-  const key = `${id} ${JSON.stringify({ ...full, mu: 0 })}`;
-  if (sliding?.key !== key) {
-    const highest = Math.max((row.motion.measures.pga * Math.abs(full.scale)) / GRAVITY, 0.01);
-    const mus = Float64Array.from({ length: LEVELS }, (_, i) => ((i + 1) / LEVELS) * highest);
-    const [peak, residual] = [new Float64Array(LEVELS), new Float64Array(LEVELS)];
-    for (let i = 0, count = 4; i < LEVELS; ) {
-      await untilIdle();
-      if (row !== selected || key !== `${id} ${JSON.stringify({ ...problemOf(settings, row.motion)[0], mu: 0 })}`) return;
-      const begin = performance.now();
-      const part = await worker.spectrum(id, full, mus.slice(i, i + count)).catch(() => null);
-      if (!part) return;
-      peak.set(part.peak, i);
-      residual.set(part.residual, i);
-      i += part.peak.length;
-      count = Math.max(1, Math.min(25, Math.floor((count * PART_TIME) / (performance.now() - begin))));
-    }
-    sliding = { key, mus, peak, residual };
+  const key = slidingKey(row.motion);
+  if (sliding?.key === key) return; // `show` has drawn it
+  const highest = Math.max((row.motion.measures.pga * Math.abs(full.scale)) / GRAVITY, 0.01);
+  const mus = Float64Array.from({ length: LEVELS }, (_, i) => ((i + 1) / LEVELS) * highest);
+  const [peak, residual] = [new Float64Array(LEVELS), new Float64Array(LEVELS)];
+  for (let i = 0, count = 4; i < LEVELS; ) {
+    await untilIdle();
+    if (row !== selected || key !== slidingKey(row.motion)) return;
+    const begin = performance.now();
+    const part = await worker.spectrum(id, full, mus.slice(i, i + count)).catch(() => null);
+    if (!part) return;
+    peak.set(part.peak, i);
+    residual.set(part.residual, i);
+    i += part.peak.length;
+    count = Math.max(1, Math.min(25, Math.floor((count * PART_TIME) / (performance.now() - begin))));
   }
+  sliding = { key, mus, peak, residual };
   showSliding();
 });
 
@@ -483,6 +487,7 @@ function show(s, row) {
   // Both on the longer time base: the one that rested earlier stays where it is.
   const time = other && other.time.length > response.time.length ? other.time : response.time;
   const padded = (/** @type {Float64Array} */ values, /** @type {number} */ rest) => {
+    if (values.length === time.length) return values;
     const longer = new Float64Array(time.length).fill(rest);
     longer.set(values);
     return longer;
@@ -507,8 +512,12 @@ function show(s, row) {
   );
   element("title-displacement").textContent = `Displacement relative to the ground [${length.name}]`;
   const [peak, residual] = [summary.peak / length.size, summary.residual / length.size];
-  const extremes = displacement.reduce((most, x) => (Math.abs(x) > Math.abs(most) ? x : most), 0);
-  const signed = extremes < 0 ? -peak : peak;
+  let [low, high] = [0, 0];
+  for (let i = 0; i < displacement.length; ++i) {
+    low = Math.min(low, displacement[i] ?? 0);
+    high = Math.max(high, displacement[i] ?? 0);
+  }
+  const signed = -low > high ? -peak : peak;
   const places = [
     padded(displacement, summary.residual),
     other ? padded(other.displacement, other.summary.residual) : new Float64Array(),
@@ -644,11 +653,21 @@ function showNumbers() {
   element("numbers").tHead.replaceChildren(
     ...(compared.length ? [make("tr", {}, make("th"), make("td", {}, "now"), make("td", {}, "compared"))] : []),
   );
-  element("numbers").tBodies[0].replaceChildren(
-    ...numbers().map((line, i) => tableRow(line, ...(compared[i] ? [make("td", {}, shown(compared[i][1], line[2]))] : []))),
-  );
+  const body = element("numbers").tBodies[0];
+  const lines = numbers();
+  const known = [...body.rows];
+  if (known.length === lines.length && known.every((row, i) => row.dataset.name === lines[i]?.[0] && row.cells.length === (compared.length ? 3 : 2)))
+    lines.forEach(([, value, quantity], i) => {
+      known[i].dataset.si = String(value);
+      known[i].cells[1].textContent = shown(value, quantity);
+      if (compared[i]) known[i].cells[2].textContent = shown(compared[i][1], quantity);
+    });
+  else
+    body.replaceChildren(
+      ...lines.map((line, i) => tableRow(line, ...(compared[i] ? [make("td", {}, shown(compared[i][1], line[2]))] : []))),
+    );
   if (response && !response.summary.at_rest)
-    element("numbers").tBodies[0].append(
+    body.append(
       make("tr", {}, make("th", { colSpan: 2 }, "It never comes to rest; these are the numbers at the end of the record.")),
     );
 }
@@ -1111,9 +1130,13 @@ function listen() {
   }
   element("theme").onchange = () => {
     document.documentElement.dataset.theme = element("theme").value;
+    forgetColors();
     changed();
   };
-  matchMedia("(prefers-color-scheme: dark)").onchange = () => changed();
+  matchMedia("(prefers-color-scheme: dark)").onchange = () => {
+    forgetColors();
+    changed();
+  };
   element("play").onclick = () => play(!playing);
   element("time").oninput = () => {
     play(false);
@@ -1168,6 +1191,7 @@ function listen() {
 }
 
 function resize() {
+  measureScene(element("scene"));
   for (const plot of Object.values(plots)) plot.resize();
   setTime(now);
 }
@@ -1176,6 +1200,7 @@ function resize() {
 function onPaper(on) {
   document.documentElement.classList.toggle("paper", on);
   document.documentElement.dataset.theme = on ? "light" : element("theme").value;
+  forgetColors();
   resize();
 }
 

@@ -5,6 +5,13 @@ import { LAWS } from "./settings.js";
 
 /** @import { Settings } from "./library.js" */
 
+let [width, height] = [0, 0];
+
+/** Takes the size of the canvas, which to ask for at each drawing would lay the page out anew. @param {HTMLCanvasElement} canvas */
+export function measureScene(canvas) {
+  [width, height] = [canvas.clientWidth, canvas.clientHeight];
+}
+
 /**
  * Draws the object at a displacement.
  * @param {HTMLCanvasElement} canvas
@@ -13,7 +20,7 @@ import { LAWS } from "./settings.js";
  */
 export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler }) {
   const ratio = devicePixelRatio;
-  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  if (width === 0) measureScene(canvas);
   if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
     canvas.width = Math.round(width * ratio);
     canvas.height = Math.round(height * ratio);
