@@ -62,7 +62,7 @@ def run(tmp_path, monkeypatch, pyslammer_files):
 
 def test_all_examples_are_here():
     numbers = sorted(file.stem for file in EXAMPLES.glob("[01]*.py"))
-    assert [number[:2] for number in numbers] == [f"{i:02}" for i in range(1, 12)]
+    assert [number[:2] for number in numbers] == [f"{i:02}" for i in range(1, 14)]
     assert {f"test_{number}" for number in numbers} <= set(globals())
 
 
