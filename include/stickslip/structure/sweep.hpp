@@ -22,7 +22,7 @@ SweepTable sweep_structures(const std::vector<AnySlidingStructure>& structures,
 }
 
 /// Integrate many structures under many ground motions, from rest, each combination as by `integrate`, to 1e-12 of the
-/// largest displacement.
+/// largest displacement, with stops to 1e-9.
 ///
 /// @param structures  FlexibleSlopes, SlidingStructures or each an AnySlidingStructure
 /// @param motions     records, of any lengths and steps
@@ -39,16 +39,17 @@ SweepTable sweep_structures(const std::vector<AnySlidingStructure>& structures,
 /// segments in which the demand may exceed the friction, are integrated one by one. This needs even steps and classical
 /// damping, and equipment without mass; elsewhere all segments are integrated. The bits are the same for any number of
 /// threads.
-template <class S>
-requires std::constructible_from<AnySlidingStructure, const S&> SweepTable
-sweep(const std::vector<S>& structures, const std::vector<const GroundMotion*>& motions,
+template <class Sliding>
+requires std::constructible_from<AnySlidingStructure, const Sliding&> SweepTable
+sweep(const std::vector<Sliding>& structures, const std::vector<const GroundMotion*>& motions,
       const SweepOptions& options = {}) {
   return detail::sweep_structures(std::vector<AnySlidingStructure>(structures.begin(), structures.end()), motions,
                                   options);
 }
-template <class S>
-requires std::constructible_from<AnySlidingStructure, const S&> SweepTable
-sweep(const std::vector<S>& structures, const std::vector<GroundMotion>& motions, const SweepOptions& options = {}) {
+template <class Sliding>
+requires std::constructible_from<AnySlidingStructure, const Sliding&> SweepTable
+sweep(const std::vector<Sliding>& structures, const std::vector<GroundMotion>& motions,
+      const SweepOptions& options = {}) {
   std::vector<const GroundMotion*> these;
   for (const GroundMotion& motion : motions) these.push_back(&motion);
   return sweep(structures, these, options);

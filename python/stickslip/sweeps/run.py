@@ -161,8 +161,8 @@ def sweep(
     A structure whose interface is stuck moves as if it could not slide, but for the decay of what
     its slips have left. Structures that differ in their slider alone, and slopes that differ in
     `ky_g` alone, share that motion, with bounds of its demand: only slips are integrated one by
-    one, and results equal those of `integrate` to 1e-12 of the largest displacement. This needs
-    even steps, classical damping and equipment without mass.
+    one, and results equal those of `integrate` to 1e-12 of the largest displacement, with
+    stops to 1e-9. This needs even steps, classical damping and equipment without mass.
     """
     sliders = _drawn(sliders, members, seed, stratified)
     these = _sliders(sliders)
