@@ -39,10 +39,8 @@ class Driven {
 
   void advance(const Segment& segment) {
     if (flow_) {
-      const auto parts = static_cast<double>(flow_->parts());
-      const double change = (segment.end - segment.start) / parts;
-      for (std::size_t i = 0; i < flow_->parts(); ++i)
-        flow_->advance(state_.data(), segment.start + static_cast<double>(i) * change, change);
+      flow_->each_part(segment.start, segment.end,
+                       [&](double n, double change) { flow_->advance(state_.data(), n, change); });
       return;
     }
     if (!(segment.duration > 0)) return;

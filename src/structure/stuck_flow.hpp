@@ -27,7 +27,6 @@ class StuckFlow {
   StuckFlow(const ModalInterface& of, double step);
 
   std::size_t modes() const noexcept { return modes_.size(); }
-  std::size_t parts() const noexcept { return parts_; }
   double part() const noexcept { return part_; }  ///< [s]
 
   /// Move a state through a part, in which the ground acceleration goes from n in a straight line by `change` [m/s^2].
@@ -39,6 +38,13 @@ class StuckFlow {
       state[j] = m.yy * y + m.yr * r + (m.yn * n + m.yc * change);
       rate[j] = m.ry * y + m.rr * r + (m.rn * n + m.rc * change);
     }
+  }
+
+  /// Calls `use(n, change)` for each part of a step, in which the ground acceleration goes in a straight line.
+  template <class Use>
+  void each_part(double n_start, double n_end, Use&& use) const {
+    const double parts = static_cast<double>(parts_), change = (n_end - n_start) / parts;
+    for (std::size_t i = 0; i < parts_; ++i) use(n_start + static_cast<double>(i) * change, change);
   }
 
   /// Move a state through up to `most_steps` whole steps without ground acceleration.

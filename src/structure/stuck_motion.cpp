@@ -11,22 +11,12 @@
 #include "structure/expansion.hpp"
 
 namespace stickslip::detail {
-namespace {
-
-// Calls `use(n, change)` for each part of a step.
-template <class Use>
-void for_each_part(const StuckFlow& flow, double n_start, double n_end, Use&& use) {
-  const double parts = static_cast<double>(flow.parts()), change = (n_end - n_start) / parts;
-  for (std::size_t i = 0; i < flow.parts(); ++i) use(n_start + static_cast<double>(i) * change, change);
-}
-
-}  // namespace
 
 StuckSpan pass_step(const StuckFlow& flow, double* state, double n_start, double n_end) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   StuckSpan span{infinity, -infinity, 1};
   double now = flow.demand().at(state, n_start);
-  for_each_part(flow, n_start, n_end, [&](double n, double change) {
+  flow.each_part(n_start, n_end, [&](double n, double change) {
     const double between = flow.demand().departure(state, n, change);
     flow.advance(state, n, change);
     const double next = flow.demand().at(state, n + change);
@@ -76,7 +66,7 @@ std::optional<double> largest_top(const ModalInterface& of, const GroundMotion& 
     now.setZero();
     for (std::size_t i = 0; i < motion.segments(); ++i) {
       const Segment segment = pieces.segment(i);
-      for_each_part(flow, segment.start, segment.end, part);
+      flow.each_part(segment.start, segment.end, part);
     }
   };
   // First at the ends of the parts, then within those parts that may go beyond.

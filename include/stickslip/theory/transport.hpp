@@ -188,7 +188,7 @@ class Transport {
   /// @param progress  called regularly; may throw to stop the work; optional
   /// @throws std::invalid_argument naming what is not covered or the rejected value
   /// @throws ConvergenceError  the tolerance is not reached within the largest grid; names the best value and its error
-  /// Takes 0.3 to 2 s for a block, 3 to 8 s for static friction, 2 to 60 s with a spring, 3 to 60 s for a caster.
+  /// Takes 0.3 to 2 s for a block, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster.
   TransportPrediction predict(const AnySlider& slider, const TwoStateNoise& noise, std::span<const double> times,
                               const std::function<void()>& progress = {}) const;
 

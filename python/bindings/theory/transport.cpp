@@ -434,7 +434,7 @@ ConvergenceError
 
 Notes
 -----
-Takes 0.3 to 2 s for a block, 3 to 8 s for static friction, 2 to 60 s with a spring, 3 to 60 s for a caster.)")
+Takes 0.3 to 2 s for a block, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster.)")
       .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
 
 Parameters

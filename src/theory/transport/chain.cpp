@@ -103,7 +103,7 @@ void Chain::keep(Row& row) {
 /// leaves again.
 std::vector<double> Chain::corners(double x, double v) const {
   std::vector<double> found;
-  const double far = 8.3 * load_.deviation(), tiny = 1e-9 * load_.deviation() * step_;
+  const double far = gaussian_reach * load_.deviation(), tiny = 1e-9 * load_.deviation() * step_;
   const double fastest = motion_(x, v, -far, step_).velocity, slowest = motion_(x, v, far, step_).velocity;
   for (const double speed : {tiny, -tiny}) {
     if (!(slowest < speed && speed < fastest)) continue;

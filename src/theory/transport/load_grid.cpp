@@ -67,7 +67,7 @@ class Interpolation {
 
 void gaussian_points(double mean, double deviation, std::vector<double> cuts,
                      const std::function<void(double, double)>& use) {
-  constexpr double far = 8.3;  // beyond which lies a probability below 1e-16
+  constexpr double far = gaussian_reach;
   for (const double k : {-far, -5.5, -4.0, -2.5, -1.25, 0.0, 1.25, 2.5, 4.0, 5.5, far})
     cuts.push_back(mean + k * deviation);
   std::ranges::sort(cuts);

@@ -11,6 +11,9 @@
 
 namespace stickslip::detail {
 
+/// How far from its mean a Gaussian variable is integrated over, in deviations: a probability below 1e-16 lies beyond.
+inline constexpr double gaussian_reach = 8.3;
+
 /// Calls `use(x, weight)` at the nodes of a Gauss-Legendre rule for the mean of a function of a Gaussian variable. The
 /// function must be smooth between the `cuts`.
 void gaussian_points(double mean, double deviation, std::vector<double> cuts,
