@@ -421,8 +421,9 @@ OverflowError
 Notes
 -----
 The motions are exact at their samples, to round-off. Between samples sliders see straight lines, where an
-`EquipmentOnFloor` with mass=0 sees the exact motion. Peaks on a building of ten storeys under the 18 sample records
-differ by 0.1 % in the median and by at most 4.4 %; two parts make that a quarter, four a sixteenth.
+`EquipmentOnFloor` with mass=0 sees the exact motion. For 20 levels on each floor of a building of ten stories under the
+18 sample records, peaks above 1 cm differ by 0.1 % in the median, 1.2 % at the 95 % quantile and 6.3 % at most; peaks
+above 1 mm by at most 20 %. Two parts make that a quarter, four a sixteenth.
 
 Takes some 5 ms for ten storeys and a record.)")
       .def("__repr__", &description);

@@ -166,6 +166,11 @@ def sweep(
     """
     sliders = _drawn(sliders, members, seed, stratified)
     these = _sliders(sliders)
+    if not isinstance(motions, (GroundMotion, Iterable)):
+        raise TypeError(
+            "sweep: motions must be a GroundMotion, a Suite or a list of GroundMotion, got"
+            f" {type(motions).__name__}"
+        )
     those = [motions] if isinstance(motions, GroundMotion) else list(motions)
     if polarity not in ("both", *POLARITIES):
         raise ValueError(
@@ -184,6 +189,8 @@ def sweep(
                 f"sweep: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
             )
     check_directions(those, "sweep")
+    if contact not in ("flight", "clipped"):
+        raise ValueError(f"sweep: contact must be 'flight' or 'clipped', got {contact!r}")
     if isinstance(these[0], _STRUCTURES):
         contact = "clipped"
     table = SweepTable.empty(
