@@ -50,13 +50,6 @@ def column(modes: int, floors: bool) -> ss.Structure:
     )
 
 
-def finer(quake: ss.GroundMotion, parts: int) -> ss.GroundMotion:
-    """The same motion, with each segment divided into this many parts."""
-    at = np.arange((len(quake) - 1) * parts + 1) / parts
-    samples = np.interp(at, np.arange(len(quake)), quake.acceleration)
-    return ss.GroundMotion(samples, dt=quake.dt / parts, name=quake.name)
-
-
 def of_modes(rounds: int, check: bool) -> None:
     """`integrate`, alone and with the peaks of two floors, and a level of a sweep of 20."""
     rng = np.random.default_rng(1)
@@ -70,7 +63,7 @@ def of_modes(rounds: int, check: bool) -> None:
             r = ss.integrate(those[0], quake)
             e = r.energy
             require(abs(e.imbalance) <= 1e-11 * e.input, f"{modes} modes: energy")
-            again = ss.integrate(those[0], finer(quake, 3))
+            again = ss.integrate(those[0], quake.resampled(quake.dt / 3))
             require(abs(again.peak - r.peak) <= 1e-11 * r.sliding_distance, f"{modes} modes, parts")
             table = ss.sweep(those, quake, polarity="recorded")
             apart = abs(table.residual[0, 0, 0] - r.residual)
@@ -109,9 +102,8 @@ def beside_pyslammer(rounds: int, check: bool) -> None:
         for name, r in records.items()
     )
     record = records[suite[8].name]
-    fine = slam.GroundMotion(
-        -finer(suite[8], 16).acceleration / ss.STANDARD_GRAVITY, record.dt / 16
-    )
+    fine = suite[8].resampled(record.dt / 16)
+    fine = slam.GroundMotion(-fine.acceleration / ss.STANDARD_GRAVITY, fine.dt)
     its = slam.Coupled(0.05, fine, HEIGHT, VELOCITY, ROCK, DAMPING).max_sliding_disp
     exact = ss.FlexibleSlope(ky_g=0.05, **LINEAR).coupled(suite[8]).peak
     require(abs(its / exact - 1) < 2e-3, f"pySLAMMER with 16 steps a sample: {its}, {exact}")
