@@ -149,3 +149,44 @@ def test_pictures(ensemble: ss.Ensemble) -> None:
     assert "equipment on floor 2" in rack.plot_floors()._suptitle.get_text()
     slope = ss.run_ensemble(SLOPE, NOISE, members=4, seed=1)
     assert "flexible slope" in slope.plot_floors()._suptitle.get_text()
+
+
+def test_the_floors_of_several_records_are_drawn_by_height() -> None:
+    plotting = pytest.importorskip("stickslip.plotting")
+    responses = [ss.integrate(ISOLATED, NOISE.sample(seed=1, member=i)) for i in range(9)]
+    accelerations, drifts = plotting.plot_floors(responses).axes
+    peaks = np.array([[r.peak_base_acceleration, *r.floors.peak_acceleration] for r in responses])
+    median, *records = accelerations.lines
+    np.testing.assert_array_equal(median.get_xdata(), np.median(peaks, axis=0))
+    assert len(records) == 9
+    np.testing.assert_array_equal([line.get_xdata() for line in records], peaks)
+    outer, inner = (band.get_paths()[0].vertices[:, 0] for band in accelerations.collections)
+    # Of nine values, the second and the eighth bound the 16 and 84 % quantiles.
+    ordered = np.sort(peaks, axis=0)
+    assert {*ordered[1], *ordered[7]} <= {*inner}
+    assert {*ordered[0], *ordered[8]} <= {*outer}
+    labels = [text.get_text() for text in drifts.get_legend().get_texts()]
+    assert labels == ["5 to 95 %", "16 to 84 %", "median"]
+    assert (
+        len(plotting.plot_floors(responses * 6).axes[0].lines) == 1
+    )  # 54 are not drawn one by one
+    figure = plotting.plot_floors(responses, title="9 records")
+    assert figure._suptitle.get_text() == "9 records"
+
+    two = ss.Structure.shear_building(masses=[1, 1], stiffnesses=[600, 500], damping_ratio=0.03)
+    low = ss.integrate(ss.IsolatedStructure(BEARING, two, base_mass=1), responses[0].motion)
+    bare = ss.Structure.from_modes(mass_fractions=[0.7], frequencies=[8.0], damping_ratios=[0.05])
+    column = ss.integrate(ss.IsolatedStructure(BEARING, bare), responses[0].motion)
+    for given, message in (
+        (responses[:1], "at least two members or responses, got 1"),
+        ([], "at least two members or responses, got 0"),
+        ([*responses, low], "same number of floors, got 3 and, in response 9, 2"),
+        ([column, column], r"no floors; give Structure\.from_modes the shapes"),
+        (ss.run_ensemble(ISOLATED, NOISE, members=1, seed=1), "at least two members .*, got 1"),
+    ):
+        with pytest.raises(ValueError, match=f"plot_floors: .*{message}"):
+            plotting.plot_floors(given)
+    with pytest.raises(TypeError, match="item 1 must be a StructureResponse, got Response"):
+        plotting.plot_floors([responses[0], ss.integrate(BEARING, responses[0].motion)])
+    with pytest.raises(TypeError, match="an Ensemble or a list of StructureResponse, got int"):
+        plotting.plot_floors(3)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, overload
 
 import numpy as np
 from matplotlib.figure import Figure, FigureBase
 from numpy.typing import NDArray
 
-from .._core import Ensemble, FloorPeaks, StructureResponse
+from .._core import Ensemble, StructureResponse
 from .._tables import has_floors
 from .figures import Place, new_figure
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
@@ -77,22 +78,30 @@ def plot_structure_response(
 
 
 @overload
-def plot_floors(ensemble: Ensemble, figure: None = None, title: str | None = None) -> Figure: ...
-@overload
-def plot_floors(ensemble: Ensemble, figure: Place, title: str | None = None) -> Place: ...
 def plot_floors(
-    ensemble: Ensemble, figure: FigureBase | None = None, title: str | None = None
+    peaks: Ensemble | Sequence[StructureResponse], figure: None = None, title: str | None = None
+) -> Figure: ...
+@overload
+def plot_floors(
+    peaks: Ensemble | Sequence[StructureResponse], figure: Place, title: str | None = None
+) -> Place: ...
+def plot_floors(
+    peaks: Ensemble | Sequence[StructureResponse],
+    figure: FigureBase | None = None,
+    title: str | None = None,
 ) -> FigureBase:
-    """Plot the peaks of the floors of an ensemble of structures by height, with their quantiles.
+    """Plot the peaks of the floors by height, with their quantiles over members or records.
+
+    Up to 50 responses are also drawn as thin lines.
 
     Parameters
     ----------
-    ensemble : Ensemble
-        Of structures with floors, with at least two members.
+    peaks : Ensemble or list of StructureResponse
+        Of structures with floors, at least two: an ensemble, or the responses to several records.
     figure : matplotlib Figure or SubFigure, optional
         Where to draw; default: a new figure of 7 x 4 inches.
     title : str, optional
-        Default: the number of members, and the structure.
+        Default: the number of members, and the structure; or the number of responses.
 
     Returns
     -------
@@ -103,41 +112,98 @@ def plot_floors(
     Raises
     ------
     ValueError
-        Sliders; structures without floors; fewer than two members.
+        Sliders; structures without floors, or with different numbers of them; fewer than two
+        members or responses.
+    TypeError
+        An item that is not a StructureResponse.
     """
-    accelerations, drifts = ensemble.peak_floor_acceleration, ensemble.peak_floor_drift
-    count = accelerations.values.shape[1]
-    if count == 0:
-        raise ValueError(
-            "plot_floors: the structure has no floors; give Structure.from_modes the shapes"
-        )
-    base = np.quantile(ensemble.peak_base_acceleration, _BANDS, method="inverted_cdf")
-    length, unit = unit_for(float(drifts.values.max()))
-
-    def quantiles(peaks: FloorPeaks) -> NDArray[np.float64]:
-        return np.array([[one.value for one in peaks.quantile(p)] for p in _BANDS])
-
-    with_base = np.column_stack([base, quantiles(accelerations)])
+    if isinstance(peaks, Ensemble):
+        heading = describe_ensemble(peaks)
+        accelerations = peaks.peak_floor_acceleration.values
+        drifts, base = peaks.peak_floor_drift.values, peaks.peak_base_acceleration
+        thin = False
+    else:
+        accelerations, drifts, base = _peaks_of(peaks)
+        heading = f"{len(peaks)} responses"
+        thin = len(peaks) <= 50
+    members, count = accelerations.shape
+    _require_floors(count)
+    if members < 2:
+        raise ValueError(f"plot_floors: needs at least two members or responses, got {members}")
+    length, unit = unit_for(float(drifts.max()))
     with style():
         figure = figure or new_figure(7, 4)
-        put_figure_title(figure, title or describe_ensemble(ensemble))
+        put_figure_title(figure, title or heading)
         for panel, values, first, name in zip(
             figure.subplots(1, 2),
-            (with_base, quantiles(drifts) * length),
+            (np.column_stack([base, accelerations]), drifts * length),
             (0, 1),
             ("largest absolute acceleration [m/s²]", f"largest drift [{unit}]"),
         ):
             number = np.arange(first, count + 1)
-            for low, high, opacity in ((0, 4, 0.15), (1, 3, 0.3)):
+            bands = np.quantile(values, _BANDS, axis=0, method="inverted_cdf")
+            for low, high, opacity, label in (
+                (0, 4, 0.15, "5 to 95 %"),
+                (1, 3, 0.3, "16 to 84 %"),
+            ):
                 panel.fill_betweenx(
-                    number, values[low], values[high], color=BLUE, alpha=opacity, linewidth=0
+                    number,
+                    bands[low],
+                    bands[high],
+                    color=BLUE,
+                    alpha=opacity,
+                    linewidth=0,
+                    label=label,
                 )
-            panel.plot(values[2], number, "o-", color=BLUE, markersize=4)
+            panel.plot(bands[2], number, "o-", color=BLUE, markersize=4, label="median")
+            if thin:
+                panel.plot(values.T, number, color=GRAY, linewidth=0.4, zorder=1)
             panel.set_xlim(left=0)
             panel.set_yticks(number[:: 1 + len(number) // 12])
             panel.set_xlabel(name)
             panel.set_ylabel("floor")
+        figure.axes[-1].legend(loc="best", fontsize=8)
         return figure
+
+
+def _require_floors(count: int) -> None:
+    if count == 0:
+        raise ValueError(
+            "plot_floors: the structure has no floors; give Structure.from_modes the shapes"
+        )
+
+
+def _peaks_of(
+    responses: Sequence[StructureResponse],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Accelerations and drifts of the floors, shape (responses, floors), and of the base."""
+    if not isinstance(responses, Sequence):
+        raise TypeError(
+            "plot_floors: needs an Ensemble or a list of StructureResponse, got"
+            f" {type(responses).__name__}"
+        )
+    for i, one in enumerate(responses):
+        if not isinstance(one, StructureResponse):
+            raise TypeError(
+                f"plot_floors: item {i} must be a StructureResponse, got {type(one).__name__}"
+            )
+    if len(responses) < 2:
+        raise ValueError(
+            f"plot_floors: needs at least two members or responses, got {len(responses)}"
+        )
+    counts = [len(one.floors.peak_drift) if has_floors(one) else 0 for one in responses]
+    if len(set(counts)) > 1:
+        odd = next(i for i, count in enumerate(counts) if count != counts[0])
+        raise ValueError(
+            "plot_floors: structures must have the same number of floors, got"
+            f" {counts[0]} and, in response {odd}, {counts[odd]}"
+        )
+    _require_floors(counts[0])
+    return (
+        np.array([one.floors.peak_acceleration for one in responses]),
+        np.array([one.floors.peak_drift for one in responses]),
+        np.array([one.peak_base_acceleration for one in responses]),
+    )
 
 
 def plot_modes(modes: Any, figure: FigureBase | None = None, title: str | None = None) -> Figure:
