@@ -22,9 +22,11 @@ import stickslip as ss
 from measure import bar, machine, peer, take_turns, versions
 
 HEIGHT, VELOCITY, ROCK, DAMPING, STRAIN = 50, 600, 1500, 0.05, 5e-4
-COLUMN = {"height": HEIGHT, "shear_velocity": VELOCITY, "rock_velocity": ROCK}
-LINEAR = COLUMN | {"damping_ratio": DAMPING}
+COLUMN = {"height": HEIGHT, "shear_velocity": VELOCITY}
+LINEAR = COLUMN | {"damping_ratio": DAMPING, "rock_velocity": ROCK}
+# On rigid rock: in pySLAMMER radiation takes the velocity of the strained soil, here not.
 SOIL = COLUMN | {"soil": ss.HyperbolicSoil(reference_strain=STRAIN)}
+RIGID = 1e9  # [m/s]
 LEVELS = np.linspace(0.005, 0.5, 100).tolist()  # [g]
 SLIDERS = ss.grid(ss.Coulomb, mu=np.arange(1, 101) / 100)
 TEN = ss.Structure.shear_building(masses=[2e5] * 10, stiffnesses=[4e8] * 10, damping_ratio=0.03)
@@ -117,12 +119,11 @@ def beside_pyslammer(rounds: int, check: bool) -> None:
             {"ref_strain": STRAIN, "soil_model": "equivalent_linear"} if kind != "linear" else {}
         )
 
-        def its(ky: float = one.ky_g, strain: dict = strain) -> np.ndarray:
+        column = HEIGHT, VELOCITY, RIGID if strain else ROCK, DAMPING
+
+        def its(ky: float = one.ky_g, column: tuple = column, strain: dict = strain) -> np.ndarray:
             return np.array(
-                [
-                    slam.Coupled(ky, r, HEIGHT, VELOCITY, ROCK, DAMPING, **strain).max_sliding_disp
-                    for r in records.values()
-                ]
+                [slam.Coupled(ky, r, *column, **strain).max_sliding_disp for r in records.values()]
             )
 
         def ours(one: ss.FlexibleSlope = one) -> np.ndarray:
@@ -138,8 +139,8 @@ def beside_pyslammer(rounds: int, check: bool) -> None:
             np.abs(swept.peak[9, 3, 1] - one.coupled(-suite[3]).peak) <= 1e-12, "its mirror image"
         )
         apart = 100 * np.abs(its() / exact - 1)
-        # In equivalent-linear soil it stops iterating at changes of 5 %.
-        require(np.median(apart) < (1 if kind == "linear" else 6), f"{kind}: pySLAMMER, {apart}")
+        # In equivalent-linear soil it also stops iterating at changes of 5 %.
+        require(np.median(apart) < (1 if kind == "linear" else 2), f"{kind}: pySLAMMER, {apart}")
         print(
             f"{kind}, ky = {one.ky_g:.3g} g: pySLAMMER's displacements differ by"
             f" {np.median(apart):.1f} % (median), {apart.max():.0f} % (largest)"
