@@ -85,6 +85,22 @@ def test_modes_and_rock_act(capsys, folder):
     assert len(found) == 3
 
 
+def test_equivalent_linear_soil(capsys, folder):
+    soil = ss.HyperbolicSoil(reference_strain=5e-4)
+    options = ["--reference-strain", "0.05%", "--rock-vs", 1500]
+    code, out, err = run(
+        capsys, folder / "r1.csv", "--ky", 0.05, *METHODS, *COLUMN[:4], *options, "--json"
+    )
+    assert (code, err) == (0, "")
+    _, decoupled, coupled = json.loads(out)["results"]
+    slope = ss.FlexibleSlope(
+        ky_g=0.05, height=50, shear_velocity=600, soil=soil, rock_velocity=1500
+    )
+    quake = ss.read_record(folder / "r1.csv")
+    assert coupled["normal_m"] == pytest.approx(slope.coupled(-quake).peak, rel=1e-12)
+    assert decoupled["inverse_m"] == pytest.approx(slope.decoupled(quake).peak, rel=1e-12)
+
+
 def test_a_stiff_mass_is_the_rigid_block_in_both_polarities(capsys, folder):
     """With w = pi Vs / (2 H) = 4712 rad/s it follows the ground 2 zeta / w = 2e-5 s late; the
     polarities differ by over 1 %."""
@@ -117,6 +133,23 @@ def test_without_a_method_nothing_names_one(capsys, folder, tmp_path):
         (["--vs", 600], "--vs goes with --method coupled or decoupled, got 600 without"),
         (["--method", "rigid", "--modes", 2], "--modes goes with --method coupled or decoupled"),
         (["--rock-vs", 3000], "--rock-vs goes with --method coupled or decoupled"),
+        (
+            ["--reference-strain", 1e-3],
+            "--reference-strain goes with --method coupled or decoupled, got 0.001 without",
+        ),
+        (
+            ["--method", "coupled", *COLUMN, "--reference-strain", 1e-3],
+            "--damping-ratio does not go with --reference-strain, from which the damping of the"
+            " soil follows, got 0.05",
+        ),
+        (
+            ["--method", "coupled", *COLUMN[:4], "--reference-strain", 0],
+            "--reference-strain must be positive and finite, got 0",
+        ),
+        (
+            ["--method", "coupled", "--height", 50, "--reference-strain", 1e-3],
+            "coupled needs --vs, got none",
+        ),
         (["--method", "coupled"], "coupled needs --height and --vs and --damping-ratio, got none"),
         (["--method", "decoupled", *COLUMN[:4]], "decoupled needs --damping-ratio, got none"),
         (["--method", "coupled", *COLUMN, "--modes", 0], "--modes must be at least 1, got 0"),

@@ -17,6 +17,7 @@ from .. import (
     Coulomb,
     FlexibleSlope,
     GroundMotion,
+    HyperbolicSoil,
     integrate,
 )
 from .._text import printable
@@ -44,7 +45,7 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
         " polarities, with their mean; then mean, median and standard deviation over the records."
         " The names are SLAMMER's: normal is the reversed record, n = -record; inverse is the"
         " record itself. With --method coupled or decoupled, the sliding mass is a uniform shear"
-        " column of the given height, shear-wave velocity and damping ratio.",
+        " column of the given height, shear-wave velocity, and damping ratio or reference strain.",
         epilog="A file that cannot be read, and a displacement that cannot be computed, are"
         " reported in one line on stderr; the others are printed, and the exit code is 1.",
     )
@@ -64,6 +65,13 @@ def add_newmark(commands: argparse._SubParsersAction) -> None:
     add("--vs", type=number, metavar="V", help="flexible mass: shear-wave velocity [m/s]")
     add(
         "--damping-ratio", type=ratio, metavar="Z", help="flexible mass: damping ratio of each mode"
+    )
+    add(
+        "--reference-strain",
+        type=ratio,
+        metavar="G",
+        help="flexible mass: equivalent-linear hyperbolic soil of this reference strain [-], which"
+        " replaces --damping-ratio",
     )
     add("--modes", type=whole, metavar="N", help="flexible mass: number of modes (default 1)")
     add(
@@ -182,8 +190,16 @@ def _peak(slope: FlexibleSlope, motion: GroundMotion) -> float:
 
 def _slopes(args: argparse.Namespace) -> dict[tuple[float, str], FlexibleSlope]:
     """The flexible masses of the command line, by ky [g] and method."""
-    needed = {"--height": args.height, "--vs": args.vs, "--damping-ratio": args.damping_ratio}
-    column = {**needed, "--modes": args.modes, "--rock-vs": args.rock_vs}
+    needed = {"--height": args.height, "--vs": args.vs}
+    if args.reference_strain is None:
+        needed["--damping-ratio"] = args.damping_ratio
+    column = {
+        **needed,
+        "--damping-ratio": args.damping_ratio,
+        "--reference-strain": args.reference_strain,
+        "--modes": args.modes,
+        "--rock-vs": args.rock_vs,
+    }
     methods = [method for method in args.method or () if method in _FLEXIBLE]
     if not methods:
         for option, value in column.items():
@@ -195,20 +211,29 @@ def _slopes(args: argparse.Namespace) -> dict[tuple[float, str], FlexibleSlope]:
     if missing := [option for option, value in needed.items() if value is None]:
         raise ValueError(f"--method {methods[0]} needs {' and '.join(missing)}, got none")
     check_whole("--modes", args.modes, 1, _MOST_MODES)
-    for option, unit in (("--height", " m"), ("--vs", " m/s"), ("--rock-vs", " m/s")):
+    if args.reference_strain is not None and args.damping_ratio is not None:
+        raise ValueError(
+            "--damping-ratio does not go with --reference-strain, from which the damping of the"
+            f" soil follows, got {args.damping_ratio:g}"
+        )
+    units = {"--height": " m", "--vs": " m/s", "--rock-vs": " m/s", "--reference-strain": ""}
+    for option, unit in units.items():
         value = column[option]
         if value is not None and not 0 < value < math.inf:
             raise ValueError(f"{option} must be positive and finite, got {value:g}{unit}")
-    if not 0 <= args.damping_ratio < math.inf:
+    if args.reference_strain is None and not 0 <= args.damping_ratio < math.inf:
         raise ValueError(
             f"--damping-ratio must be finite and at least 0, got {args.damping_ratio:g}"
         )
+    strain = args.reference_strain
+    soil = None if strain is None else HyperbolicSoil(reference_strain=strain)
     return {
         (ky, method): FlexibleSlope(
             ky_g=ky,
             height=args.height,
             shear_velocity=args.vs,
-            damping_ratio=args.damping_ratio,
+            damping_ratio=args.damping_ratio or 0,
+            soil=soil,
             modes=args.modes or 1,
             rock_velocity=args.rock_vs,
             method=method,
