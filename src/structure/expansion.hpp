@@ -89,8 +89,10 @@ class Expansion {
           place[k] = x_[at(k)];
           speed[k] = s * v_[at(k)];
           level.update(k);
-          level_[at(k)] = level[k];
-          friction_[at(k)] = weight_[0] * level[k] + (k > 0 ? weight_[1] * level_[at(k - 1)] : 0);
+          // The level that the demand has just exceeded, to the last digit: under a larger one, a slip would stop at
+          // once, break away again, and so on without an end.
+          level_[at(k)] = k > 0 ? level[k] : resist(law, state.displacement, std::abs(state.velocity), direction);
+          friction_[at(k)] = weight_[0] * level_[at(k)] + (k > 0 ? weight_[1] * level_[at(k - 1)] : 0);
           net = (net - of_.damper * v_[at(k)] - s * friction_[at(k)]) / of_.mass;
         } else {
           net = 0;

@@ -52,6 +52,19 @@ def test_floors_of_a_building() -> None:
         floors.displacement[0, 0] = 1
 
 
+def test_a_caster_breaks_away_where_its_level_is_rounded_differently() -> None:
+    # As a number and as the first term of a series, 1 / cosh differs in its last digit at such places.
+    noise = ss.GaussianExcitation(
+        ss.Spectrum.kanai_tajimi(s0=0.01, frequency=12.0, damping=0.6), dt=0.02, samples=513
+    )
+    for reach in (0.01, 0.1, 1.0):
+        caster = ss.IsolatedStructure(ss.Caster(mu=0.05, reach=reach), BUILDING, base_mass=1)
+        for i in range(10):
+            r = ss.integrate(caster, noise.sample(seed=1, member=i))
+            assert r.slips < 1000
+            assert r.energy.imbalance == pytest.approx(0, abs=1e-11 * r.energy.input)
+
+
 def test_modes() -> None:
     modes = BUILDING.modes()
     assert modes.effective_masses.sum() == pytest.approx(2.8)
