@@ -1073,6 +1073,40 @@ def test_an_ensemble_of_pairs_is_exactly_the_librarys(capsys, source):
     ]
 
 
+BUILDING = ["--story-masses", "2e5", "1e5", "--story-stiffnesses", "2e8", "1.5e8"]
+BUILDING += ["--base-mass", "2e5", "--story-damping-ratio", "3%"]
+
+
+def test_an_ensemble_of_buildings_is_exactly_the_librarys(capsys):
+    shaking, excitation = SOURCES["band"]
+    options = [*shaking, "--mu", 0.02, "--period", 2, *BUILDING, "--members", 200, "--seed", 7]
+    code, out, err = run_ensemble(capsys, *options, "--settle", "--json")
+    assert (code, err) == (0, "")
+    document = json.loads(out)
+    tower = ss.Structure.shear_building(
+        masses=[2e5, 1e5], stiffnesses=[2e8, 1.5e8], damping_ratio=0.03
+    )
+    system = ss.IsolatedStructure(ss.Slider(ss.Coulomb(mu=0.02), period=2), tower, base_mass=2e5)
+    e = ss.run_ensemble(system, excitation, members=200, seed=7, settle=True)
+    assert document["configuration"] == e.configuration
+    assert document["peak_m"][0]["value"] == e.quantile(0.5).value
+    assert [floor["floor"] for floor in document["floors"]] == [1, 2]
+    for i, floor in enumerate(document["floors"]):
+        for name, peaks in (
+            ("peak_acceleration_m_s2", e.peak_floor_acceleration),
+            ("peak_drift_m", e.peak_floor_drift),
+        ):
+            for p, found in zip((0.5, 0.95), floor[name], strict=True):
+                q = peaks.quantile(p)[i]
+                assert found == {"quantile": p, "value": q.value, "low": q.low, "high": q.high}
+    code, out, err = run_ensemble(capsys, *options, "--settle")
+    assert (code, err) == (0, "")
+    (line,) = (line for line in out.splitlines() if line.startswith("floor 2, drift"))
+    median = 1000 * e.peak_floor_drift.quantile(0.5)[1].value
+    assert line.split()[3:6] == ["median", f"{median:.4g}", "mm"]
+    assert "floors" not in json.loads(run_ensemble(capsys, *QUAKE, "--json")[1])
+
+
 def test_the_table_of_an_ensemble_has_units_errors_and_bounds(capsys):
     code, out, err = run_ensemble(capsys, *QUAKE, "--level", 0.02, 0.05, "--confidence", 0.9)
     assert (code, err) == (0, "")
@@ -1121,6 +1155,23 @@ REFUSED_ENSEMBLES = {
         "",
     ),
     "a negative seed": ([*QUAKE, "--seed", -1], "seed must be at least 0, got -1"),
+    "a base without a building": (
+        [*QUAKE, "--base-mass", 1],
+        "needs --story-masses and --story-stiffnesses and --story-damping-ratio, got none",
+    ),
+    "a story too few": (
+        [*QUAKE, *BUILDING[:5], *BUILDING[6:]],
+        "--story-stiffnesses needs one for each of --story-masses, 2, got 1",
+    ),
+    "a floor without mass": (
+        [*QUAKE, *BUILDING[:2], 0, *BUILDING[3:]],
+        "--story-masses must be positive and finite, got 0 kg",
+    ),
+    "a story that gains energy": (
+        [*QUAKE, *BUILDING[:-1], -0.1],
+        "--story-damping-ratio must be finite and at least 0, got -0.1",
+    ),
+    "a building in the plane": ([*QUAKE, *BUILDING, "--planar"], "leave out --planar"),
     "a negative ratio": (
         [*QUAKE, "--vertical-ratio", -0.5],
         "--vertical-ratio must be finite and at least 0, got -0.5",

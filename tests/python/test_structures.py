@@ -53,7 +53,7 @@ def test_floors_of_a_building() -> None:
 
 
 def test_a_caster_breaks_away_where_its_level_is_rounded_differently() -> None:
-    # As a number and as the first term of a series, 1 / cosh differs in its last digit at such places.
+    # As a number and as the first term of a series, 1 / cosh differs in its last digit there.
     noise = ss.GaussianExcitation(
         ss.Spectrum.kanai_tajimi(s0=0.01, frequency=12.0, damping=0.6), dt=0.02, samples=513
     )

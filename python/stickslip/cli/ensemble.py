@@ -19,6 +19,7 @@ from .. import (
     WithVertical,
 )
 from .._text import printable
+from .building import add_building, building_on
 from .output import FAILURES, check_outputs, check_whole, complain, json_text, reason_of
 from .parser import number, numbers, ratio, text_argument, whole
 from .slider import add_contact, add_slider, any_slider_of
@@ -26,6 +27,7 @@ from .slider import add_contact, add_slider, any_slider_of
 __all__ = ["add_ensemble"]
 
 _LEVELS = (0.01, 0.03, 0.1, 0.3, 1.0)  # default of --level [m]
+_SHARES_OF_FLOORS = (0.5, 0.95)
 
 
 def add_ensemble(commands: argparse._SubParsersAction) -> None:
@@ -34,7 +36,8 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
         help="slide through many random earthquakes and print statistics",
         description="Slides a block through many members of a random ground motion and prints the"
         " distribution of its displacement relative to the ground, with standard errors (+-) and"
-        " confidence bounds (in brackets). --event, --rate or --band gives the ground motion.",
+        " confidence bounds (in brackets). --event, --rate or --band gives the ground motion. The"
+        " block may be the base of a building: --story-masses and the options with it.",
         epilog=f"Scenarios: {', '.join(PoissonPulses.events())}.",
     )
     add = parser.add_argument
@@ -84,6 +87,7 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
     add("--mu", type=ratio, required=True, help="coefficient of friction [-]")
     add_slider(parser)
     add_contact(parser)
+    add_building(parser)
     add(
         "--members",
         type=whole,
@@ -145,7 +149,7 @@ def _ensemble(args: argparse.Namespace) -> str:
 
     try:
         ensemble = run_ensemble(
-            any_slider_of(args),
+            building_on(any_slider_of(args), args),
             _excitation(args),
             members=args.members,
             seed=args.seed,
@@ -238,7 +242,27 @@ def _statistics(args: argparse.Namespace, ensemble: Ensemble) -> dict:
         "airborne": ensemble.airborne,
         **_residual(ensemble),
         **(_at_end(ensemble) if args.planar else _stationary(ensemble)),
+        **({"floors": _floors(ensemble, args.confidence)} if ensemble.has_floors else {}),
     }
+
+
+def _floors(ensemble: Ensemble, confidence: float) -> list[dict]:
+    """Quantiles of the peaks of each floor, the lowest first."""
+    of = {
+        "peak_acceleration_m_s2": ensemble.peak_floor_acceleration,
+        "peak_drift_m": ensemble.peak_floor_drift,
+    }
+    rows: list[dict] = [
+        {"floor": floor, **{name: [] for name in of}}
+        for floor in range(1, ensemble.peak_floor_drift.values.shape[1] + 1)
+    ]
+    for name, peaks in of.items():
+        for p in _SHARES_OF_FLOORS:
+            for row, found in zip(rows, peaks.quantile(p, confidence)):
+                row[name].append(
+                    {"quantile": p, "value": found.value, "low": found.low, "high": found.high}
+                )
+    return rows
 
 
 def _stationary(ensemble: Ensemble) -> dict:
@@ -356,6 +380,16 @@ def _report(args: argparse.Namespace, result: dict) -> Iterable[str]:
             yield row(f"{quantity} covariance", "", covariance, 1, unit)
         yield f"(variances and covariances at {at_end['time_s']:.4g} s)"
         return
+    for floor in result.get("floors", ()):
+        for name, key, factor, unit in (
+            ("acceleration", "peak_acceleration_m_s2", 1, "m/s^2"),
+            ("drift", "peak_drift_m", 1000, "mm"),
+        ):
+            for found in floor[key]:
+                median = found["quantile"] == 0.5
+                which = "median" if median else f"{100 * found['quantile']:g} %"
+                label = f"floor {floor['floor']}, {name}" if median else ""
+                yield row(label, which, found, factor, unit)
     stationary = result["stationary"]
     yield row("velocity variance", "", stationary["velocity_variance_m2_s2"], 1, "m^2/s^2")
     yield row("growth of variance of x", "", stationary["growth_rate_m2_s"], 1, "m^2/s")

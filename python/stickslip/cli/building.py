@@ -1,0 +1,80 @@
+"""A building on the slider of the command line."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from .. import IsolatedStructure, PlanarSlider, Slider, Structure
+from .parser import StoreAll, number, ratio
+
+__all__ = ["add_building", "building_on"]
+
+_OPTIONS = ("story_masses", "story_stiffnesses", "base_mass", "story_damping_ratio")
+
+
+def add_building(parser: argparse.ArgumentParser) -> None:
+    """Add the options that `building_on` reads."""
+    add = parser.add_argument
+    add(
+        "--story-masses",
+        nargs="+",
+        action=StoreAll,
+        type=number,
+        metavar="KG",
+        help="a shear building on the block, which is its base: masses of its floors, bottom up"
+        " [kg]",
+    )
+    add(
+        "--story-stiffnesses",
+        nargs="+",
+        action=StoreAll,
+        type=number,
+        metavar="K",
+        help="building: stiffness of each story [N/m]",
+    )
+    add("--base-mass", type=number, metavar="KG", help="building: mass of the base [kg]")
+    add(
+        "--story-damping-ratio",
+        type=ratio,
+        metavar="Z",
+        help="building: damping ratio of each mode on a fixed base",
+    )
+
+
+def building_on(
+    slider: Slider | PlanarSlider, args: argparse.Namespace
+) -> Slider | PlanarSlider | IsolatedStructure:
+    """The slider, with the building of the command line if there is one."""
+    options = {name: f"--{name.replace('_', '-')}" for name in _OPTIONS}
+    missing = [option for name, option in options.items() if getattr(args, name) is None]
+    if len(missing) == len(options):
+        return slider
+    if missing:
+        raise ValueError(f"a building needs {' and '.join(missing)}, got none")
+    if isinstance(slider, PlanarSlider):
+        raise ValueError("a building moves on one axis: leave out --planar or --story-masses")
+    count = len(args.story_masses)
+    if len(args.story_stiffnesses) != count:
+        raise ValueError(
+            "--story-stiffnesses needs one for each of --story-masses,"
+            f" {count}, got {len(args.story_stiffnesses)}"
+        )
+    for option, values, unit in (
+        ("--story-masses", args.story_masses, "kg"),
+        ("--story-stiffnesses", args.story_stiffnesses, "N/m"),
+        ("--base-mass", [args.base_mass], "kg"),
+    ):
+        for value in values:
+            if not 0 < value < math.inf:
+                raise ValueError(f"{option} must be positive and finite, got {value:g} {unit}")
+    if not 0 <= args.story_damping_ratio < math.inf:
+        raise ValueError(
+            f"--story-damping-ratio must be finite and at least 0, got {args.story_damping_ratio:g}"
+        )
+    structure = Structure.shear_building(
+        masses=args.story_masses,
+        stiffnesses=args.story_stiffnesses,
+        damping_ratio=args.story_damping_ratio,
+    )
+    return IsolatedStructure(slider, structure, base_mass=args.base_mass)
