@@ -205,11 +205,13 @@ void refuse_overflow(double peak) {
 }
 
 void refuse_restless(double step, const StructureState& state, double demand) {
+  // A sweep does not bound the demand while the interface slides.
+  const std::string loads =
+      std::isfinite(demand) ? ", and the structure can still load it with " + shortest(demand) + " m/s^2" : "";
   throw ConvergenceError("integrate: without ground motion the interface does not come to rest within " +
                          std::to_string(most_calm_steps) + " steps of " + shortest(step) +
                          " s; at x = " + shortest(state.displacement) + " m it moves at " + shortest(state.velocity) +
-                         " m/s, and the structure can still load it with " + shortest(demand) +
-                         " m/s^2; use settle = false");
+                         " m/s" + loads + "; use settle = false");
 }
 
 }  // namespace detail
