@@ -52,8 +52,9 @@ def test_floors_of_a_building() -> None:
         floors.displacement[0, 0] = 1
 
 
-def test_a_caster_breaks_away_where_its_level_is_rounded_differently() -> None:
-    # As a number and as the first term of a series, 1 / cosh differs in its last digit there.
+def test_casters_break_away_and_go_far() -> None:
+    # As a number and as the first term of a series, 1 / cosh can differ in its last digit. With the
+    # smallest reach they slide to where it is below 1e-100.
     noise = ss.GaussianExcitation(
         ss.Spectrum.kanai_tajimi(s0=0.01, frequency=12.0, damping=0.6), dt=0.02, samples=513
     )
