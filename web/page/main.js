@@ -44,6 +44,7 @@ import { digits, unitOf } from "./units.js";
  * @property {(vertical: boolean) => Source} source
  * @property {string} [error]
  * @property {Uint8Array} [bytes]  of a file that could not be read, to try again
+ * @property {HTMLLIElement} [failed]  what says that it could not
  */
 
 /**
@@ -361,7 +362,7 @@ const updatePath = latest(async () => {
   const hasVertical = row.motion.verticalId !== null;
   element("path-command").textContent = pathCommand(full, row.source(false), hasVertical) ?? NO_COMMAND;
   const even = !Number.isNaN(row.motion.measures.dt);
-  element("path-python").textContent = pathPython(full, row.source(true), hasVertical, even);
+  element("path-python").textContent = pathPython(full, row.source(true), hasVertical, even, path.summary.at_rest === 1);
   if (change === changes) figure.dataset.state = "shown";
 });
 
@@ -476,9 +477,8 @@ function view(many) {
  */
 function show(s, row) {
   const source = row.source(s.vertical === 1);
-  element("command").textContent =
-    command(s, source) ?? NO_COMMAND;
-  element("python").textContent = python(s, source);
+  element("command").textContent = command(s, source) ?? NO_COMMAND;
+  element("python").textContent = python(s, source, response?.summary.at_rest !== 0);
   element("pinned").textContent = pinned ? `Compared with ${toLink(completed(pinned.settings)).replaceAll("&", ", ")} (dashed).` : "";
   element("output").classList.toggle("empty", response === null);
   if (!response) return;
@@ -526,16 +526,16 @@ function show(s, row) {
     time,
     places.map((values) => inUnits(values, "length")),
     {
-    range: [Math.min(0, signed), Math.max(0, signed)],
-    after: (u, ctx) => {
-      levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3], label: `peak ${digits(peak)}`, below: signed > 0 });
-      levelLine(u, ctx, residual, {
-        stroke: "displacement",
-        dash: [6, 3],
-        label: `residual ${digits(residual)}`,
-        below: residual < signed,
-      });
-    },
+      range: [Math.min(0, signed), Math.max(0, signed)],
+      after: (u, ctx) => {
+        levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3], label: `peak ${digits(peak)}`, below: signed > 0 });
+        levelLine(u, ctx, residual, {
+          stroke: "displacement",
+          dash: [6, 3],
+          label: `residual ${digits(residual)}`,
+          below: residual < signed,
+        });
+      },
     },
   );
   element("title-hysteresis").textContent = `Force per unit mass [${ground.name}] over displacement [${length.name}]`;
@@ -879,7 +879,8 @@ async function addFile(file, bytes, options = {}, place = rows.length) {
       source: (vertical) =>
         recordedAs(file, {
           ...options,
-          component: motion.several ? motion.component || String(i + 1) : "",
+          // The command slides along a vertical component only if it is named.
+          component: motion.several || motion.vertical ? motion.component || String(i + 1) : "",
           along: motion.orientation,
           vertical,
         }),
@@ -902,7 +903,11 @@ function select(row) {
 }
 
 function showRows() {
-  element("records").replaceChildren(...rows.map(rowElement));
+  const list = element("records");
+  const focused = /** @type {HTMLElement} */ (document.activeElement);
+  const within = list.contains(focused);
+  list.replaceChildren(...rows.map(rowElement));
+  if (within) (list.contains(focused) ? focused : list.querySelector("[type=radio]:checked"))?.focus();
 }
 
 let rowsWait = false;
@@ -922,10 +927,11 @@ function rowElement(row) {
   const remove = make("button", { type: "button", textContent: "\u00d7", onclick: () => removeRow(row) });
   remove.setAttribute("aria-label", `Remove ${row.label}`);
   if (!row.motion) {
+    if (row.failed) return row.failed; // with what is typed in it
     const reason = row.error?.replace(`read_record: ${row.file}: `, "") ?? "";
-    const line = make("li", { className: "failed" }, make("b", {}, row.label), remove, make("p", {}, reason));
-    if (row.bytes && /units|time step|\bdt\b/.test(reason)) line.append(retryForm(row));
-    return line;
+    row.failed = make("li", { className: "failed" }, make("b", {}, row.label), remove, make("p", {}, reason));
+    if (row.bytes && /units|time step|\bdt\b/.test(reason)) row.failed.append(retryForm(row));
+    return row.failed;
   }
   const radio = make("input", { type: "radio", name: "record", checked: row === selected, onchange: () => select(row) });
   const { pga, duration } = row.motion.measures;
@@ -1053,27 +1059,29 @@ function enter({ key }, text) {
   if (key === "mus" && values.length) setMu(Math.max(...values));
   /** @type {any} */ (settings)[key] = isList ? values : (values[0] ?? NaN);
   changed();
-  if (FIELDS.some((one) => one.needs?.includes(key))) refreshDependents();
+  if (FIELDS.some((one) => one.needs?.includes(key))) refreshFields();
   return true;
 }
 
 function showFields() {
-  const full = completed(settings);
-  element("pendulum").disabled = Number.isNaN(full.period) || LAWS[full.law]?.name === "pendulum";
-  element("fields").replaceChildren(
-    ...FIELDS.filter((field) => applies(field, full)).map((field) => {
-      const type = typeof full[field.key] === "number" ? "number" : "text";
-      return entry(field.label, field.unit, entered(field, full), field.hint, (text) => enter(field, text), type);
-    }),
-  );
+  element("fields").replaceChildren();
+  refreshFields();
 }
 
-/** Shows or hides the fields that depend on another, which keeps the focus. */
-function refreshDependents() {
-  const inputs = [...element("fields").querySelectorAll("input")];
-  const place = inputs.indexOf(document.activeElement);
-  showFields();
-  if (place >= 0) element("fields").querySelectorAll("input")[place]?.focus();
+/** Shows and hides the fields that depend on others; those that stay are not made anew, because one may be typed in. */
+function refreshFields() {
+  const full = completed(settings);
+  element("pendulum").disabled = Number.isNaN(full.period) || LAWS[full.law]?.name === "pendulum";
+  const fields = FIELDS.filter((field) => applies(field, full));
+  const place = element("fields");
+  for (const shown of [...place.children]) if (!fields.some(({ key }) => key === shown.dataset.key)) shown.remove();
+  fields.forEach((field, i) => {
+    if (place.children[i]?.dataset.key === field.key) return;
+    const type = typeof full[field.key] === "number" ? "number" : "text";
+    const made = entry(field.label, field.unit, entered(field, full), field.hint, (text) => enter(field, text), type);
+    made.dataset.key = field.key;
+    place.insertBefore(made, place.children[i] ?? null);
+  });
 }
 
 /** @param {number} mu */

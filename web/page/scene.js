@@ -28,7 +28,7 @@ export function drawScene(canvas, { settings, x, peak, acceleration, pga, ruler 
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, width, height);
-  const [ink, block, pale] = [color("ink"), color("displacement"), color("grid")];
+  const [ink, block, pale] = [color("ink"), color("displacement"), color("quiet")];
   const box = Math.min(64, width / 5);
   const room = Math.max(peak, Number.isNaN(settings.stop_gap) ? 0 : settings.stop_gap, 1e-4);
   const scale = (width / 2 - box - 8) / room; // pixels per meter

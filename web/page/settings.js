@@ -324,23 +324,25 @@ function slider(s) {
 
 /**
  * @param {Settings} s
- * @param {string} sliding  the name of what slides
+ * @param {boolean} rests  at last; else Python refuses to settle
  */
-function integration(s, sliding) {
+function integration(s, rests) {
   const contact = s.vertical && s.clipped ? ', contact="clipped"' : "";
-  return `response = ss.integrate(${sliding}, motion${s.scale === 1 ? "" : `.scaled(${s.scale})`}, settle=True${contact})`;
+  const motion = `motion${s.scale === 1 ? "" : `.scaled(${s.scale})`}`;
+  return `response = ss.integrate(slider, ${motion}${rests ? ", settle=True" : ""}${contact})`;
 }
 
 /**
  * The Python lines that give the same numbers.
  * @param {Settings} s
  * @param {Source} source
+ * @param {boolean} rests  whether the slider comes to rest
  */
-export function python(s, source) {
+export function python(s, source, rests) {
   return [
     ...imports(source),
     `slider = ${slider(s)}`,
-    integration(s, "slider"),
+    integration(s, rests),
     "print(response.peak, response.residual)",
   ].join("\n");
 }
@@ -350,15 +352,16 @@ export function python(s, source) {
  * @param {Settings} s
  * @param {Source} station
  * @param {boolean} hasVertical
- * @param {boolean} even  whether the time step is the same throughout
+ * @param {boolean} even   whether the time step is the same throughout
+ * @param {boolean} rests  whether the slider comes to rest
  */
-export function pathPython(s, station, hasVertical, even) {
+export function pathPython(s, station, hasVertical, even, rests) {
   const time = even ? "motion.dt" : "times=motion.time";
   return [
     ...imports(station),
     ...(hasVertical && !s.vertical ? [`motion = ss.GroundMotion(motion.acceleration, ${time}, transverse=motion.transverse)`] : []),
     `slider = ss.PlanarSlider(${slider(s)})`,
-    integration(s, "slider"),
+    integration(s, rests),
     "print(response.peak, response.residual)",
   ].join("\n");
 }

@@ -134,6 +134,7 @@ test("the command and the Python lines give the numbers of the page", async () =
   for (const settings of [
     "mu=0.12&law=caster&reach=0.1&stop_gap=0.2&restitution=0.3",
     "mu=0.2&law=one-way&slope=5",
+    "mu=0.1&law=caster&reach=0.05&slope=3", // never rests
     "mu=0.2&law=one-way&mu_static=0.25",
     "mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1",
     "mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&scale=-1.5",
@@ -236,8 +237,17 @@ test("archives, broken files, and files that leave their units open", async () =
     compare(await table(), answers.components[1]);
   }
 
+  // By keys, from one record to the next.
+  await page.focus("#records [type=radio]:checked");
+  const places = () => page.$$eval("#records [type=radio]", (all) => [all.findIndex((one) => /** @type {HTMLInputElement} */ (one).checked), all.length]);
+  const [first = NaN, count = NaN] = await places();
+  for (let i = 0; i < 2; ++i) await page.keyboard.press("ArrowDown");
+  await settled();
+  assert.deepEqual(await places(), [(first + 2) % count, count]);
+
   await page.select("#records form select", "m/s^2");
   await page.type("#records form input", "0.01");
+  await drop("three.csv"); // does not disturb what is typed
   await page.evaluate(() => (document.body.dataset.state = "busy"));
   await page.click("#records form button");
   await settled();
@@ -363,6 +373,29 @@ test("an invalid setting is refused in the library's words, and the page goes on
   for (let i = 0; i < 40; ++i) await page.keyboard.press("ArrowRight");
   await settled();
   assert.equal(await textOf("trouble"), "");
+  assert.deepEqual(complaints, []);
+});
+
+test("fields keep what is typed in them while others come and go", async () => {
+  await open("mu=0.1");
+  const shown = () => page.$$eval("#fields label", (all) => all.map((one) => /** @type {HTMLElement} */ (one).dataset.key));
+  const [period, gap] = await Promise.all(["period", "stop_gap"].map((key) => page.$(`#fields [data-key=${key}] input`)));
+  await period?.focus();
+  await page.keyboard.type("12.55");
+  assert.ok((await shown()).includes("damping_ratio"));
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("Backspace");
+  await page.keyboard.type(".5");
+  await page.keyboard.press("Tab");
+  await page.keyboard.type("0.05"); // in the field that has come
+  await gap?.focus();
+  await page.keyboard.type("0.025");
+  await settled();
+  await page.waitForFunction(() => location.hash.includes("period=1.5&damping_ratio=0.05&stop_gap=0.025"));
+  assert.ok((await shown()).includes("restitution"));
+  await period?.focus();
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Backspace");
+  assert.ok(!(await shown()).includes("damping_ratio"));
+  assert.equal(await page.$eval("#pendulum", (one) => /** @type {HTMLInputElement} */ (one).disabled), true);
   assert.deepEqual(complaints, []);
 });
 
