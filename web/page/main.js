@@ -111,10 +111,12 @@ function makePlots() {
   const onCursor = (/** @type {number | null} */ index) => {
     if (!playing && !moving && response && index !== null) setTime(response.time[index] ?? 0, false);
   };
+  const history = (/** @type {string} */ name, /** @type {string[]} */ strokes) =>
+    new LinePlot(element(`plot-${name}`), strokes, onCursor, "time", setWindow);
   return {
-    acceleration: new LinePlot(element("plot-acceleration"), ["acceleration"], onCursor),
-    velocity: new LinePlot(element("plot-velocity"), ["velocity", "pinned"], onCursor),
-    displacement: new LinePlot(element("plot-displacement"), ["displacement", "pinned"], onCursor),
+    acceleration: history("acceleration", ["acceleration"]),
+    velocity: history("velocity", ["velocity", "pinned"]),
+    displacement: history("displacement", ["displacement", "pinned"]),
     hysteresis: new CurvePlot(element("plot-hysteresis"), "force"),
     path: new CurvePlot(element("plot-path"), "displacement"),
     sliding: new LinePlot(element("plot-sliding"), ["displacement", "velocity"], (i) => readSpectrum("sliding", i), "number"),
@@ -227,16 +229,9 @@ function showSliding() {
   if (!sliding) return;
   const { mus, peak, residual } = sliding;
   element("title-sliding").textContent = `Sliding spectrum: peak and residual (dashed) [${unit("length").name}] over \u03bc`;
-  plots.sliding.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], {
-    after: (u, ctx) => {
-      const x = u.valToPos(settings.mu, "x", true) / devicePixelRatio;
-      ctx.strokeStyle = color("level");
-      ctx.beginPath();
-      ctx.moveTo(x, 0);
-      ctx.lineTo(x, 1000);
-      ctx.stroke();
-    },
-  });
+  const drawn = [sliding.key, units.length, color("ink")].join(" ");
+  plots.sliding.show(mus, [inUnits(peak, "length"), inUnits(residual, "length")], { key: drawn });
+  plots.sliding.marks([{ axis: "x", value: settings.mu }]);
 }
 
 /** Of the motion as it was recorded. @type {{key: string, row: Row, values: Float64Array} | null} */
@@ -486,6 +481,7 @@ function show(s, row) {
   const other = pinned?.response ?? null;
   // Both on the longer time base: the one that rested earlier stays where it is.
   const time = other && other.time.length > response.time.length ? other.time : response.time;
+  if (span && span[0] >= (time.at(-1) ?? 0)) setWindow(null);
   const padded = (/** @type {Float64Array} */ values, /** @type {number} */ rest) => {
     if (values.length === time.length) return values;
     const longer = new Float64Array(time.length).fill(rest);
@@ -495,13 +491,12 @@ function show(s, row) {
   const [length, speed, ground] = [unit("length"), unit("velocity"), unit("acceleration")];
 
   element("title-acceleration").textContent = `Ground acceleration [${ground.name}]`;
-  const levels = slipLevels(s, summary).map((level) => level / ground.size);
-  plots.acceleration.show(time, [inUnits(padded(acceleration, 0), "acceleration")], {
-    after: (u, ctx) =>
-      levels.forEach((level, i) =>
-        levelLine(u, ctx, level, { stroke: "level", dash: [5, 4], label: i ? "" : "slip level", below: level < 0 }),
-      ),
-  });
+  // It does not depend on the slider, except that its time ends with the slider at rest.
+  const drawn = [row.motion?.id, s.scale, time.length, units.acceleration, color("ink")].join(" ");
+  plots.acceleration.show(time, [inUnits(padded(acceleration, 0), "acceleration")], { key: drawn });
+  plots.acceleration.marks(
+    slipLevels(s, summary).map((level, i) => ({ value: level / ground.size, label: i ? "" : "slip level", below: level < 0 })),
+  );
   element("title-velocity").textContent = `Velocity relative to the ground [${speed.name}]; shaded where it sticks`;
   const rests = sticks(events, time.at(-1) ?? 0);
   const speeds = [padded(velocity, 0), other ? padded(other.velocity, 0) : new Float64Array()];
@@ -528,12 +523,16 @@ function show(s, row) {
     {
       range: [Math.min(0, signed), Math.max(0, signed)],
       after: (u, ctx) => {
-        levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3], label: `peak ${digits(peak)}`, below: signed > 0 });
+        const label = `peak ${digits(peak)}`;
+        const apart = Math.abs(u.valToPos(signed, "y") - u.valToPos(residual, "y")) > 16;
+        const indent = apart ? 4 : ctx.measureText(label).width + 16;
+        levelLine(u, ctx, signed, { stroke: "level", dash: [2, 3], label, below: signed > 0 });
         levelLine(u, ctx, residual, {
           stroke: "displacement",
           dash: [6, 3],
           label: `residual ${digits(residual)}`,
           below: residual < signed,
+          indent,
         });
       },
     },
@@ -764,6 +763,37 @@ function setTime(time, cursors = true) {
   moving = false;
 }
 
+/** As a reader wants it: the window of the pictures follows. @param {number} time */
+function goTo(time) {
+  setTime(time);
+  if (span && (time < span[0] || time > span[1])) zoom(1);
+}
+
+/** The times that the histories show; null for all. @type {[number, number] | null} */
+let span = null;
+
+/** @param {[number, number] | null} range */
+function setWindow(range) {
+  if (range?.[0] === span?.[0] && range?.[1] === span?.[1]) return;
+  span = range;
+  element("whole").hidden = range === null;
+  element("whole").title = range ? `instead of ${range.map((time) => time.toFixed(3)).join(" to ")} s` : "";
+  for (const plot of [plots.acceleration, plots.velocity, plots.displacement]) plot.window(range);
+  setTime(now);
+}
+
+const SHORTEST = 0.1; // window [s]
+
+/** Changes the width of the window, about the present time. @param {number} factor */
+function zoom(factor) {
+  const end = response?.time.at(-1) ?? 0;
+  const [from, to] = span ?? [0, end];
+  const width = Math.max(factor * (to - from), SHORTEST);
+  if (width >= end) return setWindow(null);
+  const begin = Math.min(Math.max(now - width / 2, 0), end - width);
+  setWindow([begin, begin + width]);
+}
+
 /** The point of the path at the present time. */
 function showPointOfPath() {
   if (!path) return;
@@ -822,7 +852,7 @@ function play(on) {
     if (!playing) return;
     const next = now + ((at - last) / 1000) * Number(element("speed").value);
     last = at;
-    setTime(Math.min(next, end));
+    goTo(Math.min(next, end));
     if (next >= end) play(false);
     else requestAnimationFrame(step);
   };
@@ -896,6 +926,7 @@ async function addFile(file, bytes, options = {}, place = rows.length) {
 
 /** @param {Row | null} row */
 function select(row) {
+  if (row !== selected) setWindow(null);
   selected = row;
   showRows();
   element("vertical").disabled = !row?.motion?.verticalId;
@@ -1148,19 +1179,22 @@ function listen() {
   element("play").onclick = () => play(!playing);
   element("time").oninput = () => {
     play(false);
-    setTime(Number(element("time").value));
+    goTo(Number(element("time").value));
   };
   for (const figure of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("figure[tabindex]"))) {
     const { spectrum } = figure.dataset;
     figure.onkeydown = (event) => {
+      if (event.target !== figure || !response) return;
+      const width = { "+": 0.5, "-": 2, Escape: Infinity }[event.key];
+      if (width !== undefined && !spectrum) return zoom(width);
       const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -1, PageDown: 1 }[event.key];
-      if (step === undefined || event.target !== figure || !response) return;
+      if (step === undefined) return;
       event.preventDefault();
       const far = event.key.startsWith("Page");
       if (spectrum === "sliding" || spectrum === "response") return moveOnSpectrum(spectrum, far ? 10 * step : step);
       const last = response.time.length - 1;
       const index = Math.min(last, Math.max(0, indexAt(response.time, now) + (far ? 50 * step : step)));
-      setTime(response.time[index] ?? 0);
+      goTo(response.time[index] ?? 0);
     };
   }
   const damping = element("zeta");
@@ -1172,6 +1206,7 @@ function listen() {
     others.zeta = damping.value;
     changed();
   };
+  element("whole").onclick = () => setWindow(null);
   element("csv").onclick = downloadCsv;
   element("svg").onclick = downloadSvg;
   element("sliding-csv").onclick = downloadSliding;

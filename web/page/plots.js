@@ -21,6 +21,8 @@ export function color(name) {
 /** The style sheet has other colors now. */
 export const forgetColors = () => colors.clear();
 
+/** A line across a picture. @typedef {{axis?: "x" | "y", value: number, label?: string, below?: boolean}} Mark */
+
 let nothing = new Float64Array();
 
 /** Values of a line that is not there. @param {number} length */
@@ -67,14 +69,23 @@ export class LinePlot {
   #before = () => {};
   /** @type {Draw} */
   #after = () => {};
+  /** @type {Parameters<LinePlot["show"]>} */
+  #shown = [new Float64Array(), []];
+  /** @type {[number, number] | null} */
+  #window = null;
+  /** @type {Mark[]} */
+  #marks = [];
+  /** @type {HTMLElement[]} */
+  #marked = [];
 
   /**
    * @param {HTMLElement} container
    * @param {string[]} strokes  names of the colors; the second line is dashed
    * @param {(index: number | null) => void} onCursor
    * @param {"time" | "number" | "logarithm"} [over]  that over which the lines are drawn
+   * @param {(range: [number, number] | null) => void} [onWindow]  where the mouse draws a window, or wants none
    */
-  constructor(container, strokes, onCursor, over = "time") {
+  constructor(container, strokes, onCursor, over = "time", onWindow = () => {}) {
     this.#container = container;
     const draw = (/** @type {() => Draw} */ what) => (/** @type {uPlot} */ u) => {
       const { ctx, bbox } = u;
@@ -91,15 +102,17 @@ export class LinePlot {
       {
         width: container.clientWidth || 300,
         height: HEIGHT,
-        padding: [8, 12, 0, 0],
+        padding: [8, over === "time" ? 24 : 12, 0, 0], // half of the last label
         legend: { show: false },
         scales: { x: { time: false, distr: over === "logarithm" ? 3 : 1 } },
         axes: axes(over === "time"),
         cursor: {
           y: false,
-          drag: { x: over === "time", y: false },
+          drag: { x: over === "time", y: false, setScale: false },
+          bind: { dblclick: () => () => (onWindow(null), null) },
           points: { size: 6 },
-          ...(over === "time" ? { sync: { key: "time" } } : {}),
+          // Of the mouse, only where it is: its window goes by way of `onWindow`.
+          ...(over === "time" ? { sync: { key: "time", filters: { pub: (type) => /^mouse(move|leave)$/.test(type) } } } : {}),
         },
         series: [
           {},
@@ -112,7 +125,15 @@ export class LinePlot {
         ],
         hooks: {
           drawClear: [draw(() => this.#before)],
-          draw: [draw(() => this.#after)],
+          draw: [draw(() => this.#after), () => this.#place()], // the scales may be new
+          setSelect: [
+            (/** @type {uPlot} */ u) => {
+              const { left, width } = u.select;
+              if (width < 5) return; // a click
+              onWindow([u.posToVal(left, "x"), u.posToVal(left + width, "x")]);
+              u.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+            },
+          ],
           setCursor: [(/** @type {uPlot} */ u) => onCursor(u.cursor.idx ?? null)],
         },
       },
@@ -124,19 +145,33 @@ export class LinePlot {
   /**
    * @param {Float64Array} time     or the other number
    * @param {Float64Array[]} lines  as long, or empty
-   * @param {{before?: Draw, after?: Draw, range?: [number, number]}} [more]  drawn below and above the line, in CSS pixels; the
-   *   least range of values
+   * @param {{before?: Draw, after?: Draw, range?: [number, number], key?: string}} [more]  drawn below and above the line, in CSS
+   *   pixels; the least range of values; what the picture depends on, which is not drawn again for the same key
    */
-  show(time, lines, { before = () => {}, after = () => {}, range = [0, 0] } = {}) {
+  show(time, lines, more = {}) {
+    const { key } = more;
+    if (key !== undefined && key === this.#shown[2]?.key) return;
+    this.#shown = [time, lines, more];
+    this.#draw();
+  }
+
+  #draw() {
+    const [time, lines, { before = () => {}, after = () => {}, range = [0, 0] } = {}] = this.#shown;
     this.#before = before;
     this.#after = after;
-    let [low, high] = range;
+    const [from, to] = this.#window ?? [time[0] ?? 0, time.at(-1) ?? 1];
+    let [first, last] = [0, time.length - 1];
+    while (first < last && (time[first + 1] ?? 0) <= from) ++first;
+    while (first < last && (time[last - 1] ?? 0) >= to) --last;
+    const [least = 0, most = 0] = range;
+    let [low, high] = this.#window ? [Infinity, -Infinity] : [least, most];
     for (const values of lines)
-      for (let i = 0; i < values.length; ++i) {
+      for (let i = first; i <= last && i < values.length; ++i) {
         const value = values[i] ?? 0; // a loop over values takes five times as long
         if (value < low) low = value;
         if (value > high) high = value;
       }
+    if (!(low <= high)) [low, high] = [least, most];
     const room = 0.06 * (high - low || 1);
     this.#plot.batch(() => {
       const filled = lines.map((values) => (values.length ? values : none(time.length)));
@@ -145,14 +180,47 @@ export class LinePlot {
         const show = values.length > 0;
         if (this.#plot.series[i + 1]?.show !== show) this.#plot.setSeries(i + 1, { show });
       });
-      this.#plot.setScale("x", { min: time[0] ?? 0, max: time.at(-1) ?? 1 });
+      this.#plot.setScale("x", { min: from, max: to });
       this.#plot.setScale("y", { min: low - room, max: high + room });
+    });
+  }
+
+  /** Shows a part of the time, with the values in it, or all. @param {[number, number] | null} range */
+  window(range) {
+    this.#window = range;
+    this.#draw();
+  }
+
+  /** Lines across the picture, which move without drawing it again. @param {Mark[]} marks */
+  marks(marks) {
+    this.#marks = marks;
+    while (this.#marked.length < marks.length) {
+      const made = document.createElement("div");
+      made.append(document.createElement("span"));
+      this.#plot.over.append(made);
+      this.#marked.push(made);
+    }
+    this.#place();
+  }
+
+  #place() {
+    const [wide, high] = [this.#plot.bbox.width / devicePixelRatio, this.#plot.bbox.height / devicePixelRatio];
+    this.#marked.forEach((made, i) => {
+      const { axis = "y", value = NaN, label = "", below = false } = this.#marks[i] ?? {};
+      const at = this.#plot.valToPos(value, axis);
+      made.hidden = !(at >= 0 && at <= (axis === "x" ? wide : high));
+      if (made.hidden) return;
+      made.className = `line-${axis}${below || at < 16 ? " below" : ""}`;
+      made.style.transform = axis === "x" ? `translateX(${at}px)` : `translateY(${at}px)`;
+      if (made.firstChild?.textContent !== label) /** @type {Node} */ (made.firstChild).textContent = label;
     });
   }
 
   /** @param {number} time  or the other number, where the cursor goes */
   point(time) {
-    this.#plot.setCursor({ left: this.#plot.valToPos(time, "x"), top: 0 }, false);
+    const left = this.#plot.valToPos(time, "x");
+    const within = left >= 0 && left <= this.#plot.bbox.width / devicePixelRatio;
+    this.#plot.setCursor({ left: within ? left : -10, top: 0 }, false);
   }
 
   resize() {
@@ -269,9 +337,10 @@ export class CurvePlot {
  * @param {uPlot} u
  * @param {CanvasRenderingContext2D} ctx
  * @param {number} value
- * @param {{stroke: string, dash?: number[], label?: string, below?: boolean}} how
+ * @param {{stroke: string, dash?: number[], label?: string, below?: boolean, indent?: number}} how  `indent` of the label from the
+ *   right end [pixels]
  */
-export function levelLine(u, ctx, value, { stroke, dash = [], label = "", below = false }) {
+export function levelLine(u, ctx, value, { stroke, dash = [], label = "", below = false, indent = 4 }) {
   const ratio = devicePixelRatio;
   const y = u.valToPos(value, "y", true) / ratio;
   const [left, right] = [u.bbox.left / ratio, (u.bbox.left + u.bbox.width) / ratio];
@@ -285,7 +354,7 @@ export function levelLine(u, ctx, value, { stroke, dash = [], label = "", below 
   ctx.stroke();
   ctx.textAlign = "right";
   ctx.textBaseline = "alphabetic";
-  const place = /** @type {const} */ ([label, right - 4, below ? y + 13 : y - 4]);
+  const place = /** @type {const} */ ([label, right - indent, below ? y + 13 : y - 4]);
   // On what is drawn there.
   ctx.setLineDash([]);
   ctx.strokeStyle = color("paper");

@@ -131,21 +131,22 @@ test("a generated motion is that of Python", async () => {
 });
 
 test("the command and the Python lines give the numbers of the page", async () => {
-  for (const settings of [
-    "mu=0.12&law=caster&reach=0.1&stop_gap=0.2&restitution=0.3",
-    "mu=0.2&law=one-way&slope=5",
-    "mu=0.1&law=caster&reach=0.05&slope=3", // never rests
-    "mu=0.2&law=one-way&mu_static=0.25",
-    "mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1",
-    "mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&scale=-1.5",
-    "mu=0.1&law=stribeck&mu_static=0.12&stribeck_speed=0.1&exponent=2",
-    "mu=0.08&law=pendulum&mus=0.01 0.04 0.08",
-    "mu=0.1&law=pendulum&radii=0.4 0.9&mus=0.05 0.1&capacities=0.3 0.3&restitution=0.2",
-    "mu=0.06&law=kumar&period=3&pendulum=1",
-    "mu=0.08&law=kumar&static_pressure=3e7&contact_radius=0.1&temperature=-5&rate=50&diffusivity=5e-6&conductivity=20&vertical=1",
+  for (const [settings = "", file = "three.csv"] of [
+    ["mu=0.12&law=caster&reach=0.1&stop_gap=0.2&restitution=0.3"],
+    ["mu=0.2&law=one-way&slope=5"],
+    ["mu=0.1&law=caster&reach=0.05&slope=3"], // never rests
+    ["mu=0.2&law=one-way&mu_static=0.25"],
+    ["mu=0.05&law=speed&mu_fast=0.1&rate=30&period=2.5&pendulum=1"],
+    ["mu=0.15&law=degrading&mu_residual=0.1&distance=0.05&scale=-1.5"],
+    ["mu=0.1&law=stribeck&mu_static=0.12&stribeck_speed=0.1&exponent=2"],
+    ["mu=0.08&law=pendulum&mus=0.01 0.04 0.08"],
+    ["mu=0.1&law=pendulum&radii=0.4 0.9&mus=0.05 0.1&capacities=0.3 0.3&restitution=0.2"],
+    ["mu=0.06&law=kumar&period=3&pendulum=1"],
+    ["mu=0.08&law=kumar&static_pressure=3e7&contact_radius=0.1&temperature=-5&rate=50&diffusivity=5e-6&conductivity=20&vertical=1"],
+    ["mu=0.1", "up.csv"], // along its only component, which is vertical
   ]) {
     await open(settings);
-    await drop("three.csv");
+    await drop(file);
     const { peak, residual } = await table();
     const lines = await printed(await textOf("python"), "print(repr(response.peak), repr(response.residual))");
     const [p = NaN, r = NaN] = lines.split(" ").map(Number);
@@ -366,6 +367,29 @@ test("two settings side by side, SVG, and a paragraph", async () => {
   assert.deepEqual(complaints, []);
 });
 
+test("the slip level and the present friction are marked where they are", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  await page.waitForFunction(() => document.querySelector("#title-sliding")?.textContent?.startsWith("Sliding spectrum"));
+  /** Where the marks of a picture are [CSS pixels]. @param {string} id */
+  const marks = (id) =>
+    page.$$eval(`#plot-${id} [class^=line-]`, (all) =>
+      all.map((one) => {
+        const [{ left, top }, over] = [one.getBoundingClientRect(), /** @type {Element} */ (one.parentElement).getBoundingClientRect()];
+        return one.className.startsWith("line-x") ? left - over.left : top - over.top;
+      }),
+    );
+  const [levels, [at = NaN]] = [await marks("acceleration"), await marks("sliding")];
+  assert.equal(levels.length, 2);
+  await page.focus("#mu-slider");
+  for (let i = 0; i < 20; ++i) await page.keyboard.press("ArrowRight"); // to 0.2
+  await settled();
+  const [apart, twice] = [levels, await marks("acceleration")].map(([up = NaN, down = NaN]) => down - up);
+  assert.ok(Math.abs((twice ?? NaN) / (apart ?? NaN) - 2) < 0.03, `${apart} and ${twice} pixels apart`);
+  assert.ok(((await marks("sliding"))[0] ?? NaN) > at + 5);
+  assert.deepEqual(complaints, []);
+});
+
 test("an invalid setting is refused in the library's words, and the page goes on", async () => {
   await open("mu=0.05&slope=10", "failed");
   assert.match(await textOf("trouble"), /slides under its own weight unless mu is at least/);
@@ -540,6 +564,78 @@ test("the object slides in real time and slower, and is where the response is", 
   await page.click("#play");
   await page.waitForFunction(() => document.querySelector("#play")?.textContent === "Play");
   assert.ok((await textOf("readout")).startsWith(`t = ${end.toFixed(2)} s`));
+  assert.deepEqual(complaints, []);
+});
+
+test("a window of time: by mouse and by keys, in all histories, until all times are wanted", async () => {
+  await open("mu=0.1");
+  await drop("three.csv");
+  /** The window, from the button that ends it; null if there is none. */
+  const window = () =>
+    page.$eval("#whole", (one) => {
+      const [, from, to] = /^instead of (.*) to (.*) s$/.exec(/** @type {HTMLElement} */ (one).title) ?? [];
+      return /** @type {HTMLElement} */ (one).hidden ? null : [Number(from), Number(to)];
+    });
+  /** Where the present time is in each history, as a part of its width. */
+  const cursors = () =>
+    page.$$eval("#plot-acceleration, #plot-velocity, #plot-displacement", (all) =>
+      all.map((one) => {
+        const [line, over] = [one.querySelector(".u-cursor-x"), one.querySelector(".u-over")].map((part) => part?.getBoundingClientRect());
+        return ((line?.left ?? NaN) - (over?.left ?? NaN)) / (over?.width ?? NaN);
+      }),
+    );
+  const now = async () => Number(/^t = (\S+) s/.exec(await textOf("readout"))?.[1]);
+  const agree = async () => {
+    const [from = NaN, to = NaN] = (await window()) ?? [];
+    const place = ((await now()) - from) / (to - from);
+    for (const found of await cursors()) assert.ok(Math.abs(found - place) < 0.01, `at ${found} instead of ${place} of the width`);
+  };
+  const box = /** @type {{x: number, y: number, width: number, height: number}} */ (await (await page.$("#plot-velocity .u-over"))?.boundingBox());
+  const move = (/** @type {number} */ part) => page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+  const end = await page.$eval("#time", (one) => Number(/** @type {HTMLInputElement} */ (one).max));
+  assert.equal(await window(), null);
+  await move(0.2);
+  await page.mouse.down();
+  for (let i = 1; i <= 10; ++i) await move(0.2 + 0.02 * i);
+  await page.mouse.up();
+  const [from = NaN, to = NaN] = (await window()) ?? [];
+  assert.ok(Math.abs(from / end - 0.2) < 0.01 && Math.abs(to / end - 0.4) < 0.01, `${from} to ${to} s`);
+
+  // The slider keeps it, and so does a change of units.
+  await page.focus("#mu-slider");
+  await page.keyboard.press("ArrowRight");
+  await settled();
+  await page.select("#unit-length", "in");
+  await settled();
+  assert.deepEqual(await window(), [from, to]);
+  await page.mouse.move(1, 1);
+  await page.focus("figure[tabindex]");
+  await page.keyboard.press("PageUp");
+  await agree();
+  await page.keyboard.press("+");
+  const [begin = NaN, last = NaN] = (await window()) ?? [];
+  assert.ok(Math.abs((last - begin) / (to - from) - 0.5) < 0.01);
+  await agree();
+  for (let i = 0; i < 10; ++i) await page.keyboard.press("PageDown"); // it follows
+  assert.ok(((await window())?.[0] ?? 0) > last);
+  await agree();
+  await page.keyboard.press("-");
+  const wider = (await window()) ?? [];
+  assert.ok(Math.abs(((wider[1] ?? NaN) - (wider[0] ?? NaN)) / (to - from) - 1) < 0.01);
+  await page.keyboard.press("Escape");
+  assert.equal(await window(), null);
+
+  await page.keyboard.press("+");
+  assert.ok(await window());
+  await page.click("#whole");
+  assert.equal(await window(), null);
+  await page.focus("figure[tabindex]");
+  await page.keyboard.press("+");
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2, { count: 2 });
+  assert.equal(await window(), null);
+  await page.keyboard.press("+");
+  await choose("(N90E)"); // another record
+  assert.equal(await window(), null);
   assert.deepEqual(complaints, []);
 });
 

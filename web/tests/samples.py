@@ -72,6 +72,8 @@ def main() -> None:
     one.write_text(
         "\n".join(f"{value:.5f}" for value in ss.read_record(three, component=1).acceleration)
     )
+    rows = [row.split(",") for row in three.read_text().splitlines()]
+    (folder / "up.csv").write_text("\n".join(f"{row[0]},{row[3]}" for row in rows))
     (folder / "broken.csv").write_text("Time (s), Acceleration (g)\n0, 0\n0.01, oops\n0.02, 0.1\n")
     (folder / "packed.csv.gz").write_bytes(gzip.compress(three.read_bytes()))
     with zipfile.ZipFile(folder / "many.zip", "w", zipfile.ZIP_DEFLATED) as archive:
