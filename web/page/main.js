@@ -930,7 +930,9 @@ function select(row) {
   selected = row;
   showRows();
   element("vertical").disabled = !row?.motion?.verticalId;
-  if (row?.motion) changed();
+  if (row?.motion) return changed();
+  response = null;
+  element("output").classList.add("empty");
 }
 
 function showRows() {
@@ -1001,6 +1003,7 @@ function removeRow(row) {
   worker.discard([id, verticalId, planarId].filter((one) => one != null));
   if (row === selected) select(rows.slice(place).find((one) => one.motion) ?? rows.findLast((one) => one.motion) ?? null);
   else showRows();
+  if (!element("many").hidden) slideMany();
 }
 
 /** The motion of the generator is one row, which changes with its numbers. @type {Row | null} */

@@ -345,6 +345,12 @@ test("many records: both ways, with mean, median and deviation", async () => {
   assert.equal(lines[5]?.split(",")[0], "mean");
   assert.ok(Math.abs(Number(lines[5]?.split(",")[peak]) - mean) < 1e-12);
   assert.equal(Number(lines[6]?.split(",")[peak]), peaks.sort((a, b) => a - b)[1]);
+  // Records that are removed leave the table, and at last the pictures.
+  for (let left = 2; left >= 0; --left) {
+    await page.click("#records li:last-child button");
+    await page.waitForFunction((left) => document.querySelectorAll("#many-table tbody tr").length === left, {}, left);
+  }
+  assert.equal(await page.$eval("#output", (one) => one.classList.contains("empty")), true);
   assert.deepEqual(complaints, []);
 });
 
