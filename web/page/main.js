@@ -961,9 +961,9 @@ function rowElement(row) {
   remove.setAttribute("aria-label", `Remove ${row.label}`);
   if (!row.motion) {
     if (row.failed) return row.failed; // with what is typed in it
-    const reason = row.error?.replace(`read_record: ${row.file}: `, "") ?? "";
-    row.failed = make("li", { className: "failed" }, make("b", {}, row.label), remove, make("p", {}, reason));
-    if (row.bytes && /units|time step|\bdt\b/.test(reason)) row.failed.append(retryForm(row));
+    row.failed = make("li", { className: "failed" }, make("b", {}, row.label), remove, make("p", {}, reason(row)));
+    if (asks(row)) row.failed.append(retryForm(row));
+    row.failed.classList.toggle("asks", asks(row));
     return row.failed;
   }
   const radio = make("input", { type: "radio", name: "record", checked: row === selected, onchange: () => select(row) });
@@ -976,6 +976,12 @@ function rowElement(row) {
   );
 }
 
+/** Why a file could not be read. @param {Row} row */
+const reason = ({ file, error = "" }) => error.replace(`read_record: ${file}: `, "");
+
+/** Whether a file leaves its units or its time step open. @param {Row} row */
+const asks = (row) => row.bytes !== undefined && /units|time step|\bdt\b/.test(reason(row));
+
 /**
  * Asks for what a file leaves open.
  * @param {Row} row
@@ -984,12 +990,25 @@ function retryForm(row) {
   const choice = make("select", {}, make("option", { value: "" }, "as the file states"));
   for (const name of ["g", "m/s^2", "cm/s^2", "mm/s^2", "ft/s^2", "in/s^2"]) choice.append(make("option", {}, name));
   const dt = make("input", { type: "number", min: "0", step: "any" });
-  const form = make("form", {}, make("label", {}, "units ", choice), make("label", {}, "dt [s] ", dt), make("button", {}, "Read"));
+  const form = make(
+    "form",
+    {},
+    make("label", {}, "units ", choice),
+    make("label", {}, "dt [s] ", dt),
+    make("button", {}, "Read"),
+    make("button", { className: "all", value: "all" }, "Read all that ask"),
+  );
   form.onsubmit = async (event) => {
     event.preventDefault();
     const options = { units: choice.value, ...(dt.value ? { dt: Number(dt.value) } : {}) };
-    const found = await addFile(row.file, /** @type {Uint8Array} */ (row.bytes), options, rows.indexOf(row));
-    if (found?.motion) select(found);
+    const all = /** @type {HTMLButtonElement | null} */ (event.submitter)?.value === "all";
+    /** @type {Row | undefined} */
+    let first;
+    for (const one of all ? rows.filter(asks) : [row]) {
+      const found = await addFile(one.file, /** @type {Uint8Array} */ (one.bytes), options, rows.indexOf(one));
+      first ??= found?.motion && found;
+    }
+    if (first) select(first);
     else showRows();
   };
   return form;

@@ -254,6 +254,18 @@ test("archives, broken files, and files that leave their units open", async () =
   await settled();
   compare(await table(), answers.column);
   assert.match(await textOf("command"), /--units m\/s\^2|--units 'm\/s\^2'/);
+
+  // Two that ask are answered at once.
+  await drop("column.txt", "column.txt");
+  const asking = () => page.$$eval("#records .asks", (all) => all.length);
+  assert.equal(await asking(), 2);
+  await page.select("#records form select", "m/s^2");
+  await page.type("#records form input", "0.01");
+  await page.evaluate(() => (document.body.dataset.state = "busy"));
+  await page.click("#records form .all");
+  await settled();
+  assert.equal(await asking(), 0);
+  compare(await table(), answers.column);
   assert.deepEqual(complaints, []);
 });
 
