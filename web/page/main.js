@@ -462,8 +462,10 @@ function view(many) {
   element("one").hidden = many;
   element("view-one").setAttribute("aria-pressed", String(!many));
   element("view-many").setAttribute("aria-pressed", String(many));
-  if (many) slideMany();
-  else for (const plot of Object.values(plots)) plot.resize();
+  if (many) {
+    showMany(); // in the present units
+    slideMany();
+  } else for (const plot of Object.values(plots)) plot.resize();
 }
 
 /**

@@ -499,7 +499,7 @@ test("all shown numbers change their units", async () => {
       }
       assert.ok((await downloaded("#svg", ".svg")).includes(`Displacement relative to the ground [${length}], peak ${four(peak, meters)}`));
       await page.click("#view-many");
-      await settled();
+      await page.waitForFunction(() => document.querySelector("#many-progress")?.textContent === "");
       const many = await page.$$eval("#many-table tr", (all) => all.map((one) => [...one.children].map((cell) => cell.textContent ?? "")));
       assert.equal(many[0]?.[2], `peak normal [${length}]`);
       const row = many.find(([label]) => label?.includes("(N00E)"));
