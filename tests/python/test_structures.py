@@ -66,6 +66,24 @@ def test_casters_break_away_and_go_far() -> None:
             assert r.energy.imbalance == pytest.approx(0, abs=1e-11 * r.energy.input)
 
 
+def test_how_far_a_rigid_building_goes_instead() -> None:
+    # The statement of docs/structures.md, "Rigid buildings in two directions".
+    building = ss.Structure.shear_building(
+        masses=[2e5, 2e5, 1.6e5], stiffnesses=[2.4e8, 2e8, 1.6e8], damping_ratio=0.03
+    )
+    assert building.modes().periods[0] == pytest.approx(0.41, abs=0.005)
+    isolators = ss.FrictionPendulum(mu=0.06, radius=2.0)
+    flexible = ss.IsolatedStructure(isolators, building, base_mass=2e5)
+    far, near = [], []
+    for record in ss.sample_records():
+        peak = ss.integrate(flexible, record).peak
+        if peak > 0.01:
+            ratio = ss.integrate(isolators, record).peak / peak
+            (far if peak > 0.1 else near).append(ratio)
+    assert (round(min(far), 2), round(max(far), 2)) == (0.96, 1.05)
+    assert (round(min(near), 1), round(max(near), 2)) == (0.6, 1.44)
+
+
 def test_modes() -> None:
     modes = BUILDING.modes()
     assert modes.effective_masses.sum() == pytest.approx(2.8)

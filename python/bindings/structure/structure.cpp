@@ -425,7 +425,7 @@ The motions are exact at their samples, to round-off. Between samples sliders se
 18 sample records, peaks above 1 cm differ by 0.1 % in the median, 1.2 % at the 95 % quantile and 6.3 % at most; peaks
 above 1 mm by at most 20 %. Two parts make that a quarter, four a sixteenth.
 
-Takes some 5 ms for ten storeys and a record.)")
+Takes some 5 ms for ten stories and a record.)")
       .def("__repr__", &description);
 
   const auto inputs_of_isolated = [](const IsolatedStructure& s) {
