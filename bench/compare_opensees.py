@@ -17,6 +17,7 @@ import time
 import numpy as np
 import openseespy.opensees as ops
 import stickslip as ss
+from opensees import AVERAGE_ACCELERATION, prepare, shake
 
 CASES = ((1e-3, 1), (1e-3, 10), (1e-4, 10), (1e-4, 40), (1e-5, 10))  # yield [m], steps a sample
 
@@ -34,21 +35,11 @@ def slide(quake, level, yields, steps, stiffness):
     if stiffness > 0:
         ops.uniaxialMaterial("Elastic", 2, stiffness)
         ops.element("zeroLength", 2, 1, 2, "-mat", 2, "-dir", 1)
-    ops.timeSeries("Path", 1, "-dt", quake.dt, "-values", *quake.acceleration.tolist())
-    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
-    ops.constraints("Plain")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.test("NormUnbalance", 1e-10, 50)
-    ops.algorithm("Newton")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
-    peak = 0.0
-    for _ in range((len(quake) - 1) * steps):
-        if ops.analyze(1, quake.dt / steps) != 0:
-            raise RuntimeError(f"OpenSees: a step of {quake.name} did not converge")
-        peak = max(peak, abs(ops.nodeDisp(2, 1)))
-    return peak, ops.nodeDisp(2, 1)
+    prepare(ops, "Transient", *AVERAGE_ACCELERATION, test=("NormUnbalance", 1e-10, 50))
+    peak, final = shake(ops, 2, [quake.acceleration], quake.dt, steps)
+    if math.isnan(peak):
+        raise RuntimeError(f"OpenSees: a step of {quake.name} did not converge")
+    return peak, final
 
 
 def main() -> None:

@@ -22,6 +22,7 @@ import numpy as np
 import stickslip as ss
 from accuracy import OURS, Answer, Errors, all_errors, print_times, times
 from measure import machine, peer, versions
+from opensees import AVERAGE_ACCELERATION, prepare, shake
 
 G = ss.STANDARD_GRAVITY
 TIMED = ("Kobe", "PAC")
@@ -147,34 +148,16 @@ def by_opensees(ops, case: Case, motion: ss.GroundMotion, steps: int, yields: fl
     axes = ("-orient", 0, 1, 0, -1, 0, 0)
     ops.element("flatSliderBearing", 1, 1, 2, 1, stiff, "-P", 1, "-Mz", 2, *axes)
 
-    def analysis(kind: str, *integrator: object) -> None:
-        ops.constraints("Plain")
-        ops.numberer("Plain")
-        ops.system("BandGeneral")
-        ops.test("NormUnbalance", 1e-8, 50)
-        ops.algorithm("Newton")
-        ops.integrator(*integrator)
-        ops.analysis(kind)
-
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
     ops.load(2, 0.0, -G, 0.0)
-    analysis("Static", "LoadControl", 1.0)
+    prepare(ops, "Static", "LoadControl", 1.0)
     ops.analyze(1)
     ops.loadConst("-time", 0.0)
     ops.wipeAnalysis()
     components = [motion.acceleration] + [motion.vertical] * (motion.vertical is not None)
-    for direction, component in enumerate(components, 1):
-        values = np.asarray(component).tolist()
-        ops.timeSeries("Path", 1 + direction, "-dt", motion.dt, "-values", *values)
-        ops.pattern("UniformExcitation", 1 + direction, direction, "-accel", 1 + direction)
-    analysis("Transient", "Newmark", 0.5, 0.25)
-    peak = 0.0
-    for _ in range((len(motion) - 1) * steps):
-        if ops.analyze(1, motion.dt / steps) != 0:
-            return math.nan, math.nan
-        peak = max(peak, abs(ops.nodeDisp(2, 1)))
-    return peak, ops.nodeDisp(2, 1)
+    prepare(ops, "Transient", *AVERAGE_ACCELERATION)
+    return shake(ops, 2, components, motion.dt, steps)
 
 
 def peers() -> dict[str, Callable[[Case, ss.GroundMotion], Answer]]:

@@ -19,6 +19,7 @@ from importlib import metadata
 import numpy as np
 import stickslip as ss
 from measure import machine, peer, versions
+from opensees import AVERAGE_ACCELERATION, prepare, shake
 
 G = ss.STANDARD_GRAVITY
 RADII, MU, CAPACITIES = [0.3937, 3.7465, 3.7465], [0.01, 0.04, 0.08], [0.0716, 0.5043, 0.5043]
@@ -49,29 +50,14 @@ def by_opensees(ops, motion: ss.GroundMotion, steps: int, yields: float) -> tupl
     ops.pattern("Plain", 1, 1)
     ops.load(2, 0.0, 0.0, -G, 0.0, 0.0, 0.0)
 
-    def analysis(kind, *integrator):
-        ops.constraints("Plain")
-        ops.numberer("Plain")
-        ops.system("BandGeneral")
-        ops.test("NormDispIncr", 1e-10, 100)
-        ops.algorithm("KrylovNewton")
-        ops.integrator(*integrator)
-        ops.analysis(kind)
-
-    analysis("Static", "LoadControl", 0.1)
+    solver = {"test": ("NormDispIncr", 1e-10, 100), "algorithm": "KrylovNewton"}
+    prepare(ops, "Static", "LoadControl", 0.1, **solver)
     if ops.analyze(10) != 0:
         return float("nan"), float("nan")
     ops.loadConst("-time", 0.0)
     ops.wipeAnalysis()
-    analysis("Transient", "Newmark", 0.5, 0.25)
-    ops.timeSeries("Path", 2, "-dt", motion.dt, "-values", *map(float, motion.acceleration))
-    ops.pattern("UniformExcitation", 2, 1, "-accel", 2)
-    peak = 0.0
-    for _ in range(steps * (len(motion.acceleration) - 1)):
-        if ops.analyze(1, motion.dt / steps) != 0:
-            return float("nan"), float("nan")
-        peak = max(peak, abs(ops.nodeDisp(2, 1)))
-    return peak, ops.nodeDisp(2, 1)
+    prepare(ops, "Transient", *AVERAGE_ACCELERATION, **solver)
+    return shake(ops, 2, [motion.acceleration], motion.dt, steps)
 
 
 def seconds(work) -> float:

@@ -23,6 +23,7 @@ import numpy as np
 import stickslip as ss
 from accuracy import OURS, Answer, Errors, all_errors, print_times, times
 from measure import machine, peer, versions
+from opensees import AVERAGE_ACCELERATION, prepare, shake
 
 G = ss.STANDARD_GRAVITY
 DT, SAMPLES, PAIRS = 0.01, 2048, 3  # time step [s]
@@ -224,32 +225,15 @@ def by_opensees(ops, steps: int, yields: float, case: Case, motion: ss.GroundMot
         ops.uniaxialMaterial("Elastic", 3, case.frequency**2)
         ops.element("zeroLength", 2, 1, 2, "-mat", 3, 3, "-dir", 1, 2)
 
-    def analysis(kind: str, *integrator: object) -> None:
-        ops.constraints("Plain")
-        ops.numberer("Plain")
-        ops.system("BandGeneral")
-        ops.test("NormUnbalance", 1e-8, 50)
-        ops.algorithm("Newton")
-        ops.integrator(*integrator)
-        ops.analysis(kind)
-
     ops.timeSeries("Linear", 1)
     ops.pattern("Plain", 1, 1)
     ops.load(2, 0.0, 0.0, -G, 0.0, 0.0, 0.0)
-    analysis("Static", "LoadControl", 1.0)
+    prepare(ops, "Static", "LoadControl", 1.0)
     ops.analyze(1)
     ops.loadConst("-time", 0.0)
     ops.wipeAnalysis()
-    for direction, component in enumerate(components(motion), 1):
-        ops.timeSeries("Path", 1 + direction, "-dt", DT, "-values", *component.tolist())
-        ops.pattern("UniformExcitation", 1 + direction, direction, "-accel", 1 + direction)
-    analysis("Transient", "Newmark", 0.5, 0.25)
-    peak = 0.0
-    for _ in range((len(motion) - 1) * steps):
-        if ops.analyze(1, DT / steps) != 0:
-            return math.nan, np.full(2, math.nan)
-        peak = max(peak, math.hypot(ops.nodeDisp(2, 1), ops.nodeDisp(2, 2)))
-    return peak, np.array([ops.nodeDisp(2, 1), ops.nodeDisp(2, 2)])
+    prepare(ops, "Transient", *AVERAGE_ACCELERATION)
+    return shake(ops, 2, components(motion), DT, steps, axes=2)
 
 
 def peers() -> dict[str, Callable[[Case, ss.GroundMotion], Answer]]:

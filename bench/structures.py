@@ -14,12 +14,14 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
+from functools import partial
 from importlib import metadata
 
 import numpy as np
 import stickslip as ss
+from accuracy import OURS, SLIDES, Answer, Program, all_errors, print_times, times
 from measure import bar, machine, peer, take_turns, versions
+from opensees import AVERAGE_ACCELERATION, prepare, shake
 
 HEIGHT, VELOCITY, ROCK, DAMPING, STRAIN = 50, 600, 1500, 0.05, 5e-4
 COLUMN = {"height": HEIGHT, "shear_velocity": VELOCITY}
@@ -195,7 +197,7 @@ def on_all_floors(rounds: int, check: bool) -> None:
         )
 
 
-def by_opensees(ops, quake: ss.GroundMotion, level: float, steps: int, yields: float) -> tuple:
+def by_opensees(ops, steps: int, yields: float, quake: ss.GroundMotion) -> Answer:
     """Peak and final displacement of the base [m]; Newmark's average acceleration."""
     ops.wipe()
     ops.model("basic", "-ndm", 1, "-ndf", 1)
@@ -205,27 +207,14 @@ def by_opensees(ops, quake: ss.GroundMotion, level: float, steps: int, yields: f
     ops.fix(0, 1)
     for node, mass in enumerate(masses, 1):
         ops.mass(node, mass)
-    force = level * sum(masses)
+    force = MU * ss.STANDARD_GRAVITY * sum(masses)
     ops.uniaxialMaterial("ElasticPP", 1, force / yields, yields)
     ops.element("zeroLength", 1, 0, 1, "-mat", 1, "-dir", 1)
     for story, stiffness in enumerate(stiffnesses, 2):
         ops.uniaxialMaterial("Elastic", story, stiffness, BETA * stiffness)
         ops.element("zeroLength", story, story - 1, story, "-mat", story, "-dir", 1)
-    ops.timeSeries("Path", 1, "-dt", quake.dt, "-values", *quake.acceleration.tolist())
-    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
-    ops.constraints("Plain")
-    ops.numberer("Plain")
-    ops.system("BandGeneral")
-    ops.test("NormUnbalance", 1e-10, 50)
-    ops.algorithm("Newton")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
-    peak = 0.0
-    for _ in range((len(quake) - 1) * steps):
-        if ops.analyze(1, quake.dt / steps) != 0:
-            return float("nan"), float("nan")
-        peak = max(peak, abs(ops.nodeDisp(1, 1)))
-    return peak, ops.nodeDisp(1, 1)
+    prepare(ops, "Transient", *AVERAGE_ACCELERATION, test=("NormUnbalance", 1e-10, 50))
+    return shake(ops, 1, [quake.acceleration], quake.dt, steps)
 
 
 def beside_opensees(rounds: int, check: bool) -> None:
@@ -235,28 +224,24 @@ def beside_opensees(rounds: int, check: bool) -> None:
         return
     building = ss.Structure.shear_building(**FIVE, damping=ss.Rayleigh(beta=BETA))
     system = ss.IsolatedStructure(ss.Coulomb(mu=MU), building, base_mass=1)
-    shorter = [quake for quake in ss.sample_records() if len(quake) < 4000]
-    responses = [r for r in (ss.integrate(system, quake) for quake in shorter) if r.peak > 0.01]
-    suite = [r.motion for r in responses]
-    samples = sum(map(len, suite))
-    print(f"openseespy {metadata.version('openseespy')}")
-    mine = take_turns(
-        {"": (lambda: [ss.integrate(system, quake) for quake in suite], samples)}, rounds
-    )[""].median
-    print(f"five stories on a flat slider, {len(suite)} records: {mine:.0f} ns a sample")
-    print("  steps a sample, yield displacement; median and largest error of the peak, and of the")
-    print("  end, in % of the peak; ns a sample, over ours")
+
+    def ours(quake: ss.GroundMotion) -> Answer:
+        r = ss.integrate(system, quake)
+        return r.peak, r.residual
+
+    programs: dict[str, Program] = {OURS: ours}
     for steps, yields in YIELDS[:1] if check else YIELDS:
-        begin = time.process_time_ns()
-        found = [
-            by_opensees(ops, quake, MU * ss.STANDARD_GRAVITY, steps, yields) for quake in suite
-        ]
-        its = (time.process_time_ns() - begin) / samples
-        exact = [(r.peak, r.residual) for r in responses]
-        error = 100 * np.abs(np.subtract(found, exact)) / np.array(exact)[:, :1]
-        require(np.median(error[:, 0]) < 20, f"OpenSees' peaks, {error}")
-        row = "".join(f"{v:8.2f}" for v in np.ravel([np.median(error, 0), error.max(0)], "F"))
-        print(f"  {steps:3d} {1e3 * yields:5g} mm:{row}{its:12,.0f}{its / mine:8.1f}")
+        programs[f"OpenSees, {steps} a sample, yield {1e3 * yields:g} mm"] = partial(
+            by_opensees, ops, steps, yields
+        )
+    shorter = [quake for quake in ss.sample_records() if len(quake) < 4000]
+    print(f"openseespy {metadata.version('openseespy')}; five stories on a flat slider")
+    print("errors [% of the peak]: peak median, largest; final median, largest")
+    for name, error in all_errors(programs, shorter).items():
+        require(np.median(error.peak) < 0.2, f"{name}: peaks, {error}")
+    if not check:
+        slide = [quake for quake in shorter if ours(quake)[0] >= SLIDES]
+        print_times(times(programs, slide, rounds, repeats=20))
 
 
 def main() -> None:
