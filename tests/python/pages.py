@@ -44,6 +44,16 @@ def assert_same_table(text, new):
             assert abs(float(old) - float(now)) <= allowed, (here, there)
 
 
+def rows_below(text, heading):
+    """The cells of the table of a page that has this heading."""
+    found = []
+    for line in text.split(f"\n{heading}\n", 1)[1].splitlines()[1:]:
+        if not line.startswith("|"):
+            break
+        found.append([cell.strip() for cell in line.split("|")[1:-1]])
+    return found
+
+
 def assert_same_picture(drawn, shown):
     """The picture that a page shows is the one that was drawn.
 

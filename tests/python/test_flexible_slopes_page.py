@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT, assert_same_table, measuring
+from pages import ROOT, assert_same_table, measuring, rows_below
 
 PAGE = (ROOT / "docs" / "flexible_slopes.md").read_text(encoding="utf-8")
 
@@ -15,13 +15,7 @@ def measured():
 
 
 def rows(heading):
-    """The cells of the table below a heading."""
-    found = []
-    for line in PAGE.split(heading + "\n", 1)[1].splitlines()[1:]:
-        if not line.startswith("|"):
-            return found
-        found.append([cell.strip() for cell in line.strip("|").split("|")])
-    return found
+    return rows_below(PAGE, heading)
 
 
 def numbers(cells):

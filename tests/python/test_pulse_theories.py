@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 import stickslip as ss
-from pages import ROOT
+from pages import ROOT, rows_below
 from scipy import integrate, stats
 
 BLOCK = ss.Coulomb(slip_level=1.0)
@@ -225,18 +225,6 @@ def notes(function):
     return re.split(r" (?:Elsewhere|Takes|If overlaps) ", text)[0]
 
 
-def rows_below(heading, page="pulse_chain.md"):
-    lines = iter(PAGES[page].splitlines())
-    assert any(line == heading for line in lines)
-    next(lines)
-    rows = []
-    for line in lines:
-        if not line.startswith("|"):
-            break
-        rows.append([cell.strip() for cell in line.split("|")[1:-1]])
-    return rows
-
-
 def test_remarks_docstrings_and_pages_state_the_same_errors():
     chain, refined = ss.theory.PulseChain(), ss.theory.PulseChain(refined=True)
     page = PAGES["pulse_chain.md"]
@@ -276,8 +264,9 @@ def test_a_peak_is_bounded_by_the_errors_of_the_table():
 
     def ratios(columns):
         rows = rows_below(
+            PAGES["pulse_chain.md"],
             "| p | sigma_B | 3 slips: 50 % | 95 % | 99 % | 10 slips: 50 % | 95 % | 99 % "
-            "| 50 slips: 50 % | 95 % | 99 % |"
+            "| 50 slips: 50 % | 95 % | 99 % |",
         )
         return [float(row[i]) for row in rows for i in columns if row[i] != "-"]
 

@@ -1,7 +1,7 @@
 """docs/transport.md and docs/theories.md: what can be computed again in seconds."""
 
 import pytest
-from pages import ROOT, measuring
+from pages import ROOT, measuring, rows_below
 
 TRANSPORT = (ROOT / "docs" / "transport.md").read_text(encoding="utf-8")
 THEORIES = (ROOT / "docs" / "theories.md").read_text(encoding="utf-8")
@@ -9,19 +9,8 @@ measured = measuring("measure_transport")
 side_by_side = measuring("measure_theories")
 
 
-def rows(text, heading):
-    """The cells of the table below a heading."""
-    lines = text.split(heading + "\n", 1)[1].splitlines()[1:]
-    found = []
-    for line in lines:
-        if not line.startswith("|"):
-            break
-        found.append([cell.strip() for cell in line.strip("|").split("|")])
-    return found
-
-
 def test_casters_break_loose_when_the_page_says():
-    table = rows(TRANSPORT, measured.CASTER_HEADING)
+    table = rows_below(TRANSPORT, measured.CASTER_HEADING)
     assert [float(row[0]) for row in table] == list(measured.CASTERS)
     for (gamma, guess), row in list(zip(measured.CASTERS.items(), table))[:2]:
         time, error = measured.transition(gamma, guess)
@@ -33,7 +22,7 @@ def test_casters_break_loose_when_the_page_says():
 def test_the_drift_is_that_of_the_page():
     # Theory and simulation agree within the stated error and three standard errors: one false alarm
     # in 370 for each of four rows, were the seed not fixed.
-    table = rows(TRANSPORT, measured.DRIFT_HEADING)
+    table = rows_below(TRANSPORT, measured.DRIFT_HEADING)
     assert [float(row[0]) for row in table] == measured.DRIFTS
     for row in table:
         mean, error = map(float, row[1].split(" ± "))
@@ -43,7 +32,7 @@ def test_the_drift_is_that_of_the_page():
 
 
 def test_every_setting_has_a_row_beside_all_theories():
-    table = rows(THEORIES, side_by_side.HEADING)
+    table = rows_below(THEORIES, side_by_side.HEADING)
     assert [row[:2] for row in table] == [list(setting[:2]) for setting in side_by_side.SETTINGS]
 
 
@@ -51,4 +40,4 @@ def test_every_setting_has_a_row_beside_all_theories():
 def test_a_row_beside_all_theories_is_what_comes_out(excitation):
     setting = next(s for s in side_by_side.SETTINGS if s[1] == excitation)
     found = side_by_side.row(setting, side_by_side.MEMBERS)
-    assert found in rows(THEORIES, side_by_side.HEADING)
+    assert found in rows_below(THEORIES, side_by_side.HEADING)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import math
 
 from .. import IsolatedStructure, PlanarSlider, Slider, Structure
+from .output import check_not_negative, check_positive
 from .parser import StoreAll, number, ratio
 
 __all__ = ["add_building", "building_on"]
@@ -66,12 +66,8 @@ def building_on(
         ("--base-mass", [args.base_mass], "kg"),
     ):
         for value in values:
-            if not 0 < value < math.inf:
-                raise ValueError(f"{option} must be positive and finite, got {value:g} {unit}")
-    if not 0 <= args.story_damping_ratio < math.inf:
-        raise ValueError(
-            f"--story-damping-ratio must be finite and at least 0, got {args.story_damping_ratio:g}"
-        )
+            check_positive(option, value, unit)
+    check_not_negative("--story-damping-ratio", args.story_damping_ratio)
     structure = Structure.shear_building(
         masses=args.story_masses,
         stiffnesses=args.story_stiffnesses,

@@ -20,7 +20,15 @@ from .. import (
 )
 from .._text import printable
 from .building import add_building, building_on
-from .output import FAILURES, check_outputs, check_whole, complain, json_text, reason_of
+from .output import (
+    FAILURES,
+    check_not_negative,
+    check_outputs,
+    check_whole,
+    complain,
+    json_text,
+    reason_of,
+)
 from .parser import number, numbers, ratio, text_argument, whole
 from .slider import add_contact, add_slider, any_slider_of
 
@@ -135,8 +143,7 @@ def _ensemble(args: argparse.Namespace) -> str:
     check_whole("--samples", args.samples, 1)
     gap = math.inf if args.stop_gap is None else args.stop_gap
     for level in args.level or ():
-        if not 0 <= level < math.inf:
-            raise ValueError(f"--level must be finite and at least 0, got {level:g} m")
+        check_not_negative("--level", level, "m")
         if level > gap:
             raise ValueError(
                 f"--level must be at most --stop-gap, {gap:g} m, which keeps the block from"
@@ -194,10 +201,7 @@ def _excitation(
         horizontal = WithTransverse(one, **{k: v for k, v in given.items() if v is not None})
     if args.vertical_ratio is None:
         return horizontal
-    if not 0 <= args.vertical_ratio < math.inf:
-        raise ValueError(
-            f"--vertical-ratio must be finite and at least 0, got {args.vertical_ratio:g}"
-        )
+    check_not_negative("--vertical-ratio", args.vertical_ratio)
     return WithVertical(horizontal, ratio=args.vertical_ratio)
 
 

@@ -22,7 +22,7 @@ from .. import (
 )
 from .._text import printable
 from .batch import Batch, add_files
-from .output import check_whole, json_text, write_csv
+from .output import check_not_negative, check_positive, check_whole, json_text, write_csv
 from .parser import number, ratio, ratios, whole
 
 if TYPE_CHECKING:
@@ -127,10 +127,8 @@ def _newmark(args: argparse.Namespace) -> str:
     from ..sweeps import grid, sweep  # imports NumPy, slowly
 
     for ky in args.ky:
-        if not 0 < ky < math.inf:
-            raise ValueError(f"--ky must be positive and finite, got {ky:g} g")
-    if args.scale_pga is not None and not 0 < args.scale_pga < math.inf:
-        raise ValueError(f"--scale-pga must be positive and finite, got {args.scale_pga:g} g")
+        check_positive("--ky", ky, "g")
+    check_positive("--scale-pga", args.scale_pga, "g")
     methods = args.method or ["rigid"]
     slopes = _slopes(args)
     levels = sorted(args.ky)
@@ -216,15 +214,10 @@ def _slopes(args: argparse.Namespace) -> dict[tuple[float, str], FlexibleSlope]:
             "--damping-ratio does not go with --reference-strain, from which the damping of the"
             f" soil follows, got {args.damping_ratio:g}"
         )
-    units = {"--height": " m", "--vs": " m/s", "--rock-vs": " m/s", "--reference-strain": ""}
+    units = {"--height": "m", "--vs": "m/s", "--rock-vs": "m/s", "--reference-strain": ""}
     for option, unit in units.items():
-        value = column[option]
-        if value is not None and not 0 < value < math.inf:
-            raise ValueError(f"{option} must be positive and finite, got {value:g}{unit}")
-    if args.reference_strain is None and not 0 <= args.damping_ratio < math.inf:
-        raise ValueError(
-            f"--damping-ratio must be finite and at least 0, got {args.damping_ratio:g}"
-        )
+        check_positive(option, column[option], unit)
+    check_not_negative("--damping-ratio", args.damping_ratio)
     strain = args.reference_strain
     soil = None if strain is None else HyperbolicSoil(reference_strain=strain)
     return {

@@ -21,7 +21,9 @@ from .._text import printable
 __all__ = [
     "FAILURES",
     "add_outputs",
+    "check_not_negative",
     "check_outputs",
+    "check_positive",
     "check_whole",
     "column",
     "complain",
@@ -112,6 +114,16 @@ def check_whole(option: str, value: int | None, least: int, most: int = 2**64 - 
     if value is not None and not least <= value <= most:
         bound = f"at least {least}" if value < least else f"at most {most}"
         raise ValueError(f"{option} must be {bound}, got {value}")
+
+
+def check_positive(option: str, value: float | None, unit: str = "") -> None:
+    if value is not None and not 0 < value < math.inf:
+        raise ValueError(f"{option} must be positive and finite, got {value:g} {unit}".rstrip())
+
+
+def check_not_negative(option: str, value: float | None, unit: str = "") -> None:
+    if value is not None and not 0 <= value < math.inf:
+        raise ValueError(f"{option} must be finite and at least 0, got {value:g} {unit}".rstrip())
 
 
 def _identity(file: Path) -> Any:

@@ -20,6 +20,7 @@ from .. import (
     Stops,
     TriplePendulum,
 )
+from .output import check_not_negative
 from .parser import StoreAll, number, numbers, ratio, ratios
 
 __all__ = [
@@ -275,8 +276,7 @@ def slider_of(args: argparse.Namespace) -> Slider:
             )
         law = StaticKinetic(law, mu_static=args.mu_static)
     ratio = args.damping_ratio
-    if ratio is not None and not 0 <= ratio < math.inf:
-        raise ValueError(f"--damping-ratio must be finite and at least 0, got {ratio:g}")
+    check_not_negative("--damping-ratio", ratio)
     if ratio is not None and args.period in (None, math.inf):
         raise ValueError(f"--damping-ratio goes with a finite --period, got {ratio:g} without")
     if args.restitution is not None and args.stop_gap is None and args.law != "pendulum":

@@ -122,14 +122,11 @@ def plot_floors(
         accelerations = peaks.peak_floor_acceleration.values
         drifts, base = peaks.peak_floor_drift.values, peaks.peak_base_acceleration
         thin = False
+        _require_some(*accelerations.shape)
     else:
         accelerations, drifts, base = _peaks_of(peaks)
         heading = f"{len(peaks)} responses"
         thin = len(peaks) <= 50
-    members, count = accelerations.shape
-    _require_floors(count)
-    if members < 2:
-        raise ValueError(f"plot_floors: needs at least two members or responses, got {members}")
     length, unit = unit_for(float(drifts.max()))
     with style():
         figure = figure or new_figure(7, 4)
@@ -140,7 +137,7 @@ def plot_floors(
             (0, 1),
             ("largest absolute acceleration [m/s²]", f"largest drift [{unit}]"),
         ):
-            number = np.arange(first, count + 1)
+            number = np.arange(first, accelerations.shape[1] + 1)
             bands = np.quantile(values, _BANDS, axis=0, method="inverted_cdf")
             for low, high, opacity, label in (
                 (0, 4, 0.15, "5 to 95 %"),
@@ -166,11 +163,13 @@ def plot_floors(
         return figure
 
 
-def _require_floors(count: int) -> None:
-    if count == 0:
+def _require_some(members: int, floors: int) -> None:
+    if floors == 0:
         raise ValueError(
             "plot_floors: the structure has no floors; give Structure.from_modes the shapes"
         )
+    if members < 2:
+        raise ValueError(f"plot_floors: needs at least two members or responses, got {members}")
 
 
 def _peaks_of(
@@ -187,10 +186,6 @@ def _peaks_of(
             raise TypeError(
                 f"plot_floors: item {i} must be a StructureResponse, got {type(one).__name__}"
             )
-    if len(responses) < 2:
-        raise ValueError(
-            f"plot_floors: needs at least two members or responses, got {len(responses)}"
-        )
     counts = [len(one.floors.peak_drift) if has_floors(one) else 0 for one in responses]
     if len(set(counts)) > 1:
         odd = next(i for i, count in enumerate(counts) if count != counts[0])
@@ -198,7 +193,7 @@ def _peaks_of(
             "plot_floors: structures must have the same number of floors, got"
             f" {counts[0]} and, in response {odd}, {counts[odd]}"
         )
-    _require_floors(counts[0])
+    _require_some(len(responses), min(counts, default=1))
     return (
         np.array([one.floors.peak_acceleration for one in responses]),
         np.array([one.floors.peak_drift for one in responses]),
