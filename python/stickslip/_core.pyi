@@ -2874,6 +2874,7 @@ def _units_remark(sliders: Sequence[PlanarSlider], motions: Sequence[GroundMotio
 def _warn_if_implausible(
     motion: GroundMotion, who: str, depth: SupportsIndex = 1, recorded: bool = True
 ) -> None: ...
+def _contact_of(contact: str | None, owner: str, structures: bool) -> str: ...
 def run_ensemble(
     sliders: Any,
     motions: Any,
@@ -2884,7 +2885,7 @@ def run_ensemble(
     threads: SupportsIndex,
     dt: _Number,
     settle: bool,
-    contact: str,
+    contact: str | None,
     velocity_spectrum: bool,
     ground_acceleration: bool,
     start: Ensemble | None,
@@ -2945,7 +2946,7 @@ def run_nothing(
     seed: SupportsIndex,
     dt: _Number,
     settle: bool,
-    contact: str,
+    contact: str | None,
     velocity_spectrum: bool,
     ground_acceleration: bool,
 ) -> Ensemble: ...

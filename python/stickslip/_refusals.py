@@ -59,8 +59,14 @@ def explain(function: str, given: Sequence[Any], named: Mapping[str, Any]) -> st
         values = list(given[1:] if form.bound else given)
         reasons.append(form.refusal(values, dict(named)))
     misfits = [reason for reason in reasons if isinstance(reason, _Misfit)]
+    unknown = [reason for reason in reasons if isinstance(reason, _Unknown)]
     texts = [reason for reason in reasons if isinstance(reason, str) and reason]
-    said = list(dict.fromkeys(_merged(misfits) or texts))
+    furthest = max((one.place for one in unknown), default=-1)
+    of = f" with {_a(type(given[0]).__name__)}" if furthest > 0 and len(forms) > 1 else ""
+    nearest = [one.text.format(of=of) for one in unknown if one.place == furthest]
+    if misfits and furthest <= max(one.place for one in misfits):
+        nearest = _merged(misfits)
+    said = list(dict.fromkeys(nearest or texts))
     if len(said) == 1:
         return f"{who}: {said[0]}"
     wanted = " or ".join(dict.fromkeys(f"{who}({form.names})" for form in forms))
@@ -78,6 +84,13 @@ class _Misfit(NamedTuple):
     name: str
     words: list[str]  # what would be right
     got: str
+
+
+class _Unknown(NamedTuple):
+    """An argument whose name a signature does not have."""
+
+    place: int  # of the arguments without a name, how many fit before one that does not
+    text: str  # with a place for what the first of them is
 
 
 def _merged(misfits: list[_Misfit]) -> list[str]:
@@ -112,7 +125,7 @@ class _Form:
             for name in [*self.places, *star, *self.only_by_name]
         )
 
-    def refusal(self, values: list[Any], named: dict[str, Any]) -> str | _Misfit:
+    def refusal(self, values: list[Any], named: dict[str, Any]) -> str | _Misfit | _Unknown:
         """Why this form rejects the arguments; empty if the stubs do not tell."""
         if len(values) > len(self.places):
             extra = _shown(values[len(self.places)])
@@ -124,7 +137,9 @@ class _Form:
         for name in named:
             if name not in self.kinds:
                 known = ", ".join(self.kinds) or "none"
-                return f"has no argument {name!r}; its arguments are {known}"
+                fit = [_fits(one, self.kinds[of]) for of, one in zip(self.places, values)]
+                place = [*fit, False].index(False)
+                return _Unknown(place, f"has no argument {name!r}{{of}}; its arguments are {known}")
             if name in self.places[: len(values)]:
                 return f"got {name} twice"
         all_given = dict(zip(self.places, values)) | named
@@ -194,8 +209,7 @@ def _words(annotation: ast.expr | None) -> Iterator[str]:
             yield from ast.unparse(kind.slice).strip("()").split(", ")
         else:
             name = str(name).rpartition(".")[2]
-            article = "an" if name[:1] in "AEIOU" else "a"
-            yield _WORDS.get(name, f"{article} {name}")
+            yield _WORDS.get(name, _a(name))
 
 
 def _fits(value: Any, annotation: ast.expr | None) -> bool:
@@ -239,6 +253,10 @@ def _is(value: Any, kind: ast.expr) -> bool:
 
 def _or(words: list[str]) -> str:
     return words[0] if len(words) < 2 else f"{', '.join(words[:-1])} or {words[-1]}"
+
+
+def _a(name: str) -> str:
+    return f"{'an' if name[:1] in 'AEIOU' else 'a'} {name}"
 
 
 def _shown(value: Any) -> str:

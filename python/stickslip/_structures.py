@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import StructureResponse, build_info
-from ._tables import frame_of, has_floors, json_text, write_csv
+from ._tables import frame_of, has_drifts, has_floors, json_text, write_csv
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase
@@ -159,7 +159,7 @@ def to_json(response: StructureResponse) -> str:
         "events": [dict(zip(events.dtype.names or (), row)) for row in events.tolist()],
     }
     if has_floors(response):
-        floors = response.floors
-        document["peak_floor_acceleration"] = floors.peak_acceleration
-        document["peak_drift"] = floors.peak_drift
+        document["peak_floor_acceleration"] = response.floors.peak_acceleration
+    if has_drifts(response):
+        document["peak_drift"] = response.floors.peak_drift
     return json_text(document)

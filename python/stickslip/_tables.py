@@ -301,6 +301,12 @@ def has_floors(response: StructureResponse) -> bool:
     return structure is None or structure.floors > 0
 
 
+def has_drifts(response: StructureResponse) -> bool:
+    """Whether the floors have drifts: each must be above another."""
+    structure = getattr(response.system, "structure", None)
+    return has_floors(response) and (structure is None or bool((structure.influence == 1).all()))
+
+
 def response_html(response: Response | PlanarResponse) -> str:
     """A table of the main results of a response."""
     energy = response.energy

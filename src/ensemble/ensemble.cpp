@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "lanes/row_moments.hpp"
+#include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/numerics/root.hpp"
 
@@ -155,9 +156,12 @@ Ensemble::Ensemble(Parts parts) : parts_(std::move(parts)) {
     expect(values.floor_peaks.size() == numbers * values.peak.size() &&
                (numbers == 0 || (numbers >= detail::floor_numbers(0) && numbers % 2 == 0)),
            "block " + std::to_string(number) + " has peaks of floors that do not belong to its members");
-    for (const double peak : values.floor_peaks)
-      detail::require(std::isfinite(peak) && peak >= 0, "Ensemble: a peak of a floor must be finite and at least 0",
-                      peak);
+    for (std::size_t i = 0; i < values.floor_peaks.size(); ++i) {
+      const double peak = values.floor_peaks[i];
+      const bool is_drift = i % numbers >= 2 + detail::floors_of_numbers(numbers);
+      detail::require((std::isfinite(peak) && peak >= 0) || (is_drift && detail::equal(peak, detail::no_drift)),
+                      "Ensemble: a peak of a floor must be finite and at least 0", peak);
+    }
     expect(numbers == numbers_per_member(), "all members must be structures with the same number of floors, or none");
     expect(values.impacts.empty() || values.impacts.size() == values.peak.size(),
            "block " + std::to_string(number) + " has impacts of " + std::to_string(values.impacts.size()) +
@@ -625,7 +629,10 @@ FloorPeaks Ensemble::peak_floor_acceleration() const {
 FloorPeaks Ensemble::peak_floor_drift() const {
   need_floors();
   const std::size_t floors = detail::floors_of_numbers(numbers_per_member());
-  return {floor_numbers(2 + floors, floors), floors};
+  FloorPeaks drifts{floor_numbers(2 + floors, floors), floors};
+  if (std::ranges::any_of(drifts.values, [](double drift) { return drift < 0; }))
+    throw std::domain_error("Ensemble: drifts need an influence of ones, by which one floor is above another");
+  return drifts;
 }
 
 std::vector<double> FloorPeaks::on_floor(std::size_t floor) const {

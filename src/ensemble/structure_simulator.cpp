@@ -29,6 +29,7 @@ class StructurePeakObserver {
     };
     add(floors_.accelerations());
     add(floors_.drifts());
+    numbers.resize(floor_numbers(static_cast<std::size_t>(floors_.accelerations().size())), no_drift);
     return numbers;
   }
 
@@ -66,7 +67,7 @@ void simulate_member(const SlidingStructure& system, const GroundMotion& motion,
   Block& block = place.block;
   const ModalInterface& of = system.modal();
   const FloorRows rows(of);
-  Expansion expansion(of);
+  Expansion expansion(of, mean_step(motion));
   StructureState state = system.rest();
   StructurePeakObserver observer(of, rows, block, max_events(motion.segments() + block.times().count));
   with_interface_law(system.slider(), [&](const auto& law) {

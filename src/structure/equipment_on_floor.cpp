@@ -60,6 +60,8 @@ detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, 
 }  // namespace
 
 EquipmentOnFloor::EquipmentOnFloor(AnySlider slider, Structure structure, Eigen::Index floor, double mass)
-    : SlidingStructure(std::move(slider), structure, on_floor(structure, floor, mass)), floor_(floor), mass_(mass) {}
+    : SlidingStructure("EquipmentOnFloor", std::move(slider), structure, on_floor(structure, floor, mass)),
+      floor_(floor),
+      mass_(mass) {}
 
 }  // namespace stickslip

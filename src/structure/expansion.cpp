@@ -1,9 +1,12 @@
 #include "structure/expansion.hpp"
 
 #include <complex>
+#include <stdexcept>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+
+#include "stickslip/structure/sliding_structure.hpp"
 
 namespace stickslip::detail {
 namespace {
@@ -69,6 +72,18 @@ double largest_magnitude(const double* c, int degree, double least) {
   for (int i = 1; i <= degree; ++i)
     for (int k = degree; k >= i; --k) b[static_cast<std::size_t>(k)] += b[static_cast<std::size_t>(k - 1)];
   return search(c, degree, b, 0, 1, least);
+}
+
+void check_rate(const ModalInterface& of, double step) {
+  constexpr double most = SlidingStructure::most_rate_per_step;
+  const double product = of.fastest * step;
+  if (product <= most) return;
+  throw std::invalid_argument(
+      "the structure on its sliding interface is too fast for the time step of the ground motion: its fastest rate, " +
+      shortest(of.fastest) + " rad/s, times " + shortest(step) + " s is " + shortest(product) + ", more than " +
+      shortest(most) +
+      "; give the base more mass, make a part that is so stiff or so strongly damped rigid (a slider alone is a rigid "
+      "structure), or take a smaller time step");
 }
 
 void Expansion::begin(const StructureState& state, const GroundLoad& ground, double left, double h, int order) {

@@ -13,6 +13,7 @@
 #include "stickslip/error.hpp"
 #include "stickslip/flow/power_series.hpp"
 #include "stickslip/friction/law.hpp"
+#include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/numerics/root.hpp"
 #include "stickslip/series/series.hpp"
 #include "stickslip/structure/response.hpp"
@@ -54,16 +55,27 @@ inline double value_at(const double* c, int degree, double u) {
 /// The largest magnitude of a polynomial on [0, 1], or `least` if that is larger.
 double largest_magnitude(const double* c, int degree, double least);
 
+inline double mean_step(const GroundMotion& motion) noexcept {
+  return motion.duration() / static_cast<double>(motion.segments());
+}
+
+/// @param step  mean time between the samples of the ground motion [s]
+/// @throws std::invalid_argument  fastest times step is above SlidingStructure::most_rate_per_step
+void check_rate(const ModalInterface& of, double step);
+
 /// Power series of the motion over a duration h, for time in units of h.
 class Expansion {
  public:
-  explicit Expansion(const ModalInterface& of)
+  /// @throws as `check_rate`: the work of a motion has a bound before it begins
+  Expansion(const ModalInterface& of, double step)
       : of_(of),
         modes_(static_cast<std::size_t>(of.modes())),
         y_((series::highest_order + 1) * modes_),
         rate_(y_.size()),
         acceleration_(y_.size()),
-        force_(modes_) {}
+        force_(modes_) {
+    check_rate(of, step);
+  }
 
   /// The longest duration of one expansion of linear equations [s]: its terms grow to exp(3) before they fall.
   double longest() const noexcept { return of_.fastest > 0 ? 3 / of_.fastest : never; }

@@ -27,9 +27,10 @@ using Eigen::VectorXd;
 // The modes of a structure that nothing slides on.
 class Driven {
  public:
-  Driven(const Structure& structure, double step)
-      : of_(EquipmentOnFloor(Slider<Coulomb>(Coulomb(1)), structure, 1).modal()), expansion_(of_) {
-    if (detail::StuckFlow::covers(of_, step)) flow_.emplace(of_, step);
+  Driven(const Structure& structure, const GroundMotion& motion)
+      : of_(EquipmentOnFloor(Slider<Coulomb>(Coulomb(1)), structure, 1).modal()),
+        expansion_(of_, detail::mean_step(motion)) {
+    if (detail::StuckFlow::covers(of_, motion.dt())) flow_.emplace(of_, motion.dt());
     state_.setZero(2 * of_.modes());
   }
 
@@ -95,7 +96,7 @@ std::vector<GroundMotion> floor_motions(const Structure& structure, const Ground
     throw std::invalid_argument("floor_motions: needs a structure with floors; give from_modes the shapes");
   detail::require(parts >= 1, "floor_motions: parts must be at least 1", parts);
   const GroundMotion fine = divided(motion, parts);
-  Driven driven(structure, fine.dt());
+  Driven driven(structure, fine);
   const detail::ModalInterface& of = driven.modal();
   const Index floors = structure.floors();
   // The part of the ground acceleration that the modes do not bring to a floor; with all modes, none.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "stickslip/error.hpp"
@@ -47,32 +48,42 @@ detail::ModalInterface decoupled(detail::ModalInterface of) {
   return of;
 }
 
-double checked(const Structure& structure, double base_mass) {
+double checked(const char* name, const Structure& structure, double base_mass) {
   if (!structure.has_matrices())
-    throw std::invalid_argument("base_mass has no meaning for a structure from_modes, whose mass fractions leave it");
-  detail::require(std::isfinite(base_mass) && base_mass > 0, "base_mass must be positive and finite", base_mass, "kg");
+    throw std::invalid_argument(std::string(name) +
+                                ": base_mass must be left out with a structure from_modes, whose mass fractions leave "
+                                "it, got " +
+                                detail::shortest(base_mass) + " kg");
+  detail::require(std::isfinite(base_mass) && base_mass > 0,
+                  std::string(name) + ": base_mass must be positive and finite", base_mass, "kg");
   return base_mass;
 }
 
-double rest_of(const Structure& structure) {
-  if (structure.has_matrices()) throw std::invalid_argument("a structure with matrices needs a base_mass [kg]");
+double rest_of(const char* name, const Structure& structure) {
+  if (structure.has_matrices())
+    throw std::invalid_argument(std::string(name) + ": a structure with matrices needs a base_mass [kg], got none");
   return 1 - structure.modes().effective_masses.sum();
 }
+
+constexpr const char *isolated = "IsolatedStructure", *unfelt = "DecoupledStructure";
 
 }  // namespace
 
 IsolatedStructure::IsolatedStructure(AnySlider slider, Structure structure, double base_mass)
-    : SlidingStructure(std::move(slider), structure, on_base(structure, checked(structure, base_mass))),
+    : SlidingStructure(isolated, std::move(slider), structure,
+                       on_base(structure, checked(isolated, structure, base_mass))),
       base_mass_(base_mass) {}
 
 IsolatedStructure::IsolatedStructure(AnySlider slider, Structure structure)
-    : SlidingStructure(std::move(slider), structure, on_base(structure, rest_of(structure))),
-      base_mass_(rest_of(structure)) {}
+    : SlidingStructure(isolated, std::move(slider), structure, on_base(structure, rest_of(isolated, structure))),
+      base_mass_(rest_of(isolated, structure)) {}
 
 DecoupledStructure::DecoupledStructure(AnySlider slider, Structure structure, double base_mass)
-    : SlidingStructure(std::move(slider), structure, decoupled(on_base(structure, checked(structure, base_mass)))) {}
+    : SlidingStructure(unfelt, std::move(slider), structure,
+                       decoupled(on_base(structure, checked(unfelt, structure, base_mass)))) {}
 
 DecoupledStructure::DecoupledStructure(AnySlider slider, Structure structure)
-    : SlidingStructure(std::move(slider), structure, decoupled(on_base(structure, rest_of(structure)))) {}
+    : SlidingStructure(unfelt, std::move(slider), structure,
+                       decoupled(on_base(structure, rest_of(unfelt, structure)))) {}
 
 }  // namespace stickslip

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <variant>
 
@@ -30,15 +31,17 @@ constexpr bool interface_law =
 };
 
 /// Calls `use(law)` with the law of the interface.
+/// @param name  of the class of the structure, whose constructor has this checked
 template <class Use>
-void with_interface_law(const AnySlider& slider, Use&& use) {
+void with_interface_law(const AnySlider& slider, Use&& use, const char* name = "SlidingStructure") {
   std::visit(
       [&](const auto& one) {
         if constexpr (interface_law<std::remove_cvref_t<decltype(one.law())>>)
           use(one.law());
         else
           throw std::invalid_argument(
-              "a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
+              std::string(name) +
+              ": a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
               "temperature, and pendulums with several surfaces are not covered");
       },
       slider);

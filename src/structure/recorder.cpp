@@ -56,8 +56,9 @@ FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stori
   forces.row(floors + stories) = of.base_shear.transpose();
   with_base[floors + stories] = of.base_shear_of_base;
   with_slider[floors + stories] = of.slider_mass;
-  drifts = of.shapes;
-  for (Eigen::Index i = floors - 1; i > 0; --i) drifts.row(i) -= of.shapes.row(i - 1);
+  // Only where floors move with the base is one above another.
+  drifts = (of.influence.array() == 1).all() ? of.shapes : Eigen::MatrixXd(0, n);
+  for (Eigen::Index i = drifts.rows() - 1; i > 0; --i) drifts.row(i) -= of.shapes.row(i - 1);
 }
 
 StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, double from,

@@ -138,7 +138,7 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   const detail::FloorRows* wanted = options.floors ? &rows : nullptr;
   detail::StructureRecorder recorder(of, wanted, state.displacement, detail::max_events(motion.segments()),
                                      options.progress, response);
-  detail::Expansion expansion(of);
+  detail::Expansion expansion(of, detail::mean_step(motion));
   Histories histories(system, response, motion.samples());
   const detail::LoadPieces pieces(motion, 0);
   const auto weight = [](double normal) { return std::max(normal, 0.0) / standard_gravity; };
@@ -211,16 +211,18 @@ void refuse_restless(double step, const StructureState& state, double demand) {
   throw ConvergenceError("integrate: without ground motion the interface does not come to rest within " +
                          std::to_string(most_calm_steps) + " steps of " + shortest(step) +
                          " s; at x = " + shortest(state.displacement) + " m it moves at " + shortest(state.velocity) +
-                         " m/s" + loads + "; use settle = false");
+                         " m/s" + loads + "; `integrate` with settle = false ends with the ground motion");
 }
 
 }  // namespace detail
 
-SlidingStructure::SlidingStructure(AnySlider slider, Structure structure, detail::ModalInterface modal) {
-  detail::with_interface_law(slider, [](const auto&) {});
+SlidingStructure::SlidingStructure(const char* name, AnySlider slider, Structure structure,
+                                   detail::ModalInterface modal) {
+  detail::with_interface_law(
+      slider, [](const auto&) {}, name);
   const Mounting& on = mounting_of(slider);
   if (on.slope_degrees > 0)
-    throw std::invalid_argument("a structure slides on level ground, got a slider on a slope of " +
+    throw std::invalid_argument(std::string(name) + ": must slide on level ground, got a slider on a slope of " +
                                 detail::shortest(on.slope_degrees) + " degrees");
   modal.spring = on.spring();
   modal.damper = on.damping;
@@ -274,7 +276,7 @@ void advance(const SlidingStructure& system, const LoadSegment& segment, Structu
   check_start(system, state, "advance");
   StructureState moved = state;
   detail::NoStructureObserver none;
-  detail::Expansion expansion(system.modal());
+  detail::Expansion expansion(system.modal(), segment.duration);
   detail::with_interface_law(system.slider(), [&](const auto& law) {
     detail::move_structure(system.modal(), law, segment, moved, expansion, none);
   });

@@ -120,9 +120,9 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   const auto check = [&](const char* name, const MatrixXd& matrix, bool definite) {
     const double least = smallest(matrix);
     if (definite ? !(least > 0) : !(least >= -round_off(matrix)))
-      detail::refuse(std::string("Structure: ") + name + " must be positive " +
-                         (definite ? "definite" : "semidefinite") + ": its smallest eigenvalue",
-                     least);
+      throw std::invalid_argument(std::string("Structure: ") + name + " must be positive " +
+                                  (definite ? "definite" : "semidefinite") + ", got a smallest eigenvalue of " +
+                                  detail::shortest(least));
   };
   check("mass", data->mass, true);
   check("damping", data->damping, false);

@@ -17,10 +17,14 @@ using Eigen::VectorXd;
 // A part is at most this divided by the fastest mode.
 constexpr double reach = 0.5;
 
-double parts_of(const ModalInterface& of, double step) {
+double fastest_of(const ModalInterface& of) {
   double fastest = 0;
   for (Index j = 0; j < of.modes(); ++j) fastest = std::max({fastest, std::sqrt(of.stiffness[j]), of.damping(j, j)});
-  return std::max(1.0, std::ceil(fastest * step / reach));
+  return fastest;
+}
+
+double parts_of(const ModalInterface& of, double step) {
+  return std::max(1.0, std::ceil(fastest_of(of) * step / reach));
 }
 
 // The largest value of u - u^k on [0, 1]: how far u^k is from its chord.
@@ -54,7 +58,9 @@ StuckFlow::StuckFlow(const ModalInterface& of, double step)
   }
 
   // All modes at once: they do not feel each other.
-  Expansion expansion(of);
+  ModalInterface stuck = of;
+  stuck.fastest = fastest_of(of);
+  Expansion expansion(stuck, part_);
   const VectorXd ones = VectorXd::Ones(n), zeros = VectorXd::Zero(n);
   enum Source { from_y, from_rate, from_n, from_change };
   for (const Source source : {from_y, from_rate, from_n, from_change}) {

@@ -75,7 +75,7 @@ std::optional<double> largest_top(const ModalInterface& of, const GroundMotion& 
     flow.advance(now.data(), n, change);
     largest = std::max(largest, top(n + change));
   });
-  Expansion expansion(of);
+  Expansion expansion(of, flow.part());
   StructureState start;
   pass([&](double n, double change) {
     const double begin = top(n), between = flow.top().departure(now.data(), n, change);

@@ -72,7 +72,7 @@ class SweptInterface {
         stuck_(stuck),
         sign_(reversed ? -1 : 1),
         tally_(max_events(motion.segments()), check),
-        expansion_(of),
+        expansion_(of, mean_step(motion)),
         deviation_(VectorXd::Zero(2 * of.modes())) {
     state_.modal_displacement = state_.modal_velocity = VectorXd::Zero(of.modes());
     hold_from_here();

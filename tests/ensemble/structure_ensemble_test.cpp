@@ -163,6 +163,14 @@ TEST_CASE("ensembles of structures refuse what does not go together", "[ensemble
   const std::vector<IsolatedStructure> both{isolated(), {bearing(), two, 1}};
   CHECK_THROWS_WITH(run_ensemble(OneOf(both), noise, options(4)),
                     ContainsSubstring("member 1") && ContainsSubstring("the same number of floors, got 3 and 2"));
+  // Degrees of freedom that are not floors above each other have accelerations, but no drifts.
+  const Structure turned(two.mass(), two.damping(), two.stiffness(), list({1, 0.5}));
+  const Ensemble apart = run_ensemble(IsolatedStructure(bearing(), turned, 1), noise, options(4));
+  CHECK(apart.peak_floor_acceleration().values.size() == 8);
+  CHECK_THROWS_WITH(apart.peak_floor_drift(), ContainsSubstring("drifts need an influence of ones"));
+  const IsolatedStructure extreme(bearing(), two, 1e-12);
+  CHECK_THROWS_WITH(run_ensemble(OneOf(std::vector{isolated(), extreme}), noise, options(4)),
+                    ContainsSubstring("member 1") && ContainsSubstring("too fast for the time step"));
   const Ensemble sliders = run_ensemble(bearing(), noise, options(4));
   CHECK_FALSE(sliders.has_floors());
   CHECK_THROWS_WITH(sliders.peak_floor_drift(), ContainsSubstring("sliders have no floors"));

@@ -1171,6 +1171,10 @@ REFUSED_ENSEMBLES = {
         [*QUAKE, *BUILDING[:-1], -0.1],
         "--story-damping-ratio must be finite and at least 0, got -0.1",
     ),
+    "a building that flies": (
+        [*QUAKE, *BUILDING, "--contact", "flight"],
+        "structures do not leave the ground: contact must be 'clipped' or left out, got 'flight'",
+    ),
     "a building in the plane": ([*QUAKE, *BUILDING, "--planar"], "leave out --planar"),
     "a negative ratio": (
         [*QUAKE, "--vertical-ratio", -0.5],

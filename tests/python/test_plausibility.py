@@ -51,6 +51,24 @@ KUMAR = {"mu_ref": 0.06, "reference_pressure": 50e6, "contact_radius": 0.2}
             lambda: ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=0.35),
             r"slope_degrees = 0\.35 .* radians, give slope_degrees=20\.05",
         ),
+        (
+            lambda: ss.FlexibleSlope(ky_g=10, height=50, shear_velocity=600),
+            r"FlexibleSlope: ky_g = 10 .* percent of g, give ky_g=0\.1$",
+        ),
+        (
+            lambda: ss.FlexibleSlope(ky_g=0.1, height=5, shear_velocity=600, damping_ratio=5),
+            r"FlexibleSlope: damping_ratio = 5 .* percent, give damping_ratio=0\.05$",
+        ),
+        (
+            lambda: ss.Structure.shear_building(masses=[1], stiffnesses=[1], damping_ratio=3),
+            r"shear_building: damping_ratio = 3 .* percent, give damping_ratio=0\.03$",
+        ),
+        (
+            lambda: ss.Structure.from_modes(
+                mass_fractions=[0.2, 0.1], frequencies=[1, 2], damping_ratios=[0.05, 5]
+            ),
+            r"from_modes: damping_ratios\[1\] = 5 .* percent, give damping_ratios\[1\]=0\.05$",
+        ),
     ],
 )
 def test_a_value_in_another_unit_warns_with_the_one_that_may_be_meant(make, message):
@@ -71,6 +89,9 @@ def test_values_in_use_never_warn():
         ss.KumarFriction(static_pressure=pressure, **{**KUMAR, "reference_pressure": pressure})
     for degrees in (0, 1, 2.5, 10, 35, 60):
         ss.Slider(ss.Coulomb(mu=2), slope_degrees=degrees)
+    for ratio in (0, 0.02, 0.3, 0.9):
+        ss.Structure.shear_building(masses=[1], stiffnesses=[1], damping_ratio=ratio)
+        ss.FlexibleSlope(ky_g=ratio, height=50, shear_velocity=600, damping_ratio=ratio)
     for level in (0.01, 2, 20, 500):  # levels are in m/s^2
         ss.Coulomb(slip_level=level)
 

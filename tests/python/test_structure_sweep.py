@@ -117,6 +117,32 @@ def test_unequal_levels_static_friction_pendulums_and_speed() -> None:
     check_equal([ss.IsolatedStructure(s, BUILDING, base_mass=1) for s in sliders], QUAKES)
 
 
+@pytest.mark.parametrize("building", [BUILDING, DASHPOT], ids=["classical", "dashpot"])
+def test_settled_structures(building: ss.Structure) -> None:
+    laws = [
+        ss.Coulomb(mu=0.03),
+        ss.Coulomb(mu=0.02, backward=0.6),
+        ss.StaticKinetic(mu_static=0.05, mu_kinetic=0.03),
+        ss.Slider(ss.Coulomb(mu=0.02), natural_frequency=2.0, damping=0.1),
+        ss.Slider(ss.Coulomb(mu=0.03), one_way=True),
+        ss.FrictionPendulum(mu=0.03, radius=2.0),
+    ]
+    isolated = ss.grid(ss.IsolatedStructure, slider=laws, structure=building, base_mass=1)
+    racks = ss.grid(
+        ss.EquipmentOnFloor, slider=laws, structure=building, floor=[1, 3], mass=[0.0, 0.2]
+    )
+    check_equal([*isolated, *racks], QUAKES[:1], settle=True)
+    check_equal(isolated, UP[:1], settle=True)
+    check_equal([ss.IsolatedStructure(STOPS, building, base_mass=1)], QUAKES, True, 1e-9)
+
+
+def test_settled_slopes_of_soil() -> None:
+    soil = ss.HyperbolicSoil(reference_strain=1e-3)
+    methods = ["coupled", "decoupled"]
+    slopes = ss.grid(ss.FlexibleSlope, ky_g=LEVELS, **COLUMN, soil=soil, method=methods)
+    check_equal(slopes, QUAKES, settle=True)
+
+
 def test_stops_and_their_impacts() -> None:
     structure = ss.IsolatedStructure(STOPS, BUILDING, base_mass=1)
     table = check_equal([structure], QUAKES, tolerance=1e-9)

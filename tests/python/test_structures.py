@@ -188,9 +188,11 @@ def test_bad_input() -> None:
         ss.Structure.from_modes(mass_fractions=[1], frequencies=[1], damping_ratios=[0])
     with pytest.raises(ValueError, match="floor must be from 1 to 3, got 0"):
         ss.EquipmentOnFloor(ss.Coulomb(mu=0.1), BUILDING, floor=0)
-    with pytest.raises(ValueError, match="needs a base_mass"):
+    with pytest.raises(ValueError, match=r"^IsolatedStructure: .* needs a base_mass"):
         ss.IsolatedStructure(ss.Coulomb(mu=0.1), BUILDING)
-    with pytest.raises(ValueError, match="on a slope of 20 degrees"):
+    with pytest.raises(ValueError, match=r"^IsolatedStructure: base_mass must be left out .* 1 kg"):
+        ss.IsolatedStructure(ss.Coulomb(mu=0.1), ONE, base_mass=1)
+    with pytest.raises(ValueError, match=r"^IsolatedStructure: .* on a slope of 20 degrees"):
         ss.IsolatedStructure(ss.Slider(ss.Coulomb(mu=0.6), slope_degrees=20), ONE)
     with pytest.raises(ValueError, match="not covered"):
         ss.IsolatedStructure(ss.Law(hold=lambda x, d: 1.0, resist=lambda x, v, d: 1.0), ONE)
@@ -206,6 +208,8 @@ def test_bad_input() -> None:
         )
     with pytest.raises(ValueError, match="'coupled' or 'decoupled', got 'rigid'"):
         ss.FlexibleSlope(ky_g=0.1, height=20, shear_velocity=200, method="rigid")  # type: ignore[arg-type]
+    with pytest.raises(AttributeError, match="sensitivities of structures are not covered"):
+        ss.integrate(ISOLATED, QUAKE).sensitivity("mu")  # type: ignore[attr-defined]
     with pytest.raises(TypeError, match="must be a GroundMotion"):
         ss.integrate(ISOLATED, ss.HarmonicMotion(amplitude=1, omega=1, duration=10))  # type: ignore[call-overload]
 
@@ -280,3 +284,83 @@ def test_a_yield_acceleration_that_falls_with_the_distance() -> None:
     )
     e = ss.run_ensemble(softens, noise, members=3, seed=1)
     assert e.configuration["slider"]["law"] == "Degrading"
+
+
+def test_a_structure_that_is_too_fast_for_the_time_step() -> None:
+    light = ss.IsolatedStructure(ss.Coulomb(slip_level=1), BUILDING, base_mass=1e-12)
+    with pytest.raises(
+        ValueError, match=r"rad/s, times 0\.1 s is .*, more than 10000; give the base"
+    ):
+        ss.integrate(light, QUAKE)
+    with pytest.warns(RuntimeWarning, match="2 of 4 combinations failed .* too fast"):
+        table = ss.sweep([light, ISOLATED], QUAKE)
+    assert np.isnan(table.peak[0]).all()
+    assert table.peak[1, 0, 0] == pytest.approx(ss.integrate(ISOLATED, QUAKE).peak, rel=1e-12)
+    with pytest.raises(ValueError, match=r"member 1: .* too fast for the time step"):
+        ss.run_ensemble([ISOLATED, light], QUAKE, members=4, seed=1)
+    # The bound that the page and the docstrings name is the one that is applied.
+    page = Path(__file__).parents[2] / "docs/structures.md"
+    assert "is above 10000" in " ".join(page.read_text().split())
+    assert "10000" in str(ss.integrate.__doc__)
+
+
+def test_contact_is_not_for_structures() -> None:
+    told = (
+        r"has no argument '(contact|heat)' with an IsolatedStructure; its arguments are slider, mo"
+    )
+    for extra in ({"contact": "clipped"}, {"heat": 1}):
+        with pytest.raises(TypeError, match=told):
+            ss.integrate(ISOLATED, QUAKE, **extra)  # type: ignore[call-overload]
+    why = "structures do not leave the ground: contact must be 'clipped' or left out, got 'flight'"
+    with pytest.raises(ValueError, match=f"^sweep: {why}"):
+        ss.sweep(ISOLATED, QUAKE, contact="flight")
+    with pytest.raises(ValueError, match=f"^run_ensemble: {why}"):
+        ss.run_ensemble(ISOLATED, QUAKE, members=2, seed=1, contact="flight")
+    clipped = ss.run_ensemble(ISOLATED, QUAKE, members=2, seed=1, contact="clipped")
+    assert clipped == ss.run_ensemble(ISOLATED, QUAKE, members=2, seed=1)
+    assert ss.sweep(ISOLATED, QUAKE, contact="clipped").contact == "clipped"
+    with pytest.raises(ValueError, match="contact must be 'flight' or 'clipped', got 'hop'"):
+        ss.run_ensemble(ISOLATED, QUAKE, members=2, seed=1, contact="hop")
+
+
+def test_degrees_of_freedom_that_are_not_floors_have_no_drifts(tmp_path) -> None:
+    plotting = pytest.importorskip("stickslip.plotting")
+    turned = ss.Structure(BUILDING.mass, BUILDING.damping, BUILDING.stiffness, [1, 0.5, 0])
+    system = ss.IsolatedStructure(ss.Coulomb(slip_level=1), turned, base_mass=1)
+    r = ss.integrate(system, QUAKE)
+    for name in ("drift", "peak_drift", "shear"):
+        with pytest.raises(ValueError, match=r"^Floors: .* an influence of ones"):
+            getattr(r.floors, name)
+    document = json.loads(r.to_json())
+    assert "peak_floor_acceleration" in document and "peak_drift" not in document
+    assert len(r.plot().axes) == 2  # the interface and the accelerations
+    with pytest.raises(ValueError, match="drifts need an influence of ones"):
+        plotting.plot_floors([r, r])
+    e = ss.run_ensemble(system, QUAKE, members=2, seed=1)
+    with pytest.raises(ValueError, match="drifts need an influence of ones"):
+        _ = e.peak_floor_drift
+    with pytest.raises(ValueError, match="drifts need an influence of ones"):
+        plotting.plot_floors(e)
+    assert [name for name in e.to_dataframe() if name.startswith("floor")] == [
+        f"floor_{i}_peak_acceleration" for i in (1, 2, 3)
+    ]
+    assert "floor_1_peak_drift" not in json.loads(e.to_json())["by_member"]
+    e.save(tmp_path / "e.npz")
+    assert ss.Ensemble.load(tmp_path / "e.npz") == e
+
+
+def test_what_repr_says_of_rigid_modes() -> None:
+    free = ss.Structure(np.eye(2), np.zeros((2, 2)), [[1, -1], [-1, 1]])
+    period = f"{2 * np.pi / np.sqrt(2):.4g}"
+    assert repr(free).startswith(
+        f"<Structure: 2 floors, 2 modes, 1 of them rigid, first period {period}"
+    )
+
+
+def test_a_slope_without_friction_is_told_how_to_end() -> None:
+    slope = ss.FlexibleSlope(ky_g=0, height=50, shear_velocity=600, damping_ratio=0.05)
+    with pytest.raises(
+        ss.ConvergenceError, match="`integrate` with settle = false ends with the g"
+    ):
+        slope.coupled(QUAKE)
+    assert not ss.integrate(slope, QUAKE).settled

@@ -574,7 +574,9 @@ def test_a_motion_without_a_transverse_component_fails_alone():
 
 
 def test_sliders_on_one_axis_and_in_the_plane_are_not_mixed():
-    with pytest.raises(TypeError, match=r"sliders\[0\] is a PlanarSlider, sliders\[1\] a Coulomb"):
+    with pytest.raises(
+        TypeError, match=r"sliders\[0\] is of type PlanarSlider, sliders\[1\] of type Coulomb"
+    ):
         ss.sweep([PLANAR[0], ss.Coulomb(mu=0.1)], STATIONS)
     with pytest.raises(TypeError, match=r"sliders\[0\] is a Slider, sliders\[2\] a PlanarSlider"):
         ss.sweep([ss.Slider(ss.Coulomb(mu=0.1)), ss.Coulomb(mu=0.1), PLANAR[0]], STATIONS)

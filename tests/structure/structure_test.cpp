@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "stickslip/core.hpp"
 #include "stickslip/friction/velocity_dependent.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "stickslip/structure/flexible_slope.hpp"
+#include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 #include "support/catch.hpp"
 
@@ -322,9 +324,9 @@ TEST_CASE("structures refuse bad input by name", "[structure]") {
   };
   CHECK_THROWS_WITH(made(skew, one, one), ContainsSubstring("mass must be symmetric, got mass[1, 0] = 0.5"));
   CHECK_THROWS_WITH(made(singular, one, one),
-                    ContainsSubstring("mass must be positive definite: its smallest eigenvalue, got 0"));
+                    ContainsSubstring("mass must be positive definite, got a smallest eigenvalue of 0"));
   CHECK_THROWS_WITH(made(one, negative, one),
-                    ContainsSubstring("damping must be positive semidefinite: its smallest eigenvalue, got -2"));
+                    ContainsSubstring("damping must be positive semidefinite, got a smallest eigenvalue of -2"));
   CHECK_THROWS_WITH(made(one, one, negative), ContainsSubstring("stiffness must be positive semidefinite"));
   CHECK_THROWS_WITH(made(one, one, Eigen::MatrixXd::Zero(2, 2)), ContainsSubstring("must have a stiffness"));
   CHECK_THROWS_WITH(made(one, Eigen::MatrixXd::Identity(3, 3), one),
@@ -339,10 +341,12 @@ TEST_CASE("structures refuse bad input by name", "[structure]") {
   CHECK_THROWS_WITH(EquipmentOnFloor(slider(), building(), 1, -1),
                     ContainsSubstring("mass must be finite and at least 0, got -1 kg"));
   CHECK_THROWS_WITH(IsolatedStructure(slider(), building(), 0),
-                    ContainsSubstring("base_mass must be positive and finite, got 0 kg"));
-  CHECK_THROWS_WITH(IsolatedStructure(slider(), building()), ContainsSubstring("needs a base_mass"));
-  CHECK_THROWS_WITH(IsolatedStructure(slider(3, Mounting{.slope_degrees = 10}), building(), 1),
-                    ContainsSubstring("level ground, got a slider on a slope of 10 degrees"));
+                    ContainsSubstring("IsolatedStructure: base_mass must be positive and finite, got 0 kg"));
+  CHECK_THROWS_WITH(IsolatedStructure(slider(), building()),
+                    ContainsSubstring("IsolatedStructure: a structure with matrices needs a base_mass [kg], got none"));
+  CHECK_THROWS_WITH(
+      IsolatedStructure(slider(3, Mounting{.slope_degrees = 10}), building(), 1),
+      ContainsSubstring("IsolatedStructure: must slide on level ground, got a slider on a slope of 10 degrees"));
   const IsolatedStructure system(slider(1, Mounting{.stops = Stops(0.1, 0)}), building(), 1);
   CHECK_THROWS_WITH(integrate(system, motion(), {.displacement = 0.2}), ContainsSubstring("between the stops"));
   CHECK_THROWS_WITH(integrate(FlexibleSlope{.ky_g = 0.1, .height = 0, .shear_velocity = 1}, motion()),
@@ -373,4 +377,54 @@ TEST_CASE("the level of a flexible slope may change with the distance", "[struct
   CHECK(rigid(*stiff.degrading) > 1.1 * rigid(Coulomb(level)));
   stiff.ky_g = 0.1;
   CHECK_THROWS_WITH(integrate(stiff, motion()), ContainsSubstring("with a Degrading law, ky_g must be left out"));
+}
+
+TEST_CASE("a structure that is too fast for the time step is refused before it is integrated", "[structure]") {
+  const IsolatedStructure system(slider(), building(), 1);
+  const auto at = [&](double times) {
+    const double step = times * SlidingStructure::most_rate_per_step / system.fastest();
+    return GroundMotion({0, 2, -2}, step);
+  };
+  CHECK(std::isfinite(integrate(system, at(0.999)).peak));
+  CHECK_THROWS_AS(integrate(system, at(1.001)), std::invalid_argument);
+  CHECK_THROWS_WITH(integrate(IsolatedStructure(slider(), building(), 1e-12), motion()),
+                    ContainsSubstring("its fastest rate, ") && ContainsSubstring(" rad/s, times 0.1 s is ") &&
+                        ContainsSubstring("more than 10000; give the base more mass") &&
+                        ContainsSubstring("or take a smaller time step"));
+  // What counts is the mean step: a long one among short ones is affordable.
+  const double fastest = system.fastest(), most = SlidingStructure::most_rate_per_step;
+  std::vector<double> n, times;
+  for (int i = 0; i < 100; ++i) n.push_back(i % 2), times.push_back(0.01 * i + (i == 99 ? 2 * most / fastest : 0));
+  CHECK(std::isfinite(integrate(system, GroundMotion(n, times)).peak));
+
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
+  const Structure damped(one, 1e12 * one, one);
+  const std::vector<IsolatedStructure> extreme{
+      IsolatedStructure(slider(), building(), 1e-12),
+      IsolatedStructure(slider(1, Mounting{.natural_frequency = 1e9}), building(), 1),
+      IsolatedStructure(slider(1, Mounting{.damping = 1e9}), building(), 1),
+      IsolatedStructure(slider(), damped, 1),
+  };
+  for (const IsolatedStructure& each : extreme) {
+    CHECK_THROWS_WITH(integrate(each, motion()), ContainsSubstring("too fast for the time step"));
+    StructureState state = each.rest();
+    CHECK_THROWS_WITH(advance(each, motion().segment(0), state), ContainsSubstring("too fast for the time step"));
+  }
+  CHECK_THROWS_WITH(floor_motions(damped, motion()), ContainsSubstring("too fast for the time step"));
+  const FlexibleSlope slope{.ky_g = 0.1, .height = 1e-6, .shear_velocity = 600, .damping_ratio = 0.05};
+  CHECK_THROWS_WITH(integrate(slope, motion()), ContainsSubstring("too fast for the time step"));
+}
+
+TEST_CASE("degrees of freedom that are not floors have no drifts", "[structure]") {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
+  const Structure turned(one, 0.5 * one, 100 * one, list({1, 0.5}));
+  for (const SlidingStructure& system : {SlidingStructure(IsolatedStructure(slider(), turned, 1)),
+                                         SlidingStructure(EquipmentOnFloor(slider(), turned, 2))}) {
+    const Floors floors = integrate(system, motion()).floors;
+    CHECK(floors.displacement.cols() == 2);
+    CHECK(floors.peak_acceleration.size() == 2);
+    CHECK(floors.drift.cols() == 0);
+    CHECK(floors.peak_drift.size() == 0);
+    CHECK(floors.shear.cols() == 0);
+  }
 }

@@ -243,3 +243,25 @@ TEST_CASE("sliders on floor motions approach equipment without mass", "[structur
   }
   CHECK(last < 1e-3);
 }
+
+TEST_CASE("a structure that is too fast for the time step fails alone in a sweep", "[structure][sweep]") {
+  Bits bits(7);
+  const std::vector<GroundMotion> motions{random_motion(bits)};
+  const Structure building = Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), 0.03);
+  Mounting extreme;
+  extreme.natural_frequency = 1e9;
+  // They share the stuck motion, whichever comes first.
+  const std::vector<IsolatedStructure> structures{{Slider(Coulomb(1), extreme), building, 1},
+                                                  {Slider(Coulomb(1)), building, 1}};
+  const SweepTable table = sweep(structures, motions);
+  REQUIRE(table.failures.size() == 2);
+  CHECK(table.failures[0].slider == 0);
+  CHECK_THAT(table.failures[0].message, ContainsSubstring("too fast for the time step"));
+  CHECK(table.peak[table.at(1, 0, 0)] == Approx(integrate(structures[1], motions[0]).peak).epsilon(1e-12));
+
+  const std::vector<FlexibleSlope> slopes{{.ky_g = 0.1, .height = 1e-6, .shear_velocity = 600},
+                                          {.ky_g = 0.1, .height = 50, .shear_velocity = 600}};
+  const SweepTable both = sweep(slopes, motions);
+  REQUIRE(both.failures.size() == 2);
+  CHECK(both.failures[0].slider == 0);
+}

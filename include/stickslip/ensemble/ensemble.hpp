@@ -61,7 +61,7 @@ class Ensemble {
     std::vector<Impacts> impacts{};             ///< empty if no slider of the block has stops
     std::vector<double> residual_transverse{};  ///< [m]; empty on one axis
     /// Of each member that is a structure: peak acceleration of the base [m/s^2], peak base shear, peak accelerations
-    /// of the floors [m/s^2] and peak drifts [m]; empty for sliders.
+    /// of the floors [m/s^2] and peak drifts [m], or `no_drift`; empty for sliders.
     std::vector<double> floor_peaks{};
     friend bool operator==(const Kept&, const Kept&) = default;
   };
@@ -162,6 +162,7 @@ class Ensemble {
   /// @throws std::domain_error for sliders, and for more than `max_kept` members; the following three also do
   FloorPeaks peak_floor_acceleration() const;
   /// Largest drift of each floor relative to the one below [m].
+  /// @throws std::domain_error  also if the `influence` of a structure is not ones
   FloorPeaks peak_floor_drift() const;
   /// Largest absolute acceleration of what the structure stands on [m/s^2], by member: its base, or the ground.
   std::vector<double> peak_base_acceleration() const;

@@ -39,6 +39,8 @@ namespace detail {
 /// The numbers that an ensemble keeps of the floors of a structure: the peak acceleration of the base, the peak base
 /// shear, and of each floor the peak accelerations and the peak drifts.
 constexpr std::size_t floor_numbers(std::size_t floors) noexcept { return 2 + 2 * floors; }
+/// In place of a peak drift, for a structure whose `influence` is not ones.
+inline constexpr double no_drift = -1;
 constexpr std::size_t floors_of_numbers(std::size_t numbers) noexcept { return (numbers - 2) / 2; }
 
 /// Rejects two structures with different numbers of floors.

@@ -25,7 +25,7 @@ struct StructureState {
 struct Floors {
   Eigen::MatrixXd displacement;  ///< relative to the base (of an EquipmentOnFloor: to the ground) [m]
   Eigen::MatrixXd acceleration;  ///< absolute [m/s^2]
-  Eigen::MatrixXd drift;         ///< of each floor relative to the one below [m]
+  Eigen::MatrixXd drift;         ///< of each floor relative to the one below [m]; empty if `influence` is not ones
   Eigen::MatrixXd shear;         ///< sum of the inertia forces of a floor and those above it [N]; with from_modes, per
                                  ///< total mass; empty where it is unknown
   Eigen::VectorXd peak_acceleration, peak_drift, peak_shear;

@@ -31,8 +31,11 @@ class SlidingStructure {
 
   /// The mass that the interface feels when it starts to slide, as a fraction of the reference mass.
   double interface_mass() const noexcept;
-  /// Largest magnitude of an eigenvalue of the motion, stuck or sliding [1/s].
+  /// Largest magnitude of an eigenvalue of the motion, stuck or sliding [rad/s].
   double fastest() const noexcept;
+  /// A segment takes fastest() dt / 3 expansions. Above this product of fastest() and the mean time step of the ground
+  /// motion, at which a sample takes some 10 ms with one mode, the structure is refused.
+  static constexpr double most_rate_per_step = 10000;
 
   /// At rest at x = 0.
   StructureState rest() const;
@@ -44,7 +47,8 @@ class SlidingStructure {
   const detail::ModalInterface& modal() const noexcept;  ///< for the library
 
  protected:
-  SlidingStructure(AnySlider slider, Structure structure, detail::ModalInterface modal);
+  /// @param name  of the class, for messages
+  SlidingStructure(const char* name, AnySlider slider, Structure structure, detail::ModalInterface modal);
 
  private:
   struct Data;
@@ -71,7 +75,8 @@ struct StructureIntegrateOptions {
 /// Integrate the motion of a structure with one sliding interface under a ground motion, from rest or from a given
 /// motion of the interface.
 /// @return the response at the samples, with events, energy and floors
-/// @throws std::invalid_argument  a start that is not finite or beyond a stop
+/// @throws std::invalid_argument  a start that is not finite or beyond a stop; fastest() times the mean time step above
+///                                SlidingStructure::most_rate_per_step
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
 /// @throws ConvergenceError       more events than 1,000,000 plus eight per segment; with `settle`, the interface does
 ///                                not come to rest within a million steps: an undamped structure can make it slide

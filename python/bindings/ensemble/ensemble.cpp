@@ -207,7 +207,7 @@ Over all time, also between samples. ValueError for sliders, and as for `peak`.)
       .def_property_readonly("peak_floor_drift", &Ensemble::peak_floor_drift,
                              R"(Largest drift of each floor relative to the one below, as `FloorPeaks` [m].
 
-ValueError as for `peak_floor_acceleration`.)")
+ValueError as for `peak_floor_acceleration`, and if the `influence` of a structure is not ones.)")
       .def_property_readonly(
           "peak_base_acceleration", [](const Ensemble& e) { return array_of(e.peak_base_acceleration()); },
           R"(Largest absolute acceleration of what the structure stands on, by member [m/s^2].

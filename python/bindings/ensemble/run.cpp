@@ -4,16 +4,22 @@
 #include <memory>
 
 #include "sources.hpp"
+#include "structure/contact.hpp"
 
 namespace stickslip::python {
 namespace {
 
 Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t members, std::uint64_t first_member,
-             std::uint64_t seed, unsigned threads, double dt, bool settle, const std::string& contact,
+             std::uint64_t seed, unsigned threads, double dt, bool settle, const std::optional<std::string>& contact,
              bool velocity_spectrum, bool ground_acceleration, const Ensemble* start, const py::object& progress,
              const py::object& interrupted) {
+  FirstSample first;
+  const py::object kind = first_of(sliders, seed, first_member, first);
+  const bool structures = structure_of(kind).has_value();
+  const Contact chosen = contact_of(contact, "run_ensemble", structures);
+  // The configuration of structures has no contact, because there is nothing to choose.
   EnsembleOptions options{
-      members,           first_member,       seed, threads, dt, settle, contact_of(contact, "run_ensemble"),
+      members,           first_member,       seed, threads, dt, settle, structures ? Contact::flight : chosen,
       velocity_spectrum, ground_acceleration};
   std::atomic<bool> ended = false;
   options.progress = [&](const EnsembleProgress& status) {
@@ -35,23 +41,21 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
       throw;
     }
   };
-  FirstSample first;
-  const py::object kind = first_of(sliders, seed, first_member, first);
   return with_motions(motions, ended, [&](const auto& these) {
     const auto run_those = [&](const auto& those) {
       const py::gil_scoped_release released;
       return run_ensemble(those, these, options, start);
     };
     if (MemberKind<AnyPlanarSlider>::read(kind)) return with_members<AnyPlanarSlider>(sliders, ended, run_those, first);
-    if (structure_of(kind)) return with_members<AnyStructure>(sliders, ended, run_those, first);
+    if (structures) return with_members<AnyStructure>(sliders, ended, run_those, first);
     return with_sliders(sliders, ended, run_those, first);
   });
 }
 
 /// An ensemble without members, into which to merge the parts of a run.
 Ensemble run_nothing(const py::object& sliders, const py::object& motions, std::uint64_t first_member,
-                     std::uint64_t seed, double dt, bool settle, const std::string& contact, bool velocity_spectrum,
-                     bool ground_acceleration) {
+                     std::uint64_t seed, double dt, bool settle, const std::optional<std::string>& contact,
+                     bool velocity_spectrum, bool ground_acceleration) {
   const py::none nobody;
   const Ensemble one =  // checks the arguments
       run(sliders, motions, 1, first_member, seed, 1, dt, settle, contact, velocity_spectrum, ground_acceleration,

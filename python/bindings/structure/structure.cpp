@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
+#include "structure/plausibility.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -99,6 +101,15 @@ Structure structure_of_modes(const py::object& fractions, const py::object& freq
   return Structure::from_modes(f, w, z, matrix_from(shapes, "Structure.from_modes: shapes"));
 }
 
+Structure plausible_structure_of_modes(const py::object& fractions, const py::object& frequencies,
+                                       const py::object& ratios, const py::object& shapes) {
+  Structure structure = structure_of_modes(fractions, frequencies, ratios, shapes);
+  const VectorXd& all = structure.modes().damping_ratios;
+  for (Eigen::Index i = 0; i < all.size(); ++i)
+    check_damping_ratio("Structure.from_modes", "damping_ratios[" + std::to_string(i) + "]", all[i]);
+  return structure;
+}
+
 Structure structure_of_matrices(const py::object& mass, const py::object& damping, const py::object& stiffness,
                                 const py::object& influence) {
   MatrixXd m = matrix_from(mass, "Structure: mass", "kg"), c = matrix_from(damping, "Structure: damping", "N*s/m"),
@@ -115,12 +126,15 @@ Structure structure_from_inputs(const py::tuple& inputs) {
 }
 
 std::string description(const Structure& s) {
-  const double period = 2 * std::numbers::pi / s.modes().frequencies[0];
+  const VectorXd& w = s.modes().frequencies;
+  const Eigen::Index rigid = (w.array() <= 0).count();
+  const double first = (w.array() > 0).select(w, std::numeric_limits<double>::infinity()).minCoeff();
   const auto count = [](Eigen::Index n, const char* what) {
     return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
   };
   return "<Structure: " + (s.floors() > 0 ? count(s.floors(), "floor") + ", " : std::string()) +
-         count(s.size(), "mode") + ", first period " + digits(period) + " s>";
+         count(s.size(), "mode") + (rigid > 0 ? ", " + std::to_string(rigid) + " of them rigid" : std::string()) +
+         ", first period " + digits(2 * std::numbers::pi / first) + " s>";
 }
 
 const char* name_of(SlopeMethod method) { return method == SlopeMethod::coupled ? "coupled" : "decoupled"; }
@@ -216,15 +230,26 @@ template <auto member>
 auto of_floors() {
   return [](const py::object& self) { return view_of(self.cast<const FloorsOfResponse&>().floors().*member, self); };
 }
-// Shears need the masses of the floors.
+// Of the stories: only if one floor is above another.
+template <auto member>
+auto drifts() {
+  return [](const py::object& self) {
+    const Floors& floors = self.cast<const FloorsOfResponse&>().floors();
+    if (floors.drift.cols() == 0)
+      throw std::invalid_argument(
+          "Floors: drifts need an influence of ones, by which one floor is above another; `displacement` does not");
+    return view_of(floors.*member, self);
+  };
+}
+// Shears also need the masses of the floors.
 template <auto member>
 auto shears() {
   return [](const py::object& self) {
     const Floors& floors = self.cast<const FloorsOfResponse&>().floors();
     if (floors.shear.cols() == 0)
       throw std::invalid_argument(
-          "the shear of each story needs the masses of the floors and an influence of ones; `peak_base_shear` of the "
-          "response needs neither");
+          "Floors: the shear of each story needs the masses of the floors and an influence of ones; `peak_base_shear` "
+          "of the response needs neither");
     return view_of(floors.*member, self);
   };
 }
@@ -297,6 +322,7 @@ ValueError
               throw std::invalid_argument("Structure.shear_building: give either damping or damping_ratio, got " +
                                           std::string(damping ? "both" : "neither"));
             if (damping) return Structure::shear_building(mass, stiffness, *damping);
+            check_damping_ratio("Structure.shear_building", "damping_ratio", *damping_ratio);
             return Structure::shear_building(mass, stiffness, *damping_ratio);
           },
           py::kw_only(), py::arg("masses"), py::arg("stiffnesses"), py::arg("damping") = py::none(),
@@ -322,8 +348,8 @@ Raises
 ------
 ValueError
     Naming the entry; both or neither of `damping` and `damping_ratio`.)")
-      .def_static("from_modes", &structure_of_modes, py::kw_only(), py::arg("mass_fractions"), py::arg("frequencies"),
-                  py::arg("damping_ratios"), py::arg("shapes") = py::none(),
+      .def_static("from_modes", &plausible_structure_of_modes, py::kw_only(), py::arg("mass_fractions"),
+                  py::arg("frequencies"), py::arg("damping_ratios"), py::arg("shapes") = py::none(),
                   R"(A structure that is known by some of its modes on a fixed base.
 
 Each mode obeys y'' + 2 z w y' + w^2 y = -n and has a fraction of the mass of base and structure; what the fractions
@@ -646,6 +672,8 @@ True)")
                                  method_of(method),
                                  degrading ? std::optional(*degrading) : std::nullopt};
              check(slope);
+             check_yield_acceleration(slope.ky_g);
+             check_damping_ratio("FlexibleSlope", "damping_ratio", damping_ratio);
              return slope;
            }),
            py::kw_only(), py::arg("ky_g"), py::arg("height"), py::arg("shear_velocity"), py::arg("damping_ratio") = 0.0,
@@ -736,8 +764,10 @@ read-only.)",
                              "(N, floors).")
       .def_property_readonly("acceleration", of_floors<&Floors::acceleration>(),
                              "Absolute, at `time` [m/s^2], shape (N, floors).")
-      .def_property_readonly("drift", of_floors<&Floors::drift>(),
-                             "Displacement relative to the floor below, at `time` [m], shape (N, floors).")
+      .def_property_readonly("drift", drifts<&Floors::drift>(),
+                             R"(Displacement relative to the floor below, at `time` [m], shape (N, floors).
+
+ValueError if `influence` is not ones: then the degrees of freedom are not floors above each other.)")
       .def_property_readonly("shear", shears<&Floors::shear>(),
                              R"(Shear of the stories at `time` [N], shape (N, floors).
 
@@ -745,7 +775,8 @@ The sum of the inertia forces of a floor and of those above it, with that of equ
 without the masses of the floors, or if `influence` is not ones.)")
       .def_property_readonly("peak_acceleration", of_floors<&Floors::peak_acceleration>(),
                              "Largest absolute acceleration [m/s^2], shape (floors,).")
-      .def_property_readonly("peak_drift", of_floors<&Floors::peak_drift>(), "Largest drift [m], shape (floors,).")
+      .def_property_readonly("peak_drift", drifts<&Floors::peak_drift>(),
+                             "Largest drift [m], shape (floors,); see `drift`.")
       .def_property_readonly("peak_shear", shears<&Floors::peak_shear>(),
                              "Largest shear of the stories [N], shape (floors,); see `shear`.")
       .def("__repr__", [](const FloorsOfResponse& f) {
@@ -839,6 +870,12 @@ decoupled `FlexibleSlope`, it is that of the slider alone.)")
 Decisions are the ends of slips; infinite if there was none. If it is tiny, the response depends on round-off.)")
       .def_property_readonly("components", number<&StructureResponse::components>(),
                              "Components of the ground motion that acted, 'axis' or 'axis + vertical'.")
+      .def("__getattr__",
+           [](const Self&, const std::string& name) -> py::object {
+             throw py::attribute_error(name == "sensitivity"
+                                           ? "StructureResponse: sensitivities of structures are not covered"
+                                           : "'StructureResponse' object has no attribute '" + name + "'");
+           })
       .def("plot", plot_in("plot_structure_response", "figure"), py::kw_only(), py::arg("figure") = py::none(),
            py::arg("title") = py::none(),
            R"(Plot the displacement of the interface over time, and the peaks of the floors by height.
@@ -878,12 +915,14 @@ str
         py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0, py::arg("velocity") = 0.0,
         py::arg("settle") = false, py::arg("sliding_distance") = 0.0, doc);
   };
-  bind_integrate_of(
-      static_cast<IsolatedStructure*>(nullptr),
+  const std::string doc =
       R"(With an `IsolatedStructure`, an `EquipmentOnFloor` or a `FlexibleSlope`, the structure moves, too, and the result
 is a `StructureResponse`. The motion must be a GroundMotion. Where N < 0 the interface slides without friction, as with
 contact='clipped'. With `settle`, the motion continues until the amplitudes of all modes together cannot exceed the
-friction; ConvergenceError if they do not shrink.)");
+friction; ConvergenceError if they do not shrink. ValueError for a structure whose fastest rate, stuck or sliding [rad/s],
+times the mean time step of the motion is above )" +
+      detail::shortest(SlidingStructure::most_rate_per_step) + ", as with a tiny base mass.";
+  bind_integrate_of(static_cast<IsolatedStructure*>(nullptr), doc.c_str());
   bind_integrate_of(static_cast<EquipmentOnFloor*>(nullptr), "");
   bind_integrate_of(static_cast<FlexibleSlope*>(nullptr), "");
 }

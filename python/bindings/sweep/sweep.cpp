@@ -8,6 +8,7 @@
 #include "stickslip/structure/isolated_structure.hpp"
 #include "stickslip/structure/sweep.hpp"
 #include "stickslip/sweep/planar_sweep.hpp"
+#include "structure/contact.hpp"
 
 namespace stickslip::python {
 namespace {
@@ -127,6 +128,13 @@ py::dict run_any(const py::sequence& sliders, const py::sequence& motions, const
 }  // namespace
 
 void bind_sweep(py::module_& m) {
+  m.def(
+      "_contact_of",
+      [](const std::optional<std::string>& contact, const std::string& owner, bool structures) {
+        return name_of(contact_of(contact, owner, structures));
+      },
+      py::arg("contact"), py::arg("owner"), py::arg("structures"),
+      "The argument `contact` of a function of many sliders, with its default; checks it.");
   m.def("sweep", &run_any, py::arg("sliders"), py::arg("motions"), py::kw_only(), py::arg("polarity"),
         py::arg("settle"), py::arg("contact"), py::arg("threads"), py::arg("progress"),
         R"(Implementation of `stickslip.sweep` (see there).

@@ -129,7 +129,7 @@ def add_ensemble(commands: argparse._SubParsersAction) -> None:
     )
     add("--plot", type=Path, metavar="FILE", help="picture (.png, .pdf, .svg)")
     add("--json", action="store_true", help="one JSON document, SI units, exact doubles")
-    parser.set_defaults(run=_ensemble)
+    parser.set_defaults(run=_ensemble, contact=None)  # a building is always clipped
 
 
 def _ensemble(args: argparse.Namespace) -> str:

@@ -42,7 +42,7 @@ class Random:
     Raises
     ------
     TypeError
-        `kind` is not callable.
+        `kind` is not callable, or returns None.
     Exception
         Whatever `kind` raises at the quartiles of all parameters: the constructor calls it there.
 
@@ -76,6 +76,10 @@ class Random:
             repr(self._make(_core.quantile(one, p) for one in self._drawn))
             for p in (0.25, 0.5, 0.75)
         ]
+
+    @property
+    def _name(self) -> str:
+        return getattr(self._kind, "__name__", None) or repr(self._kind)
 
     @property
     def kind(self) -> Callable[..., AnyMember]:
@@ -285,7 +289,10 @@ class Random:
                 return value._make(values)
             return next(values) if _is_distribution(value) else value
 
-        return self._kind(**{name: argument(value) for name, value in self._parameters.items()})
+        made = self._kind(**{name: argument(value) for name, value in self._parameters.items()})
+        if made is None:
+            raise TypeError(f"Random: {self._name} must return what it makes, got None")
+        return made
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Random):
@@ -297,12 +304,11 @@ class Random:
         return hash((self._kind, tuple(self._parameters.items())))
 
     def __repr__(self) -> str:
-        kind = getattr(self._kind, "__name__", None) or repr(self._kind)
         arguments = "".join(f", {name}={value!r}" for name, value in self._parameters.items())
         pairs = "".join(
             f".correlated({a!r}, {b!r}, {rho!r})" for (a, b), rho in self._correlations.items()
         )
-        return f"Random({kind}{arguments}){pairs}"
+        return f"Random({self._name}{arguments}){pairs}"
 
 
 def _is_distribution(value: Any) -> bool:

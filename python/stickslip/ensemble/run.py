@@ -29,7 +29,7 @@ def run_ensemble(
     threads: SupportsIndex | None = None,
     dt: float | None = None,
     settle: bool = False,
-    contact: str = "flight",
+    contact: str | None = None,
     velocity_spectrum: bool = True,
     ground_acceleration: bool = False,
     progress: bool | Progress = False,
@@ -77,7 +77,8 @@ def run_ensemble(
         Continue each member under zero ground acceleration until the slider comes to rest, so that
         peaks and residuals are final. A slider without friction never does: ConvergenceError.
     contact : 'flight' or 'clipped', optional
-        What sliders do when they lose contact with the ground; see `integrate`.
+        What sliders do when they lose contact with the ground, see `integrate`; default: 'flight'.
+        Structures are always clipped: ValueError for 'flight'.
     velocity_spectrum : bool, optional
         Also estimate the spectral density of the velocity, if durations are equal: one FFT for each
         member. Ignored for sliders in the plane.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -157,10 +158,11 @@ def _columns(ensemble: Ensemble, by: str) -> dict[str, NDArray[Any]]:
         else:  # in the plane
             columns |= {f"{name}_{one}": values[:, i] for i, one in enumerate(_COMPONENTS)}
     if by == "member" and ensemble.has_floors:
-        accelerations, drifts = ensemble.peak_floor_acceleration, ensemble.peak_floor_drift
-        for i in range(drifts.values.shape[1]):
-            columns[f"floor_{i + 1}_peak_acceleration"] = accelerations.values[:, i]
-            columns[f"floor_{i + 1}_peak_drift"] = drifts.values[:, i]
+        peaks = {"peak_acceleration": ensemble.peak_floor_acceleration.values}
+        with suppress(ValueError):  # no floor is above another
+            peaks["peak_drift"] = ensemble.peak_floor_drift.values
+        for i in range(peaks["peak_acceleration"].shape[1]):
+            columns |= {f"floor_{i + 1}_{name}": values[:, i] for name, values in peaks.items()}
     return columns
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, FigureBase
 from numpy.typing import NDArray
 
 from .._core import Ensemble, StructureResponse
-from .._tables import has_floors
+from .._tables import has_drifts, has_floors
 from .figures import Place, new_figure
 from .styles import BLUE, COLORS, GRAY, VERMILION, put_figure_title, put_title, style
 from .words import describe_ensemble, unit_for
@@ -43,7 +43,7 @@ def plot_structure_response(
     -------
     matplotlib Figure or SubFigure
         With these axes: displacement over time and, if the structure has floors, largest absolute
-        acceleration and largest drift by floor.
+        acceleration and, if its influence is ones, largest drift by floor.
     """
     floors = response.floors if has_floors(response) else None
     with style():
@@ -60,15 +60,13 @@ def plot_structure_response(
         top.set_xlabel("time [s]")
         top.set_ylabel(f"displacement of the interface\n[{unit}]")
         if floors is not None:
-            number = np.arange(1, len(floors.peak_drift) + 1)
-            drift_length, drift_unit = unit_for(float(floors.peak_drift.max()))
-            for k, (values, name) in enumerate(
-                (
-                    (floors.peak_acceleration, "largest absolute acceleration [m/s²]"),
-                    (floors.peak_drift * drift_length, f"largest drift [{drift_unit}]"),
-                )
-            ):
-                panel = figure.add_subplot(grid[1, k])
+            number = np.arange(1, len(floors.peak_acceleration) + 1)
+            panels = [(floors.peak_acceleration, "largest absolute acceleration [m/s²]")]
+            if has_drifts(response):
+                length, unit = unit_for(float(floors.peak_drift.max()))
+                panels.append((floors.peak_drift * length, f"largest drift [{unit}]"))
+            for k, (values, name) in enumerate(panels):
+                panel = figure.add_subplot(grid[1, k] if len(panels) > 1 else grid[1, :])
                 panel.plot(values, number, "o-", color=VERMILION, markersize=4)
                 panel.set_xlim(left=0)
                 panel.set_yticks(number[:: 1 + len(number) // 12])
@@ -112,8 +110,8 @@ def plot_floors(
     Raises
     ------
     ValueError
-        Sliders; structures without floors, or with different numbers of them; fewer than two
-        members or responses.
+        Sliders; structures without floors, with different numbers of them, or with an influence
+        that is not ones; fewer than two members or responses.
     TypeError
         An item that is not a StructureResponse.
     """
@@ -186,7 +184,7 @@ def _peaks_of(
             raise TypeError(
                 f"plot_floors: item {i} must be a StructureResponse, got {type(one).__name__}"
             )
-    counts = [len(one.floors.peak_drift) if has_floors(one) else 0 for one in responses]
+    counts = [len(one.floors.peak_acceleration) if has_floors(one) else 0 for one in responses]
     if len(set(counts)) > 1:
         odd = next(i for i, count in enumerate(counts) if count != counts[0])
         raise ValueError(

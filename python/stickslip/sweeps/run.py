@@ -68,7 +68,7 @@ def sweep(
     stratified: bool = False,
     polarity: Polarity = "both",
     settle: bool = False,
-    contact: Literal["flight", "clipped"] = "flight",
+    contact: Literal["flight", "clipped"] | None = None,
     threads: SupportsIndex | None = None,
     progress: bool | Progress = False,
     executor: Executor | None = None,
@@ -102,8 +102,8 @@ def sweep(
         Continue under zero ground acceleration after each record until the slider rests, so that
         residuals are final.
     contact : {'flight', 'clipped'}, optional
-        What a slider does when it loses contact with the ground; see `integrate`. Structures are
-        always clipped.
+        What a slider does when it loses contact with the ground, see `integrate`; default:
+        'flight'. Structures are always clipped: ValueError for 'flight'.
     threads : int, optional
         Maximum number of threads, at least 1; default: all cores.
     progress : bool or callable, optional
@@ -189,10 +189,7 @@ def sweep(
                 f"sweep: motions[{i}] must be a GroundMotion, got {type(motion).__name__}"
             )
     check_directions(those, "sweep")
-    if contact not in ("flight", "clipped"):
-        raise ValueError(f"sweep: contact must be 'flight' or 'clipped', got {contact!r}")
-    if isinstance(these[0], _STRUCTURES):
-        contact = "clipped"
+    contact = _core._contact_of(contact, "sweep", isinstance(these[0], _STRUCTURES))
     table = SweepTable.empty(
         sliders=[repr(s) for s in these],
         parameters=parameters_of(these, getattr(sliders, "parameters", {})),
@@ -286,7 +283,7 @@ def _sliders(given: Any) -> list[AnySwept]:
         odd = next(i for i, kind in enumerate(kinds) if kind != kinds[0])
         raise TypeError(
             "sweep: sliders must all move on one axis, all in the plane, or all be structures;"
-            f" sliders[0] is a {type(these[0]).__name__}, sliders[{odd}] a"
+            f" sliders[0] is of type {type(these[0]).__name__}, sliders[{odd}] of type"
             f" {type(these[odd]).__name__}; run two sweeps"
         )
     return Grid(these) if isinstance(given, Grid) else these
