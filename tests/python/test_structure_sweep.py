@@ -319,7 +319,9 @@ SLOPE = ss.FlexibleSlope(ky_g=0.05, height=40, shear_velocity=300, damping_ratio
 
 
 def test_bad_types() -> None:
-    with pytest.raises(TypeError, match=r"sliders\[0\] is a FlexibleSlope, sliders\[1\] a Coulomb"):
+    with pytest.raises(
+        TypeError, match=r"sliders\[0\] is of type FlexibleSlope, sliders\[1\] of type Coulomb"
+    ):
         ss.sweep([SLOPE, ss.Coulomb(mu=0.1)], QUAKES)
     with pytest.raises(TypeError, match=r"sliders\[0\] must be a .* or structure, got Structure"):
         ss.sweep([BUILDING], QUAKES)

@@ -578,7 +578,9 @@ def test_sliders_on_one_axis_and_in_the_plane_are_not_mixed():
         TypeError, match=r"sliders\[0\] is of type PlanarSlider, sliders\[1\] of type Coulomb"
     ):
         ss.sweep([PLANAR[0], ss.Coulomb(mu=0.1)], STATIONS)
-    with pytest.raises(TypeError, match=r"sliders\[0\] is a Slider, sliders\[2\] a PlanarSlider"):
+    with pytest.raises(
+        TypeError, match=r"sliders\[0\] is of type Slider, sliders\[2\] of type PlanarSlider"
+    ):
         ss.sweep([ss.Slider(ss.Coulomb(mu=0.1)), ss.Coulomb(mu=0.1), PLANAR[0]], STATIONS)
 
 
