@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "base/digits.hpp"
 #include "stickslip/structure/sliding_structure.hpp"
 
 namespace stickslip::detail {
@@ -80,7 +81,7 @@ void check_rate(const ModalInterface& of, double step) {
   if (product <= most) return;
   throw std::invalid_argument(
       "the structure on its sliding interface is too fast for the time step of the ground motion: its fastest rate, " +
-      shortest(of.fastest) + " rad/s, times " + shortest(step) + " s is " + shortest(product) + ", more than " +
+      digits(of.fastest) + " rad/s, times " + digits(step) + " s is " + digits(product) + ", more than " +
       shortest(most) +
       "; give the base more mass, make a part that is so stiff or so strongly damped rigid (a slider alone is a rigid "
       "structure), or take a smaller time step");
@@ -180,7 +181,7 @@ void set_fastest(ModalInterface& of) {
   }
 }
 
-StuckBound::StuckBound(const ModalInterface& of) : stiffness_(of.spring.stiffness), modes_(of.modes()) {
+StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
   using Eigen::Index;
   const Eigen::MatrixXd flow = flow_matrix(of, false);
   for (Index i = 0; i < 2 * modes_; ++i)  // a rigid-body mode acts by its velocity only
@@ -199,13 +200,12 @@ StuckBound::StuckBound(const ModalInterface& of) : stiffness_(of.spring.stiffnes
   weights_ = (row.cast<std::complex<double>>().transpose() * solver.eigenvectors()).cwiseAbs().transpose();
 }
 
-double StuckBound::operator()(double x, const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
-  double bound = std::abs(stiffness_ * x);
-  if (kept_.empty()) return bound;
+double StuckBound::operator()(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
+  if (kept_.empty()) return 0;
   Eigen::VectorXcd state(static_cast<Eigen::Index>(kept_.size()));
   for (std::size_t i = 0; i < kept_.size(); ++i)
     state[static_cast<Eigen::Index>(i)] = kept_[i] < modes_ ? y[kept_[i]] : rate[kept_[i] - modes_];
-  return bound + (left_ * state).cwiseAbs().dot(weights_);
+  return (left_ * state).cwiseAbs().dot(weights_);
 }
 
 }  // namespace stickslip::detail

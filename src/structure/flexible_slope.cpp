@@ -70,7 +70,8 @@ void check(const FlexibleSlope& slope) {
           slope.shear_velocity, "m/s");
   require(std::isfinite(slope.damping_ratio) && slope.damping_ratio >= 0,
           "FlexibleSlope: damping_ratio must be finite and at least 0", slope.damping_ratio);
-  require(slope.modes >= 1, "FlexibleSlope: modes must be at least 1", slope.modes);
+  require(slope.modes >= 1 && slope.modes <= FlexibleSlope::most_modes,
+          "FlexibleSlope: modes must be from 1 to " + std::to_string(FlexibleSlope::most_modes), slope.modes);
   if (slope.rock_velocity)
     require(positive(*slope.rock_velocity), "FlexibleSlope: rock_velocity must be positive and finite",
             *slope.rock_velocity, "m/s");

@@ -58,15 +58,14 @@ Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding);
 /// Sets `fastest`.
 void set_fastest(ModalInterface& of);
 
-/// The largest demand that can still occur while the interface remains stuck at x without ground motion: the constant
-/// part and the amplitudes of all modes, which only shrink.
+/// The largest part of the demand, beside the pull of the spring, that can still occur while the interface remains
+/// stuck without ground motion: the amplitudes of all modes, which only shrink.
 class StuckBound {
  public:
   explicit StuckBound(const ModalInterface& of);
-  double operator()(double x, const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const;
+  double operator()(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const;
 
  private:
-  double stiffness_;
   Eigen::Index modes_;
   std::vector<Eigen::Index> kept_;  // components of (y, y') that act
   Eigen::MatrixXcd left_;           // amplitudes of the eigenvectors from (y, y')

@@ -102,10 +102,11 @@ StuckLevels stuck_levels(const ModalInterface& of, const Law& law, const Structu
   return {level(Direction::forward), level(Direction::backward)};
 }
 
-/// Whether demands of at most this magnitude are held.
-inline bool holds_forever(double demand, const StuckLevels& levels) {
+/// Whether demands are held that differ from the constant -pull by at most `amplitude`.
+inline bool holds_forever(double pull, double amplitude, const StuckLevels& levels) {
   constexpr double gap = 0x1p-40;
-  return demand * (1 + gap) <= std::min(levels.forward, levels.backward);
+  const double most = amplitude + gap * (amplitude + std::abs(pull));
+  return most - pull <= levels.forward && most + pull <= levels.backward;
 }
 
 /// After the ground motion, an interface must settle within this number of steps.
@@ -122,11 +123,12 @@ bool finite(const StructureState& state);
 template <FrictionLaw Law, class Go>
 void settle_structure(const ModalInterface& of, const Law& law, double step, StructureState& state, Go&& go) {
   const StuckBound bound(of);
-  const auto demand = [&] { return bound(state.displacement, state.modal_displacement, state.modal_velocity); };
+  const auto amplitude = [&] { return bound(state.modal_displacement, state.modal_velocity); };
+  const auto pull = [&] { return of.spring.stiffness * state.displacement; };
   const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
-  for (std::size_t steps = 0; state.mode != Mode::stuck || !holds_forever(demand(), stuck_levels(of, law, state));
-       ++steps) {
-    if (steps == most_calm_steps) refuse_restless(step, state, demand());
+  for (std::size_t steps = 0;
+       state.mode != Mode::stuck || !holds_forever(pull(), amplitude(), stuck_levels(of, law, state)); ++steps) {
+    if (steps == most_calm_steps) refuse_restless(step, state, amplitude() + std::abs(pull()));
     go(calm);
   }
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "base/digits.hpp"
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 
@@ -57,7 +58,7 @@ void check_entries(const char* function, const char* name, const VectorXd& value
                    bool included, const char* unit) {
   if (values.size() != size)
     throw std::invalid_argument(std::string(function) + ": " + name + " must have " + std::to_string(size) +
-                                " entries, got " + std::to_string(values.size()));
+                                (size == 1 ? " entry, got " : " entries, got ") + std::to_string(values.size()));
   for (Index i = 0; i < size; ++i) {
     const double value = values[i];
     if (!(std::isfinite(value) && (included ? value >= least : value > least)))
@@ -103,8 +104,8 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   data->stiffness = symmetric(stiffness);
   data->influence = std::move(influence);
   if (data->influence.size() != n)
-    throw std::invalid_argument("Structure: influence must have " + std::to_string(n) + " entries, got " +
-                                std::to_string(data->influence.size()));
+    throw std::invalid_argument("Structure: influence must have " + std::to_string(n) +
+                                (n == 1 ? " entry, got " : " entries, got ") + std::to_string(data->influence.size()));
   for (Index i = 0; i < n; ++i)
     if (!std::isfinite(data->influence[i]))
       detail::refuse("Structure: " + element("influence", i) + " must be finite", data->influence[i]);
@@ -134,11 +135,23 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   if (solver.info() != Eigen::Success)
     throw ConvergenceError("Structure: the modes do not converge; are mass and stiffness in consistent units?");
   Modes& modes = data->modes;
+  if (!solver.eigenvalues().allFinite() || !solver.eigenvectors().allFinite())
+    throw std::overflow_error("Structure: its modes leave the range of doubles");
   modes.shapes = solver.eigenvectors();
   const double largest = solver.eigenvalues()[n - 1];
   modes.frequencies = solver.eigenvalues().unaryExpr([&](double square) {
     return square > 1e-15 * static_cast<double>(n) * largest ? std::sqrt(square) : 0;  // a rigid-body mode
   });
+  // A stiffness that is lost beside that of the fastest mode is not that of a rigid body.
+  for (Index j = 0; j < n; ++j) {
+    const VectorXd shape = modes.shapes.col(j), size = shape.cwiseAbs();
+    const double bends = shape.dot(data->stiffness * shape), terms = size.dot(data->stiffness.cwiseAbs() * size);
+    if (modes.frequencies[j] <= 0 && bends > 1e-9 * terms)
+      throw std::invalid_argument(
+          "Structure: the frequency of mode " + std::to_string(j + 1) +
+          " is lost in the round-off of the fastest one, " + detail::digits(std::sqrt(largest)) +
+          " rad/s; masses and stiffnesses must not differ by so much: make the light or stiff part rigid");
+  }
   modes.participation = modes.shapes.transpose() * (data->mass * data->influence);
   modes.effective_masses = modes.participation.cwiseAbs2();
   data->modal_damping = symmetric(modes.shapes.transpose() * data->damping * modes.shapes);

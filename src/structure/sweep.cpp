@@ -119,10 +119,12 @@ class SweptInterface {
     deviation_.setZero();
   }
 
-  // What can be held, a little less than that, and the range of the pull of the spring.
+  // What can be held, a little less than that, and the pull of the spring, without vertical motion and its range.
   void hold_from_here() {
     levels_ = stuck_levels(of_, law_, state_);
-    const double x = state_.displacement, light = of_.spring.under(0) * x;
+    const double x = state_.displacement;
+    pull_ = of_.spring.stiffness * x;
+    const double light = of_.spring.under(0) * x;
     const double heavy = of_.spring.under(stuck_.largest_weight()) * x;
     pull_low_ = std::min(light, heavy);
     pull_high_ = std::max(light, heavy);
@@ -169,30 +171,28 @@ class SweptInterface {
     std::optional<StuckBound> bound;
     if (stuck_.empty()) bound.emplace(of_);
     for (std::size_t steps = 0;; ++steps) {
-      double demand = never;
+      double amplitude = never;
       if (state_.mode == Mode::stuck) {
         hold_from_here();
-        demand =
-            bound ? (*bound)(state_.displacement, state_.modal_displacement, state_.modal_velocity) : pass_calm(steps);
-        if (holds_forever(demand, levels_)) return;
+        amplitude = bound ? (*bound)(state_.modal_displacement, state_.modal_velocity) : pass_calm(steps);
+        if (holds_forever(pull_, amplitude, levels_)) return;
       }
-      if (steps == most_calm_steps) refuse_restless(step, state_, demand);
+      if (steps == most_calm_steps) refuse_restless(step, state_, amplitude + std::abs(pull_));
       move_structure(of_, law_, calm, state_, expansion_, tally_);
     }
   }
 
   // To the first step without ground motion in which the demand may exceed the friction, or after which it cannot.
-  // @return a bound of the later demand
+  // @return a bound of the later demand without the spring
   double pass_calm(std::size_t& steps) {
     const StuckFlow& flow = stuck_.flow();
-    const double pull = std::abs(of_.spring.stiffness * state_.displacement);
     const Eigen::Index n = of_.modes();
     VectorXd now(2 * n), next(2 * n);
     now << state_.modal_displacement, state_.modal_velocity;
-    double demand = never;
+    double amplitude = never;
     for (;; ++steps) {
-      demand = flow.later_demand(now.data()) + pull;
-      if (holds_forever(demand, levels_) || steps == most_calm_steps) break;
+      amplitude = flow.later_demand(now.data());
+      if (holds_forever(pull_, amplitude, levels_) || steps == most_calm_steps) break;
       next = now;
       const StuckSpan span = pass_step(flow, next.data(), 0, 0);
       if (!holds(span.lowest, span.highest, 1)) break;
@@ -200,7 +200,7 @@ class SweptInterface {
     }
     state_.modal_displacement = now.head(n);
     state_.modal_velocity = now.tail(n);
-    return demand;
+    return amplitude;
   }
 
   const ModalInterface& of_;
@@ -215,7 +215,7 @@ class SweptInterface {
   std::size_t at_ = 0;  // the segment that comes next
   // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.
   VectorXd deviation_;
-  double bound_ = 0, pull_low_ = 0, pull_high_ = 0;
+  double bound_ = 0, pull_ = 0, pull_low_ = 0, pull_high_ = 0;
   StuckLevels levels_{};
 };
 

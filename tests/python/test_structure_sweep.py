@@ -124,7 +124,7 @@ def test_settled_structures(building: ss.Structure) -> None:
         ss.Coulomb(mu=0.02, backward=0.6),
         ss.StaticKinetic(mu_static=0.05, mu_kinetic=0.03),
         ss.Slider(ss.Coulomb(mu=0.02), natural_frequency=2.0, damping=0.1),
-        ss.Slider(ss.Coulomb(mu=0.03), one_way=True),
+        ss.Slider(ss.Coulomb(mu=0.03), natural_frequency=2.0, one_way=True),
         ss.FrictionPendulum(mu=0.03, radius=2.0),
     ]
     isolated = ss.grid(ss.IsolatedStructure, slider=laws, structure=building, base_mass=1)

@@ -14,6 +14,7 @@
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
+#include "stickslip/structure/sweep.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;
@@ -251,6 +252,16 @@ TEST_CASE("a structure settles when its modes can no longer move the interface",
   // It stays there: two thousand further samples without ground motion.
   n.resize(2500, 0);
   CHECK(integrate(system, GroundMotion(n, 0.1)).residual == r.residual);
+  // One that may not slide back holds the pull of its spring, however far it went.
+  const IsolatedStructure ratchet(slider(0.3, Mounting{.natural_frequency = 3, .one_way = true}),
+                                  Structure::from_modes(list({0.7}), list({8}), list({0.02})));
+  const GroundMotion shaking(std::vector<double>(n.begin(), n.begin() + 402), 0.1);
+  const auto held = integrate(ratchet, shaking, {.settle = true});
+  CHECK(held.settled);
+  CHECK(9 * held.residual > 3 * 0.3);  // the pull exceeds the friction
+  CHECK(integrate(ratchet, GroundMotion(n, 0.1)).residual == held.residual);
+  const SweepTable table = sweep(std::vector{ratchet}, {shaking}, {.settle = true});
+  CHECK(table.residual[0] == Approx(held.residual).epsilon(1e-12));
   // An undamped structure may move it again at any time.
   const IsolatedStructure undamped(slider(0.01), Structure::from_modes(list({0.7}), list({8}), list({0.0})));
   const auto never_at_rest = [&] { return integrate(undamped, GroundMotion({2, -2, 0}, 0.1), {.settle = false}); };
@@ -329,6 +340,11 @@ TEST_CASE("structures refuse bad input by name", "[structure]") {
                     ContainsSubstring("damping must be positive semidefinite, got a smallest eigenvalue of -2"));
   CHECK_THROWS_WITH(made(one, one, negative), ContainsSubstring("stiffness must be positive semidefinite"));
   CHECK_THROWS_WITH(made(one, one, Eigen::MatrixXd::Zero(2, 2)), ContainsSubstring("must have a stiffness"));
+  CHECK_THROWS_WITH(made(square(1, 0, 0, 1e-20), one, one),
+                    ContainsSubstring("the frequency of mode 1 is lost in the round-off of the fastest one, 1e+10"));
+  CHECK_THROWS_AS(made(square(1, 0, 0, 1e-320), one, one), std::overflow_error);
+  CHECK_THROWS_WITH(integrate(FlexibleSlope{.ky_g = 0.1, .height = 9, .shear_velocity = 99, .modes = 1001}, motion()),
+                    ContainsSubstring("modes must be from 1 to 1000, got 1001"));
   CHECK_THROWS_WITH(made(one, Eigen::MatrixXd::Identity(3, 3), one),
                     ContainsSubstring("damping must be 2 by 2, as the mass matrix, got 3 by 3"));
   CHECK_THROWS_WITH(Structure::shear_building(list({1, -1}), list({1, 1}), 0.05),

@@ -43,10 +43,11 @@ struct FlexibleSlope {
   double height = 0;                      ///< H [m], positive and finite
   double shear_velocity = 0;              ///< Vs [m/s], at small strains; positive and finite
   double damping_ratio = 0;               ///< of each mode, finite and at least 0; with `soil`, it must be 0
-  int modes = 1;                          ///< at least 1
+  int modes = 1;                          ///< from 1 to `most_modes`
   std::optional<double> rock_velocity{};  ///< Vr [m/s]; rigid rock if not given
   std::optional<HyperbolicSoil> soil{};   ///< linear if not given
   SlopeMethod method = SlopeMethod::coupled;
+  static constexpr int most_modes = 1000;
   std::optional<Degrading> degrading{};  ///< instead of `ky_g`, a level that depends on the distance slid downhill
 };
 

@@ -39,7 +39,7 @@ MatrixXd matrix_from(const py::object& values, const std::string& name, const ch
   const Numbers numbers = to_numbers(values, name, unit);
   if (numbers.ndim() != 2)
     throw std::invalid_argument(name + " must be two-dimensional, got " + std::to_string(numbers.ndim()) +
-                                " dimensions");
+                                (numbers.ndim() == 1 ? " dimension" : " dimensions"));
   MatrixXd matrix(numbers.shape(0), numbers.shape(1));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = *numbers.data(i, j);
@@ -637,7 +637,7 @@ shear_velocity : float
 damping_ratio : float, optional
     Of each mode, finite and at least 0. Not with `soil`.
 modes : int, optional
-    How many modes move; the mass of the others rides with the base. At least 1, which is the usual analysis.
+    How many modes move, from 1 to 1000; the mass of the others rides with the base. Default 1, the usual analysis.
 rock_velocity : float, optional
     Shear-wave velocity Vr of the rock [m/s]; default: rigid rock. Radiation adds min(0.55016 (Vr/Vs)^-0.9904, 0.20) to
     the damping ratio, with Vs at small strains.
