@@ -208,6 +208,12 @@ def test_bad_input() -> None:
         )
     with pytest.raises(ValueError, match="'coupled' or 'decoupled', got 'rigid'"):
         ss.FlexibleSlope(ky_g=0.1, height=20, shear_velocity=200, method="rigid")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"^Random: nothing must return what it makes, got None"):
+
+        def nothing(mu: float) -> None:
+            pass
+
+        ss.Random(nothing, mu=ss.Uniform(0.1, 0.2))  # type: ignore[arg-type]
     with pytest.raises(AttributeError, match="sensitivities of structures are not covered"):
         ss.integrate(ISOLATED, QUAKE).sensitivity("mu")  # type: ignore[attr-defined]
     with pytest.raises(TypeError, match="must be a GroundMotion"):
