@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import stickslip as ss
@@ -102,6 +103,53 @@ OTHERS = [
     Setting(0.6, 1.5, backward=math.inf, content=False),
 ]
 
+
+@dataclass(frozen=True)
+class Pulses:
+    """A block or an isolated floor in the units of its level a and the half width of a pulse."""
+
+    rate: float
+    sigma: float  # over a
+    backward: float = 1.0
+    frequency: float = 0.0
+
+    LAST = 30.0
+
+    @property
+    def slider(self) -> ss.Slider:
+        law = ss.Coulomb(slip_level=1.0, backward=self.backward)
+        return ss.Slider(law, natural_frequency=self.frequency or None)
+
+    @property
+    def excitation(self) -> ss.PoissonPulses:
+        return ss.PoissonPulses(
+            rate=self.rate, half_width=1.0, sigma=self.sigma, duration=self.LAST
+        )
+
+    @property
+    def name(self) -> str:
+        level = {1.0: "equal", math.inf: "one-way"}.get(self.backward, f"1 : {self.backward:.2g}")
+        spring = f"{self.frequency:.2g}" if self.frequency else "none"
+        return f"{self.rate:.2g} | {self.sigma:.2g} | {level} | {spring}"
+
+
+PULSES = [
+    Pulses(0.1, 1),
+    Pulses(0.1, 2),
+    Pulses(0.5, 0.5),
+    Pulses(1, 1),
+    Pulses(1, 2),
+    Pulses(5, 1),
+    Pulses(0.5, 1, backward=2),
+    Pulses(0.5, 1, backward=math.inf),
+    Pulses(0.5, 0.5, frequency=0.5),
+    Pulses(0.1, 2, frequency=0.5),
+    Pulses(1, 1, frequency=1),
+    Pulses(1, 3, frequency=0.5),
+    Pulses(2, 0.7, frequency=0.3),
+    Pulses(0.5, 1, backward=1.5, frequency=0.5),
+]
+
 CASTERS = {0.01: 32.8, 0.005: 64.9, 0.003: 115.6, 0.002: 192.9, 0.001: 518.0}  # gamma, first guess
 DRIFTS = [0.6, 1.0, 1.5, 3.0]  # rms / a of the damper alone, levels 1 : 1.5
 
@@ -117,6 +165,24 @@ def drawn(count: int, seed: int = 1) -> Iterator[Setting]:
             backward if i % 2 == 0 or math.isfinite(backward) else 1.0,
             0.0 if i % 2 == 0 else 0.3 * 7 ** rng.random(),
         )
+
+
+def drawn_pulses(count: int, seed: int = 1) -> Iterator[Pulses]:
+    """Settings at random whose rms acceleration is at least 0.3 of the level, half of them with a
+    spring."""
+    rng = np.random.default_rng(seed)
+    while count:
+        one = Pulses(
+            0.05 * 100 ** rng.random(),
+            0.32 * 16 ** rng.random(),
+            float(rng.choice([1.0, 1.0, 1.0, rng.uniform(1.1, 2.5), math.inf])),
+            0.0 if count % 2 == 0 else 0.2 * 8 ** rng.random(),
+        )
+        if one.sigma * (2 * one.rate) ** 0.5 >= 0.3 and (
+            one.frequency == 0 or math.isfinite(one.backward)
+        ):
+            count -= 1
+            yield one
 
 
 def simulated(setting: Setting, members: int, seed: int = 1) -> ss.Ensemble:
@@ -142,30 +208,45 @@ def ratio(value: float, value_error: float, over: float, over_error: float) -> t
 
 
 def row(setting: Setting, members: int, tolerance: float = 0.01) -> tuple[list[str], list[bool]]:
-    ensemble = simulated(setting, members)
     theory = ss.theory.Transport(tolerance=tolerance).predict(
         setting.slider, setting.filter, [LAST / 4, LAST]
     )
+    return beside(setting, theory, simulated(setting, members), [1, 4])
+
+
+def pulse_row(setting: Pulses, members: int) -> tuple[list[str], list[bool]]:
+    times = [setting.LAST / 2, setting.LAST]
+    theory = ss.theory.Transport().predict(setting.slider, setting.excitation, times)
+    ensemble = ss.run_ensemble(
+        setting.slider, setting.excitation, members=members, seed=1, dt=setting.LAST / 2
+    )
+    return beside(setting, theory, ensemble, [1, 2])
+
+
+def beside(
+    setting: Setting | Pulses,
+    theory: ss.theory.TransportPrediction,
+    ensemble: ss.Ensemble,
+    at: list[int],
+) -> tuple[list[str], list[bool]]:
+    """The cells of a row at two times of the ensemble, and whether the errors cover each."""
     cells, covered = [setting.name], []
-    for statistic in ("displacement_variance", "velocity_variance"):
-        for k, at in ((0, 1), (1, 4)):
-            text, holds = ratio(
-                getattr(theory, statistic)[k],
-                getattr(theory.error, statistic)[k],
-                getattr(ensemble, statistic)[at],
-                getattr(ensemble, statistic + "_error")[at],
-            )
-            covered.append(holds)
-            cells.append(text)
-    if setting.backward != 1:
+
+    def add(statistic: str, k: int) -> None:
         text, holds = ratio(
-            theory.displacement_mean[1],
-            theory.error.displacement_mean[1],
-            ensemble.displacement_mean[4],
-            ensemble.displacement_mean_error[4],
+            getattr(theory, statistic)[k],
+            getattr(theory.error, statistic)[k],
+            getattr(ensemble, statistic)[at[k]],
+            getattr(ensemble, statistic + "_error")[at[k]],
         )
         covered.append(holds)
         cells.append(text)
+
+    for statistic in ("displacement_variance", "velocity_variance"):
+        for k in (0, 1):
+            add(statistic, k)
+    if setting.backward != 1:
+        add("displacement_mean", 1)
     else:
         cells.append("")
     return [*cells, f"{theory.cost.nodes:,}"], covered
@@ -223,6 +304,13 @@ HEADING = (
     "| damping | rms / a | levels | wn / wg | E x², wg t = 15 | 60 | E x'², 15 | 60 | E x, 60 |"
     " nodes |"
 )
+PULSE_HEADING = (
+    "| lambda Dt | sigma / a | levels | wn Dt | E x², t = 15 Dt | 30 Dt | E x'², 15 | 30 |"
+    " E x, 30 | nodes |"
+)
+PULSE_COVERAGE = (
+    "| settings under pulses | values | within the stated error and 3 standard errors |"
+)
 COVERAGE = "| settings | values | within the stated error and 3 standard errors |"
 
 
@@ -243,20 +331,45 @@ def others(members: int) -> list[str]:
     ]
 
 
+def coverage(
+    heading: str,
+    drawn_by: Callable[[int], Iterator[Any]],
+    row_of: Callable[[Any, int], tuple[list[str], list[bool]]],
+    members: int,
+    count: int = 40,
+) -> str:
+    """How many values of settings at random differ from simulation by no more than their errors."""
+    holds: list[bool] = []
+    for setting in drawn_by(count):
+        cells, covered = row_of(setting, members)
+        holds += covered
+        print(" | ".join(cells), covered, flush=True)
+    return table(
+        heading, [[str(count), str(len(holds)), f"{sum(holds)} ({100 * np.mean(holds):.0f} %)"]]
+    )
+
+
+def pulse_tables(members: int) -> list[str]:
+    """The tables of pulses."""
+    rows = []
+    for setting in PULSES:
+        cells, _ = pulse_row(setting, members)
+        rows.append(cells)
+        print(" | ".join(cells), flush=True)
+    return [table(PULSE_HEADING, rows), coverage(PULSE_COVERAGE, drawn_pulses, pulse_row, members)]
+
+
 def main(members: int) -> None:
     rows = []
     for setting in TABLE:
         cells, _ = row(setting, members)
         rows.append(cells)
         print(" | ".join(cells), flush=True)
-    holds: list[bool] = []
-    count = 40
-    for setting in drawn(count):
-        cells, covered = row(setting, members // 4, tolerance=0.03)
-        holds += covered
-        print(" | ".join(cells), covered, flush=True)
-    coverage = [[str(count), str(len(holds)), f"{sum(holds)} ({100 * np.mean(holds):.0f} %)"]]
-    rewrite(PAGE, [table(HEADING, rows), table(COVERAGE, coverage), *others(members // 4)])
+    covered = coverage(
+        COVERAGE, drawn, lambda setting, many: row(setting, many, tolerance=0.03), members // 4
+    )
+    tables = [table(HEADING, rows), covered, *others(members // 4)]
+    rewrite(PAGE, tables + pulse_tables(members // 4))
 
 
 if __name__ == "__main__":

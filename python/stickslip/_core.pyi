@@ -1979,13 +1979,13 @@ class Transport(metaclass=_Pybind11Type):
     def predict(
         self,
         slider: Slider | Coulomb,
-        excitation: _Number | Spectrum | ShapingFilter | GaussianExcitation,
+        excitation: _Number | Spectrum | ShapingFilter | GaussianExcitation | PoissonPulses,
         times: _Samples,
     ) -> TransportPrediction: ...
     def stationary(
         self,
         slider: Slider | Coulomb,
-        excitation: _Number | Spectrum | ShapingFilter | GaussianExcitation,
+        excitation: _Number | Spectrum | ShapingFilter | GaussianExcitation | PoissonPulses,
     ) -> TransportStationary: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...

@@ -31,6 +31,18 @@ def test_the_drift_is_that_of_the_page():
         assert abs(mean - float(simulated)) <= error + 3 * float(scatter) * digit
 
 
+def test_pulses_have_the_errors_of_the_page():
+    table = rows_below(TRANSPORT, measured.PULSE_HEADING)
+    assert [" | ".join(row[:4]) for row in table] == [s.name for s in measured.PULSES]
+    cells, covered = measured.pulse_row(measured.PULSES[3], 50_000)
+    assert all(covered)
+    found = " | ".join(cells).split(" | ")
+    assert found in table
+    ((settings, values, within),) = rows_below(TRANSPORT, measured.PULSE_COVERAGE)
+    assert settings == "40"
+    assert int(within.split()[0]) >= 0.95 * int(values)
+
+
 def test_every_setting_has_a_row_beside_all_theories():
     table = rows_below(THEORIES, side_by_side.HEADING)
     assert [row[:2] for row in table] == [list(setting[:2]) for setting in side_by_side.SETTINGS]

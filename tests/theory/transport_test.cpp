@@ -72,30 +72,75 @@ TEST_CASE("the step of a filter has the moments of its exact solution") {
   CHECK(noise.rms == Approx(2).epsilon(1e-14));
   const double step = 0.15;
   const detail::LoadGrid grid(noise, detail::Panels({-11, -6, -1, 0, 1, 6, 11}, 6), 9, step);
-  const Eigen::VectorXd& p = grid.stationary();
+  const Eigen::VectorXd& p = grid.start();
+  const auto hidden = static_cast<std::size_t>(p.size()) / grid.loads();
+  const Eigen::MatrixXd& adjoint_step = *grid.adjoint_step();
   CHECK(p.sum() == Approx(1).epsilon(1e-14));
   const auto mean = [&](const Eigen::VectorXd& weights, auto&& f) {
     double sum = 0;
     for (std::size_t i = 0; i < grid.loads(); ++i)
-      for (std::size_t j = 0; j < grid.hidden(); ++j)
-        sum += weights[static_cast<Eigen::Index>(i * grid.hidden() + j)] * f(grid.load(i));
+      for (std::size_t j = 0; j < hidden; ++j)
+        sum += weights[static_cast<Eigen::Index>(i * hidden + j)] * f(grid.load(i));
     return sum;
   };
   CHECK(mean(p, [](double n) { return n * n; }) == Approx(4).epsilon(1e-6));
   CHECK(mean(p, [](double n) { return n * n * n * n; }) == Approx(48).epsilon(1e-5));
-  const Eigen::VectorXd later = grid.adjoint_step() * (grid.adjoint_step() * p);
+  const Eigen::VectorXd later = adjoint_step * (adjoint_step * p);
   CHECK(later.sum() == Approx(1).epsilon(1e-13));
   CHECK(mean(later, [](double n) { return n * n; }) == Approx(4).epsilon(1e-6));
   Eigen::VectorXd times_load = p;
   for (std::size_t i = 0; i < grid.loads(); ++i)
-    times_load.segment(static_cast<Eigen::Index>(i * grid.hidden()), static_cast<Eigen::Index>(grid.hidden())) *=
-        grid.load(i);
-  const double correlation = mean(grid.adjoint_step() * times_load, [](double n) { return n; });
+    times_load.segment(static_cast<Eigen::Index>(i * hidden), static_cast<Eigen::Index>(hidden)) *= grid.load(i);
+  const double correlation = mean(adjoint_step * times_load, [](double n) { return n; });
   CHECK(correlation == Approx(4 * noise.transition(step)(0, 0)).epsilon(1e-6));
   // By Euler steps: the transition solves dE/dt = rate E.
   Eigen::Matrix2d e = Eigen::Matrix2d::Identity();
   for (int i = 0; i < 100'000; ++i) e += noise.rate * e * (step / 1e5);
   CHECK((e - noise.transition(step)).norm() < 1e-5);
+}
+
+TEST_CASE("loads of pulses have the moments of a compound Poisson process") {
+  // Cumulants of the load of an up and a down step of a half width: 2 rate E[b^k] for even k.
+  const double rate = 0.5, sigma = 1.2;
+  for (const std::size_t slots : {1U, 2U}) {
+    const double slot = 1.0 / static_cast<double>(slots), none = std::exp(-rate * slot);
+    detail::pulse_chain::Weights batch = detail::pulse_chain::Arrivals{rate, sigma}.batch(slot, 0.8 * sigma, 16);
+    batch[0] -= none;
+    const detail::LoadGrid grid(batch, none, slots, true);
+    double second = 0, fourth = 0, sum = 0;
+    for (std::size_t i = 0; i < grid.loads(); ++i) {
+      const double weight = grid.weight(i, grid.start().data()), n = grid.load(i);
+      sum += weight, second += weight * n * n, fourth += weight * n * n * n * n;
+      // Means over the neighborhood of a load keep polynomials, those that the quadrature finds exactly up to the
+      // fourth degree.
+      double one = 0, power = 0;
+      grid.average(i, {n + 0.3 * grid.reach(i)},
+                   [&](double at, double part) { one += part, power += part * std::pow(at, 4); });
+      CHECK(one == Approx(1).epsilon(1e-12));
+      CHECK(power == Approx(std::pow(n, 4)).epsilon(1e-10).margin(1e-9));
+    }
+    const double variance = 2 * rate * sigma * sigma;
+    CHECK(sum == Approx(1).epsilon(1e-12));
+    CHECK(second == Approx(variance).epsilon(1e-6));
+    CHECK(fourth == Approx(3 * variance * variance + 2 * rate * 3 * std::pow(sigma, 4)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("a prediction under pulses scales with the units, and a soft spring leaves the block alone") {
+  const std::vector<double> times{4, 9.5}, scaled{1, 9.5 / 4};
+  const Transport theory(0.1);
+  const auto one = theory.predict(Slider(Coulomb(1.0)), PoissonPulses(0.6, 1, 1.1, 10), times);
+  const auto other = theory.predict(Slider(Coulomb(0.5)), PoissonPulses(2.4, 0.25, 0.55, 2.5), scaled);
+  const auto soft = theory.predict(Slider(Coulomb(1.0), 0.02), PoissonPulses(0.6, 1, 1.1, 10), times);
+  const double length = 0.5 / 16;
+  for (const std::size_t k : {0U, 1U}) {
+    CHECK(other.displacement_variance.value[k] ==
+          Approx(length * length * one.displacement_variance.value[k]).epsilon(1e-9));
+    CHECK(std::abs(soft.displacement_variance.value[k] - one.displacement_variance.value[k]) <
+          soft.displacement_variance.error[k] + one.displacement_variance.error[k]);
+  }
+  CHECK_THAT(one.remark, Catch::Contains("lattice of times"));
+  CHECK_THROWS_WITH(one.velocity(4), Catch::Contains("under noise, not under pulses"));
 }
 
 TEST_CASE("probability is conserved over hundreds of steps") {
@@ -313,6 +358,16 @@ TEST_CASE("what is not covered is refused with the reason") {
   CHECK_THAT(why(Slider(Caster(1.0, 10.0), 0.9), 1.0), Contains("of at least 3 pi S0 = 9.42"));
   CHECK_THAT(why(Slider(Degrading({0, 1}, {1, 0.5})), 1.0), Contains("does not cover laws with memory"));
   CHECK_THROWS_WITH(theory.stationary(Slider(Caster(1.0, 10.0)), 1.0), Contains("does not become stationary"));
+  const PoissonPulses pulses(0.5, 1, 1, 20);
+  CHECK(theory.covers(block, pulses));
+  CHECK(theory.covers(Slider(Stribeck(1.5, 1.0, 0.1, 2), 1.0, 0.1), pulses));
+  CHECK_THAT(why(block, PoissonPulses(0.5, 1, 0.2, 20)), Contains("over the lower slip level must be from 0.3 to 6"));
+  CHECK_THAT(why(block, PoissonPulses(0.02, 1, 2, 20)), Contains("in a half width must be from 0.03 to 10, got 0.02"));
+  CHECK_THAT(why(block, PoissonPulses(0.1, 1, 0.5, 20)), Contains("must be at least 0.25, below which slips are too"));
+  CHECK_THAT(why(Slider(Coulomb(1.0), 4), pulses),
+             Contains("times the half width of a pulse must be at most 3, got 4"));
+  CHECK_THAT(why(sticky, pulses), Contains("static friction above kinetic under noise"));
+  CHECK_THAT(why(Slider(Caster(1.0, 10.0)), pulses), Contains("casters under white noise alone"));
   CHECK_THROWS_WITH(Transport(0.5), Contains("tolerance must be from 1e-6 to 0.3, got 0.5"));
   CHECK_THROWS_WITH(theory.predict(block, 1.0, std::vector<double>{2, 1}), Contains("times must increase"));
 }

@@ -29,21 +29,14 @@ inline theory::DisplacementDistribution distribution_of(const theory::PulseChain
   return by.distribution(coulomb_of(any), std::get<PoissonPulses>(pulses), at, &check_for_interrupt);
 }
 
-/// The noise that `Transport` covers.
-inline theory::TwoStateNoise two_state_noise(const DistributionSource& noise) {
-  return std::visit(
-      []<class Source>(const Source& any) -> theory::TwoStateNoise {
-        if constexpr (std::convertible_to<const Source&, theory::TwoStateNoise>)
-          return any;
-        else
-          throw std::invalid_argument("Transport: covers white noise and noise from a filter of two states");
-      },
-      noise);
+/// What `Transport` covers.
+inline theory::TransportExcitation transport_excitation(const DistributionSource& source) {
+  return std::visit([](const auto& any) -> theory::TransportExcitation { return any; }, source);
 }
 
 inline theory::DisplacementDistribution distribution_of(const theory::Transport& by, const AnySlider& any,
-                                                        const DistributionSource& noise, double at) {
-  return by.displacement(any, two_state_noise(noise), at, &check_for_interrupt);
+                                                        const DistributionSource& source, double at) {
+  return by.displacement(any, transport_excitation(source), at, &check_for_interrupt);
 }
 
 struct DisplacementDistribution : theory::DisplacementDistribution {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "lanes/matrix_product.hpp"
 #include "stickslip/base/equal.hpp"
+#include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/numerics/root.hpp"
 
 namespace stickslip::detail {
@@ -22,25 +24,29 @@ Chain::Chain(HeldMotion motion, Panels x, Panels v, LoadGrid load, double step, 
   for (std::size_t place = 0; place < places(); ++place) {
     const auto [from, speed] = at(place);
     for (std::size_t i = 0; i < load_.loads(); ++i) {
-      means_.emplace_back();
-      if (load_.white()) {
-        std::vector<std::array<double, 2>> points;
-        double sum = 0;
-        gaussian_points(0, load_.deviation(), corners(from, speed), [&](double n, double weight) {
-          points.push_back({n, weight});
-          sum += weight;
-        });
-        for (const auto& [n, weight] : points) land(from, speed, n, weight / sum, row);
-      } else {
-        land(from, speed, load_.load(i), 1, row);
-      }
+      ends_.emplace_back();
+      load_.average(i, corners(from, speed, i), [&](double n, double weight) { land(from, speed, n, weight, row); });
+      if (load_.pulses()) see(from, speed, load_.load(i));
       keep(row);
     }
   }
   start_ = Vector::Zero(index(size()));
   const std::size_t rest = x_.node_at(0) * speeds() + v_.size();
-  start_.segment(index(rest * load_.size()), index(load_.size())) = load_.stationary();
+  start_.segment(index(rest * load_.size()), index(load_.size())) = load_.start();
 }
+
+namespace {
+
+void add(Chain::Means& means, double weight, double x, double v) {
+  means.x += weight * x;
+  means.xx += weight * x * x;
+  means.xv += weight * x * v;
+  means.v += weight * v;
+  means.vv += weight * v * v;
+  if (equal(v, 0)) means.rest += weight;
+}
+
+}  // namespace
 
 /// Displacement and velocity of a place.
 std::pair<double, double> Chain::at(std::size_t place) const {
@@ -52,18 +58,22 @@ void Chain::land(double x, double v, double load, double weight, Row& row) {
   const auto [to, speed, farthest] = motion_(x, v, load, step_);
   if (farthest > wall_) return;
   landings_.push_back({weight, to, speed});
-  Means& means = means_.back();
-  means.x += weight * to;
-  means.xx += weight * to * to;
-  means.xv += weight * to * speed;
-  means.v += weight * speed;
-  means.vv += weight * speed * speed;
+  add(ends_.back(), weight, to, speed);
   each_place(landings_.back(), [&](std::size_t place, bool mirrored, double part) {
     const std::size_t leads = place + (mirrored ? places() : 0);
     auto& [sum, moving] = row.weights[leads];
     if (equal(sum, 0) && equal(moving, 0)) row.places.push_back(leads);
     sum += part;
     moving += part * (to - x);
+  });
+}
+
+void Chain::see(double x, double v, double load) {
+  Means& means = seen_means_.emplace_back();
+  numerics::gauss_points<views>(0.0, 1.0, [&](double part, double weight) {
+    const auto [to, speed, farthest] = motion_(x, v, load, part * step_);
+    seen_.push_back({weight, to, speed});
+    add(means, weight, to, speed);
   });
 }
 
@@ -99,16 +109,17 @@ void Chain::keep(Row& row) {
   first_landing_.push_back(landings_.size());
 }
 
-/// The loads of white noise at which the landing has corners: where the slider just comes to rest, and where it just
-/// leaves again.
-std::vector<double> Chain::corners(double x, double v) const {
+/// The loads, of those for which one stands, at which the landing has corners: where the slider just comes to rest, and
+/// where it just leaves again.
+std::vector<double> Chain::corners(double x, double v, std::size_t i) const {
   std::vector<double> found;
-  const double far = gaussian_reach * load_.deviation(), tiny = 1e-9 * load_.deviation() * step_;
-  const double fastest = motion_(x, v, -far, step_).velocity, slowest = motion_(x, v, far, step_).velocity;
+  const double far = load_.reach(i), least = load_.load(i) - far, most = load_.load(i) + far, tiny = 1e-9 * far * step_;
+  if (equal(far, 0)) return found;
+  const double fastest = motion_(x, v, least, step_).velocity, slowest = motion_(x, v, most, step_).velocity;
   for (const double speed : {tiny, -tiny}) {
     if (!(slowest < speed && speed < fastest)) continue;
     const auto excess = [&](double load) { return speed - motion_(x, v, load, step_).velocity; };
-    found.push_back(numerics::root(excess, -far, speed - fastest, far, speed - slowest, 1e-7 * far));
+    found.push_back(numerics::root(excess, least, speed - fastest, most, speed - slowest, 1e-7 * far));
   }
   return found;
 }
@@ -133,36 +144,30 @@ double Chain::load_for(double x, double v, double speed, bool or_equal) const {
 
 /// Carries the sum of the weights of nodes in each term, times its weights of entries.
 Chain::Vector Chain::carry(std::initializer_list<Term> terms, Parity parity) const {
-  const std::size_t hidden = load_.hidden(), loads = load_.loads(), block = load_.size();
+  const std::size_t loads = load_.loads(), block = load_.size();
   Vector landed = Vector::Zero(index(size()));
-  std::array<double, LoadGrid::max_hidden> given{};
+  std::vector<double> given(load_.largest_share()), turned(given);
   for (const Term& term : terms)
     for (std::size_t row = 0; row < rows(); ++row) {
       const std::size_t i = row % loads;
-      for (const bool mirrored : {false, true}) {
-        const std::size_t first = mirrored ? first_mirrored_[row] : first_entry_[row];
-        const std::size_t last = mirrored ? first_entry_[row + 1] : first_mirrored_[row];
-        if (first == last) continue;
-        const double sign = mirrored ? static_cast<double>(parity) : 1;
-        if (hidden == 1) {
-          const double weight = sign * term.nodes[index(row)];
-          for (std::size_t entry = first; entry < last; ++entry)
-            landed[index(place_[entry])] += weight * term.entries[entry];
-          continue;
-        }
-        for (std::size_t j = 0; j < hidden; ++j)
-          given[j] = sign * term.nodes[index(row * hidden + (mirrored ? hidden - 1 - j : j))];
-        double* const into = landed.data() + (mirrored ? loads - 1 - i : i) * hidden;
-        for (std::size_t entry = first; entry < last; ++entry) {
-          double* const to = into + place_[entry] * block;
+      const auto [first, count] = load_.share(i);
+      load_.give(i, term.nodes.data() + row / loads * block, given.data());
+      const auto land = [&](std::size_t entry, std::size_t last, std::size_t state) {
+        for (; entry < last; ++entry) {
+          double* const to = landed.data() + place_[entry] * block + state;
           const double weight = term.entries[entry];
-          for (std::size_t j = 0; j < hidden; ++j) to[j] += weight * given[j];
+          for (std::size_t j = 0; j < count; ++j) to[j] += weight * given[j];
         }
-      }
+      };
+      land(first_entry_[row], first_mirrored_[row], first);
+      if (first_mirrored_[row] == first_entry_[row + 1]) continue;
+      for (std::size_t j = 0; j < count; ++j) turned[load_.mirror(i, j)] = static_cast<double>(parity) * given[j];
+      std::swap(given, turned);
+      land(first_mirrored_[row], first_entry_[row + 1], load_.share(load_.mirrored(i)).first);
     }
-  if (load_.white()) return landed;
+  if (!load_.adjoint_step()) return landed;
   Vector result(index(size()));
-  matrix_product(load_.adjoint_step().data(), block, landed.data(), places(), result.data());
+  matrix_product(load_.adjoint_step()->data(), block, landed.data(), places(), result.data());
   return result;
 }
 
@@ -197,39 +202,48 @@ Chain::Turn::Turn(const Chain& chain, double wave) : cosine_(chain.weight_.size(
     }
 }
 
-std::complex<double> Chain::characteristic(const Vector& p, double wave) const {
+/// The probability of a row.
+double Chain::weight(std::size_t row, const Vector& p) const {
+  return load_.weight(row % load_.loads(), p.data() + row / load_.loads() * load_.size());
+}
+
+std::complex<double> Chain::characteristic(const Complex& p, double wave) const {
   std::complex<double> sum = 0;
-  const std::size_t hidden = load_.hidden();
   for (std::size_t row = 0; row < rows(); ++row) {
-    const double weight = p.segment(index(row * hidden), index(hidden)).sum();
-    for (std::size_t l = first_landing_[row]; l < first_landing_[row + 1]; ++l)
-      sum += weight * landings_[l].weight * std::polar(1.0, wave * landings_[l].to);
+    std::complex<double> one = 0;
+    const auto add = [&](const Landing& to) { one += to.weight * std::polar(1.0, wave * to.to); };
+    if (load_.pulses())
+      std::for_each_n(seen_.begin() + static_cast<std::ptrdiff_t>(row * views), views, add);
+    else
+      for (std::size_t l = first_landing_[row]; l < first_landing_[row + 1]; ++l) add(landings_[l]);
+    sum += std::complex(weight(row, p.re), weight(row, p.im)) * one;
   }
   return mirrored() ? sum.real() : sum;
 }
 
-Chain::Means Chain::means(const Vector& p) const {
+Chain::Means Chain::sum(const std::vector<Means>& of_rows, const Vector& p) const {
   Means sum;
-  const std::size_t hidden = load_.hidden();
   for (std::size_t row = 0; row < rows(); ++row) {
-    const double weight = p.segment(index(row * hidden), index(hidden)).sum();
-    const Means& one = means_[row];
+    const double weight = this->weight(row, p);
+    const Means& one = of_rows[row];
     sum.x += weight * one.x;
     sum.xx += weight * one.xx;
     sum.xv += weight * one.xv;
     sum.v += weight * one.v;
     sum.vv += weight * one.vv;
+    sum.rest += weight * one.rest;
   }
   return sum;
 }
 
 double Chain::below(const Vector& p, double v, bool or_equal) const {
   double sum = 0;
-  const std::size_t hidden = load_.hidden();
-  std::vector<double> probabilities(hidden);
+  std::vector<double> probabilities, given(load_.largest_share());
   const auto add = [&](std::size_t row, double weight, double from, double speed) {
-    load_.below(load_for(from, speed, v, or_equal), row % load_.loads(), probabilities);
-    for (std::size_t j = 0; j < hidden; ++j) sum += weight * p[index(row * hidden + j)] * (1 - probabilities[j]);
+    const std::size_t load = row % load_.loads();
+    load_.below(load_for(from, speed, v, or_equal), load, probabilities);
+    load_.give(load, p.data() + row / load_.loads() * load_.size(), given.data());
+    for (std::size_t j = 0; j < probabilities.size(); ++j) sum += weight * given[j] * (1 - probabilities[j]);
   };
   for (std::size_t row = 0; row < rows(); ++row) {
     if (load_.white()) {

@@ -32,10 +32,10 @@ class Chain {
   /// How a function of the state and its mirror image are related.
   enum class Parity : std::int8_t { even = 1, odd = -1 };
 
-  /// Means over the end of a step of products of displacement and velocity; if x is not part of the state, of the
-  /// displacement during the step.
+  /// Means of products of displacement and velocity; if x is not part of the state, of the displacement during a step.
   struct Means {
     double x = 0, xx = 0, xv = 0, v = 0, vv = 0;
+    double rest = 0;  ///< the probability of v = 0
   };
 
   /// @param x       panels in the displacement [m], or `Panels()`
@@ -48,6 +48,7 @@ class Chain {
   bool mirrored() const noexcept { return motion_.mirrors(); }
   bool with_displacement() const noexcept { return x_.degree() > 0; }
 
+  bool pulses() const noexcept { return load_.pulses(); }
   double step() const noexcept { return step_; }
   std::size_t size() const noexcept { return places() * load_.size(); }
 
@@ -69,10 +70,16 @@ class Chain {
   };
   Complex carry(const Complex& p, const Turn& turn) const;
 
-  Means means(const Vector& p) const;
+  /// At the end of a step that begins with the weights p.
+  Means end(const Vector& p) const { return sum(ends_, p); }
 
-  /// E[exp(i wave x)] at the end of a step, if x is part of the state.
-  std::complex<double> characteristic(const Vector& p, double wave) const;
+  /// Of what is seen of such a step: its end under noise; under pulses, whose lattice has a random phase, the mean over
+  /// its duration.
+  Means seen(const Vector& p) const { return sum(load_.pulses() ? seen_means_ : ends_, p); }
+
+  /// E[exp(i wave x)] of what is seen of such a step. If x is not part of the state, the weights are those times
+  /// exp(i wave x).
+  std::complex<double> characteristic(const Complex& p, double wave) const;
 
   /// P(velocity <= v) some steps later, and with `or_equal` false P(velocity < v); of the states that the weights
   /// represent, not of their mirror images. The last load is integrated over exactly: that of filtered noise a step
@@ -98,14 +105,19 @@ class Chain {
 
   std::size_t speeds() const noexcept { return v_.size() + 1; }  // the last one is rest
   std::size_t places() const noexcept { return x_.size() * speeds(); }
-  std::size_t rows() const noexcept { return means_.size(); }
+  std::size_t rows() const noexcept { return ends_.size(); }
+  static constexpr std::size_t views = 5;
+
   std::pair<double, double> at(std::size_t place) const;
   template <class Use>
   void each_place(const Landing& landing, const Use& use) const;
   Vector carry(std::initializer_list<Term> terms, Parity parity) const;
   void land(double x, double v, double load, double weight, Row& row);
+  void see(double x, double v, double load);
+  double weight(std::size_t row, const Vector& p) const;
+  Means sum(const std::vector<Means>& of_rows, const Vector& p) const;
   void keep(Row& row);
-  std::vector<double> corners(double x, double v) const;
+  std::vector<double> corners(double x, double v, std::size_t load) const;
   double load_for(double x, double v, double speed, bool or_equal) const;
 
   HeldMotion motion_;
@@ -115,7 +127,9 @@ class Chain {
   // Of each row: its landings and their means, and its entries, the weights of the places to which it leads; those of
   // mirrored places come last.
   std::vector<Landing> landings_;
-  std::vector<Means> means_;
+  std::vector<Means> ends_;
+  std::vector<Landing> seen_;  // of each row under pulses, `views` of them
+  std::vector<Means> seen_means_;
   std::vector<std::size_t> first_landing_{0}, first_entry_{0}, first_mirrored_;
   std::vector<std::uint32_t> place_;
   std::vector<double> weight_, moving_;  // moving_: times the displacement, if it is not a state

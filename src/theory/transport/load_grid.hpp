@@ -1,12 +1,16 @@
-// The ground acceleration of the transport operator: filtered noise on a grid, or white noise, held over each step.
+// The ground acceleration of the transport operator, held over each step: filtered noise on a grid, white noise, or
+// pulses on a lattice.
 #pragma once
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "stickslip/theory/shaping_filter.hpp"
+#include "theory/pulse_chain/lattice.hpp"
 #include "theory/transport/panels.hpp"
 
 namespace stickslip::detail {
@@ -34,47 +38,99 @@ struct FilterStates {
   Eigen::Matrix2d transition(double step) const;
 };
 
-/// Functions of the state of the noise at the middle of a step, by their values at nodes; those of a filter are
-/// `load` times Gauss-Hermite nodes of the hidden state m, in which functions are polynomials. Node (i, j) has the
-/// index i hidden() + j.
+/// The loads of a step, and the states of the ground between steps, by which functions have values. The nodes of an
+/// interval of states, the `Share` of a load, receive the weights that a step under it carries on.
+///
+/// Filtered noise: its state at the middle of a step, at `load` times Gauss-Hermite nodes of the hidden state m, in
+/// which functions are polynomials. White noise: none.
+///
+/// Pulses: the last batches of pulses, each either empty or on a lattice of amplitudes. Of m slots to a half width, the
+/// load is s_0 + ... + s_(m-1) - s_m - ... - s_(2m-1), with s_0 the batch that begins with the step;
+/// docs/pulse_chain.md. The load has a density, which is smooth, unless all batches are empty.
 class LoadGrid {
  public:
-  static constexpr std::size_t max_hidden = 24;
-
   /// Filtered noise.
   /// @param load    panels in the ground acceleration n [m/s^2]; functions are constant beyond the ends
-  /// @param hidden  number of nodes of the hidden state, at most `max_hidden`
+  /// @param hidden  number of nodes of the hidden state
   /// @param step    [s]
   LoadGrid(const FilterStates& noise, Panels load, std::size_t hidden, double step);
 
-  /// White noise: independent in each step, with rms `deviation` [m/s^2]. It has no state.
+  /// White noise: independent in each step, with rms `deviation` [m/s^2].
   explicit LoadGrid(double deviation);
 
+  /// Pulses of two equal steps, up and down.
+  /// @param batch       weights of the sums of the amplitudes that begin with a step, if any do [m/s^2]
+  /// @param none        probability that none does
+  /// @param slots       steps to a half width
+  /// @param stationary  whether pulses began before the start
+  LoadGrid(const pulse_chain::Weights& batch, double none, std::size_t slots, bool stationary);
+
   bool white() const noexcept { return deviation_ > 0; }
-  double deviation() const noexcept { return deviation_; }
-  std::size_t loads() const noexcept { return load_.size(); }
-  std::size_t hidden() const noexcept { return hidden_; }
-  std::size_t size() const noexcept { return loads() * hidden(); }
-  double load(std::size_t i) const noexcept { return load_.node(i); }
+  bool pulses() const noexcept { return spacing_ > 0; }
 
-  /// Z', which carries weights of nodes over a step; (Z f)(node) = sum of adjoint_step()(other, node) f(other) is the
-  /// mean of a function a step later.
-  const Eigen::MatrixXd& adjoint_step() const noexcept { return adjoint_step_; }
+  std::size_t loads() const noexcept { return loads_.size(); }
+  double load(std::size_t i) const noexcept { return loads_[i].value; }
 
-  /// The mean of a function over the stationary noise is its product with these.
-  const Eigen::VectorXd& stationary() const noexcept { return stationary_; }
+  /// How far the loads are for which this one stands.
+  double reach(std::size_t i) const noexcept;
 
-  /// P(n <= load) a step after node (i, j), which `probabilities` receives for all j.
+  /// Calls `use(load, weight)` so that the weighted sum of a function is its mean over the loads for which this one
+  /// stands: white noise, or on the lattice of pulses those under the function of the node in Lagrange's interpolation
+  /// of the density.
+  /// @param corners  of the function, within the reach
+  void average(std::size_t i, const std::vector<double>& corners, const std::function<void(double, double)>& use) const;
+
+  /// Number of states.
+  std::size_t size() const noexcept { return static_cast<std::size_t>(start_.size()); }
+
+  struct Share {
+    std::size_t first, count;
+  };
+  Share share(std::size_t i) const noexcept { return loads_[i].share; }
+  std::size_t largest_share() const noexcept;
+
+  /// The opposite of a load, and in its share the mirror image of a state of the share, by the place in it.
+  std::size_t mirrored(std::size_t i) const noexcept { return loads_[i].mirrored; }
+  std::size_t mirror(std::size_t i, std::size_t place) const noexcept {
+    return mirror_[share(i).first + place] - share(mirrored(i)).first;
+  }
+
+  /// The weights of the states of the share of a load, from those of all states.
+  void give(std::size_t i, const double* weights, double* given) const noexcept;
+
+  /// Their sum.
+  double weight(std::size_t i, const double* weights) const noexcept;
+
+  /// Z' of filtered noise, which carries weights of states over a step after S; (Z f)(node) = sum of
+  /// adjoint_step()(other, node) f(other) is the mean of a function a step later.
+  const std::optional<Eigen::MatrixXd>& adjoint_step() const noexcept { return adjoint_step_; }
+
+  /// The weights of the states at the start.
+  const Eigen::VectorXd& start() const noexcept { return start_; }
+
+  /// Of noise: P(n <= load) a step after a state of the share of load i, which `probabilities` receives for all.
   void below(double load, std::size_t i, std::vector<double>& probabilities) const;
 
  private:
-  Panels load_;
-  std::size_t hidden_ = 1;
-  double deviation_ = 0, rms_ = 0;
+  struct Load {
+    double value;
+    Share share;
+    std::size_t mirrored;
+    bool spread = false;  // whether it stands for loads around it
+  };
+  struct Move {
+    std::uint32_t from, to;  // states; the place in the share
+    double chance;
+  };
+
+  std::vector<Load> loads_{{0, {0, 1}, 0}};
+  std::vector<std::size_t> mirror_{0};  // of each state
+  Eigen::VectorXd start_ = Eigen::VectorXd::Ones(1);
+  double deviation_ = 0, rms_ = 0, spacing_ = 0;
   Eigen::Matrix2d transition_ = Eigen::Matrix2d::Zero();
-  std::vector<double> states_{0};  // the nodes of m
-  Eigen::MatrixXd adjoint_step_ = Eigen::MatrixXd::Ones(1, 1);
-  Eigen::VectorXd stationary_ = Eigen::VectorXd::Ones(1);
+  std::vector<double> hidden_{0};  // the nodes of m
+  std::optional<Eigen::MatrixXd> adjoint_step_{};
+  std::vector<std::vector<Move>> moves_{};  // of pulses, to the share of each load
 };
 
 }  // namespace stickslip::detail

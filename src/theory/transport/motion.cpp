@@ -40,14 +40,15 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t ste
   Vector p = chain.start(), q = Vector::Zero(p.size());  // p times x
   double x = 0, xx = 0;
   MotionMoments growth;
+  const double still = chain.pulses() ? 1e-5 : 1e-7;  // their lattice errs by percents
   while (found.size() <= steps) {
     if (progress) progress();
-    const Chain::Means now = chain.means(p);
+    const Chain::Means now = chain.seen(p);
     MotionMoments next{now.x, now.xx, now.xv, now.v, now.vv};
     if (!chain.with_displacement()) {
-      const Chain::Means by_x = chain.means(q);
+      const Chain::Means by_x = chain.seen(q), end = chain.end(p);
       next = {x + now.x, xx + now.xx + 2 * by_x.x, now.xv + by_x.v, now.v, now.vv};
-      x = next.x, xx = next.xx;
+      x += end.x, xx += end.xx + 2 * chain.end(q).x;
       q = chain.carry(q, p, 0, other);
     }
     if (chain.mirrored()) next.x = next.v = 0;
@@ -59,8 +60,8 @@ std::vector<MotionMoments> history_from_rest(const Chain& chain, std::size_t ste
     const MotionMoments grown{next.x - last.x, next.xx - last.xx, next.xv - last.xv, next.v - last.v,
                               next.vv - last.vv};
     found.push_back(next);
-    const bool even = change < 1e-7 &&
-                      std::abs(grown.xx - growth.xx) <= 1e-7 * std::abs(chain.with_displacement() ? next.xx : grown.xx);
+    const bool even = change < still && std::abs(grown.xx - growth.xx) <=
+                                            still * std::abs(chain.with_displacement() ? next.xx : grown.xx);
     growth = grown;
     if (!even) continue;
     while (found.size() <= steps) {
@@ -83,52 +84,53 @@ Vector weights_from_rest(const Chain& chain, std::size_t steps, const std::funct
 
 std::vector<std::complex<double>> characteristic(const Chain& chain, std::size_t steps, std::span<const double> waves,
                                                  const std::function<void()>& progress) {
+  const Vector none = Vector::Zero(chain.start().size());
   std::vector<std::complex<double>> found;
   if (chain.with_displacement()) {
-    const Vector p = weights_from_rest(chain, steps - 1, progress);
+    const Chain::Complex p{weights_from_rest(chain, steps - 1, progress), none};
     for (const double wave : waves) found.push_back(chain.characteristic(p, wave));
     return found;
   }
   for (const double wave : waves) {
     const Chain::Turn turn(chain, wave);
-    Chain::Complex p{chain.start(), Vector::Zero(chain.start().size())};
-    for (std::size_t k = 0; k < steps; ++k) {
+    Chain::Complex p{chain.start(), none};
+    for (std::size_t k = 0; k + 1 < steps; ++k) {
       if (progress) progress();
       p = chain.carry(p, turn);
     }
-    found.emplace_back(p.re.sum(), chain.mirrored() ? 0 : p.im.sum());
+    found.push_back(chain.characteristic(p, wave));
   }
   return found;
 }
 
 double stationary_velocity(const Chain& chain, const std::function<void()>& progress) {
-  return chain.means(solve(chain, chain.start(), Parity::even, true, chain.start(), progress)).vv;
+  return chain.seen(solve(chain, chain.start(), Parity::even, true, chain.start(), progress)).vv;
 }
 
 StationaryMotion stationary_motion(const Chain& chain, bool with_rest, const Vector& guess,
                                    const std::function<void()>& progress) {
   const Vector p = solve(chain, chain.start(), Parity::even, true, guess, progress);
   StationaryMotion found;
-  const Chain::Means now = chain.means(p);
+  const Chain::Means now = chain.seen(p);
   MotionMoments& m = found.moments = {now.x, now.xx, now.xv, now.v, now.vv};
-  const double drift = chain.mirrored() ? 0 : now.x;  // in a step, without a spring
   if (chain.mirrored()) m.x = m.v = 0;
   if (chain.with_displacement()) {
     m.xx -= m.x * m.x;
     m.xv = 0;
   } else {
     // The weights times the displacement less its mean: those of the increments before, carried.
+    const Chain::Means end = chain.end(p);
+    const double drift = chain.mirrored() ? 0 : end.x;  // in a step
     const Parity parity = chain.mirrored() ? Parity::odd : Parity::even;
     Vector b = chain.carry(Vector::Zero(p.size()), p, drift, parity);
     if (!chain.mirrored()) b -= chain.start() * b.sum();  // 0 but for round-off
     const Vector q = solve(chain, b, parity, !chain.mirrored(), b, progress);
-    const Chain::Means by_x = chain.means(q);
-    m.xx = (now.xx - drift * drift + 2 * (by_x.x - drift * q.sum())) / chain.step();
+    m.xx = (end.xx - drift * drift + 2 * (chain.end(q).x - drift * q.sum())) / chain.step();
     m.x = 0;
     m.xv = m.xx / 2;
   }
   m.vv -= m.v * m.v;
-  if (with_rest) found.rest = chain.below(p, 0, true) - chain.below(p, 0, false);
+  if (with_rest) found.rest = chain.pulses() ? now.rest : chain.below(p, 0, true) - chain.below(p, 0, false);
   return found;
 }
 

@@ -13,13 +13,14 @@
 #include "stickslip/theory/transport.hpp"
 #include "theory/transport/chain.hpp"
 #include "theory/transport/held_motion.hpp"
+#include "theory/transport/load_grid.hpp"
 
 namespace stickslip::detail {
 
-/// A slider, a noise, and the scales of its motion.
+/// A slider, what excites it, and the scales of its motion.
 class TransportProblem {
  public:
-  TransportProblem(const AnySlider& slider, const theory::TwoStateNoise& noise);
+  TransportProblem(const AnySlider& slider, const theory::TransportExcitation& excitation);
 
   const HeldMotion& motion() const noexcept { return motion_; }
   bool sprung() const noexcept { return motion_.stiffness() > 0; }
@@ -30,9 +31,15 @@ class TransportProblem {
   /// Whether it cannot slide backward.
   bool one_way() const noexcept { return !std::isfinite(motion_.start(Direction::backward)); }
 
+  /// Whether two slots to the half width of a pulse are a chain of moderate size.
+  bool can_halve_slots(bool with_x) const;
+  /// A bound of the relative error of one slot, measured: docs/transport.md.
+  double error_of_one_slot() const;
+
   /// How long each value of the noise is held [s]; 0 for continuous noise.
   double held() const noexcept { return held_; }
-  bool white() const noexcept { return !filtered_; }
+  bool white() const noexcept { return s0_ > 0; }
+  bool pulses() const noexcept { return pulses_.has_value(); }
 
   /// A step with which errors are some percent [s].
   double first_step() const noexcept;
@@ -60,14 +67,36 @@ class TransportProblem {
   Steps steps_to(double time) const;
 
  private:
+  double ground_velocity() const noexcept;
   double level() const noexcept;  // the smaller one at the beginning of a slip
   Panels velocities(double step, std::size_t degree, double rms, double reach) const;
 
+  /// Pulses of two equal steps, up and down.
+  struct Pulses {
+    double half_width;               // [s]
+    pulse_chain::Arrivals arrivals;  // to a half width; in m/s^2
+    bool stationary;
+    double velocity;  // rms of the ground [m/s]
+  };
+
+  /// Of amplitudes of batches.
+  struct Lattice {
+    double spacing;  // [m/s^2]
+    int reach;       // in spacings
+    std::size_t slots;
+    double arriving;  // mean number in a step
+  };
+  Lattice lattice(double step, std::size_t fineness) const;
+  LoadGrid batches(double step, std::size_t fineness) const;
+  /// The velocity that the strongest pulses give, and the displacement: they do not count in an rms if they are rare.
+  HeldMotion::End strong_pulse(double reach) const;
+
   HeldMotion motion_;
   std::optional<FilterStates> filtered_;
+  std::optional<Pulses> pulses_;
   double s0_ = 0;     // of white noise
   double power_ = 0;  // that the noise gives to a free mass, per unit mass: half the growth of E[v^2] [m^2/s^3]
-  double held_;
+  double held_ = 0;
 };
 
 /// What is computed with one chain: all figures, in any units.
@@ -82,7 +111,11 @@ struct Accuracy {
 
 struct Refined {
   Figures value, error;
+  Figures lattice{};      ///< a further error, which no grid of this size reduces: that of the lattice of pulses
   std::size_t nodes = 0;  ///< of the finest grid
+
+  bool within(const Accuracy& accuracy) const;
+  double whole_error(Eigen::Index i) const { return error[i] + lattice[i]; }
 };
 
 /// The figures as the step goes to zero. Their errors are the last change of the extrapolation, plus the change from

@@ -44,6 +44,38 @@ ShapingFilter exact_filter(const Spectrum& spectrum) {
   return ShapingFilter::of(spectrum);
 }
 
+std::string remark_of(const TransportExcitation& excitation) {
+  const auto* noise = std::get_if<TwoStateNoise>(&excitation);
+  return noise ? noise->remark()
+               : "The errors include that of the lattice of times on which the pulses begin, measured to some percent.";
+}
+
+/// A value at a time, which under pulses may be within a step, from those after whole steps.
+template <class Value, class OfSteps>
+Value at_time(const Chain& chain, double time, Value at_start, const OfSteps& of_steps) {
+  const double place = time / chain.step(), whole = std::floor(place + 1e-9), part = place - whole;
+  const Value before = whole > 0 ? of_steps(static_cast<std::size_t>(whole)) : at_start;
+  if (part < 1e-9) return before;
+  return (1 - part) * before + part * of_steps(static_cast<std::size_t>(whole) + 1);
+}
+
+/// The probability that the walls of a chain have been exceeded.
+double exceeded(const Chain& chain, double time, const Progress& progress) {
+  return at_time(chain, time, 0.0,
+                 [&](std::size_t steps) { return 1 - weights_from_rest(chain, steps, progress).sum(); });
+}
+
+std::vector<std::complex<double>> characteristic(const Chain& chain, double time, std::span<const double> waves,
+                                                 const Progress& progress) {
+  using Values = Eigen::VectorXcd;
+  const Values found = at_time<Values>(
+      chain, time, Values::Ones(static_cast<Eigen::Index>(waves.size())), [&](std::size_t steps) -> Values {
+        const auto values = detail::characteristic(chain, steps, waves, progress);
+        return Eigen::Map<const Values>(values.data(), static_cast<Eigen::Index>(values.size()));
+      });
+  return {found.begin(), found.end()};
+}
+
 constexpr double MotionMoments::*all[] = {&MotionMoments::x, &MotionMoments::xx, &MotionMoments::xv, &MotionMoments::v,
                                           &MotionMoments::vv};
 
@@ -77,13 +109,13 @@ TransportProblem::Window window_from_rest(const TransportProblem& problem, doubl
   if (problem.wanders()) return problem.free_window(step * static_cast<double>(steps));
   const double length = problem.sprung() ? step : problem.first_step();  // of a step
   return adapted(problem, length, [&](const Chain& chain) -> TransportProblem::Window {
-    if (!problem.sprung()) return {0, std::sqrt(stationary_velocity(chain, progress))};
+    if (!problem.sprung() && !problem.pulses()) return {0, std::sqrt(stationary_velocity(chain, progress))};
     double x = 0, v = 0;
     for (const MotionMoments& m : history_from_rest(chain, std::max<std::size_t>(steps, 8), progress)) {
       x = std::max(x, m.xx + m.x * m.x);
       v = std::max(v, m.vv + m.v * m.v);
     }
-    return {std::sqrt(x), std::sqrt(v)};
+    return {problem.sprung() ? std::sqrt(x) : 0, std::sqrt(v)};
   });
 }
 
@@ -111,9 +143,11 @@ TransportStationary stationary_estimates(const TransportProblem& problem, double
   const Refined refined =
       refine(problem, window, step, {.tolerance = tolerance, .judged = {1, 4}, .slow = {5}},
              [&](const Chain& chain) { return stationary_figures(chain, with_rest, beginning(chain), progress); });
-  require_accuracy(refined, tolerance, 1, sprung ? "the variance of the displacement" : "the growth rate");
-  require_accuracy(refined, tolerance, 4, "the variance of the velocity");
-  const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.error[i]}; };
+  if (!problem.pulses()) {
+    require_accuracy(refined, tolerance, 1, sprung ? "the variance of the displacement" : "the growth rate");
+    require_accuracy(refined, tolerance, 4, "the variance of the velocity");
+  }
+  const auto figure = [&](Eigen::Index i) { return Estimate{refined.value[i], refined.whole_error(i)}; };
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   return {sprung ? figure(0) : Estimate{unknown, 0},
           sprung ? figure(1) : Estimate{infinity, 0},
@@ -151,7 +185,38 @@ Transport::Transport(double tolerance) : tolerance_(tolerance) {
   require(tolerance >= 1e-6 && tolerance <= 0.3, "Transport: tolerance must be from 1e-6 to 0.3", tolerance);
 }
 
-void Transport::check(const AnySlider& slider, const TwoStateNoise& noise) const {
+namespace {
+
+/// What of pulses is covered.
+void check_pulses(const detail::HeldMotion& motion, const PoissonPulses& pulses) {
+  const PoissonOptions& options = pulses.options();
+  if (options.envelope) throw std::invalid_argument("Transport: covers pulses without an envelope; it must be None");
+  if (options.quantile)
+    throw std::invalid_argument("Transport: covers pulses of Gaussian amplitudes; PulseChain covers others");
+  const auto times = options.shape.times(), values = options.shape.values();
+  if (!(values.size() == 2 && std::abs(times[2] - 2 * times[1]) <= 1e-9 * times[1] &&
+        std::abs(values[0] + values[1]) <= 1e-9 * std::abs(values[0])))
+    throw std::invalid_argument("Transport: covers pulses of two equal steps, up and down; PulseChain covers others");
+  if (motion.breaks_away()) throw std::invalid_argument("Transport: covers static friction above kinetic under noise");
+  if (std::isfinite(motion.reach())) throw std::invalid_argument("Transport: covers casters under white noise alone");
+  const double half_width = times[1] * pulses.half_width(), arriving = pulses.rate() * half_width;
+  const double strength = std::abs(values[0]) * pulses.sigma() / motion.least_hold();
+  require(arriving >= 0.03 && arriving <= 10,
+          "Transport: the mean number of pulses in a half width must be from 0.03 to 10", arriving);
+  require(strength >= 0.3 && strength <= 6,
+          "Transport: the rms amplitude of pulses over the lower slip level must be from 0.3 to 6", strength);
+  require(
+      strength * std::sqrt(2 * arriving) >= 0.25,
+      "Transport: the rms acceleration of pulses over the lower slip level must be at least 0.25, below which slips "
+      "are too rare",
+      strength * std::sqrt(2 * arriving));
+  const double turn = motion.natural_frequency() * half_width;
+  require(turn <= 3, "Transport: natural_frequency times the half width of a pulse must be at most 3", turn);
+}
+
+}  // namespace
+
+void Transport::check(const AnySlider& slider, const TransportExcitation& excitation) const {
   const detail::HeldMotion motion(slider);
   constexpr Direction forward = Direction::forward, backward = Direction::backward;
   require(motion.start(forward) > 0 && std::isfinite(motion.start(forward)),
@@ -159,6 +224,8 @@ void Transport::check(const AnySlider& slider, const TwoStateNoise& noise) const
   require(motion.start(backward) > 0, "Transport: the backward slip level must be positive", motion.start(backward),
           "m/s^2");
   const double least = motion.least(), wn = motion.natural_frequency();
+  if (const auto* pulses = std::get_if<PoissonPulses>(&excitation)) return check_pulses(motion, *pulses);
+  const auto& noise = std::get<TwoStateNoise>(excitation);
   if (noise.white()) {
     const double ratio = std::max(motion.start(forward), motion.start(backward)) / least;
     require(ratio <= 10 || !std::isfinite(ratio),
@@ -202,14 +269,14 @@ void Transport::check(const AnySlider& slider, const TwoStateNoise& noise) const
           rms / least);
 }
 
-TransportPrediction Transport::predict(const AnySlider& slider, const TwoStateNoise& noise,
+TransportPrediction Transport::predict(const AnySlider& slider, const TransportExcitation& excitation,
                                        std::span<const double> times, const Progress& progress) const {
-  check(slider, noise);
+  check(slider, excitation);
   detail::check_times("Transport", times);
   const auto started = std::chrono::steady_clock::now();
   Moments moments = detail::moments_at(times);
-  moments.remark = noise.remark();
-  const TransportProblem problem(slider, noise);
+  moments.remark = remark_of(excitation);
+  const TransportProblem problem(slider, excitation);
   const double last = times.empty() ? 0 : times.back();
   const auto [step, steps] = problem.steps_to(last);
   const TransportProblem::Window window = window_from_rest(problem, step, steps, progress);
@@ -233,13 +300,14 @@ TransportPrediction Transport::predict(const AnySlider& slider, const TwoStateNo
     for (std::size_t i = 0; i < 5; ++i) {
       const auto at = static_cast<Eigen::Index>(5 * k + i);
       (moments.*estimates[i]).value[k] = refined.value[at];
-      (moments.*estimates[i]).error[k] = refined.error[at];
+      (moments.*estimates[i]).error[k] = refined.whole_error(at);
     }
   for (const std::size_t variance : {1U, 4U})  // where it is far below its error, interpolation can leave less than 0
     for (double& value : (moments.*estimates[variance]).value) value = std::max(value, 0.0);
   constexpr const char* nouns[] = {"the variance of the displacement at the last time",
                                    "the variance of the velocity at the last time"};
-  for (std::size_t i = 0; i < judged.size(); ++i) require_accuracy(refined, tolerance_, judged[i], nouns[i]);
+  for (std::size_t i = 0; i < judged.size() && !problem.pulses(); ++i)
+    require_accuracy(refined, tolerance_, judged[i], nouns[i]);
   // With the step of the stationary motion: to a short time steps are short.
   if (problem.wanders())
     moments.growth_rate = {std::numeric_limits<double>::quiet_NaN(), 0};
@@ -247,47 +315,48 @@ TransportPrediction Transport::predict(const AnySlider& slider, const TwoStateNo
     moments.growth_rate =
         problem.sprung() ? Estimate{0, 0} : stationary_estimates(problem, tolerance_, false, progress).growth_rate;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, noise};
+  return {std::move(moments), {refined.nodes, steps, seconds}, *this, slider, excitation};
 }
 
 TransportPrediction::TransportPrediction(Moments moments, const TransportCost& cost, const Transport& theory,
-                                         const AnySlider& slider, const TwoStateNoise& noise)
-    : Moments(std::move(moments)), cost_(cost), tolerance_(theory.tolerance()), slider_(slider), noise_(noise) {}
+                                         const AnySlider& slider, const TransportExcitation& excitation)
+    : Moments(std::move(moments)),
+      cost_(cost),
+      tolerance_(theory.tolerance()),
+      slider_(slider),
+      excitation_(excitation) {}
 
-TransportPeak TransportPrediction::peak(double end) const { return {Transport(tolerance_), slider_, noise_, end}; }
+TransportPeak TransportPrediction::peak(double end) const { return {Transport(tolerance_), slider_, excitation_, end}; }
 
-TransportPeak::TransportPeak(const Transport& theory, const AnySlider& slider, const TwoStateNoise& noise, double time)
-    : tolerance_(theory.tolerance()), slider_(slider), noise_(noise), time_(time) {
+TransportPeak::TransportPeak(const Transport& theory, const AnySlider& slider, const TransportExcitation& excitation,
+                             double time)
+    : tolerance_(theory.tolerance()), slider_(slider), excitation_(excitation), time_(time) {
   require(time > 0 && std::isfinite(time), "TransportPeak: time must be positive and finite", time, "s");
 }
 
 Estimate TransportPeak::exceedance(double level, const Progress& progress) const {
   require(level > 0 && std::isfinite(level), "TransportPeak: level must be positive and finite", level, "m");
-  const TransportProblem problem(slider_, noise_);
+  const TransportProblem problem(slider_, excitation_);
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
   const Refined refined = refine(
       problem, window, step, {.tolerance = tolerance_, .judged = {0}, .levels = 1},
-      [&, first = step, count = steps](const Chain& chain) {
-        const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-        return Figures::Constant(1, 1 - weights_from_rest(chain, count * parts, progress).sum());
-      },
-      level);
-  return {refined.value[0], refined.error[0]};
+      [&](const Chain& chain) { return Figures::Constant(1, exceeded(chain, time_, progress)); }, level);
+  return {refined.value[0], refined.whole_error(0)};
 }
 
 Estimate TransportPeak::quantile(double probability, const Progress& progress) const {
   require(probability >= 0.01 && probability <= 0.999, "TransportPeak: probability must be from 0.01 to 0.999",
           probability);
-  const TransportProblem problem(slider_, noise_);
+  const TransportProblem problem(slider_, excitation_);
   const auto [step, steps] = problem.steps_to(time_);
   const auto window = window_from_rest(problem, step, steps, progress);
   const auto rms = std::sqrt(history_from_rest(problem.chain(step, 0, window), steps, progress).back().xx);
   // ln P(peak > level) of the coarse grid over ln(level), less that wanted.
   const double wanted = std::log1p(-probability);
-  const auto excess = [&, h = step, count = steps](double ln_level) {
+  const auto excess = [&, h = step](double ln_level) {
     const Chain chain = problem.chain(h, 0, window, std::exp(ln_level));
-    return std::log(std::max(1 - weights_from_rest(chain, count, progress).sum(), 1e-12)) - wanted;
+    return std::log(std::max(exceeded(chain, time_, progress), 1e-12)) - wanted;
   };
   double low = std::log(rms), at_low = excess(low), high = low, at_high = at_low;
   while (at_low < 0 && std::exp(low) > 1e-3 * rms) high = low, at_high = at_low, at_low = excess(low -= 0.4);
@@ -302,11 +371,11 @@ Estimate TransportPeak::quantile(double probability, const Progress& progress) c
   return {level, level * there.error / there.value / std::abs(slope)};
 }
 
-DisplacementDistribution Transport::displacement(const AnySlider& slider, const TwoStateNoise& noise, double time,
-                                                 const Progress& progress) const {
-  check(slider, noise);
+DisplacementDistribution Transport::displacement(const AnySlider& slider, const TransportExcitation& excitation,
+                                                 double time, const Progress& progress) const {
+  check(slider, excitation);
   require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
-  const TransportProblem problem(slider, noise);
+  const TransportProblem problem(slider, excitation);
   const auto [step, steps] = problem.steps_to(time);
   const bool at_once = problem.with_displacement();
   auto window = window_from_rest(problem, step, steps, progress);
@@ -325,7 +394,7 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
     const std::size_t first = waves.size();
     do waves.push_back((static_cast<double>(waves.size()) + 0.5) * std::numbers::pi / samples.half_width);
     while (at_once && waves.size() < most);
-    const auto values = characteristic(coarse, steps, std::span(waves).subspan(first), progress);
+    const auto values = characteristic(coarse, time, std::span(waves).subspan(first), progress);
     const auto last_wave = std::ranges::find_if(values, [](auto value) { return std::abs(value) <= vanishing; });
     size = std::abs(last_wave == values.end() ? values.back() : *last_wave);
     if (last_wave != values.end()) waves.resize(first + static_cast<std::size_t>(last_wave - values.begin()) + 1);
@@ -334,32 +403,33 @@ DisplacementDistribution Transport::displacement(const AnySlider& slider, const 
     throw ConvergenceError("Transport: the characteristic function of the displacement at " + detail::shortest(time) +
                            " s must vanish at high wave numbers, is " + detail::shortest(size) + " at " +
                            detail::shortest(waves.back()) + " 1/m: many displacements are close to 0");
-  const Refined refined = refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1},
-                                 [&, first = step, count = steps](const Chain& chain) {
-                                   const auto parts = static_cast<std::size_t>(std::lround(first / chain.step()));
-                                   const auto values = characteristic(chain, count * parts, waves, progress);
-                                   Figures figures(2 * static_cast<Eigen::Index>(values.size()));
-                                   for (Eigen::Index j = 0; j < figures.size(); j += 2) {
-                                     figures[j] = values[static_cast<std::size_t>(j / 2)].real();
-                                     figures[j + 1] = values[static_cast<std::size_t>(j / 2)].imag();
-                                   }
-                                   return figures;
-                                 });
+  const Refined refined =
+      refine(problem, window, step, {.tolerance = tolerance_, .judged = {}, .levels = 1}, [&](const Chain& chain) {
+        const auto values = characteristic(chain, time, waves, progress);
+        Figures figures(2 * static_cast<Eigen::Index>(values.size()));
+        for (Eigen::Index j = 0; j < figures.size(); j += 2) {
+          figures[j] = values[static_cast<std::size_t>(j / 2)].real();
+          figures[j + 1] = values[static_cast<std::size_t>(j / 2)].imag();
+        }
+        return figures;
+      });
   double error = size;
   for (std::size_t j = 0; j < waves.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(2 * j);
     samples.values.push_back(std::complex<double>(refined.value[at], refined.value[at + 1]) *
                              std::polar(1.0, -waves[j] * samples.center));
-    error += 2 * std::hypot(refined.error[at], refined.error[at + 1]) / (waves[j] * samples.half_width);
+    error += 2 * std::hypot(refined.whole_error(at), refined.whole_error(at + 1)) / (waves[j] * samples.half_width);
   }
-  return {samples, error, noise.remark()};
+  return {samples, error, remark_of(excitation)};
 }
 
-VelocityDistribution Transport::velocity(const AnySlider& slider, const TwoStateNoise& noise, double time,
+VelocityDistribution Transport::velocity(const AnySlider& slider, const TransportExcitation& excitation, double time,
                                          const Progress& progress) const {
-  check(slider, noise);
+  check(slider, excitation);
   require(time > 0 && std::isfinite(time), "Transport: time must be positive and finite", time, "s");
-  const TransportProblem problem(slider, noise);
+  const TransportProblem problem(slider, excitation);
+  if (problem.pulses())
+    throw std::invalid_argument("Transport: covers the distribution of the velocity under noise, not under pulses");
   const auto [step, steps] = problem.steps_to(time);
   require(steps > 2,
           "Transport: a velocity under held noise needs a time of more than two values, of " + detail::shortest(step) +
@@ -410,25 +480,25 @@ VelocityDistribution Transport::velocity(const AnySlider& slider, const TwoState
   table.below.back() = 1 - atom;
   for (std::size_t i = 1; i < table.below.size(); ++i)  // within the errors
     table.below[i] = std::clamp(table.below[i], table.below[i - 1], 1 - atom);
-  return {std::move(table), error, atom > 0 ? refined.error[1] : 0, noise.remark()};
+  return {std::move(table), error, atom > 0 ? refined.error[1] : 0, remark_of(excitation)};
 }
 
 VelocityDistribution TransportPrediction::velocity(double at, const Progress& progress) const {
-  return Transport(tolerance_).velocity(slider_, noise_, at, progress);
+  return Transport(tolerance_).velocity(slider_, excitation_, at, progress);
 }
 
 DisplacementDistribution TransportPrediction::displacement(double at, const Progress& progress) const {
-  return Transport(tolerance_).displacement(slider_, noise_, at, progress);
+  return Transport(tolerance_).displacement(slider_, excitation_, at, progress);
 }
 
 TransportStationary TransportPrediction::stationary(const Progress& progress) const {
-  return Transport(tolerance_).stationary(slider_, noise_, progress);
+  return Transport(tolerance_).stationary(slider_, excitation_, progress);
 }
 
-TransportStationary Transport::stationary(const AnySlider& slider, const TwoStateNoise& noise,
+TransportStationary Transport::stationary(const AnySlider& slider, const TransportExcitation& excitation,
                                           const Progress& progress) const {
-  check(slider, noise);
-  const TransportProblem problem(slider, noise);
+  check(slider, excitation);
+  const TransportProblem problem(slider, excitation);
   if (std::isfinite(problem.motion().reach()))
     throw std::invalid_argument(
         "Transport: the motion of a caster does not become stationary without a spring, and slowly with one; predict "
