@@ -27,6 +27,7 @@ def white(dt=0.1, samples=401):
 def test_pulses_bring_all_pulse_theories():
     c = ss.compare(BLOCK, PULSES, [15.0, 30.0, 60.0], members=20_000, seed=1)
     assert list(c.theories) == [
+        "Transport",
         "PulseChain",
         "EquivalentLinearization",
         "EquivalentLinearization, laplace",
@@ -200,7 +201,7 @@ def test_a_comparison_goes_to_tables(tmp_path):
     assert document["simulation"]["covariance"] == value.tolist()
     assert list(document["theories"]) == list(c.theories)
     assert document["refused"] == c.refused
-    assert repr(c).startswith("<Comparison: 640 members, 2 times to 4 s, PulseChain, ")
+    assert repr(c).startswith("<Comparison: 640 members, 2 times to 4 s, Transport, PulseChain, ")
 
 
 def test_no_two_theories_look_alike():
