@@ -34,6 +34,14 @@ LAWS = {
 }
 
 
+def level_name(backward: float) -> str:
+    return {1.0: "equal", math.inf: "one-way"}.get(backward, f"1 : {backward:.2g}")
+
+
+def spring_name(frequency: float) -> str:
+    return f"{frequency:.2g}" if frequency else "none"
+
+
 @dataclass(frozen=True)
 class Setting:
     """A block or an isolated floor in the units of its level a and the ground's frequency wg."""
@@ -66,10 +74,9 @@ class Setting:
 
     @property
     def name(self) -> str:
-        level = {1.0: "equal", math.inf: "one-way"}.get(self.backward, f"1 : {self.backward:.2g}")
-        spring = f"{self.frequency:.2g}" if self.frequency else "none"
         ground = "" if self.content else ", none at 0"
-        law = self.law if LAWS[self.law] else level
+        law = self.law if LAWS[self.law] else level_name(self.backward)
+        spring = spring_name(self.frequency)
         return f"{self.damping:.2g}{ground} | {self.strength:.2g} | {law} | {spring}"
 
 
@@ -128,8 +135,7 @@ class Pulses:
 
     @property
     def name(self) -> str:
-        level = {1.0: "equal", math.inf: "one-way"}.get(self.backward, f"1 : {self.backward:.2g}")
-        spring = f"{self.frequency:.2g}" if self.frequency else "none"
+        level, spring = level_name(self.backward), spring_name(self.frequency)
         return f"{self.rate:.2g} | {self.sigma:.2g} | {level} | {spring}"
 
 

@@ -47,6 +47,7 @@ _SpectrumKind: TypeAlias = Literal[
 ]
 
 STANDARD_GRAVITY: float
+_most_modes: int
 
 __version__: str
 

@@ -39,6 +39,8 @@ enum class SlopeMethod {
 /// of which the first `modes` move and the others ride with the base. On rock of shear-wave velocity Vr, radiation adds
 /// min(0.55016 (Vr/Vs)^-0.9904, 0.20) to the damping ratio.
 struct FlexibleSlope {
+  static constexpr int most_modes = 1000;
+
   double ky_g = 0;                        ///< yield acceleration [g], finite and at least 0
   double height = 0;                      ///< H [m], positive and finite
   double shear_velocity = 0;              ///< Vs [m/s], at small strains; positive and finite
@@ -47,7 +49,6 @@ struct FlexibleSlope {
   std::optional<double> rock_velocity{};  ///< Vr [m/s]; rigid rock if not given
   std::optional<HyperbolicSoil> soil{};   ///< linear if not given
   SlopeMethod method = SlopeMethod::coupled;
-  static constexpr int most_modes = 1000;
   std::optional<Degrading> degrading{};  ///< instead of `ky_g`, a level that depends on the distance slid downhill
 };
 

@@ -165,10 +165,10 @@ class TransportPrediction : public Moments {
 /// a reach wn >= 3 pi S0. Static friction without a spring only: where it breaks away depends on the load alone.
 ///
 /// Pulses of two equal steps, up and down, with Gaussian amplitudes, are moved to the nodes of a lattice of times, of
-/// one and two slots to a half width Dt; the state of the ground is then the last batches of pulses. The stated error,
-/// some 5 to 15 %, is that of the lattice. Covered are Coulomb friction and laws of the speed, with or without a spring
-/// and a damper; rms amplitudes from 0.3 to 6 times the lower level, 0.03 to 10 pulses in Dt, an rms acceleration of at
-/// least 0.25 of the level, and wn Dt up to 3.
+/// one and two slots to a half width Dt; the state of the ground is then the last batches of pulses. The stated error
+/// is that of the lattice, which docs/transport.md measures. Covered are Coulomb friction and laws of the speed, with
+/// or without a spring and a damper; rms amplitudes from 0.3 to 6 times the lower level, 0.03 to 10 pulses in Dt, an
+/// rms acceleration of at least 0.25 of the level, and wn Dt up to 3.
 class Transport {
  public:
   /// @param tolerance  relative, from 1e-6 to 0.3

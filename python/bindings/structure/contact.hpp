@@ -15,7 +15,7 @@ inline Contact contact_of(const std::optional<std::string>& name, const std::str
   const Contact contact = name ? contact_of(*name, owner) : structures ? Contact::clipped : Contact::flight;
   if (structures && contact == Contact::flight)
     throw std::invalid_argument(
-        owner + ": structures do not leave the ground: contact must be 'clipped' or left out, " + "got 'flight'");
+        owner + ": structures do not leave the ground: contact must be 'clipped' or left out, got 'flight'");
   return contact;
 }
 

@@ -617,6 +617,7 @@ float or ndarray)")
       return integrate_structure(py::cast(slope), motion, 0, 0, true, 0);
     };
   };
+  m.attr("_most_modes") = FlexibleSlope::most_modes;
   value_class<FlexibleSlope>(
       m, "FlexibleSlope",
       R"(A flexible mass that slides downhill, such as an earth dam: coupled and decoupled sliding-block analysis.

@@ -401,7 +401,7 @@ most 10 times the other, or infinite, wn pi S0 / a^2 at least 0.05, and a caster
 of a lattice of times, of one and two slots to a half width Dt; what is left of the whole error with two slots is 0.20 to
 0.27 of what they change. Blocks, sliders with a spring and dampers, laws that depend on the speed. The rms amplitude is
 from 0.3 to 6 times the lower level, the number of pulses in Dt from 0.03 to 10, the rms acceleration at least 0.25 of
-the level, and wn Dt at most 3. Their stated errors are some 5 to 15 %.
+the level, and wn Dt at most 3. docs/transport.md measures their errors.
 
 Parameters
 ----------

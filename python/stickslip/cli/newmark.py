@@ -20,6 +20,7 @@ from .. import (
     HyperbolicSoil,
     integrate,
 )
+from .._core import _most_modes as most_modes
 from .._text import printable
 from .batch import Batch, add_files
 from .output import check_not_negative, check_positive, check_whole, json_text, write_csv
@@ -32,7 +33,6 @@ __all__ = ["add_newmark", "newmark_rows"]
 
 _DISPLACEMENTS = ("normal_m", "inverse_m", "mean_m")
 _FLEXIBLE = ("decoupled", "coupled")
-_MOST_MODES = 1000
 
 
 def add_newmark(commands: argparse._SubParsersAction) -> None:
@@ -208,7 +208,7 @@ def _slopes(args: argparse.Namespace) -> dict[tuple[float, str], FlexibleSlope]:
         return {}
     if missing := [option for option, value in needed.items() if value is None]:
         raise ValueError(f"--method {methods[0]} needs {' and '.join(missing)}, got none")
-    check_whole("--modes", args.modes, 1, _MOST_MODES)
+    check_whole("--modes", args.modes, 1, most_modes)
     if args.reference_strain is not None and args.damping_ratio is not None:
         raise ValueError(
             "--damping-ratio does not go with --reference-strain, from which the damping of the"

@@ -101,10 +101,10 @@ TransportProblem::Steps TransportProblem::steps_to(double time) const {
   return {held_ > 0 || pulses_ ? step : time / count, static_cast<std::size_t>(count)};
 }
 
-HeldMotion::End TransportProblem::strong_pulse(double reach) const {
+TransportProblem::Slip TransportProblem::strong_pulse(double reach) const {
   const double amplitude = (0.2 * reach + 2) * pulses_->arrivals.sigma * std::sqrt(1 + pulses_->arrivals.rate);
   const double speed = pulses_->half_width * amplitude, past = speed * pulses_->half_width / 2;
-  return {past + speed * speed / (2 * (amplitude + motion_.least())), speed, 0};
+  return {past + speed * speed / (2 * (amplitude + motion_.least())), speed};
 }
 
 Panels TransportProblem::velocities(double step, std::size_t degree, double rms, double reach) const {
@@ -141,7 +141,8 @@ TransportProblem::Lattice TransportProblem::lattice(double step, std::size_t fin
   const auto slots = static_cast<std::size_t>(std::lround(pulses_->half_width / step));
   const double batch = sigma * std::max(1.0, std::sqrt(arriving) / 1.5);
   // Loads of successive steps are averaged independently of each other over some spacings. What that changes falls
-  // with a high power of the spacing, and for short steps it is small.
+  // with a high power of the spacing, and for short steps it is small. On a spring, where nodes are many, it is small
+  // enough unless pulses are rare.
   const double spacing =
       slots == 1 ? std::min(batch, std::max(1.5 * level, batch / 2)) / (fineness < 2 ? 3 : 4.5)
                  : std::min(sprung() && arriving > 0.25 ? batch : batch / 1.25, std::max(4 * level, 4 * sigma / 3) / 3);

@@ -58,7 +58,8 @@ class TransportProblem {
   Chain chain(double step, std::size_t fineness, const Window& window,
               double wall = std::numeric_limits<double>::infinity()) const;
 
-  /// How steps from rest to a time are counted: the longest step, which divides the time unless the noise is held.
+  /// How steps from rest to a time are counted: the longest step, which divides the time unless it is that of held
+  /// noise or pulses.
   struct Steps {
     double step;
     std::size_t count;
@@ -88,8 +89,11 @@ class TransportProblem {
   };
   Lattice lattice(double step, std::size_t fineness) const;
   LoadGrid batches(double step, std::size_t fineness) const;
-  /// The velocity that the strongest pulses give, and the displacement: they do not count in an rms if they are rare.
-  HeldMotion::End strong_pulse(double reach) const;
+  /// What the strongest pulses give to a slider at rest: it does not count in an rms if they are rare.
+  struct Slip {
+    double displacement, velocity;
+  };
+  Slip strong_pulse(double reach) const;
 
   HeldMotion motion_;
   std::optional<FilterStates> filtered_;
