@@ -2604,6 +2604,10 @@ class StructureResponse(metaclass=_Pybind11Type):
     @property
     def impacts(self) -> NDArray[np.void]: ...
     @property
+    def temperature(self) -> NDArray[np.float64] | Any: ...  # or None, if no law depends on it
+    @property
+    def state(self) -> State: ...
+    @property
     def peak(self) -> float: ...
     @property
     def residual(self) -> float: ...
@@ -2674,6 +2678,7 @@ def integrate(
     velocity: _Number = 0.0,
     settle: bool = False,
     sliding_distance: _Number = 0.0,
+    heat: SurfaceHeat | None = None,
 ) -> StructureResponse: ...
 @overload
 def integrate(
@@ -2684,6 +2689,7 @@ def integrate(
     velocity: _Number = 0.0,
     settle: bool = False,
     sliding_distance: _Number = 0.0,
+    heat: SurfaceHeat | None = None,
 ) -> StructureResponse: ...
 @overload
 def integrate(
@@ -2694,6 +2700,7 @@ def integrate(
     velocity: _Number = 0.0,
     settle: bool = False,
     sliding_distance: _Number = 0.0,
+    heat: SurfaceHeat | None = None,
 ) -> StructureResponse: ...
 
 class State(metaclass=_Pybind11Type):

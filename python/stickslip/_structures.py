@@ -116,6 +116,9 @@ def _columns(
     columns = {"time": response.time, "ground_acceleration": ground}
     columns |= {n: getattr(response, n) for n in _HISTORIES if n != "ground_acceleration"}
     units = {"time": "s"} | _HISTORIES
+    if response.temperature is not None:
+        columns["temperature"] = response.temperature
+        units["temperature"] = "degC"
     if has_floors(response):
         floors = response.floors
         for i in range(floors.displacement.shape[1]):

@@ -67,10 +67,10 @@ void simulate_member(const SlidingStructure& system, const GroundMotion& motion,
   Block& block = place.block;
   const ModalInterface& of = system.modal();
   const FloorRows rows(of);
-  Expansion expansion(of, mean_step(motion));
   StructureState state = system.rest();
   StructurePeakObserver observer(of, rows, block, max_events(motion.segments() + block.times().count));
   with_interface_law(system.slider(), [&](const auto& law) {
+    LawExpansion expansion(of, law, mean_step(motion));
     const auto go = [&](const LoadSegment& segment) { move_structure(of, law, segment, state, expansion, observer); };
     const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
     go_through(LoadPieces(motion, 0), motion.segments(), block, go, keep);

@@ -87,8 +87,8 @@ void check_rate(const ModalInterface& of, double step) {
       "structure), or take a smaller time step");
 }
 
-void Expansion::begin(const StructureState& state, const GroundLoad& ground, double left, double h, int order) {
-  order_ = order > 0 ? order : order_for(of_.fastest * h);
+void Expansion::begin(const StructureState& state, const GroundLoad& ground, double left, double h) {
+  order_ = order_for(of_.fastest * h);
   const double after = left - h;
   const auto line = [](double from, double to) { return std::array{from, to - from}; };
   n_ = line(ground.ground(left), after > 0 ? ground.ground(after) : ground.end);

@@ -63,6 +63,16 @@ inline double mean_step(const GroundMotion& motion) noexcept {
 /// @throws std::invalid_argument  fastest times step is above SlidingStructure::most_rate_per_step
 void check_rate(const ModalInterface& of, double step);
 
+/// A law over a short time, whose level is a factor of time and one of the speed:
+///
+///     power(k, h)            // the k-th coefficient of the factor of time, for time in units of h [m/s^2]
+///     resist(factor, speed)  // for numbers and series
+template <class Law>
+concept LawInTime = requires(const Law& law, double value) {
+  law.power(0, value);
+  law.resist(value, value);
+};
+
 /// Power series of the motion over a duration h, for time in units of h.
 class Expansion {
  public:
@@ -79,6 +89,11 @@ class Expansion {
 
   /// The longest duration of one expansion of linear equations [s]: its terms grow to exp(3) before they fall.
   double longest() const noexcept { return of_.fastest > 0 ? 3 / of_.fastest : never; }
+  /// The longest duration that is an equal part of the time left in a segment [s].
+  double share(double left) const noexcept {
+    const double pieces = std::ceil(left / longest());
+    return pieces > 1 ? left / pieces : left;
+  }
 
   /// Expand from a state, stuck or with a law in a direction.
   /// @param left    time to the end of the segment [s]
@@ -91,28 +106,39 @@ class Expansion {
     const Direction direction = state.mode == Mode::backward ? Direction::backward : Direction::forward;
     for (;;) {
       h_ = h;
-      series::Coefficients place, speed;
-      auto level = as_series(resist(law, series::Variable{&place}, series::Variable{&speed}, direction));
+      series::Coefficients place, speed, factor;
+      auto level = as_series(
+          along(law, series::Variable{&factor}, series::Variable{&place}, series::Variable{&speed}, direction));
       const bool slides = state.mode != Mode::stuck;
-      begin(state, ground, left, h, std::is_same_v<decltype(level), series::Constant> ? 0 : series::highest_order);
+      begin(state, ground, left, h);
+      constexpr bool linear = std::is_same_v<decltype(level), series::Constant>;
+      const int least = order_;
+      if (!linear && slides) order_ = series::highest_order;
+      double fastest = 0, highest = 0;
       for (int k = 0; k <= order_; ++k) {
         double net = take_demand(k, demand);
         if (slides) {
           place[k] = x_[at(k)];
           speed[k] = s * v_[at(k)];
+          if constexpr (LawInTime<Law>) factor[k] = law.power(k, h);
           level.update(k);
           // The level that the demand has just exceeded, to the last digit: under a larger one, a slip would stop at
           // once, break away again, and so on without an end.
-          level_[at(k)] = k > 0 ? level[k] : resist(law, state.displacement, std::abs(state.velocity), direction);
+          level_[at(k)] =
+              k > 0 ? level[k] : along(law, factor_at(law, 0), state.displacement, std::abs(state.velocity), direction);
           friction_[at(k)] = weight_[0] * level_[at(k)] + (k > 0 ? weight_[1] * level_[at(k - 1)] : 0);
           net = (net - of_.damper * v_[at(k)] - s * friction_[at(k)]) / of_.mass;
         } else {
           net = 0;
         }
         next(k, net);
+        if constexpr (!linear) {
+          fastest = std::max(fastest, std::abs(v_[at(k)]));
+          highest = std::max(highest, std::abs(level_[at(k)]));
+          if (slides && k >= least && ends(k, fastest, highest)) order_ = k;
+        }
       }
-      if constexpr (std::is_same_v<decltype(level), series::Constant>) return;
-      if (!slides || converges(law, s, direction)) return;
+      if (linear || !slides || (ends(order_, fastest, highest) && follows(law, s, direction, fastest, highest))) return;
       h /= 2;
       if (!(h > 0x1p-60 * ground.duration))
         throw ConvergenceError("the slip level has no finite power series at x = " + shortest(state.displacement) +
@@ -120,6 +146,7 @@ class Expansion {
     }
   }
 
+  const ModalInterface& of() const noexcept { return of_; }
   double duration() const noexcept { return h_; }
   int order() const noexcept { return order_; }
   const double* demand() const noexcept { return q_.data(); }           // [m/s^2]
@@ -138,6 +165,12 @@ class Expansion {
   /// Distance slid in a direction at a part of h, and x' at it.
   double distance(double s, double u) const { return s * u * value_at(x_.data() + 1, order_ - 1, u); }
   double speed(double s, double u) const { return s * value_at(v_.data(), order_, u); }
+  /// The part of h at which a slip in a direction stops; `never`.
+  double first_stop(double s) const {
+    Polynomial speed;
+    for (int k = 0; k <= order_; ++k) speed[at(k)] = s * v_[at(k)];
+    return first_zero(speed.data(), order_);
+  }
 
   /// Keep the first part of the duration only.
   void restrict_to(double u) {
@@ -173,33 +206,49 @@ class Expansion {
     return {of.data(), order_ + 1, static_cast<Eigen::Index>(modes_)};
   }
 
-  void begin(const StructureState& state, const GroundLoad& ground, double left, double h, int order);
+  static constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
+
+  void begin(const StructureState& state, const GroundLoad& ground, double left,
+             double h);                      // order of linear equations
   double take_demand(int k, double demand);  // q_k; keeps the forces of the modes
   void next(int k, double acceleration);
 
-  // The last terms are below round-off, and the level at the end is that of its law.
+  // An error of the level that changes the velocity by less than round-off does not matter: far from its middle, a
+  // caster's level is known to fewer digits, but is next to nothing.
+  double slack(double fastest) const noexcept { return round_off * fastest * of_.mass / h_; }
+  // Whether the terms of orders k - 1 and k are below round-off.
+  bool ends(int k, double fastest, double highest) const noexcept {
+    const auto last = [&](const Polynomial& c) { return std::max(std::abs(c[at(k)]), std::abs(c[at(k - 1)])); };
+    return last(v_) <= round_off * fastest && last(level_) <= 0x1p-48 * highest + slack(fastest);
+  }
+  // Whether the level is that of its law.
   template <class Law>
-  bool converges(const Law& law, double s, Direction direction) const {
-    constexpr double round_off = std::numeric_limits<double>::epsilon() / 4;
-    double fastest = 0, highest = 0;
-    for (int k = 0; k <= order_; ++k) {
-      fastest = std::max(fastest, std::abs(v_[at(k)]));
-      highest = std::max(highest, std::abs(level_[at(k)]));
-    }
-    const auto last = [&](const Polynomial& c) {
-      return std::max(std::abs(c[at(order_)]), std::abs(c[at(order_ - 1)]));
-    };
-    // An error of the level that changes the velocity by less than round-off does not matter: far from its middle, a
-    // caster's level is known to fewer digits, but is next to nothing.
-    const double slack = round_off * fastest * of_.mass / h_;
-    if (!(last(v_) <= round_off * fastest && last(level_) <= 0x1p-48 * highest + slack)) return false;
+  bool follows(const Law& law, double s, Direction direction, double fastest, double highest) const {
     for (const double u : {0.6, 1.0}) {
       const double x = value_at(x_.data(), order_, u), v = s * value_at(v_.data(), order_, u);
       if (v < 0) continue;  // beyond a stop
-      const double level = resist(law, x, v, direction);
-      if (!(std::abs(level - value_at(level_.data(), order_, u)) <= 0x1p-46 * highest + slack)) return false;
+      const double level = along(law, factor_at(law, u), x, v, direction);
+      if (!(std::abs(level - value_at(level_.data(), order_, u)) <= 0x1p-46 * highest + slack(fastest))) return false;
     }
     return true;
+  }
+
+  // The resistance along the motion.
+  template <class Law, class Factor, class X, class Speed>
+  static auto along(const Law& law, const Factor& factor, const X& x, const Speed& speed, Direction direction) {
+    if constexpr (LawInTime<Law>)
+      return law.resist(factor, speed);
+    else
+      return resist(law, x, speed, direction);
+  }
+  template <class Law>
+  double factor_at(const Law& law, double u) const {
+    double factor = 1;
+    if constexpr (LawInTime<Law>) {
+      factor = 0;
+      for (int k = order_; k >= 0; --k) factor = factor * u + law.power(k, h_);
+    }
+    return factor;
   }
 
   static auto as_series(double level) noexcept { return series::Constant{level}; }

@@ -18,6 +18,7 @@
 #include "stickslip/sliding/detail/system.hpp"
 #include "stickslip/state.hpp"
 #include "structure/expansion.hpp"
+#include "structure/law_expansion.hpp"
 
 namespace stickslip::detail {
 
@@ -62,7 +63,7 @@ class StructureMotion {
   static constexpr int most_steps = 3'000'000;
 
   StructureMotion(const ModalInterface& of, const Law& law, const GroundLoad& ground, StructureState& state,
-                  Expansion& motion, Observer& observer)
+                  LawExpansion<Law>& motion, Observer& observer)
       : of_(of),
         law_(law),
         ground_(ground),
@@ -102,13 +103,13 @@ class StructureMotion {
     if (demand_ < -backward) return {Mode::backward, 0, demand_};
     double waited = 0;
     while (left_ > 0) {
-      expand(law_now());
+      motion_.stand(state_, ground_, left_, demand_);
       const double up = exit(1, forward_level), down = exit(-1, backward_level), part = std::min(up, down);
       if (part < 1) {
         const Mode mode = up < down ? Mode::forward : Mode::backward;
         waited += part * motion_.duration();
         finish(part);
-        const double level = weigh(ground_.weight(left_), mode == Mode::forward ? forward_level : backward_level);
+        const double level = weigh(ground_.weight(left_), holds(direction_of(mode)));
         // Under round-off, time itself may not pass.
         return {mode, std::max(waited, std::numeric_limits<double>::min()), mode == Mode::forward ? level : -level};
       }
@@ -128,12 +129,8 @@ class StructureMotion {
   }
 
   InterfaceSlide slide() {
-    expand(law_now());
-    const double s = static_cast<double>(static_cast<int>(state_.mode));
-    Polynomial speed;
-    const int order = motion_.order();
-    for (int k = 0; k <= order; ++k) speed[static_cast<std::size_t>(k)] = s * motion_.velocity()[k];
-    const double stop = first_zero(speed.data(), order);
+    motion_.slide(state_, ground_, left_, demand_);
+    const double s = static_cast<double>(static_cast<int>(state_.mode)), stop = motion_.first_stop(s);
     return {s, motion_, stop < never ? stop * motion_.duration() : never};
   }
 
@@ -216,10 +213,10 @@ class StructureMotion {
   }
 
  private:
-  State memory() const { return {.displacement = state_.displacement, .sliding_distance = state_.sliding_distance}; }
+  State memory() const { return interface_of(state_); }
   decltype(auto) law_now() const {
     if constexpr (MemoryLaw<Law>)
-      return law_at(law_, memory());
+      return law_at(law_, memory(), weight_now());
     else
       return (law_);
   }
@@ -249,26 +246,21 @@ class StructureMotion {
            std::abs(of_.ground_demand * ground_now()) + 2 * std::abs(pull());
   }
 
-  template <class Now>
-  void expand(const Now& now) {
-    const double longest = motion_.longest();
-    const double pieces = std::ceil(left_ / longest);
-    motion_.expand(state_, ground_, left_, pieces > 1 ? left_ / pieces : left_, demand_, now);
-  }
-
   // When the demand exceeds a level in a direction, as a part of the expansion.
   double exit(double s, double level) const {
     if (!(level < never)) return never;
-    const int order = motion_.order();
-    const double *q = motion_.demand(), *weight = motion_.weight().data();
-    double change = 0;
+    const Held held = motion_.held(level);
+    const int order = motion_.order(), degree = std::max(order, held.degree);
+    const double* q = motion_.demand();
+    double change = 0, least = held.of[0];
     for (int k = 1; k <= order; ++k) change += std::abs(q[k]);
-    if (level * std::min(weight[0], weight[0] + weight[1]) - s * q[0] > change) return never;
-    Polynomial room;
+    for (int k = 1; k <= held.degree; ++k) least += std::min(held.of[static_cast<std::size_t>(k)], 0.0);
+    if (least - s * q[0] > change) return never;
+    Polynomial room{};
     for (int k = 0; k <= order; ++k) room[static_cast<std::size_t>(k)] = -s * q[k];
-    room[0] = level * weight[0] - s * q[0];
-    room[1] += level * weight[1];
-    return first_zero(room.data(), order);
+    room[0] = held.of[0] - s * q[0];
+    for (int k = 1; k <= held.degree; ++k) room[static_cast<std::size_t>(k)] += held.of[static_cast<std::size_t>(k)];
+    return first_zero(room.data(), degree);
   }
 
   // To a part of the expansion, the state of the interface aside.
@@ -276,6 +268,7 @@ class StructureMotion {
     const bool whole = equal(part, 1), last = whole && equal(motion_.duration(), left_);
     motion_.restrict_to(part);
     motion_.end(state_);
+    motion_.heat(state_.heat);
     observer_.follow(motion_, state_.mode);
     left_ = last ? 0 : left_ - motion_.duration();
   }
@@ -315,7 +308,7 @@ class StructureMotion {
   const Law& law_;
   GroundLoad ground_;
   StructureState& state_;
-  Expansion& motion_;
+  LawExpansion<Law>& motion_;
   Observer& observer_;
   Bounds limits_;
   double left_;                 // time to the end of the segment [s]

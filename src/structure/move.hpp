@@ -16,7 +16,7 @@
 #include "stickslip/sliding/detail/loop.hpp"
 #include "stickslip/structure/response.hpp"
 #include "stickslip/units.hpp"
-#include "structure/expansion.hpp"
+#include "structure/law_expansion.hpp"
 #include "structure/modal_interface.hpp"
 #include "structure/motion.hpp"
 
@@ -25,10 +25,9 @@ namespace stickslip::detail {
 /// Whether the motion of a structure can be expanded under a law. A law with springs of its own would need their
 /// memory.
 template <class Law>
-constexpr bool interface_law =
-    !HeatedLaw<Law> && form_of<Law> != Form::numeric && !requires(const Law& law, const State& state) {
-  law.elastic(state);
-};
+constexpr bool interface_law = SeparableHeatedLaw<Law> ||
+                               (form_of<Law> != Form::numeric &&
+                                !requires(const Law& law, const State& state) { law.elastic(state); });
 
 /// Calls `use(law)` with the law of the interface.
 /// @param name  of the class of the structure, whose constructor has this checked
@@ -41,8 +40,8 @@ void with_interface_law(const AnySlider& slider, Use&& use, const char* name = "
         else
           throw std::invalid_argument(
               std::string(name) +
-              ": a structure cannot slide on this law: levels that are functions of numbers, or that depend on "
-              "temperature, and pendulums with several surfaces are not covered");
+              ": a structure cannot slide on this law: levels that are functions of numbers and pendulums with "
+              "several surfaces are not covered");
       },
       slider);
 }
@@ -77,7 +76,7 @@ struct WithinStructureSegment {
 /// @param observer  as that of StructureMotion
 template <FrictionLaw Law, class Observer>
 void move_structure(const ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
-                    Expansion& expansion, Observer& observer) {
+                    LawExpansion<Law>& expansion, Observer& observer) {
   by_weight(segment, [&](const GroundLoad& load, double begin) {
     if (!(load.duration > 0)) return;
     WithinStructureSegment<Observer> within{observer, begin};
@@ -91,13 +90,14 @@ struct StuckLevels {
   double forward, backward;
 };
 
+/// @param weight  the largest N+/g: a law that depends on it can hold more under less; one whose surface cools, later
 template <FrictionLaw Law>
-StuckLevels stuck_levels(const ModalInterface& of, const Law& law, const StructureState& state) {
-  const State at{.displacement = state.displacement, .sliding_distance = state.sliding_distance};
+StuckLevels stuck_levels(const ModalInterface& of, const Law& law, const StructureState& state, double weight = 1) {
+  const State at = interface_of(state);
   const double x = state.displacement;
   const Bounds bounds(of.stops, of.one_way);
   const auto level = [&](Direction direction) {
-    return bounds.bound(direction, x, hold(law_at(law, at), x, direction));
+    return bounds.bound(direction, x, hold(law_at(law, at, weight), x, direction));
   };
   return {level(Direction::forward), level(Direction::backward)};
 }

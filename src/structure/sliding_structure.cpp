@@ -53,8 +53,8 @@ std::pair<double, double> energy_of(const detail::ModalInterface& of, const Stru
 // Keeps the motion at the samples.
 class Histories {
  public:
-  Histories(const SlidingStructure& system, StructureResponse& response, std::size_t samples)
-      : system_(system), of_(system.modal()), response_(response) {
+  Histories(const SlidingStructure& system, StructureResponse& response, std::size_t samples, bool heated)
+      : system_(system), of_(system.modal()), response_(response), heated_(heated) {
     resize(samples);
   }
 
@@ -71,10 +71,11 @@ class Histories {
     double acceleration = 0;
     if (state.mode != Mode::stuck) {
       const Direction direction = direction_of(state.mode);
-      const State at{.displacement = state.displacement, .sliding_distance = state.sliding_distance};
-      const double level = resist(law_at(law, at), state.displacement, std::abs(state.velocity), direction);
+      const double level = resist(law_at(law, detail::interface_of(state), weight), state.displacement,
+                                  std::abs(state.velocity), direction);
       acceleration = (demand - of_.damper * state.velocity - sign(direction) * detail::weigh(weight, level)) / of_.mass;
     }
+    if constexpr (HeatedLaw<Law>) response_.temperature[sample] = law.temperature(detail::interface_of(state));
     response_.interface_demand[i] = demand;
     response_.base_acceleration[i] = ground + (of_.rides ? acceleration : 0);
     ground_[i] = ground;
@@ -105,6 +106,7 @@ class Histories {
     const auto size = static_cast<Index>(samples);
     response_.displacement.resize(samples);
     response_.velocity.resize(samples);
+    if (heated_) response_.temperature.resize(samples);
     response_.modal_displacement.conservativeResize(size, of_.modes());
     response_.modal_velocity.conservativeResize(size, of_.modes());
     for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &ground_, &acceleration_})
@@ -116,6 +118,7 @@ class Histories {
   StructureResponse& response_;
   Eigen::VectorXd ground_{}, acceleration_{};
   std::size_t count_ = 0;
+  bool heated_;
 };
 
 template <FrictionLaw Law>
@@ -127,6 +130,7 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   state.velocity = options.velocity;
   state.mode = State::at(0, options.velocity).mode;
   state.sliding_distance = options.sliding_distance;
+  state.heat = options.heat;
   check_start(system, state, "integrate");
 
   StructureResponse response;
@@ -138,8 +142,8 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   const detail::FloorRows* wanted = options.floors ? &rows : nullptr;
   detail::StructureRecorder recorder(of, wanted, state.displacement, detail::max_events(motion.segments()),
                                      options.progress, response);
-  detail::Expansion expansion(of, detail::mean_step(motion));
-  Histories histories(system, response, motion.samples());
+  detail::LawExpansion<Law> expansion(of, law, detail::mean_step(motion));
+  Histories histories(system, response, motion.samples(), HeatedLaw<Law>);
   const detail::LoadPieces pieces(motion, 0);
   const auto weight = [](double normal) { return std::max(normal, 0.0) / standard_gravity; };
   const auto keep = [&](std::size_t sample, double load, double normal) {
@@ -180,10 +184,7 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   histories.finish(wanted);
   response.residual = state.displacement;
   std::tie(response.energy.kinetic, response.energy.elastic) = energy_of(of, state);
-  response.state = {.displacement = state.displacement,
-                    .velocity = state.velocity,
-                    .mode = state.mode,
-                    .sliding_distance = state.sliding_distance};
+  response.state = detail::interface_of(state);
   if (!std::isfinite(response.energy.imbalance()) || !std::isfinite(response.peak) || !detail::finite(state))
     detail::refuse_overflow(response.peak);
   response.final_state = std::move(state);
@@ -276,8 +277,8 @@ void advance(const SlidingStructure& system, const LoadSegment& segment, Structu
   check_start(system, state, "advance");
   StructureState moved = state;
   detail::NoStructureObserver none;
-  detail::Expansion expansion(system.modal(), segment.duration);
   detail::with_interface_law(system.slider(), [&](const auto& law) {
+    detail::LawExpansion expansion(system.modal(), law, segment.duration);
     detail::move_structure(system.modal(), law, segment, moved, expansion, none);
   });
   if (!detail::finite(moved)) throw std::overflow_error("advance: the motion leaves the range of doubles");

@@ -72,7 +72,7 @@ class SweptInterface {
         stuck_(stuck),
         sign_(reversed ? -1 : 1),
         tally_(max_events(motion.segments()), check),
-        expansion_(of, mean_step(motion)),
+        expansion_(of, law, mean_step(motion)),
         deviation_(VectorXd::Zero(2 * of.modes())) {
     state_.modal_displacement = state_.modal_velocity = VectorXd::Zero(of.modes());
     hold_from_here();
@@ -120,12 +120,13 @@ class SweptInterface {
   }
 
   // What can be held, a little less than that, and the pull of the spring, without vertical motion and its range.
-  void hold_from_here() {
-    levels_ = stuck_levels(of_, law_, state_);
+  void hold_from_here() { hold_from_here(stuck_.largest_weight()); }
+  void hold_from_here(double heaviest) {
+    levels_ = stuck_levels(of_, law_, state_, heaviest);
     const double x = state_.displacement;
     pull_ = of_.spring.stiffness * x;
     const double light = of_.spring.under(0) * x;
-    const double heavy = of_.spring.under(stuck_.largest_weight()) * x;
+    const double heavy = of_.spring.under(heaviest) * x;
     pull_low_ = std::min(light, heavy);
     pull_high_ = std::max(light, heavy);
   }
@@ -143,6 +144,7 @@ class SweptInterface {
   // To the first segment in which the demand may exceed the friction.
   void pass_held(std::size_t segments) {
     constexpr std::size_t block = StuckMotion::block;
+    const std::size_t from = at_;
     std::size_t passed = 0;  // segments through which the deviation has not been moved
     const auto decay = [&] {
       for (; passed > block; passed -= block) stuck_.flow().decay(deviation_.data(), block);
@@ -157,12 +159,13 @@ class SweptInterface {
       at_ += steps;
       if (bound_ > 0) passed += steps;
       if (steps > 0) continue;
-      if (passed == 0) return;
+      if (passed == 0) break;
       decay();
       bound_ = stuck_.flow().later_demand(deviation_.data());
       forget_round_off();
     }
     decay();
+    state_.heat.rest(motion_.time(at_) - motion_.time(from));
   }
 
   void come_to_rest() {
@@ -173,7 +176,7 @@ class SweptInterface {
     for (std::size_t steps = 0;; ++steps) {
       double amplitude = never;
       if (state_.mode == Mode::stuck) {
-        hold_from_here();
+        hold_from_here(1);
         amplitude = bound ? (*bound)(state_.modal_displacement, state_.modal_velocity) : pass_calm(steps);
         if (holds_forever(pull_, amplitude, levels_)) return;
       }
@@ -187,6 +190,7 @@ class SweptInterface {
   double pass_calm(std::size_t& steps) {
     const StuckFlow& flow = stuck_.flow();
     const Eigen::Index n = of_.modes();
+    const std::size_t from = steps;
     VectorXd now(2 * n), next(2 * n);
     now << state_.modal_displacement, state_.modal_velocity;
     double amplitude = never;
@@ -200,6 +204,7 @@ class SweptInterface {
     }
     state_.modal_displacement = now.head(n);
     state_.modal_velocity = now.tail(n);
+    state_.heat.rest(static_cast<double>(steps - from) * motion_.last_step());
     return amplitude;
   }
 
@@ -210,7 +215,7 @@ class SweptInterface {
   const StuckMotion& stuck_;
   double sign_;
   Tally tally_;
-  Expansion expansion_;
+  LawExpansion<Law> expansion_;
   StructureState state_{};
   std::size_t at_ = 0;  // the segment that comes next
   // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.

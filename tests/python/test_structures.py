@@ -311,12 +311,9 @@ def test_a_structure_that_is_too_fast_for_the_time_step() -> None:
 
 
 def test_contact_is_not_for_structures() -> None:
-    told = (
-        r"has no argument '(contact|heat)' with an IsolatedStructure; its arguments are slider, mo"
-    )
-    for extra in ({"contact": "clipped"}, {"heat": 1}):
-        with pytest.raises(TypeError, match=told):
-            ss.integrate(ISOLATED, QUAKE, **extra)  # type: ignore[call-overload]
+    told = r"has no argument 'contact' with an IsolatedStructure; its arguments are slider, mo"
+    with pytest.raises(TypeError, match=told):
+        ss.integrate(ISOLATED, QUAKE, contact="clipped")  # type: ignore[call-overload]
     why = "structures do not leave the ground: contact must be 'clipped' or left out, got 'flight'"
     with pytest.raises(ValueError, match=f"^sweep: {why}"):
         ss.sweep(ISOLATED, QUAKE, contact="flight")
@@ -370,3 +367,32 @@ def test_a_slope_without_friction_is_told_how_to_end() -> None:
     ):
         slope.coupled(QUAKE)
     assert not ss.integrate(slope, QUAKE).settled
+
+
+def test_a_surface_heated_by_friction() -> None:
+    law = ss.KumarFriction(
+        mu_ref=0.06, static_pressure=50e6, reference_pressure=50e6, contact_radius=0.2
+    )
+    isolated = ss.IsolatedStructure(ss.Slider(law, natural_frequency=2), BUILDING, base_mass=1)
+    r = ss.integrate(isolated, QUAKE)
+    assert r.temperature.shape == r.time.shape
+    assert r.temperature[0] == 20 and r.temperature.max() > 40
+    # The State at the end has the heat of the last temperature, and begins another motion.
+    assert r.state.displacement == r.residual
+    warming = np.sqrt(law.diffusivity / np.pi) / law.conductivity
+    assert 20 + warming * r.state.heat.half_integral == pytest.approx(r.temperature[-1], rel=1e-12)
+    warm = ss.integrate(isolated, QUAKE, heat=r.state.heat)
+    assert warm.temperature[0] == r.temperature[-1]
+    assert abs(warm.peak / r.peak - 1) > 1e-4
+    assert pickle.loads(pickle.dumps(warm)) == warm != r
+    assert "temperature" in json.loads(r.to_json())["units"]
+    assert "temperature" in r.to_dataframe()
+    cold = ss.integrate(ISOLATED, QUAKE, heat=r.state.heat)  # a law without temperature
+    assert cold.temperature is None
+    assert cold.residual == ss.integrate(ISOLATED, QUAKE).residual
+    with pytest.raises(TypeError, match=r"integrate: heat must be a SurfaceHeat.*, got 1"):
+        ss.integrate(isolated, QUAKE, heat=1)  # type: ignore[call-overload]
+    rack = ss.EquipmentOnFloor(law, BUILDING, floor=3)
+    table = ss.sweep([isolated, rack], QUAKE)
+    assert table.peak[:, 0, 0] == pytest.approx([r.peak, ss.integrate(rack, QUAKE).peak], rel=1e-7)
+    assert ss.response_spectrum(ss.integrate(rack, QUAKE, heat=r.state.heat), 1.0).values[0] > 0

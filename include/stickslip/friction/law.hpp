@@ -101,6 +101,18 @@ concept HeatedLaw = MemoryLaw<Law> && requires(const Law& law, const State& stat
   { law.half_integral_at(value) } -> std::convertible_to<double>;
 };
 
+/// A heated law whose level is a factor of normal force and heat times one of the speed:
+///
+///     level_at_high_speed(weight, H)   // [m/s^2]; does not fall as H falls, nor as the weight does
+///     speed_factor(speed)              // for numbers and series
+///     edge()                           // largest |r| at which the temperature is that of a covered surface [m]
+template <class Law>
+concept SeparableHeatedLaw = HeatedLaw<Law> && requires(const Law& law, double value) {
+  { law.level_at_high_speed(value, value) } -> std::convertible_to<double>;
+  { law.speed_factor(value) } -> std::convertible_to<double>;
+  { law.edge() } -> std::convertible_to<double>;
+};
+
 template <class Law>
 concept FrictionLaw = MemorylessLaw<Law> || MemoryLaw<Law>;
 

@@ -18,6 +18,7 @@ struct StructureState {
   double sliding_distance = 0;           ///< so far [m]; updated only if the law depends on it
   Eigen::VectorXd modal_displacement{};  ///< in the modes of Structure::modes [m kg^(1/2); with from_modes m]
   Eigen::VectorXd modal_velocity{};      ///< their rates
+  SurfaceHeat heat{};  ///< left in the sliding surface; updated only if the law depends on its temperature
 };
 
 /// The motion of the floors of a structure. Rows are samples; columns are floors, the lowest first. Peaks are taken

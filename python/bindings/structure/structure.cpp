@@ -181,13 +181,13 @@ struct StructureResponseWithInputs {
 
   py::tuple inputs() const {
     return py::make_tuple(system, motion, options.displacement, options.velocity, options.settle,
-                          options.sliding_distance);
+                          options.sliding_distance, options.heat);
   }
 };
 using Self = StructureResponseWithInputs;
 
 Self integrate_structure(const py::object& system, const py::object& motion, double displacement, double velocity,
-                         bool settle, double sliding_distance) {
+                         bool settle, double sliding_distance, const std::optional<SurfaceHeat>& heat) {
   if (!py::isinstance<GroundMotion>(motion))
     throw py::type_error("integrate: the motion of a structure must be a GroundMotion, got " +
                          py::type::of(motion).attr("__name__").cast<std::string>());
@@ -196,7 +196,8 @@ Self integrate_structure(const py::object& system, const py::object& motion, dou
                                           .velocity = velocity,
                                           .settle = settle,
                                           .progress = check_for_interrupt,
-                                          .sliding_distance = sliding_distance};
+                                          .sliding_distance = sliding_distance,
+                                          .heat = heat.value_or(SurfaceHeat())};
   const auto run = [&](const auto& what) {
     const py::gil_scoped_release released;
     return integrate(what, ground, options);
@@ -478,7 +479,7 @@ Parameters
 ----------
 slider : Slider or friction law
     Friction, spring, damper and stops of the interface, per unit mass of base and structure; on level ground. Laws that
-    depend on the temperature, or that are functions of numbers, are not covered.
+    are functions of numbers, and `MultiPendulum`, are not covered.
 structure : Structure
     The structure on the base.
 base_mass : float, optional
@@ -614,7 +615,7 @@ float or ndarray)")
     return [method](const py::object& self, const py::object& motion) {
       FlexibleSlope slope = self.cast<const FlexibleSlope&>();
       slope.method = method;
-      return integrate_structure(py::cast(slope), motion, 0, 0, true, 0);
+      return integrate_structure(py::cast(slope), motion, 0, 0, true, 0, {});
     };
   };
   m.attr("_most_modes") = FlexibleSlope::most_modes;
@@ -795,7 +796,8 @@ Two responses are equal if they have equal inputs; a pickled one is integrated a
       [](const Self& r) { return r.inputs(); },
       [](const py::tuple& inputs) {
         return integrate_structure(inputs[0], inputs[1], inputs[2].cast<double>(), inputs[3].cast<double>(),
-                                   inputs[4].cast<bool>(), inputs[5].cast<double>());
+                                   inputs[4].cast<bool>(), inputs[5].cast<double>(),
+                                   inputs[6].cast<std::optional<SurfaceHeat>>());
       })
       .def_property_readonly(
           "system", [](const Self& r) { return r.system; }, "What was integrated, such as an `IsolatedStructure`.")
@@ -838,6 +840,21 @@ for good, but see `truncated`.)")
       .def_property_readonly(
           "impacts", [](const Self& r) { return events_array(events_of_kind(r.response.events, EventKind::impact)); },
           "Impacts on stops, sorted by time: a structured array like `events`, with the velocity before the impact.")
+      .def_property_readonly(
+          "temperature",
+          [](const py::object& self) -> py::object {
+            const auto& temperature = self.cast<const Self&>().response.temperature;
+            if (temperature.empty()) return py::none();
+            return view(temperature, self);
+          },
+          R"(Temperature of the sliding surface at `time` [degrees Celsius], shape (N,).
+
+None unless the friction law depends on it, as `KumarFriction` does.)")
+      .def_property_readonly(
+          "state", [](const Self& r) { return r.response.state; },
+          R"(The `State` of the interface at the end.
+
+The structure moves, too: a motion that begins from it begins with a structure at rest relative to its base.)")
       .def_property_readonly("peak", number<&StructureResponse::peak>(),
                              "Largest |x| over all time, not only at samples [m].")
       .def_property_readonly("residual", number<&StructureResponse::residual>(), "x at the end [m].")
@@ -886,8 +903,8 @@ Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib F
       .def("to_dataframe", in_python("stickslip._structures", "to_dataframe"),
            R"(Convert the histories to a pandas DataFrame with the index `time`.
 
-The columns are ground_acceleration, displacement, velocity, base_acceleration and demand, and for each floor
-floor_1_displacement, floor_1_acceleration and so on. ImportError without pandas.)")
+The columns are ground_acceleration, displacement, velocity, base_acceleration and demand, temperature if the law depends
+on it, and for each floor floor_1_displacement, floor_1_acceleration and so on. ImportError without pandas.)")
       .def("to_csv", csv_in("stickslip._structures", "to_csv"), py::arg("path"),
            csv_doc("Write the histories to a CSV file, whole or not at all.",
                    "A line of names with units, then one line per sample; every number reads back as the same double.")
@@ -910,11 +927,11 @@ str
     m.def(
         "integrate",
         [](const System& slider, const py::object& motion, double displacement, double velocity, bool settle,
-           double sliding_distance) {
-          return integrate_structure(py::cast(slider), motion, displacement, velocity, settle, sliding_distance);
+           double sliding_distance, const std::optional<SurfaceHeat>& heat) {
+          return integrate_structure(py::cast(slider), motion, displacement, velocity, settle, sliding_distance, heat);
         },
         py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0, py::arg("velocity") = 0.0,
-        py::arg("settle") = false, py::arg("sliding_distance") = 0.0, doc);
+        py::arg("settle") = false, py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(), doc);
   };
   const std::string doc =
       R"(With an `IsolatedStructure`, an `EquipmentOnFloor` or a `FlexibleSlope`, the structure moves, too, and the result

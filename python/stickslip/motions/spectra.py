@@ -273,7 +273,7 @@ def _sliding_mass(response: StructureResponse) -> GroundMotion | Response:
             "response_spectrum: the block of a decoupled analysis is not part of the column; give"
             " floor"
         )
-    _, _, displacement, velocity, settle, distance = response.__getstate__()
+    _, _, displacement, velocity, settle, distance, heat = response.__getstate__()
     return integrate(
         system.slider,
         _floor(response, system.floor, vertical=True),
@@ -282,4 +282,5 @@ def _sliding_mass(response: StructureResponse) -> GroundMotion | Response:
         settle=settle,
         contact="clipped",
         sliding_distance=distance,
+        heat=heat,
     )

@@ -1,41 +1,27 @@
 // Friction in the plane that depends on the temperature of a surface that it heats.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/collocation.hpp"
+#include "stickslip/flow/detail/heated_level.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/planar/flow.hpp"
 #include "stickslip/planar/state.hpp"
 
 namespace stickslip {
-
-/// A heated law whose level is a factor of normal force and heat times one of the speed:
-///
-///     level_at_high_speed(weight, H)   // [m/s^2]
-///     speed_factor(speed)              // for numbers and series
-///     edge()                           // largest |r| at which the temperature is that of a covered surface [m]
-template <class Law>
-concept SeparableHeatedLaw = HeatedLaw<Law> && requires(const Law& law, double value) {
-  { law.level_at_high_speed(value, value) } -> std::convertible_to<double>;
-  { law.speed_factor(value) } -> std::convertible_to<double>;
-  { law.edge() } -> std::convertible_to<double>;
-};
-
 namespace detail {
 
-/// The law during a step: the factor of normal force and heat is a polynomial in time.
+/// The law during a step: the factor of normal force and heat is a polynomial in time, whose powers are in units of the
+/// step.
 template <SeparableHeatedLaw Law>
 class HeatedStep {
  public:
-  HeatedStep(const Law& law, const Nodes::Values& levels, double step) : law_(&law), step_(step) {
-    double largest = 0;
-    for (const double level : levels) largest = std::max(largest, std::abs(level));
-    Nodes::powers(Nodes::get().chebyshev(levels), 0x1p-54 * largest, powers_);
-  }
+  HeatedStep(const Law& law, const Nodes::Values& powers, double step) : law_(&law), step_(step), powers_(powers) {}
 
   template <class Time, class Speed>
   auto resist_at(const Time& time, const Speed& speed) const {
@@ -61,7 +47,7 @@ class HeatedStep {
 
   const Law* law_;
   double step_;
-  Nodes::Values powers_{};
+  Nodes::Values powers_;
 };
 
 /// Makes the slips of a heated law: the heat generated in a step acts back on the level in it, which is found by
@@ -86,50 +72,32 @@ class Heating {
     const double resists = weight(0) * law_.level_at_high_speed(weight(0), state.heat.half_integral());
     if (256 * norm(state.velocity) < resists * left) step = left;
     for (int shortened = 0;; ++shortened) {
-      const Nodes::Values before = cooling_.half_integrals(state.heat, step);
-      Nodes::Values levels, q{};
-      // At first as if it went on with the present heat flux.
-      const double speed_now = norm(state.velocity), level_now = law_.level_at_high_speed(weight(0), before[0]);
-      q.fill(heating * weight(0) * level_now * law_.speed_factor(speed_now) * speed_now);
-      const auto level_at = [&](std::size_t i) {
-        double half = 0;
-        for (std::size_t k = 0; k < n; ++k) half += nodes.half_integral[i][k] * q[k];
-        return law_.level_at_high_speed(weight(nodes.nodes[i] * step),
-                                        std::max(before[i] + std::sqrt(step) * half, 0.0));
+      const auto at_nodes = [&](auto&& f) {
+        Nodes::Values values;
+        for (std::size_t i = 0; i < n; ++i) values[i] = f(nodes.nodes[i] * step);
+        return values;
       };
-      for (std::size_t i = 0; i < n; ++i) levels[i] = level_at(i);
+      HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step), at_nodes(weight), step,
+                             norm(state.velocity));
       bool settled = false;
       double fastest = 0;  // [m/s]
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
-        slip.emplace(make(HeatedStep<Law>(law_, levels, step), step));
+        slip.emplace(make(HeatedStep<Law>(law_, level.powers(), step), step));
         const auto& flow = slip->flow;
         if (!flow.is_series()) {  // so close to a stop that no heat matters
           heats_ = false;
           return *slip;
         }
         if (!covers_whole(flow, step)) break;
-        double change = 0;
-        fastest = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-          const double time = nodes.nodes[i] * step, speed = norm(flow.at(time).velocity);
-          fastest = std::max(fastest, speed);
-          q[i] = heating * weight(time) * levels[i] * law_.speed_factor(speed) * speed;
-        }
-        for (std::size_t i = 0; i < n; ++i) {
-          const double level = level_at(i);
-          change = std::max(change, std::abs(level - levels[i]) / level);
-          levels[i] = level;
-        }
-        settled = change <= 1e-9;
+        const Nodes::Values speeds = at_nodes([&](double time) { return norm(flow.at(time).velocity); });
+        fastest = *std::ranges::max_element(speeds);
+        settled = level.follow(speeds);
       }
-      const Nodes::Values c = nodes.chebyshev(levels);
-      const bool resolved = settled && step * (std::abs(c[n - 1]) + std::abs(c[n - 2])) <= 1e-8 * fastest;
+      const bool resolved = settled && step * level.error() <= 1e-8 * fastest;
       const double reached = slip->flow.horizon();
       const bool whole = covers_whole(slip->flow, step);
       if ((resolved && whole) || shortened > 60) {
-        double largest = 0;
-        for (const double value : q) largest = std::max(largest, value);
-        Nodes::powers(nodes.chebyshev(q), 0x1p-54 * largest, heat_);
+        heat_ = level.heat();
         step_ = step;
         heats_ = heating > 0;
         last_step_ = step < left ? step : std::max(step, last_step_);
