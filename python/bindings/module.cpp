@@ -58,6 +58,7 @@ PYBIND11_MODULE(_core, m) {
   bind_planar_response(m);
   bind_planar_integrate(m);
   bind_structure(m);
+  bind_structure_advance(m);
   bind_structure_response(m);
   bind_histories(m);
   bind_planar_histories(m);

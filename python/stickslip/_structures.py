@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import StructureResponse, build_info
-from ._tables import frame_of, has_drifts, has_floors, json_text, write_csv
+from ._optional import optional
+from ._tables import frame_of, has_drifts, has_floors, html_table, json_text, write_csv
+from ._text import printable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase
@@ -104,6 +106,7 @@ _HISTORIES = {
     "velocity": "m/s",
     "base_acceleration": "m/s^2",
     "demand": "m/s^2",
+    "force": "m/s^2",
 }
 
 
@@ -139,6 +142,72 @@ def to_dataframe(response: StructureResponse) -> Any:
 def to_csv(response: StructureResponse, path: str | os.PathLike[str]) -> Path:
     """Write the histories to a file; see `StructureResponse.to_csv`."""
     return write_csv(*_columns(response), path)
+
+
+def to_xarray(response: StructureResponse) -> Any:
+    """The histories as an xarray Dataset; see `StructureResponse.to_xarray`."""
+    xarray = optional("xarray", "tables", "StructureResponse.to_xarray")
+    columns, units = _columns(response)
+    at = columns.pop("time")
+    variables: dict[str, Any] = {
+        name: ("time", values, {"units": units[name]})
+        for name, values in columns.items()
+        if not name.startswith("floor_")
+    }
+    coords: dict[str, Any] = {"time": ("time", at, {"units": "s"})}
+    if has_floors(response):
+        floors = response.floors
+        histories = {"displacement": "m", "acceleration": "m/s^2"}
+        if has_drifts(response):
+            histories["drift"] = "m"
+        for name, unit in histories.items():
+            values = getattr(floors, name)
+            variables[f"floor_{name}"] = (("time", "floor"), values, {"units": unit})
+        coords["floor"] = ("floor", np.arange(1, floors.displacement.shape[1] + 1))
+    return xarray.Dataset(
+        variables,
+        coords=coords,
+        attrs={
+            "system": repr(response.system),
+            "motion": response.motion.name,
+            "peak": response.peak,
+            "peak_units": "m",
+            "residual": response.residual,
+            "residual_units": "m",
+        },
+    )
+
+
+def response_html(response: StructureResponse) -> str:
+    """A table of the main results of a response."""
+    rows = [
+        ("structure", repr(response.system)),
+        ("ground motion", printable(response.motion.name) or repr(response.motion)),
+        ("peak displacement", f"{response.peak:.4g} m"),
+        (
+            "residual displacement" if response.at_rest else "displacement at the end, sliding",
+            f"{response.residual:.4g} m",
+        ),
+        ("slips", f"{response.slips:,}"),
+        ("time sliding", f"{response.time_sliding:.4g} s"),
+        ("peak acceleration of the base", f"{response.peak_base_acceleration:.4g} m/s²"),
+    ]
+    if has_floors(response):
+        largest = response.floors.peak_acceleration
+        rows.append(
+            (
+                "largest floor acceleration",
+                f"{largest.max():.4g} m/s², floor {largest.argmax() + 1}",
+            )
+        )
+    if has_drifts(response):
+        largest = response.floors.peak_drift
+        rows.append(("largest drift", f"{largest.max():.4g} m, floor {largest.argmax() + 1}"))
+    if response.temperature is not None:
+        rows.append(("highest temperature", f"{response.temperature.max():.4g} °C, at samples"))
+    if len(response.impacts):
+        rows.append(("impacts on stops", f"{len(response.impacts):,}"))
+    return html_table("Response of a structure", [], rows)
 
 
 _RESULTS = (

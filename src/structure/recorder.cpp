@@ -61,10 +61,10 @@ FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stori
   for (Eigen::Index i = drifts.rows() - 1; i > 0; --i) drifts.row(i) -= of.shapes.row(i - 1);
 }
 
-StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, double from,
+StructureRecorder::StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from,
                                      std::size_t event_limit, const std::function<void()>& progress,
                                      StructureResponse& response)
-    : of_(of), response_(response), event_limit_(event_limit), progress_(progress) {
+    : of_(of), response_(response), loops_(loops), event_limit_(event_limit), progress_(progress) {
   response_.peak = std::abs(from);
   response_.margin = std::numeric_limits<double>::infinity();
   if (rows != nullptr) floors_.emplace(of, *rows);
@@ -82,6 +82,27 @@ void StructureRecorder::follow(const Expansion& motion, Mode mode) {
   count_work();
   add_work(motion, mode);
   if (floors_) floors_->include(motion);
+  if (loops_) draw(motion, mode);
+}
+
+void StructureRecorder::draw(const Expansion& motion, Mode mode) {
+  const int order = motion.order(), parts = mode == Mode::stuck ? 2 : 4;
+  const double s = static_cast<double>(static_cast<int>(mode));
+  const auto at = [&](const double* c, double u) { return value_at(c, order, u); };
+  for (int i = 0; i <= parts; ++i) {
+    const double u = static_cast<double>(i) / parts;
+    double force = at(motion.pull(), u);
+    if (mode == Mode::stuck)
+      force += at(motion.demand(), u);
+    else
+      force += s * at(motion.friction(), u) + of_.damper * at(motion.velocity(), u);
+    const InterfacePoint next{std::min(now_ + u * motion.duration(), segment_ends_), at(motion.displacement(), u),
+                              force};
+    auto& points = response_.loops;
+    if (i > 0 || points.empty() || std::abs(points.back().force - force) > 1e-12 * std::abs(force))
+      points.push_back(next);
+  }
+  now_ += motion.duration();
 }
 
 void StructureRecorder::add_work(const Expansion& motion, Mode mode) {

@@ -60,11 +60,12 @@ class StructureRecorder {
  public:
   static constexpr std::uint32_t work_per_report = 4096;  // segments, events or expansions
 
-  StructureRecorder(const ModalInterface& of, const FloorRows* rows, double from, std::size_t event_limit,
+  /// @param loops  whether to keep StructureResponse::loops
+  StructureRecorder(const ModalInterface& of, const FloorRows* rows, bool loops, double from, std::size_t event_limit,
                     const std::function<void()>& progress, StructureResponse& response);
 
   void begin_segment(double begin, double end) noexcept {
-    segment_begins_ = begin;
+    segment_begins_ = now_ = begin;
     segment_ends_ = end;
   }
   void report_progress() const {
@@ -83,11 +84,14 @@ class StructureRecorder {
     if (++work_ % work_per_report == 0) report_progress();
   }
   void add_work(const Expansion& motion, Mode mode);
+  void draw(const Expansion& motion, Mode mode);
 
   const ModalInterface& of_;
   std::optional<FloorMaxima> floors_{};
   StructureResponse& response_;
+  bool loops_;
   double segment_begins_ = 0, segment_ends_ = 0;
+  double now_ = 0;  // the beginning of the next expansion [s]
   std::size_t event_limit_;
   std::uint32_t work_ = 0;
   const std::function<void()>& progress_;

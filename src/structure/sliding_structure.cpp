@@ -68,13 +68,15 @@ class Histories {
     response_.modal_displacement.row(i) = state.modal_displacement.transpose();
     response_.modal_velocity.row(i) = state.modal_velocity.transpose();
     const double demand = system_.demand(state, ground, weight);
-    double acceleration = 0;
+    double acceleration = 0, force = demand;  // stuck: friction is what the bond carries
     if (state.mode != Mode::stuck) {
       const Direction direction = direction_of(state.mode);
       const double level = resist(law_at(law, detail::interface_of(state), weight), state.displacement,
                                   std::abs(state.velocity), direction);
-      acceleration = (demand - of_.damper * state.velocity - sign(direction) * detail::weigh(weight, level)) / of_.mass;
+      force = of_.damper * state.velocity + sign(direction) * detail::weigh(weight, level);
+      acceleration = (demand - force) / of_.mass;
     }
+    response_.interface_force[i] = force + of_.spring.under(weight) * state.displacement;
     if constexpr (HeatedLaw<Law>) response_.temperature[sample] = law.temperature(detail::interface_of(state));
     response_.interface_demand[i] = demand;
     response_.base_acceleration[i] = ground + (of_.rides ? acceleration : 0);
@@ -109,7 +111,8 @@ class Histories {
     if (heated_) response_.temperature.resize(samples);
     response_.modal_displacement.conservativeResize(size, of_.modes());
     response_.modal_velocity.conservativeResize(size, of_.modes());
-    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &ground_, &acceleration_})
+    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &response_.interface_force, &ground_,
+                         &acceleration_})
       values->conservativeResize(size);
   }
 
@@ -140,7 +143,7 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   response.energy.initial = response.energy.kinetic + response.energy.elastic;
   const detail::FloorRows rows(of);
   const detail::FloorRows* wanted = options.floors ? &rows : nullptr;
-  detail::StructureRecorder recorder(of, wanted, state.displacement, detail::max_events(motion.segments()),
+  detail::StructureRecorder recorder(of, wanted, options.loops, state.displacement, detail::max_events(motion.segments()),
                                      options.progress, response);
   detail::LawExpansion<Law> expansion(of, law, detail::mean_step(motion));
   Histories histories(system, response, motion.samples(), HeatedLaw<Law>);

@@ -377,7 +377,7 @@ def test_a_surface_heated_by_friction() -> None:
     r = ss.integrate(isolated, QUAKE)
     assert r.temperature.shape == r.time.shape
     assert r.temperature[0] == 20 and r.temperature.max() > 40
-    # The State at the end has the heat of the last temperature, and begins another motion.
+    # The state at the end has the heat of the last temperature, and begins another motion.
     assert r.state.displacement == r.residual
     warming = np.sqrt(law.diffusivity / np.pi) / law.conductivity
     assert 20 + warming * r.state.heat.half_integral == pytest.approx(r.temperature[-1], rel=1e-12)
@@ -396,3 +396,79 @@ def test_a_surface_heated_by_friction() -> None:
     table = ss.sweep([isolated, rack], QUAKE)
     assert table.peak[:, 0, 0] == pytest.approx([r.peak, ss.integrate(rack, QUAKE).peak], rel=1e-7)
     assert ss.response_spectrum(ss.integrate(rack, QUAKE, heat=r.state.heat), 1.0).values[0] > 0
+
+
+def test_the_force_of_the_interface() -> None:
+    bearings = ss.Slider(ss.Coulomb(mu=0.1), natural_frequency=2, damping=0.3)
+    r = ss.integrate(ss.IsolatedStructure(bearings, BUILDING, base_mass=1), QUAKE)
+    # It carries the inertia of all masses, stuck or sliding.
+    inertia = r.base_acceleration + r.floors.acceleration @ [1, 1, 0.8]
+    np.testing.assert_allclose(r.force, -inertia / 3.8, atol=1e-12)
+    # Under constant friction without damper its loops enclose the work of friction, and what is
+    # left in the spring: the force is linear in x between jumps.
+    plain = ss.Slider(ss.Coulomb(mu=0.1), natural_frequency=2)
+    for system in (
+        ss.IsolatedStructure(plain, BUILDING, base_mass=1),
+        ss.EquipmentOnFloor(plain, BUILDING, floor=2, mass=0.2),
+        ss.EquipmentOnFloor(plain, BUILDING, floor=2),
+    ):
+        r = ss.integrate(system, QUAKE, displacement=0.05)
+        curve = r._curve()
+        assert (np.diff(curve["time"]) >= 0).all()
+        x, force = curve["displacement"], curve["force"]
+        work = np.sum(np.diff(x) * (force[1:] + force[:-1]) / 2)
+        stored = 2 * (r.residual**2 - 0.05**2)
+        assert work == pytest.approx(r.energy.dissipated + stored, rel=1e-9)
+        # It passes through the samples.
+        assert abs(np.interp(r.time, curve["time"], x) - r.displacement).max() < 1e-12
+    pytest.importorskip("matplotlib")
+    axes = r.plot_hysteresis(time=(5, 30)).axes[0]
+    drawn = axes.lines[0].get_xdata()
+    assert 100 < len(drawn) < len(curve)
+    assert SLOPE.coupled(QUAKE).plot_hysteresis().axes
+
+
+def test_a_loop_of_ones_own() -> None:
+    n = QUAKE.acceleration
+    up = 3 * np.cos(0.5 * m)
+    vertical = ss.GroundMotion(n, dt=0.1, vertical=up)
+    for system in (ISOLATED, EQUIPMENT):
+        for motion, rises in ((QUAKE, 0 * up), (vertical, up)):
+            r = ss.integrate(system, motion)
+            state = system.rest()
+            assert state.stuck and state.displacement == 0 and not state.modal_velocity.any()
+            for i in range(len(n) - 1):
+                state = ss.advance(
+                    system,
+                    state,
+                    0.1,
+                    n[i],
+                    n[i + 1],
+                    vertical_start=rises[i],
+                    vertical_end=rises[i + 1],
+                )
+                assert state.displacement == r.displacement[i + 1]
+            assert state == r.state
+            assert pickle.loads(pickle.dumps(state)) == state
+            x, v = ss.histories(system, motion)
+            assert (x == r.displacement).all() and (v == r.velocity).all()
+    with pytest.raises(ValueError, match=r"modal_velocity must have one value per mode, got 3 and"):
+        ss.StructureState([0, 0, 0], [0, 0])
+    with pytest.raises(ValueError, match=r"advance: the state must have 3 modes, got 2"):
+        ss.advance(ISOLATED, ss.StructureState([0, 0], [0, 0]), 0.1, 0)
+    with pytest.raises(ValueError, match=r"StructureState: velocity must be finite"):
+        ss.StructureState([0], [0], velocity=np.nan)
+    with pytest.raises(TypeError, match="advance"):
+        ss.advance(SLOPE, ISOLATED.rest(), 0.1, 0)  # type: ignore[call-overload]
+
+
+def test_tables_of_a_structure() -> None:
+    xarray = pytest.importorskip("xarray")
+    r = ss.integrate(ISOLATED, QUAKE)
+    data = r.to_xarray()
+    assert isinstance(data, xarray.Dataset)
+    assert data["floor_drift"].sel(floor=2).values == pytest.approx(r.floors.drift[:, 1])
+    assert data["force"].attrs["units"] == "m/s^2"
+    assert "largest drift" in r._repr_html_()
+    modes = ss.integrate(ss.IsolatedStructure(ss.Coulomb(slip_level=1), ONE), QUAKE)
+    assert "floor" not in modes.to_xarray().coords and "drift" not in modes._repr_html_()

@@ -183,6 +183,12 @@ EXAMPLES = {
         ON_BASE,
         ss.integrate(ss.EquipmentOnFloor(BLOCK, BUILDING, floor=1), EVEN),
     ],
+    ss.StructureState: [
+        ON_BASE.state,
+        ss.StructureState([0.1, 0], [0, 0.2]),
+        ss.StructureState([0.1, 0], [0, 0.2], displacement=0.01, velocity=-0.1),
+        ss.StructureState([0.1, 0], [0, 0.2], sliding_distance=2),
+    ],
     ss.Floors: [
         ON_BASE.floors,
         ss.integrate(ss.EquipmentOnFloor(BLOCK, BUILDING, floor=1), EVEN).floors,

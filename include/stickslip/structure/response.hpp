@@ -3,6 +3,8 @@
 
 #include "stickslip/base/requirements.hpp"  // before Eigen, whose absence would be told first
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "stickslip/sliding/response.hpp"
@@ -19,6 +21,13 @@ struct StructureState {
   Eigen::VectorXd modal_displacement{};  ///< in the modes of Structure::modes [m kg^(1/2); with from_modes m]
   Eigen::VectorXd modal_velocity{};      ///< their rates
   SurfaceHeat heat{};  ///< left in the sliding surface; updated only if the law depends on its temperature
+};
+
+/// A point of the motion of an interface.
+struct InterfacePoint {
+  double time;          ///< [s]
+  double displacement;  ///< x [m]
+  double force;         ///< as StructureResponse::interface_force [m/s^2]
 };
 
 /// The motion of the floors of a structure. Rows are samples; columns are floors, the lowest first. Peaks are taken
@@ -41,6 +50,12 @@ struct StructureResponse : Response {
   Eigen::MatrixXd modal_velocity;      ///< at the samples
   Eigen::VectorXd base_acceleration;   ///< absolute, of what the structure stands on, at the samples [m/s^2]
   Eigen::VectorXd interface_demand;    ///< force that the bond would have to carry, per reference mass [m/s^2]
+  /// Force of friction, spring and damper between both sides of the interface, per reference mass, at the samples
+  /// [m/s^2]; positive where it pulls toward negative x. At a sample at which it jumps, the value after the jump.
+  Eigen::VectorXd interface_force;
+  /// Points that draw the loops of force over displacement with straight lines between them: two where the force jumps.
+  /// Empty unless StructureIntegrateOptions::loops.
+  std::vector<InterfacePoint> loops;
   double peak_base_acceleration = 0;   ///< over all time [m/s^2]
   double peak_base_shear = 0;          ///< largest sum of the inertia forces of the structure; unit as Floors::shear
   /// Smallest difference between the demand and a static level when the velocity became zero, per reference mass

@@ -1,6 +1,5 @@
 #include "structure/structure.hpp"
 
-#include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -22,6 +21,7 @@
 #include "stickslip/structure/flexible_slope.hpp"
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
+#include "structure/from_inputs.hpp"
 #include "structure/plausibility.hpp"
 
 namespace stickslip::python {
@@ -29,61 +29,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-VectorXd vector_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
-  const std::vector<double> numbers = to_vector(values, name, unit);
-  return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
-}
-
-MatrixXd matrix_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
-  const Numbers numbers = to_numbers(values, name, unit);
-  if (numbers.ndim() != 2)
-    throw std::invalid_argument(name + " must be two-dimensional, got " + std::to_string(numbers.ndim()) +
-                                (numbers.ndim() == 1 ? " dimension" : " dimensions"));
-  MatrixXd matrix(numbers.shape(0), numbers.shape(1));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = *numbers.data(i, j);
-  return matrix;
-}
-
-// A read-only copy.
-template <class Values>
-py::array array_from(const Values& values) {
-  py::array array = py::cast(values);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-// Numbers that compare and can be hashed.
-template <class Values>
-py::object plain(const Values& values) {
-  if (values.size() == 0) return py::none();
-  const py::list rows = py::cast(values).attr("tolist")();
-  py::list plain;
-  for (const py::handle row : rows)
-    plain.append(py::isinstance<py::list>(row) ? py::object(py::tuple(py::reinterpret_borrow<py::object>(row)))
-                                               : py::reinterpret_borrow<py::object>(row));
-  return py::tuple(plain);
-}
-
-/// A class of immutable objects that are made from `inputs(object)` by `make(inputs)`: they compare and hash by them,
-/// and can be copied and pickled.
-template <class T, class Inputs, class Make>
-py::class_<T> made_from_inputs(py::module_& m, const char* name, std::string doc, Inputs inputs, Make make) {
-  doc.insert(std::min(doc.find("\n\n"), doc.size()),
-             "\n\nObjects compare by content; they can be hashed, copied and pickled.");
-  py::class_<T> type(m, name, doc.c_str());
-  type.def(
-          "__eq__",
-          [inputs](const T& self, const py::object& other) -> py::object {
-            if (!py::isinstance<T>(other)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
-            return py::bool_(inputs(self).equal(inputs(other.cast<const T&>())));
-          },
-          py::is_operator())
-      .def("__hash__", [inputs](const T& self) { return py::hash(inputs(self)); })
-      .def(py::pickle(inputs, make));
-  return type;
-}
 
 py::tuple inputs_of_structure(const Structure& s) {
   if (s.has_matrices())
@@ -186,26 +131,30 @@ struct StructureResponseWithInputs {
 };
 using Self = StructureResponseWithInputs;
 
+StructureResponse integrate_with(const py::object& system, const py::object& motion,
+                                 const StructureIntegrateOptions& options) {
+  const auto& ground = motion.cast<const GroundMotion&>();
+  const auto run = [&](const auto& what) {
+    const py::gil_scoped_release released;
+    return integrate(what, ground, options);
+  };
+  if (py::isinstance<FlexibleSlope>(system)) return run(system.cast<const FlexibleSlope&>());
+  if (py::isinstance<EquipmentOnFloor>(system)) return run(system.cast<const EquipmentOnFloor&>());
+  return run(system.cast<const IsolatedStructure&>());
+}
+
 Self integrate_structure(const py::object& system, const py::object& motion, double displacement, double velocity,
                          bool settle, double sliding_distance, const std::optional<SurfaceHeat>& heat) {
   if (!py::isinstance<GroundMotion>(motion))
     throw py::type_error("integrate: the motion of a structure must be a GroundMotion, got " +
                          py::type::of(motion).attr("__name__").cast<std::string>());
-  const auto& ground = motion.cast<const GroundMotion&>();
   const StructureIntegrateOptions options{.displacement = displacement,
                                           .velocity = velocity,
                                           .settle = settle,
                                           .progress = check_for_interrupt,
                                           .sliding_distance = sliding_distance,
                                           .heat = heat.value_or(SurfaceHeat())};
-  const auto run = [&](const auto& what) {
-    const py::gil_scoped_release released;
-    return integrate(what, ground, options);
-  };
-  if (py::isinstance<FlexibleSlope>(system)) return {run(system.cast<const FlexibleSlope&>()), system, motion, options};
-  if (py::isinstance<EquipmentOnFloor>(system))
-    return {run(system.cast<const EquipmentOnFloor&>()), system, motion, options};
-  return {run(system.cast<const IsolatedStructure&>()), system, motion, options};
+  return {integrate_with(system, motion, options), system, motion, options};
 }
 
 /// The floors of a response.
@@ -506,6 +455,7 @@ True)",
                                       })
       .def(py::init(isolated), py::arg("slider"), py::arg("structure"), py::kw_only(),
            py::arg("base_mass") = py::none())
+      .def("rest", &IsolatedStructure::rest, "The `StructureState` at rest at x = 0, for `advance`.")
       .def_property_readonly("slider", &IsolatedStructure::slider, "The `Slider` of the interface.")
       .def_property_readonly("structure", &IsolatedStructure::structure, "The `Structure`.")
       .def_property_readonly("base_mass", &IsolatedStructure::base_mass,
@@ -551,6 +501,7 @@ ValueError
                                      })
       .def(py::init<AnySlider, Structure, Eigen::Index, double>(), py::arg("slider"), py::arg("structure"),
            py::kw_only(), py::arg("floor"), py::arg("mass") = 0.0)
+      .def("rest", &EquipmentOnFloor::rest, "The `StructureState` at rest at x = 0, for `advance`.")
       .def_property_readonly("slider", &EquipmentOnFloor::slider, "The `Slider` on the floor.")
       .def_property_readonly("structure", &EquipmentOnFloor::structure, "The `Structure`.")
       .def_property_readonly("floor", &EquipmentOnFloor::floor, "The floor, counted from 1.")
@@ -826,6 +777,13 @@ for good, but see `truncated`.)")
           [](const py::object& self) { return view_of(self.cast<const Self&>().response.interface_demand, self); },
           "Force q that the bond would have to carry, per unit of the reference mass, at `time` [m/s^2], shape (N,).")
       .def_property_readonly(
+          "force",
+          [](const py::object& self) { return view_of(self.cast<const Self&>().response.interface_force, self); },
+          R"(Force of friction, spring and damper between both sides of the interface, at `time` [m/s^2], shape (N,).
+
+Per unit of the reference mass; positive where it pulls toward negative x. While the interface sticks, friction is what
+balances the other forces.)")
+      .def_property_readonly(
           "floors",
           [](const py::object& self) {
             if (self.cast<const Self&>().response.floors.displacement.cols() == 0)
@@ -851,10 +809,8 @@ for good, but see `truncated`.)")
 
 None unless the friction law depends on it, as `KumarFriction` does.)")
       .def_property_readonly(
-          "state", [](const Self& r) { return r.response.state; },
-          R"(The `State` of the interface at the end.
-
-The structure moves, too: a motion that begins from it begins with a structure at rest relative to its base.)")
+          "state", [](const Self& r) { return r.response.final_state; },
+          R"(The `StructureState` at the end, from which `advance` continues.)")
       .def_property_readonly("peak", number<&StructureResponse::peak>(),
                              "Largest |x| over all time, not only at samples [m].")
       .def_property_readonly("residual", number<&StructureResponse::residual>(), "x at the end [m].")
@@ -900,11 +856,48 @@ Decisions are the ends of slips; infinite if there was none. If it is tiny, the 
 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
 `title`. Returns the figure, see `stickslip.plotting.plot_structure_response`.)")
+      .def(
+          "plot_hysteresis",
+          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,
+             const py::object& time) {
+            return py::module_::import("stickslip.plotting")
+                .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax, py::arg("time") = time);
+          },
+          py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("ax") = py::none(),
+          py::arg("time") = py::none(),
+          R"(Plot the force of the interface over its displacement.
+
+Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, `title`, and `time`, the
+begin and end of the part to draw [s]. Returns the axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
+      .def(
+          "_curve",
+          [](const Self& r) {
+            StructureIntegrateOptions options = r.options;
+            options.floors = false;
+            options.loops = true;
+            const std::vector<InterfacePoint> points = integrate_with(r.system, r.motion, options).loops;
+            py::dict layout;
+            layout["names"] = py::make_tuple("time", "displacement", "force");
+            layout["formats"] = py::make_tuple("f8", "f8", "f8");
+            py::array rows(py::dtype::from_args(layout), static_cast<py::ssize_t>(points.size()));
+            std::ranges::copy(points, static_cast<InterfacePoint*>(rows.mutable_data()));
+            return rows;
+          },
+          R"(Points that draw the loops of `force` with straight lines between them, for `stickslip.plotting`.
+
+A structured array with the fields time [s], displacement [m] and force [m/s^2]; two points where the force jumps.)")
       .def("to_dataframe", in_python("stickslip._structures", "to_dataframe"),
            R"(Convert the histories to a pandas DataFrame with the index `time`.
 
-The columns are ground_acceleration, displacement, velocity, base_acceleration and demand, temperature if the law depends
-on it, and for each floor floor_1_displacement, floor_1_acceleration and so on. ImportError without pandas.)")
+The columns are ground_acceleration, displacement, velocity, base_acceleration, demand and force, temperature if the law
+depends on it, and for each floor floor_1_displacement, floor_1_acceleration and so on. ImportError without pandas.)")
+      .def("to_xarray", in_python("stickslip._structures", "to_xarray"),
+           R"(Convert the histories to an xarray Dataset over the coordinates `time` and, with floors, `floor`.
+
+The variables of the interface are those of `to_dataframe`; floor_displacement, floor_acceleration and, with an influence
+of ones, floor_drift are two-dimensional. Each has the attribute `units`. Attributes of the Dataset: system, motion (its
+name), peak [m], residual [m]. ImportError without xarray.)")
+      .def("_repr_html_", in_python("stickslip._structures", "response_html"))
       .def("to_csv", csv_in("stickslip._structures", "to_csv"), py::arg("path"),
            csv_doc("Write the histories to a CSV file, whole or not at all.",
                    "A line of names with units, then one line per sample; every number reads back as the same double.")
@@ -933,6 +926,27 @@ str
         py::arg("slider"), py::arg("motion"), py::kw_only(), py::arg("displacement") = 0.0, py::arg("velocity") = 0.0,
         py::arg("settle") = false, py::arg("sliding_distance") = 0.0, py::arg("heat") = py::none(), doc);
   };
+  const auto bind_histories_of = [&](auto* type, const char* doc) {
+    using System = std::remove_pointer_t<decltype(type)>;
+    m.def(
+        "histories",
+        [](const System& slider, const GroundMotion& motion) {
+          StructureIntegrateOptions options{.progress = check_for_interrupt};
+          options.floors = false;
+          StructureResponse r = [&] {
+            const py::gil_scoped_release released;
+            return integrate(slider, motion, options);
+          }();
+          return py::make_tuple(array_of(std::move(r.displacement)), array_of(std::move(r.velocity)));
+        },
+        py::arg("slider"), py::arg("motion"), doc);
+  };
+  bind_histories_of(
+      static_cast<IsolatedStructure*>(nullptr),
+      R"(With an `IsolatedStructure`, an `EquipmentOnFloor` or a `FlexibleSlope`, the histories are those of
+the sliding interface. The same bits as `integrate`.)");
+  bind_histories_of(static_cast<EquipmentOnFloor*>(nullptr), "");
+  bind_histories_of(static_cast<FlexibleSlope*>(nullptr), "");
   const std::string doc =
       R"(With an `IsolatedStructure`, an `EquipmentOnFloor` or a `FlexibleSlope`, the structure moves, too, and the result
 is a `StructureResponse`. The motion must be a GroundMotion. Where N < 0 the interface slides without friction, as with

@@ -23,6 +23,7 @@ inline std::optional<AnyStructure> structure_of(const py::handle& object) {
 }
 
 void bind_structure(py::module_& m);
+void bind_structure_advance(py::module_& m);
 void bind_structure_response(py::module_& m);
 
 }  // namespace stickslip::python

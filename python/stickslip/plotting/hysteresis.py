@@ -8,7 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from .._core import STANDARD_GRAVITY, MultiPendulum, Response
+from .._core import (
+    STANDARD_GRAVITY,
+    FlexibleSlope,
+    MultiPendulum,
+    Response,
+    StructureResponse,
+)
 from .figures import Place, one_panel
 from .pendulum import name_regimes, sliding_surfaces
 from .styles import BLUE, GRAY, VERMILION, put_title, style
@@ -18,7 +24,7 @@ from .words import describe, digits, unit_for
 
 @overload
 def plot_hysteresis(
-    response: Response,
+    response: Response | StructureResponse,
     figure: None = None,
     title: str | None = None,
     *,
@@ -27,7 +33,7 @@ def plot_hysteresis(
 ) -> Figure: ...
 @overload
 def plot_hysteresis(
-    response: Response,
+    response: Response | StructureResponse,
     figure: Place,
     title: str | None = None,
     *,
@@ -36,7 +42,7 @@ def plot_hysteresis(
 ) -> Place: ...
 @overload
 def plot_hysteresis(
-    response: Response,
+    response: Response | StructureResponse,
     figure: None = None,
     title: str | None = None,
     *,
@@ -44,7 +50,7 @@ def plot_hysteresis(
     time: tuple[float, float] | None = None,
 ) -> Axes: ...
 def plot_hysteresis(
-    response: Response,
+    response: Response | StructureResponse,
     figure: FigureBase | None = None,
     title: str | None = None,
     *,
@@ -53,15 +59,16 @@ def plot_hysteresis(
 ) -> FigureBase | Axes:
     """Plot the force between the mass and the ground over the displacement.
 
-    The force is friction + damper + spring over the weight: per unit mass, in g. If there is a
-    spring, the picture shows the secant of the loop with the largest displacement, with
-    `Response.effective_period` and `effective_damping`. In the loops of a `MultiPendulum`, numbers
-    beside the lines name the surfaces that slide, from bottom to top; each set of them is named
-    once, where it slides all the way from one sample to the next.
+    The force is friction + damper + spring over the weight: per unit mass, in g. Of a structure it
+    is that of its sliding interface, such as an isolation layer, over the weight of the reference
+    mass. If a slider has a spring, the picture shows the secant of the loop with the largest
+    displacement, with `Response.effective_period` and `effective_damping`. In the loops of a
+    `MultiPendulum`, numbers beside the lines name the surfaces that slide, from bottom to top; each
+    set of them is named once, where it slides all the way from one sample to the next.
 
     Parameters
     ----------
-    response : Response
+    response : Response or StructureResponse
         The result of `integrate`.
     figure : matplotlib Figure or SubFigure, optional
         Where to draw; default: a new figure of 6 x 4.5 inches.
@@ -91,8 +98,8 @@ def plot_hysteresis(
         x, force = curve["displacement"], curve["force"]
         length, unit = unit_for(response.peak)
         axes.plot(x * length, force / STANDARD_GRAVITY, color=BLUE, linewidth=0.9)
-        law = response.slider.law
-        if isinstance(law, MultiPendulum):
+        law = response.slider.law if isinstance(response, Response) else None
+        if isinstance(response, Response) and isinstance(law, MultiPendulum):
             shown = (response.time >= begin) & (response.time <= end)
             sliding = sliding_surfaces(law, response)[shown[1:] & shown[:-1]]
             at_samples = response.displacement[shown], response.force[shown]
@@ -101,12 +108,9 @@ def plot_hysteresis(
         axes.axvline(0, color=GRAY, linewidth=0.6, zorder=0)
         axes.set_xlabel(f"relative displacement [{unit}]")
         axes.set_ylabel("force per unit mass [g]")
-        put_title(axes, response.motion, title, describe(response.slider))
-        try:
-            period, damping = response.effective_period, response.effective_damping
-        except ValueError:
-            pass  # there is no loop
-        else:
+        put_title(axes, response.motion, title, _what_slides(response))
+        if isinstance(response, Response) and (found := _secant(response)):
+            period, damping = found
             reach = np.array([-response.peak, response.peak])
             secant = (2 * np.pi / period) ** 2 * reach / STANDARD_GRAVITY
             label = f"effective period {digits(period)} s, damping {digits(100 * damping)} %"
@@ -115,3 +119,18 @@ def plot_hysteresis(
             axes.set_ylim(low, high + 0.12 * (high - low))  # room for the legend
             axes.legend(loc="upper left", fontsize=8)
     return figure if ax is None else ax
+
+
+def _what_slides(response: Response | StructureResponse) -> str:
+    if isinstance(response, Response):
+        return describe(response.slider)
+    system = response.system
+    return "flexible slope" if isinstance(system, FlexibleSlope) else describe(system.slider)
+
+
+def _secant(response: Response) -> tuple[float, float] | None:
+    """Period [s] and damping ratio of the largest loop; None without one."""
+    try:
+        return response.effective_period, response.effective_damping
+    except ValueError:
+        return None

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import STANDARD_GRAVITY, PlanarResponse, Response
+from .._core import STANDARD_GRAVITY, PlanarResponse, Response, StructureResponse
 
 
 def sticks(response: Response | PlanarResponse) -> np.ndarray:
@@ -85,7 +85,9 @@ def slip_bounds(slider: Any, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 
 
 def window(
-    who: str, response: Response | PlanarResponse, time: tuple[float, float] | None
+    who: str,
+    response: Response | PlanarResponse | StructureResponse,
+    time: tuple[float, float] | None,
 ) -> tuple[float, float]:
     """The begin and end of the part of a response to draw [s]."""
     first, last = (
