@@ -33,6 +33,19 @@ Needs matplotlib. Takes `time`, the begin and end of the part to show [s], `spee
 the animation, `fps`, frames in a second, and `title`. Returns an animation: a notebook shows it, its `write` saves it as
 .gif, .mp4 or .html; see `stickslip.plotting.animate`.)";
 
+/// The method that plots loops of force over displacement, and its documentation.
+inline auto hysteresis() {
+  return [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,
+            const py::object& time) {
+    return py::module_::import("stickslip.plotting")
+        .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax, py::arg("time") = time);
+  };
+}
+inline constexpr const char* hysteresis_doc = R"(Plot force over displacement; of a structure, those of its interface.
+
+Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, `title`, and `time`, the
+begin and end of the part to draw [s]. Returns the axes or the figure, see `stickslip.plotting.plot_hysteresis`.)";
+
 /// The documentation of a method that takes a path: a sentence, and notes if there are any.
 inline std::string csv_doc(const std::string& sentence, const std::string& notes = "") {
   return sentence + R"(

@@ -86,8 +86,11 @@ class LawExpansion<Law> : public Expansion {
         return values;
       };
       const auto weights = at_nodes([&](double part) { return ground.weight(std::max(left - part * step, 0.0)); });
-      HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step), weights, step, s * now.velocity);
-      const double first = law_.level_at_high_speed(weights[0], present);
+      const double first = law_.level_at_high_speed(weights[0], present), v = s * now.velocity;
+      const double friction = weights[0] * first * law_.speed_factor(v);
+      const double gains = step * (s * demand - of().damper * v - friction) / of().mass;
+      HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step), weights, step,
+                             at_nodes([&](double part) { return std::max(v + part * gains, 0.0); }));
       double fastest = 0, stop = never;  // a part of the step
       bool settled = false;
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {

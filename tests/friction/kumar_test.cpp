@@ -13,6 +13,7 @@
 #include "stickslip/sliding/forces.hpp"
 #include "stickslip/sliding/margins.hpp"
 #include "support/catch.hpp"
+#include "support/heated_surface.hpp"
 #include "support/motions.hpp"
 
 using namespace stickslip;
@@ -59,23 +60,8 @@ GroundMotion motion_part(const GroundMotion& motion, std::ptrdiff_t from, std::p
 /// steps, and its half-integral exact for that.
 double independent_stop(const Parameters& p, double x, double v, double h) {
   const double edge = p.contact_radius * std::sqrt(std::acos(-1.0) / 4);
-  const double warming = std::sqrt(p.diffusivity) / (p.conductivity * std::sqrt(std::acos(-1.0)));
   std::vector<double> q;
-  const auto celsius = [&](const std::vector<double>& heat) {
-    double sum = 0;
-    const std::size_t last = heat.size() - 1;
-    for (std::size_t i = 0; i < last; ++i) {
-      const double from = h * static_cast<double>(last - i), to = h * static_cast<double>(last - i - 1);  // ages
-      const double ones = 2 * (std::sqrt(from) - std::sqrt(to));
-      const double ages = 2.0 / 3 * (from * std::sqrt(from) - to * std::sqrt(to));
-      sum += heat[i + 1] * ones + (heat[i] - heat[i + 1]) * (ages - to * ones) / h;
-    }
-    return p.temperature + warming * sum;
-  };
-  const auto mu = [&](double speed, double t) {
-    return p.mu_ref * std::pow(0.7, 0.02e-6 * (p.static_pressure - p.reference_pressure)) *
-           (1 - 0.5 * std::exp(-p.rate * speed)) * 0.79 * (std::pow(0.7, 0.02 * t) + 0.4);
-  };
+  const auto mu = [&](double speed, double t) { return coefficient(p, speed, t); };
   const auto heat = [&](double at, double speed, double t) {
     return std::abs(at) < edge ? mu(speed, t) * p.static_pressure * speed : 0;
   };
@@ -88,7 +74,7 @@ double independent_stop(const Parameters& p, double x, double v, double h) {
     for (int sweep = 0; sweep < 3; ++sweep) {
       next.resize(q.size());
       next.push_back(heat(end_x, std::max(end_v, 0.0), end_t));
-      end_t = celsius(next);
+      end_t = celsius(p, next, h);
       end_v = v - h * (a + standard_gravity * mu(std::max(end_v, 0.0), end_t)) / 2;
       end_x = x + h * (v + end_v) / 2;
     }

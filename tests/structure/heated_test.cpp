@@ -16,6 +16,7 @@
 #include "stickslip/structure/isolated_structure.hpp"
 #include "stickslip/structure/sweep.hpp"
 #include "support/catch.hpp"
+#include "support/heated_surface.hpp"
 #include "support/motions.hpp"
 
 using namespace stickslip;
@@ -71,36 +72,22 @@ std::vector<Mounting> mountings() {
 /// heat is straight between steps, and its half-integral exact for that.
 /// @return x, y, T
 std::array<double, 3> independent_slip(const Parameters& p, double fraction, double w, double z, double v, double h) {
-  const double pi = std::numbers::pi, warming = std::sqrt(p.diffusivity) / (p.conductivity * std::sqrt(pi));
-  const double edge = p.contact_radius * std::sqrt(pi / 4);
+  const double edge = p.contact_radius * std::sqrt(std::numbers::pi / 4);
   std::vector<double> q;
-  const auto celsius = [&] {
-    double sum = 0;
-    const std::size_t last = q.size() - 1;
-    for (std::size_t i = 0; i < last; ++i) {
-      const double from = h * static_cast<double>(last - i), to = h * static_cast<double>(last - i - 1);  // ages
-      const double ones = 2 * (std::sqrt(from) - std::sqrt(to));
-      const double ages = 2.0 / 3 * (from * std::sqrt(from) - to * std::sqrt(to));
-      sum += q[i + 1] * ones + (q[i] - q[i + 1]) * (ages - to * ones) / h;
-    }
-    return p.temperature + warming * sum;
-  };
-  const auto mu = [&](double speed, double t) {
-    return p.mu_ref * (1 - 0.5 * std::exp(-p.rate * speed)) * 0.79 * (std::pow(0.7, 0.02 * t) + 0.4);
-  };
+  const auto mu = [&](double speed, double t) { return coefficient(p, std::max(speed, 0.0), t); };
   struct State {
     double x, v, y, rate;
   };
   const auto slope = [&](const State& s, double t) -> State {
     const double force = 2 * z * w * s.rate + w * w * s.y;
-    const double a = (fraction * force - standard_gravity * mu(std::max(s.v, 0.0), t)) / (1 - fraction);
+    const double a = (fraction * force - standard_gravity * mu(s.v, t)) / (1 - fraction);
     return {s.v, a, s.rate, -force - a};
   };
   const auto step = [&](const State& s, const State& by, double time) -> State {
     return {s.x + time * by.x, s.v + time * by.v, s.y + time * by.y, s.rate + time * by.rate};
   };
   const auto heat = [&](const State& s, double t) {
-    return std::abs(s.x) < edge ? mu(std::max(s.v, 0.0), t) * p.static_pressure * std::max(s.v, 0.0) : 0;
+    return std::abs(s.x) < edge ? mu(s.v, t) * p.static_pressure * std::max(s.v, 0.0) : 0;
   };
   State now{0, v, 0, 0};
   double t = p.temperature;
@@ -112,7 +99,7 @@ std::array<double, 3> independent_slip(const Parameters& p, double fraction, dou
     q.push_back(0);
     for (int sweep = 0; sweep < 4; ++sweep) {
       q.back() = heat(next, then);
-      then = celsius();
+      then = celsius(p, q, h);
       const State ends = slope(next, then);
       next = step(
           now,

@@ -547,19 +547,8 @@ and `time`, the begin and end of the part to draw [s], such as (0, 25). Returns 
 `stickslip.plotting.plot_response`.)")
       .def("animate", animation(), py::kw_only(), py::arg("time") = py::none(), py::arg("speed") = 1.0,
            py::arg("fps") = 15.0, py::arg("title") = py::none(), animation_doc)
-      .def(
-          "plot_hysteresis",
-          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,
-             const py::object& time) {
-            return py::module_::import("stickslip.plotting")
-                .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax, py::arg("time") = time);
-          },
-          py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("ax") = py::none(),
-          py::arg("time") = py::none(),
-          R"(Plot force over displacement.
-
-Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, `title`, and `time`, the
-begin and end of the part to draw [s]. Returns the axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
+      .def("plot_hysteresis", hysteresis(), py::kw_only(), py::arg("figure") = py::none(),
+           py::arg("title") = py::none(), py::arg("ax") = py::none(), py::arg("time") = py::none(), hysteresis_doc)
       .def("to_dataframe", in_python("stickslip._tables", "to_dataframe"),
            R"(Convert the histories to a pandas DataFrame.
 

@@ -147,7 +147,8 @@ Self integrate_structure(const py::object& system, const py::object& motion, dou
                          bool settle, double sliding_distance, const std::optional<SurfaceHeat>& heat) {
   if (!py::isinstance<GroundMotion>(motion))
     throw py::type_error("integrate: the motion of a structure must be a GroundMotion, got " +
-                         py::type::of(motion).attr("__name__").cast<std::string>());
+                         py::type::of(motion).attr("__name__").cast<std::string>() +
+                         (py::isinstance<HarmonicMotion>(motion) ? "; give motion.sampled(dt)" : ""));
   const StructureIntegrateOptions options{.displacement = displacement,
                                           .velocity = velocity,
                                           .settle = settle,
@@ -856,19 +857,8 @@ Decisions are the ends of slips; infinite if there was none. If it is tiny, the 
 
 Needs matplotlib (`pip install stickslip[plot]`). Takes `figure`, a matplotlib Figure or SubFigure to draw in, and
 `title`. Returns the figure, see `stickslip.plotting.plot_structure_response`.)")
-      .def(
-          "plot_hysteresis",
-          [](const py::object& self, const py::object& figure, const py::object& title, const py::object& ax,
-             const py::object& time) {
-            return py::module_::import("stickslip.plotting")
-                .attr("plot_hysteresis")(self, figure, title, py::arg("ax") = ax, py::arg("time") = time);
-          },
-          py::kw_only(), py::arg("figure") = py::none(), py::arg("title") = py::none(), py::arg("ax") = py::none(),
-          py::arg("time") = py::none(),
-          R"(Plot the force of the interface over its displacement.
-
-Needs matplotlib. Takes `ax`, matplotlib Axes, or `figure`, a Figure or SubFigure, to draw in, `title`, and `time`, the
-begin and end of the part to draw [s]. Returns the axes or the figure, see `stickslip.plotting.plot_hysteresis`.)")
+      .def("plot_hysteresis", hysteresis(), py::kw_only(), py::arg("figure") = py::none(),
+           py::arg("title") = py::none(), py::arg("ax") = py::none(), py::arg("time") = py::none(), hysteresis_doc)
       .def(
           "_curve",
           [](const Self& r) {

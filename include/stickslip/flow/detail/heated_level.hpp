@@ -17,16 +17,16 @@ class HeatedLevel {
  public:
   using Values = Nodes::Values;
 
-  /// At first as if the slip went on with the present heat flux.
   /// @param heating  heat flux divided by speed and by friction force per unit mass [kg/m^2]
   /// @param before   half-integrals at the points, of the heat from before the step
   /// @param weights  N+/g at the points
   /// @param step     [s]
-  /// @param speed    at the start [m/s]
-  HeatedLevel(const Law& law, double heating, const Values& before, const Values& weights, double step, double speed)
+  /// @param speeds   at the points [m/s], at first a guess
+  HeatedLevel(const Law& law, double heating, const Values& before, const Values& weights, double step,
+              const Values& speeds)
       : law_(law), heating_(heating), root_step_(std::sqrt(step)), before_(before), weights_(weights) {
-    q_.fill(flux(0, law.level_at_high_speed(weights[0], before[0]), speed));
     for (std::size_t i = 0; i < Nodes::points; ++i) values_[i] = level(i);
+    follow(speeds);
   }
 
   /// Levels from the speeds at the points [m/s]. @return whether none changes by more than 1e-9 of itself

@@ -78,7 +78,7 @@ class Heating {
         return values;
       };
       HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step), at_nodes(weight), step,
-                             norm(state.velocity));
+                             at_nodes([&](double) { return norm(state.velocity); }));
       bool settled = false;
       double fastest = 0;  // [m/s]
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
