@@ -221,16 +221,27 @@ class Expansion {
     const auto last = [&](const Polynomial& c) { return std::max(std::abs(c[at(k)]), std::abs(c[at(k - 1)])); };
     return last(v_) <= round_off * fastest && last(level_) <= 0x1p-48 * highest + slack(fastest);
   }
-  // Whether the level is that of its law.
+  // Whether the level is that of its law, until the motion stops: also where it is slowest, because terms that are
+  // lost in round-off at a high speed may be all of the level at a low one.
   template <class Law>
   bool follows(const Law& law, double s, Direction direction, double fastest, double highest) const {
-    for (const double u : {0.6, 1.0}) {
-      const double x = value_at(x_.data(), order_, u), v = s * value_at(v_.data(), order_, u);
-      if (v < 0) continue;  // beyond a stop
+    const double reach = std::min(first_stop(s), 1.0);
+    const auto is_right = [&](double u) {
+      const double x = value_at(x_.data(), order_, u), v = std::max(speed(s, u), 0.0);
       const double level = along(law, factor_at(law, u), x, v, direction);
-      if (!(std::abs(level - value_at(level_.data(), order_, u)) <= 0x1p-46 * highest + slack(fastest))) return false;
-    }
-    return true;
+      return std::abs(level - value_at(level_.data(), order_, u)) <= 0x1p-46 * highest + slack(fastest);
+    };
+    constexpr int parts = 16;
+    std::array<double, parts + 1> speeds;
+    for (int i = 0; i <= parts; ++i) speeds[at(i)] = speed(s, reach * i / parts);
+    for (const int i : {4, 8, 12, 16})
+      if (!is_right(reach * i / parts)) return false;
+    const auto slowest = static_cast<int>(std::ranges::min_element(speeds) - speeds.begin());
+    if (slowest == 0 || slowest == parts) return true;
+    const double here = speeds[at(slowest)], before = speeds[at(slowest - 1)] - here;
+    const double after = speeds[at(slowest + 1)] - here;  // the parabola through three points
+    const double shift = before + after > 0 ? (before - after) / (2 * (before + after)) : 0;
+    return is_right(reach * (slowest + shift) / parts);
   }
 
   // The resistance along the motion.

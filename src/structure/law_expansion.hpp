@@ -99,7 +99,7 @@ class LawExpansion<Law> : public Expansion {
         if (duration() < step || stop < 0.9) break;
         const auto speeds = at_nodes([&](double part) { return speed(s, part); });
         fastest = 0;
-        for (const double v : speeds) fastest = std::max(fastest, v);
+        for (const double one : speeds) fastest = std::max(fastest, one);
         settled = level.follow(speeds);
       }
       const double error = level.error(), shorter = duration() < step ? duration() : 1.02 * stop * step;
