@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/error.hpp"
 
 namespace stickslip {
 
@@ -33,7 +34,11 @@ class SurfaceHeat {
     return *this;
   }
   /// A surface whose modes y_j [J/m^2] are `values`.
-  explicit SurfaceHeat(const Modes& values) noexcept : warm_(true), modes_(values) {}
+  /// @throws std::invalid_argument  a value that is not finite
+  explicit SurfaceHeat(const Modes& values) : warm_(true), modes_(values) {
+    for (const double value : values)
+      detail::require(std::isfinite(value), "SurfaceHeat: modes must be finite", value, "J/m^2");
+  }
   /// A surface whose present half-integral is H, without its history.
   static SurfaceHeat with(double half_integral) noexcept {
     SurfaceHeat heat;

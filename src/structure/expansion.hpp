@@ -135,10 +135,12 @@ class Expansion {
         if constexpr (!linear) {
           fastest = std::max(fastest, std::abs(v_[at(k)]));
           highest = std::max(highest, std::abs(level_[at(k)]));
-          if (slides && k >= least && ends(k, fastest, highest)) order_ = k;
+          if (slides && k >= least && ends(k, fastest, highest, 0)) order_ = k;
         }
       }
-      if (linear || !slides || (ends(order_, fastest, highest) && follows(law, s, direction, fastest, highest))) return;
+      if (linear || !slides ||
+          (ends(order_, fastest, highest, slack(fastest)) && follows(law, s, direction, fastest, highest)))
+        return;
       h /= 2;
       if (!(h > 0x1p-60 * ground.duration))
         throw ConvergenceError("the slip level has no finite power series at x = " + shortest(state.displacement) +
@@ -217,9 +219,9 @@ class Expansion {
   // caster's level is known to fewer digits, but is next to nothing.
   double slack(double fastest) const noexcept { return round_off * fastest * of_.mass / h_; }
   // Whether the terms of orders k - 1 and k are below round-off.
-  bool ends(int k, double fastest, double highest) const noexcept {
+  bool ends(int k, double fastest, double highest, double slack) const noexcept {
     const auto last = [&](const Polynomial& c) { return std::max(std::abs(c[at(k)]), std::abs(c[at(k - 1)])); };
-    return last(v_) <= round_off * fastest && last(level_) <= 0x1p-48 * highest + slack(fastest);
+    return last(v_) <= round_off * fastest && last(level_) <= 0x1p-48 * highest + slack;
   }
   // Whether the level is that of its law, until the motion stops: also where it is slowest, because terms that are
   // lost in round-off at a high speed may be all of the level at a low one.
@@ -236,6 +238,10 @@ class Expansion {
     for (int i = 0; i <= parts; ++i) speeds[at(i)] = speed(s, reach * i / parts);
     for (const int i : {4, 8, 12, 16})
       if (!is_right(reach * i / parts)) return false;
+    // A caster may pass all of its level between two of these places: it is highest at x = 0.
+    const auto place = [&](double u) { return value_at(x_.data(), order_, u); };
+    const double from = x_[0], to = place(reach);
+    if (from * to < 0 && !is_right(numerics::root(place, 0, from, reach, to))) return false;
     const auto slowest = static_cast<int>(std::ranges::min_element(speeds) - speeds.begin());
     if (slowest == 0 || slowest == parts) return true;
     const double here = speeds[at(slowest)], before = speeds[at(slowest - 1)] - here;

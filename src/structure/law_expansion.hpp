@@ -62,8 +62,8 @@ class LawExpansion : public Expansion {
 };
 
 /// If friction heats the surface, its level during a slip is a polynomial of time times the factor of the speed. A step
-/// is shortened until the last terms of that polynomial change the velocity by at most 1e-8 of itself. What can be held
-/// at rest is a polynomial, too, whose last terms are at most 1e-9 of it.
+/// is shortened until the last terms of that polynomial change the velocity by at most 1e-8 of itself, or are 1e-10 of
+/// the level. What can be held at rest is a polynomial, too, whose last terms are at most 1e-9 of it.
 template <SeparableHeatedLaw Law>
 class LawExpansion<Law> : public Expansion {
  public:
@@ -104,7 +104,7 @@ class LawExpansion<Law> : public Expansion {
       }
       const double error = level.error(), shorter = duration() < step ? duration() : 1.02 * stop * step;
       const bool whole = !(shorter < 0.95 * step), stands = !(stop > 0);
-      const bool resolved = settled && (step * error <= 1e-8 * fastest * of().mass || error <= 0x1p-49 * first);
+      const bool resolved = settled && (step * error <= 1e-8 * fastest * of().mass || error <= 1e-10 * first);
       if (stands || (whole && resolved) || !(step > shortest_part * ground.duration)) {
         heating_ = heating > 0 && !stands;
         heat_ = level.heat();

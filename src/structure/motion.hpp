@@ -105,7 +105,8 @@ class StructureMotion {
     while (left_ > 0) {
       motion_.stand(state_, ground_, left_, demand_);
       const double up = exit(1, forward_level), down = exit(-1, backward_level), part = std::min(up, down);
-      if (part < 1) {
+      // At the end of the expansion what follows decides: a level may vanish there with its weight.
+      if (part < 1 - 0x1p-48) {
         const Mode mode = up < down ? Mode::forward : Mode::backward;
         waited += part * motion_.duration();
         finish(part);

@@ -262,6 +262,19 @@ TEST_CASE("quantities computed from a heated response", "[kumar]") {
   CHECK(std::abs(gained - ground) <= 1e-3);
 }
 
+TEST_CASE("a level that vanishes with the weight at the end of a segment is left by nothing", "[kumar]") {
+  const GroundMotion falling =
+      GroundMotion({0, 0, 0, 0, 3, 0}, 0.02).with_components({}, std::vector<double>{0, 0, -15, 0, 0, 0});
+  for (const double mu : {0.05, 0.06}) {
+    Parameters p = usual;
+    p.mu_ref = mu;
+    CHECK(integrate(Slider(KumarFriction(p), 2.0), falling).events.size() <= 10);
+  }
+  SurfaceHeat::Modes modes{};
+  modes[3] = not_a_number;
+  CHECK_THROWS_WITH(SurfaceHeat(modes), Catch::Matchers::ContainsSubstring("modes must be finite"));
+}
+
 TEST_CASE("bad parameters of KumarFriction are named", "[kumar]") {
   const auto refuses = [](auto change, const char* message) {
     Parameters p = usual;

@@ -353,7 +353,8 @@ class Collocating : public detail::LawFlows<Law> {
         continue;
       }
       const double part = std::min(to_forward, to_backward);
-      if (part <= 1) {
+      // At the end of the segment the next one decides: a level may vanish there with its weight.
+      if (passed + part * step < left * (1 - 0x1p-48)) {
         state.heat.rest(part * step);
         departure.mode = to_forward <= to_backward ? Mode::forward : Mode::backward;
         departure.delay = passed + part * step;
@@ -365,7 +366,7 @@ class Collocating : public detail::LawFlows<Law> {
       }
       state.heat.rest(step);
       passed += step;
-      if (!(passed < left)) return departure;
+      if (!(passed < left && step > 0)) return departure;  // a time that is almost no number may have no half
       step = std::min(2 * step, left - passed);
     }
   }

@@ -26,7 +26,7 @@ modes : array_like, shape (42,), optional
 Raises
 ------
 ValueError
-    Another number of modes.
+    Another number of modes; one that is not finite.
 
 Notes
 -----

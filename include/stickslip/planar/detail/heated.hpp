@@ -152,7 +152,7 @@ class Heating {
       }
       surface.rest(step);
       passed += step;
-      if (!(passed < left)) return never;
+      if (!(passed < left && step > 0)) return never;
       step = std::min(2 * step, left - passed);
     }
   }
