@@ -111,8 +111,8 @@ class Histories {
     if (heated_) response_.temperature.resize(samples);
     response_.modal_displacement.conservativeResize(size, of_.modes());
     response_.modal_velocity.conservativeResize(size, of_.modes());
-    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &response_.interface_force, &ground_,
-                         &acceleration_})
+    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &response_.interface_force,
+                         &ground_, &acceleration_})
       values->conservativeResize(size);
   }
 
@@ -143,8 +143,8 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
   response.energy.initial = response.energy.kinetic + response.energy.elastic;
   const detail::FloorRows rows(of);
   const detail::FloorRows* wanted = options.floors ? &rows : nullptr;
-  detail::StructureRecorder recorder(of, wanted, options.loops, state.displacement, detail::max_events(motion.segments()),
-                                     options.progress, response);
+  detail::StructureRecorder recorder(of, wanted, options.loops, state.displacement,
+                                     detail::max_events(motion.segments()), options.progress, response);
   detail::LawExpansion<Law> expansion(of, law, detail::mean_step(motion));
   Histories histories(system, response, motion.samples(), HeatedLaw<Law>);
   const detail::LoadPieces pieces(motion, 0);

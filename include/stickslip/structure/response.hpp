@@ -56,8 +56,8 @@ struct StructureResponse : Response {
   /// Points that draw the loops of force over displacement with straight lines between them: two where the force jumps.
   /// Empty unless StructureIntegrateOptions::loops.
   std::vector<InterfacePoint> loops;
-  double peak_base_acceleration = 0;   ///< over all time [m/s^2]
-  double peak_base_shear = 0;          ///< largest sum of the inertia forces of the structure; unit as Floors::shear
+  double peak_base_acceleration = 0;  ///< over all time [m/s^2]
+  double peak_base_shear = 0;         ///< largest sum of the inertia forces of the structure; unit as Floors::shear
   /// Smallest difference between the demand and a static level when the velocity became zero, per reference mass
   /// [m/s^2]; infinite if that never happened. If it is tiny, the response depends on round-off.
   double margin = 0;
