@@ -242,7 +242,7 @@ class Expansion {
     const auto place = [&](double u) { return value_at(x_.data(), order_, u); };
     const double from = x_[0], to = place(reach);
     if (from * to < 0 && !is_right(numerics::root(place, 0, from, reach, to))) return false;
-    const auto slowest = static_cast<int>(std::ranges::min_element(speeds) - speeds.begin());
+    const auto slowest = static_cast<int>(std::min_element(speeds.begin(), speeds.end()) - speeds.begin());
     if (slowest == 0 || slowest == parts) return true;
     const double here = speeds[at(slowest)], before = speeds[at(slowest - 1)] - here;
     const double after = speeds[at(slowest + 1)] - here;  // the parabola through three points

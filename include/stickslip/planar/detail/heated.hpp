@@ -90,7 +90,7 @@ class Heating {
         }
         if (!covers_whole(flow, step)) break;
         const Nodes::Values speeds = at_nodes([&](double time) { return norm(flow.at(time).velocity); });
-        fastest = *std::ranges::max_element(speeds);
+        fastest = *std::max_element(speeds.begin(), speeds.end());
         settled = level.follow(speeds);
       }
       const bool resolved = settled && step * level.error() <= 1e-8 * fastest;
