@@ -76,30 +76,26 @@ class LawExpansion<Law> : public Expansion {
   }
 
   void slide(const StructureState& state, const GroundLoad& ground, double left, double demand) {
+    const Nodes& nodes = Nodes::get();
     const State now = interface_of(state);
     const double s = static_cast<double>(static_cast<int>(state.mode)), longest = share(left);
     const double heating = law_.heating(now, direction_of(state.mode)), present = state.heat.half_integral();
     for (double step = std::min(longest, 2 * last_step_);;) {
-      const auto at_nodes = [&](auto&& f) {
-        Nodes::Values values;
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = f(Nodes::get().nodes[i]);
-        return values;
-      };
-      const auto weights = at_nodes([&](double part) { return ground.weight(std::max(left - part * step, 0.0)); });
+      const auto weights =
+          nodes.at_nodes([&](double part) { return ground.weight(std::max(left - part * step, 0.0)); });
       const double first = law_.level_at_high_speed(weights[0], present), v = s * now.velocity;
       const double friction = weights[0] * first * law_.speed_factor(v);
       const double gains = step * (s * demand - of().damper * v - friction) / of().mass;
       HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step), weights, step,
-                             at_nodes([&](double part) { return std::max(v + part * gains, 0.0); }));
+                             nodes.at_nodes([&](double part) { return std::max(v + part * gains, 0.0); }));
       double fastest = 0, stop = never;  // a part of the step
       bool settled = false;
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
         expand(state, ground, left, step, demand, Step(law_, level.powers(), first, step));
         stop = first_stop(s);
         if (duration() < step || stop < 0.9) break;
-        const auto speeds = at_nodes([&](double part) { return speed(s, part); });
-        fastest = 0;
-        for (const double one : speeds) fastest = std::max(fastest, one);
+        const auto speeds = nodes.at_nodes([&](double part) { return speed(s, part); });
+        fastest = *std::max_element(speeds.begin(), speeds.end());
         settled = level.follow(speeds);
       }
       const double error = level.error(), shorter = duration() < step ? duration() : 1.02 * stop * step;

@@ -30,6 +30,14 @@ class Collocation {
     return made;
   }
 
+  /// The values of f(t) at the nodes.
+  template <class F>
+  Values at_nodes(F&& f) const {
+    Values values;
+    for (std::size_t i = 0; i < points; ++i) values[i] = f(nodes[i]);
+    return values;
+  }
+
   /// Coefficients in the Chebyshev polynomials of 2 t - 1.
   Values chebyshev(const Values& values) const noexcept {
     Values c{};

@@ -1,7 +1,8 @@
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
-#include <utility>
+#include <type_traits>
 
 #include "parts.hpp"
 #include "structure/from_inputs.hpp"

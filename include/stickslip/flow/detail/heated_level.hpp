@@ -41,8 +41,7 @@ class HeatedLevel {
     return settled;
   }
 
-  const Values& values() const noexcept { return values_; }  ///< [m/s^2]
-  /// Powers of the time in units of the step.
+  /// The level [m/s^2], in powers of the time in units of the step.
   Values powers() const { return powers(values_); }
   /// Heat flux, in the same powers [W/m^2].
   Values heat() const { return powers(q_); }

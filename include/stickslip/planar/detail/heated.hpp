@@ -64,7 +64,6 @@ class Heating {
   template <class Slide, class Make, class Weight>
   Slide slide(const PlanarState& state, double left, bool covers, Make&& make, Weight&& weight) {
     const Nodes& nodes = Nodes::get();
-    constexpr std::size_t n = Nodes::points;
     const double heating = covers ? law_.heating(State{}, Direction::forward) : 0;
     std::optional<Slide> slip;
     double step = std::min(left, 16 * last_step_);
@@ -72,13 +71,9 @@ class Heating {
     const double resists = weight(0) * law_.level_at_high_speed(weight(0), state.heat.half_integral());
     if (256 * norm(state.velocity) < resists * left) step = left;
     for (int shortened = 0;; ++shortened) {
-      const auto at_nodes = [&](auto&& f) {
-        Nodes::Values values;
-        for (std::size_t i = 0; i < n; ++i) values[i] = f(nodes.nodes[i] * step);
-        return values;
-      };
-      HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step), at_nodes(weight), step,
-                             at_nodes([&](double) { return norm(state.velocity); }));
+      HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step),
+                             nodes.at_nodes([&](double part) { return weight(part * step); }), step,
+                             nodes.at_nodes([&](double) { return norm(state.velocity); }));
       bool settled = false;
       double fastest = 0;  // [m/s]
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
@@ -89,7 +84,7 @@ class Heating {
           return *slip;
         }
         if (!covers_whole(flow, step)) break;
-        const Nodes::Values speeds = at_nodes([&](double time) { return norm(flow.at(time).velocity); });
+        const auto speeds = nodes.at_nodes([&](double part) { return norm(flow.at(part * step).velocity); });
         fastest = *std::max_element(speeds.begin(), speeds.end());
         settled = level.follow(speeds);
       }
