@@ -84,21 +84,26 @@ inline void check_start(const Mounting& mounting, const State& state, const char
     refuse(std::string(function) + ": velocity must not point backward on a one-way slider", state.velocity, "m/s");
 }
 
-/// `advance` of a slider of any law, where `move(segments, state)` moves it.
+/// `advance` of a slider of any law, where `move(segments, state)` moves it. An engine that throws leaves the state as
+/// it was.
 template <class Piece, class Move>
 void advance_by(const Engine& engine, const Piece& segment, State& state, Move&& move) {
-  if (engine.law().memory)
-    require(std::isfinite(state.sliding_distance) && state.sliding_distance >= 0,
-            "advance: sliding_distance must be finite and at least 0", state.sliding_distance, "m");
-  State moved = engine.started(state);
   OneSegment one(segment);
+  if (!engine.law().memory) {
+    const BareState before(state);
+    move(one, state);
+    if (finite(state.displacement, state.velocity)) [[likely]]
+      return;
+    before.store(state);
+    refuse_overflow(engine, state);
+  }
+  require(std::isfinite(state.sliding_distance) && state.sliding_distance >= 0,
+          "advance: sliding_distance must be finite and at least 0", state.sliding_distance, "m");
+  State moved = engine.started(state);
   move(one, moved);
   if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
     refuse_overflow(engine, state);
-  if (engine.law().memory)
-    state = moved;
-  else
-    BareState(moved).store(state);
+  state = moved;
 }
 inline constexpr double unusual = std::numeric_limits<double>::quiet_NaN();  // duration of a single segment
 
@@ -132,14 +137,30 @@ inline void advance(const Engine& engine, const Segment& segment, bool loaded, C
     advance(engine, segment, state, sink);
 }
 
-/// Coulomb friction without spring and damper, where a few nanoseconds matter: the observer is inlined into the event
-/// loop.
+template <FlowMaker Flows, MotionObserver Observer>
+[[gnu::always_inline]] inline void move_block(const Flows& flows, const Segment& segment, BareState& state,
+                                              Observer& observer) {
+  advance(flows, segment, state, observer);
+}
+/// The same with a damper. It is out of line to keep the common case small, and takes everything by value, so that the
+/// values can stay in registers.
+template <FrictionLaw Law, MotionObserver Observer>
+[[gnu::noinline]] BareState moved(BlockFlows<Law, Damped> flows, Segment segment, BareState state, Observer& observer) {
+  advance(flows, segment, state, observer);
+  return state;
+}
+template <FrictionLaw Law, MotionObserver Observer>
+void move_block(const BlockFlows<Law, Damped>& flows, const Segment& segment, BareState& state, Observer& observer) {
+  state = moved(flows, segment, state, observer);
+}
+
+/// Coulomb friction on level ground, where a few nanoseconds matter: the observer is inlined into the event loop.
 template <MotionObserver Observer>
 void advance_block(const Slider<Coulomb>& slider, const Segment& segment, State& state, Observer& observer) {
   if (!finite(segment, state)) [[unlikely]]
     refuse(segment, state);
   BareState moved(state);
-  advance(BlockFlows(slider.law(), Polynomial{}), segment, moved, observer);
+  with_block_flows(slider, unusual, [&](const auto& flows) { move_block(flows, segment, moved, observer); });
   if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
     refuse_overflow(EngineOf<Coulomb>(slider), state);
   moved.store(state);
@@ -192,9 +213,7 @@ void advance(const Slider<Law>& slider, const Segment& segment, State& state, Ob
              Contact contact = Contact::flight) {
   if (!slider.plain() || state.in_flight) [[unlikely]]
     return advance(slider, detail::load_segment(segment, slider.slope()), state, observer, contact);
-  if constexpr (std::same_as<Law, Coulomb>)
-    if (detail::equal(slider.stiffness(), 0) && detail::equal(slider.damping(), 0))
-      return detail::advance_block(slider, segment, state, observer);
+  if constexpr (std::same_as<Law, Coulomb>) return detail::advance_block(slider, segment, state, observer);
   detail::ObserverSink sink(observer);
   detail::advance(detail::EngineOf<Law>(slider), segment, state, sink);
 }

@@ -73,11 +73,12 @@ class Engine {
   virtual SurfaceHeat heat_at(double temperature) const = 0;
 
  protected:
+  /// @param mounting  held by reference
   Engine(const Mounting& mounting, bool plain, const LawTraits& law) noexcept
       : mounting_(mounting), plain_(plain), law_(law) {}
 
  private:
-  Mounting mounting_;
+  const Mounting& mounting_;
   bool plain_;
   LawTraits law_;
 };

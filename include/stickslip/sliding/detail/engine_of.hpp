@@ -68,6 +68,17 @@ template <class AnySegment, class Place, class Go>
   ToSink<Sink> observer(sink);
   for (AnySegment segment; segments.next(StateView(state), segment);) go(segment, state, observer);
 }
+/// The same where a slip costs so little that calls between the parts of the event loop would show.
+template <class AnySegment, class Place, class Go>
+[[gnu::flatten, gnu::noinline]] void move_inlined(Segments<AnySegment>& segments, Place& state, Sink& sink, Go go) {
+  Place moving = state;  // a state whose address is taken is kept in memory
+  move_through(segments, moving, sink, go);
+  state = moving;
+}
+
+/// Constant friction on a plane or a spring.
+template <class Flows>
+inline constexpr bool is_cheap = Flows::in_closed_form&& form_of<typename Flows::Law> == Form::constant;
 
 /// A slider of any law as an Engine. The library contains those of its laws; a user's own law compiles here.
 template <FrictionLaw Law>
@@ -119,11 +130,15 @@ const Slider<Law>& slider_;
 
 template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<Segment>& segments, double usual_duration, State& state, Sink& sink) const {
-  with_flows(slider_, usual_duration, [&](const auto& flows) {
-    typename std::remove_cvref_t<decltype(flows)>::Place moving(state);
-    move_through(segments, moving, sink, [&](const Segment& segment, auto& place, auto& observer) {
+  with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
+    typename Flows::Place moving(state);
+    const auto go = [&flows](const Segment& segment, auto& place, auto& observer) {
       advance(flows, segment, place, observer);
-    });
+    };
+    if constexpr (is_cheap<Flows>)
+      move_inlined(segments, moving, sink, go);
+    else
+      move_through(segments, moving, sink, go);
     store(moving, state);
   });
 }
@@ -132,11 +147,15 @@ template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<LoadSegment>& segments, double usual_duration, Contact contact, State& state,
                          Sink& sink) const {
   const Bounds bounds{mounting().stops, mounting().one_way};
-  with_flows(slider_, usual_duration, [&](const auto& flows) {
+  with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
     StateOf<Law> moving(state);
-    move_through(segments, moving, sink, [&](const LoadSegment& segment, auto& place, auto& observer) {
+    const auto go = [&flows, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
       advance(flows, segment, bounds, contact, place, observer);
-    });
+    };
+    if constexpr (is_cheap<Flows>)
+      move_inlined(segments, moving, sink, go);
+    else
+      move_through(segments, moving, sink, go);
     store(moving, state);
   });
 }
@@ -153,11 +172,10 @@ void EngineOf<Law>::move(Segments<HarmonicSegment>& segments, double omega, doub
   });
 }
 
-/// A block on a plane, where a few nanoseconds matter: the sink is inlined into the event loop.
-template <class AnySink>
-[[gnu::flatten]] void record_block(const Coulomb& law, const GroundMotion& motion, State& state, AnySink& sink,
+/// Coulomb friction on level ground, where a few nanoseconds matter: the sink is inlined into the event loop.
+template <class Flows, class AnySink>
+[[gnu::flatten]] void record_block(const Flows& flows, const GroundMotion& motion, State& state, AnySink& sink,
                                    const HistorySpans& histories) {
-  const BlockFlows flows(law, Polynomial{});
   ToSink<AnySink> observer(sink);
   BareState moving(state);
   walk(
@@ -176,11 +194,12 @@ template <class AnySink>
 void EngineOf<Law>::record_any(const GroundMotion& motion, State& state, AnySink& sink,
                                const HistorySpans& histories) const {
   if constexpr (std::same_as<Law, Coulomb>) {
-    if (equal(slider_.stiffness(), 0) && equal(slider_.damping(), 0))
-      return record_block(slider_.law(), motion, state, sink, histories);
+    with_block_flows(slider_, motion.dt(),
+                     [&](const auto& flows) { record_block(flows, motion, state, sink, histories); });
+  } else {
+    SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
+    move(segments, motion.dt(), state, sink);
   }
-  SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
-  move(segments, motion.dt(), state, sink);
 }
 template <FrictionLaw Law>
 void EngineOf<Law>::record(const GroundMotion& motion, State& state, Recorder& recorder,

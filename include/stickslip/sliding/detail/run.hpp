@@ -30,8 +30,14 @@ struct HistorySpans {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
   }
-  void keep(std::size_t sample, const StateView& state, const Engine& engine) const {
+  [[gnu::always_inline]] void keep(std::size_t sample, const StateView& state, const Engine& engine) const {
     keep(sample, state);
+    if (!gap.empty() || !temperature.empty()) [[unlikely]]
+      keep_rarer(sample, state, engine);
+  }
+
+ private:
+  [[gnu::noinline]] void keep_rarer(std::size_t sample, const StateView& state, const Engine& engine) const {
     if (!gap.empty()) gap[sample] = state.gap;
     if (!temperature.empty()) temperature[sample] = engine.temperature(state.state());
   }
@@ -68,7 +74,7 @@ class LoadPieces {
         slope_(slope) {}
 
   double time(std::size_t i) const noexcept { return pieces_.time(i); }
-  LoadSegment segment(std::size_t i) const noexcept {
+  [[gnu::always_inline]] LoadSegment segment(std::size_t i) const noexcept {
     if (up_.empty()) return load_segment(pieces_.segment(i), slope_);
     return load_segment(pieces_.segment(i), slope_, up_[i], up_[i + next_]);
   }
@@ -104,7 +110,7 @@ class SampledSegments final : public Segments<AnySegment> {
   std::size_t count_, i_ = 0;  // segments given
   const Engine& engine_;
   AnySink& sink_;
-  const HistorySpans& histories_;
+  HistorySpans histories_;
   double end_;  // of the last segment [s]
 };
 
