@@ -15,7 +15,7 @@ namespace stickslip::detail {
 namespace {
 
 // Computes the peaks and the impacts of a member, and checks regularly whether the run was stopped.
-class StructurePeakObserver {
+class StructurePeakObserver final : public StructureSink {
  public:
   StructurePeakObserver(const ModalInterface& of, const FloorRows& rows, const Block& block, std::size_t event_limit)
       : block_(block), floors_(of, rows), event_limit_(event_limit) {}
@@ -33,18 +33,16 @@ class StructurePeakObserver {
     return numbers;
   }
 
-  void event(EventKind kind, double, const InterfacePlace& place) {
+  void event(EventKind kind, double, const InterfacePlace& place) override {
     if (kind == EventKind::impact) impacts_.add(place.displacement, place.velocity);
     reach(place.displacement);  // x is monotonic between events
     count_work();
     if (++events_ > event_limit_) refuse_more_events(event_limit_);
   }
-  void follow(const Expansion& motion, Mode) {
+  void follow(const Expansion& motion, Mode) override {
     count_work();
     floors_.include(motion);
   }
-  void lose(double) const noexcept {}
-  void decide(double) const noexcept {}
   void reach(double x) noexcept { peak_ = std::max(peak_, std::abs(x)); }
 
  private:

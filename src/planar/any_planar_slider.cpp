@@ -1,11 +1,24 @@
-// Sliders on one axis in the plane, and back.
+// Sliders of any law in the plane.
 #include "stickslip/planar/any_planar_slider.hpp"
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace stickslip {
 namespace {
+
+/// Calls a function now and then.
+struct Reporting {
+  const std::function<void()>& progress;
+  unsigned flows = 0;
+
+  template <class Flow>
+  void follow(const Flow&, double, double) {
+    if (++flows % 4096 == 0 && progress) progress();
+  }
+  void event(EventKind, double, const PlanarState&) noexcept {}
+};
 
 template <class Law>
 std::string name_of_law(const Law&) {
@@ -62,6 +75,25 @@ AnyPlanarSlider planar(const AnySlider& slider) {
 
 AnySlider along_axis(const AnyPlanarSlider& slider) {
   return std::visit([](const auto& one) -> AnySlider { return one.along_axis(); }, slider);
+}
+
+PlanarResponse integrate(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                         const PlanarIntegrateOptions& options, PlanarResponse storage) {
+  return std::visit([&](const auto& one) { return integrate(one, motion, options, std::move(storage)); }, slider);
+}
+
+PlanarHistories histories(const AnyPlanarSlider& slider, const GroundMotion& motion,
+                          const std::function<void()>& progress) {
+  return std::visit([&](const auto& one) { return histories(one, motion, progress); }, slider);
+}
+
+void advance(const AnyPlanarSlider& slider, const PlanarSegment& segment, PlanarState& state, Contact contact,
+             const std::function<void()>& progress) {
+  advance(slider, detail::load_segment(segment, mounting_of(slider).slope()), state, contact, progress);
+}
+void advance(const AnyPlanarSlider& slider, const PlanarLoadSegment& segment, PlanarState& state, Contact contact,
+             const std::function<void()>& progress) {
+  std::visit([&](const auto& one) { advance(one, segment, state, Reporting{progress}, contact); }, slider);
 }
 
 }  // namespace stickslip

@@ -57,7 +57,7 @@ PlanarFloorMotion floor_motion(const AnyPlanarSlider& slider, const GroundMotion
 std::vector<PlanarState> states_at(const AnyPlanarSlider& slider, const GroundMotion& motion,
                                    const PlanarResponse& response, std::span<const double> times) {
   NoReader none;
-  detail::PlanarTracer tracer{none};
+  detail::PlanarTracer tracer(none);
   return detail::planar_states(motion, mounting_of(slider).slope(), response, times,
                                [&](const PlanarLoadSegment& segment, PlanarState& state) {
                                  trace(slider, segment, response.contact, state, tracer);

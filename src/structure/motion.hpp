@@ -53,17 +53,29 @@ struct InterfacePassage {
   InterfaceSlide::Leg leg{};
 };
 
+/// Receives a motion while it is computed. Times are measured from the beginning of the segment [s].
+class StructureSink {
+ public:
+  virtual void event(EventKind kind, double time, const InterfacePlace& place) = 0;
+  /// After each expansion, whose duration is over.
+  virtual void follow(const Expansion& motion, Mode mode) = 0;
+  /// Energy lost in an impact [J].
+  virtual void lose(double /*energy*/) {}
+  /// The distance of a demand from a level where the velocity is zero [m/s^2].
+  virtual void decide(double /*difference*/) {}
+
+ protected:
+  ~StructureSink() = default;
+};
+
 /// A structure with one sliding interface during one segment (a SlidingSystem).
-/// @tparam Observer  `event(kind, time, place)`, `follow(expansion, mode)` after each expansion, whose duration is
-/// over,
-///                   `lose(energy)`, and `decide(difference)` where the velocity is zero
-template <FrictionLaw Law, class Observer>
+template <FrictionLaw Law>
 class StructureMotion {
  public:
   static constexpr int most_steps = 3'000'000;
 
   StructureMotion(const ModalInterface& of, const Law& law, const GroundLoad& ground, StructureState& state,
-                  LawExpansion<Law>& motion, Observer& observer)
+                  LawExpansion<Law>& motion, StructureSink& observer)
       : of_(of),
         law_(law),
         ground_(ground),
@@ -156,10 +168,10 @@ class StructureMotion {
     return {true, to_change < to_wall, room, leg};
   }
 
-  void show(const InterfaceSlide&, const InterfaceSlide::Leg& leg, Observer&) { finish_slip(leg); }
+  void show(const InterfaceSlide&, const InterfaceSlide::Leg& leg, StructureSink&) { finish_slip(leg); }
 
   /// To the place of a passage. @return whether the segment goes on
-  bool pass(const InterfaceSlide& slide, const InterfacePassage& passage, Observer&) {
+  bool pass(const InterfaceSlide& slide, const InterfacePassage& passage, StructureSink&) {
     const Direction direction = direction_of(state_.mode);
     state_.velocity = slide.direction * passage.leg.speed;
     if (passage.changes_law) {
@@ -314,7 +326,7 @@ class StructureMotion {
   GroundLoad ground_;
   StructureState& state_;
   LawExpansion<Law>& motion_;
-  Observer& observer_;
+  StructureSink& observer_;
   Bounds limits_;
   double left_;                 // time to the end of the segment [s]
   double demand_;               // q [m/s^2]

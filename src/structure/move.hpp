@@ -61,29 +61,27 @@ void by_weight(const LoadSegment& segment, Move&& move) {
 }
 
 /// Passes events with times from the start of the whole segment.
-template <class Observer>
-struct WithinStructureSegment {
-  Observer& observer;
-  double begin;  // of the part [s]
+class WithinStructureSegment final : public StructureSink {
+ public:
+  /// @param begin  of the part [s]
+  WithinStructureSegment(StructureSink& sink, double begin) : sink_(sink), begin_(begin) {}
 
-  void event(EventKind kind, double time, const InterfacePlace& place) { observer.event(kind, begin + time, place); }
-  void follow(const Expansion& motion, Mode mode) { observer.follow(motion, mode); }
-  void lose(double energy) { observer.lose(energy); }
-  void decide(double difference) { observer.decide(difference); }
+  void event(EventKind kind, double time, const InterfacePlace& place) override {
+    sink_.event(kind, begin_ + time, place);
+  }
+  void follow(const Expansion& motion, Mode mode) override { sink_.follow(motion, mode); }
+  void lose(double energy) override { sink_.lose(energy); }
+  void decide(double difference) override { sink_.decide(difference); }
+
+ private:
+  StructureSink& sink_;
+  double begin_;
 };
 
-/// Move through a segment.
-/// @param observer  as that of StructureMotion
-template <FrictionLaw Law, class Observer>
+/// Move through a segment. Compiled once for each law, in engines.cpp.
+template <FrictionLaw Law>
 void move_structure(const ModalInterface& of, const Law& law, const LoadSegment& segment, StructureState& state,
-                    LawExpansion<Law>& expansion, Observer& observer) {
-  by_weight(segment, [&](const GroundLoad& load, double begin) {
-    if (!(load.duration > 0)) return;
-    WithinStructureSegment<Observer> within{observer, begin};
-    StructureMotion<Law, decltype(within)> motion(of, law, load, state, expansion, within);
-    advance(motion, within);
-  });
-}
+                    LawExpansion<Law>& expansion, StructureSink& sink);
 
 /// What the interface can hold in both directions while it is stuck, under its weight [m/s^2].
 struct StuckLevels {

@@ -56,7 +56,7 @@ class FloorMaxima {
   Eigen::VectorXd forces_, drifts_;  // in the order of the rows
 };
 
-class StructureRecorder {
+class StructureRecorder final : public StructureSink {
  public:
   static constexpr std::uint32_t work_per_report = 4096;  // segments, events or expansions
 
@@ -72,10 +72,10 @@ class StructureRecorder {
     if (progress_) progress_();
   }
 
-  void event(EventKind kind, double time, const InterfacePlace& place);
-  void follow(const Expansion& motion, Mode mode);
-  void lose(double energy) noexcept { response_.energy.impact += energy; }
-  void decide(double difference) noexcept { response_.margin = std::min(response_.margin, difference); }
+  void event(EventKind kind, double time, const InterfacePlace& place) override;
+  void follow(const Expansion& motion, Mode mode) override;
+  void lose(double energy) override { response_.energy.impact += energy; }
+  void decide(double difference) override { response_.margin = std::min(response_.margin, difference); }
   /// Writes the peaks of the floors.
   void finish();
 
@@ -97,12 +97,11 @@ class StructureRecorder {
   const std::function<void()>& progress_;
 };
 
-/// An observer that records nothing.
-struct NoStructureObserver {
-  void event(EventKind, double, const InterfacePlace&) const noexcept {}
-  void follow(const Expansion&, Mode) const noexcept {}
-  void lose(double) const noexcept {}
-  void decide(double) const noexcept {}
+/// Records nothing.
+class NoStructureSink final : public StructureSink {
+ public:
+  void event(EventKind, double, const InterfacePlace&) override {}
+  void follow(const Expansion&, Mode) override {}
 };
 
 }  // namespace stickslip::detail

@@ -279,7 +279,7 @@ void advance(const SlidingStructure& system, const LoadSegment& segment, Structu
   if (!detail::finite(state)) throw std::invalid_argument("advance: the modes of the state must be finite");
   check_start(system, state, "advance");
   StructureState moved = state;
-  detail::NoStructureObserver none;
+  detail::NoStructureSink none;
   detail::with_interface_law(system.slider(), [&](const auto& law) {
     detail::LawExpansion expansion(system.modal(), law, segment.duration);
     detail::move_structure(system.modal(), law, segment, moved, expansion, none);

@@ -25,23 +25,21 @@ namespace {
 using Eigen::VectorXd;
 
 // Keeps what a sweep shows.
-class Tally {
+class Tally final : public StructureSink {
  public:
   Tally(std::size_t event_limit, const SweepGroup::Check& check) : event_limit_(event_limit), check_(check) {}
 
-  void event(EventKind kind, double, const InterfacePlace& place) {
+  void event(EventKind kind, double, const InterfacePlace& place) override {
     if (outcome_.events >= event_limit_) refuse_more_events(event_limit_);
     ++outcome_.events;
     outcome_.peak = std::max(outcome_.peak, std::abs(place.displacement));  // x is monotonic between events
     if (kind == EventKind::impact) outcome_.impacts.add(place.displacement, place.velocity);
   }
-  void follow(const Expansion& motion, Mode mode) {
+  void follow(const Expansion& motion, Mode mode) override {
     if (++work_ % work_per_check == 0) check_();
     if (mode == Mode::stuck) return;
     outcome_.sliding_distance += std::max(motion.distance(static_cast<double>(static_cast<int>(mode)), 1), 0.0);
   }
-  void lose(double) const noexcept {}
-  void decide(double) const noexcept {}
 
   SweepOutcome end(const StructureState& state) {
     outcome_.residual = state.displacement;

@@ -7,6 +7,7 @@
 
 #include "stickslip/error.hpp"
 #include "stickslip/planar/detail/plane.hpp"
+#include "stickslip/planar/detail/sink.hpp"
 #include "stickslip/planar/observer.hpp"
 #include "stickslip/planar/segment.hpp"
 #include "stickslip/planar/slider.hpp"
@@ -16,22 +17,6 @@
 
 namespace stickslip {
 namespace detail {
-
-/// Passes the events and flows of a part of a segment to the observer, with times from the start of the whole segment.
-template <class Observer>
-struct WithinPlanarSegment {
-  Observer& observer;
-  double begin;  // of the part [s]
-
-  void event(EventKind kind, double time, const PlanarState& state) { observer.event(kind, begin + time, state); }
-  template <class Flow>
-  void follow(const Flow& flow, double last, double time) requires requires(Observer& o) {
-    o.follow(flow, last, time);
-  }
-  { observer.follow(flow, last, begin + time); }
-  void dissipate(double work) requires PlanarEnergyObserver<Observer> { observer.dissipate(work); }
-  void lose(double energy) requires PlanarEnergyObserver<Observer> { observer.lose(energy); }
-};
 
 /// Whether friction certainly holds a slider at rest during a segment: the load is within the level at both ends, and
 /// its square grows more convexly than that of the level.
@@ -48,14 +33,14 @@ bool rests(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, co
          dot(change, change) >= holds_change * holds_change;
 }
 
-/// The event loop over any segment.
-template <IsotropicLaw Law, PlanarObserver Observer>
+/// The event loop over any segment. The library contains it for its laws.
+template <IsotropicLaw Law>
 void advance_plane(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, Contact contact,
-                   PlanarState& state, Observer& observer) {
+                   PlanarState& state, PlanarSink& sink) {
   if (!state.in_flight && state.mode == PlanarMode::stuck && rests(slider, segment, state)) return;
   const auto move = [&](const PlanarLoadSegment& part, double begin, bool touching) {
     if (!(part.duration > 0)) return;
-    WithinPlanarSegment<Observer> within{observer, begin};
+    WithinPlanarSegment within{sink, begin};
     Plane<Law> plane(slider, part, touching, state);
     detail::advance(plane, within);
   };
@@ -65,7 +50,7 @@ void advance_plane(const PlanarSlider<Law>& slider, const PlanarLoadSegment& seg
     const double before = norm(state.velocity);
     const double after =
         after_impulse(law_at(slider.law(), on_path<Law>(state), 1), 0, Direction::forward, before, impulse);
-    if constexpr (PlanarEnergyObserver<Observer>) observer.dissipate((before * before - after * after) / 2);
+    sink.dissipate((before * before - after * after) / 2);
     if (after > 0) {
       state.velocity = (after / before) * state.velocity;
       return false;
@@ -75,7 +60,7 @@ void advance_plane(const PlanarSlider<Law>& slider, const PlanarLoadSegment& seg
     return true;
   };
   advance_in_contact(segment, contact, state, move, land,
-                     [&](EventKind kind, double time) { observer.event(kind, time, state); });
+                     [&](EventKind kind, double time) { sink.event(kind, time, state); });
 }
 
 // Appended to, because GCC 12 warns wrongly of "(" + std::string.
@@ -135,7 +120,8 @@ void advance(const PlanarSlider<Law>& slider, const PlanarLoadSegment& segment, 
         " m, r' = " + detail::description(state.velocity) + " m/s");
   detail::check_start(slider, state, "advance");
   PlanarState moved = state;
-  detail::advance_plane(slider, segment, contact, moved, observer);
+  detail::PlanarObserverSink sink(observer);
+  detail::advance_plane(slider, segment, contact, moved, sink);
   if (!finite(moved)) [[unlikely]]
     throw std::overflow_error(
         "advance: the motion leaves the range of doubles, from r = " + detail::description(state.displacement) +
@@ -151,3 +137,7 @@ void advance(const PlanarSlider<Law>& slider, const PlanarSegment& segment, Plan
 }
 
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY
+#include "stickslip/planar/detail/engines.hpp"
+#endif

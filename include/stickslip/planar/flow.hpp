@@ -263,14 +263,10 @@ class PlanarFlow {
   const double* axis() const noexcept { return x_; }
   const double* transverse() const noexcept { return y_; }
 
-  /// The work of the load on the slider, and that against friction and on the damper, up to a parameter, per unit mass
-  /// [m^2/s^2].
-  struct Work {
-    double load = 0, friction = 0, damper = 0;
-  };
-  Work work(double s) const noexcept {
+  /// The work up to a parameter.
+  detail::PlanarWork work(double s) const noexcept {
     const PlanarProgress to = at_parameter(s);
-    Work work{dot(load_.start, to.way), 0, 0};
+    detail::PlanarWork work{dot(load_.start, to.way), 0, 0};
     // The spring of a pendulum does work against the deviation of the weight from 1.
     if (spring_.pendulum) work.load += spring_.rate(1 - load_.weight) * (dot(place_, to.way) + dot(to.way, to.way) / 2);
     if (kind_ == Kind::stop) {

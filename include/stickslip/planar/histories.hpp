@@ -27,7 +27,7 @@ struct PlanarHistories {
 namespace detail {
 
 /// Records nothing of a motion in the plane; counts its events, and reports progress.
-class NoPlanarRecorder {
+class NoPlanarRecorder final : public PlanarSink {
  public:
   static constexpr std::uint32_t work_per_report = 4096;  // events or flows
 
@@ -37,11 +37,8 @@ class NoPlanarRecorder {
   void report_progress() const {
     if (progress_) progress_();
   }
-  template <class Flow>
-  void follow(const Flow&, double, double) {
-    count_work();
-  }
-  void event(EventKind, double, const PlanarState&) {
+  void follow(const PlanarSlipFlow&, double, double) override { count_work(); }
+  void event(EventKind, double, const PlanarState&) override {
     count_work();
     if (++events_ > event_limit_) refuse_more_events(event_limit_);
   }

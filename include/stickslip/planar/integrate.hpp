@@ -111,7 +111,7 @@ void walk_plane(const PlanarSlider<Law>& slider, const GroundMotion& motion, con
 }
 
 /// Records the events, the peak and the sums of a motion in the plane.
-class PlanarRecorder {
+class PlanarRecorder final : public PlanarSink {
  public:
   static constexpr std::uint32_t work_per_report = 4096;  // events or flows
 
@@ -130,8 +130,7 @@ class PlanarRecorder {
     if (progress_) progress_();
   }
 
-  template <class Flow>
-  void follow(const Flow& flow, double last, double begin) {
+  void follow(const PlanarSlipFlow& flow, double last, double begin) override {
     if (++work_ % work_per_report == 0) report_progress();
     const PlanarProgress end = flow.at_parameter(last);
     double where = last;
@@ -146,14 +145,14 @@ class PlanarRecorder {
     response_.sliding_distance += end.distance;
     response_.time_sliding += end.time;
   }
-  void event(EventKind kind, double time, const PlanarState& state) {
+  void event(EventKind kind, double time, const PlanarState& state) override {
     if (++work_ % work_per_report == 0) report_progress();
     if (response_.events.size() >= event_limit_) refuse_more_events(event_limit_, segment_begins_ + time);
     response_.events.push_back(
         {std::min(segment_begins_ + time, segment_ends_), state.displacement, state.velocity, kind});
   }
-  void dissipate(double work) noexcept { response_.energy.dissipated += work; }
-  void lose(double energy) noexcept { response_.energy.impact += energy; }
+  void dissipate(double work) override { response_.energy.dissipated += work; }
+  void lose(double energy) override { response_.energy.impact += energy; }
 
  private:
   void look(double radius, Vector2 place, double time) noexcept {
@@ -285,7 +284,8 @@ PlanarResponse integrate(const PlanarSlider<Law>& slider, const GroundMotion& mo
     recorder.begin_segment(time, time);
     if (crept) recorder.event(EventKind::arrest, 0, state);
     if (!response.events.empty()) end = std::max(end, response.events.back().time);
-    NoPlanarObserver none;
+    NoPlanarObserver nobody;
+    detail::PlanarObserverSink none(nobody);
     for (std::size_t i = motion.segments(); motion.time(i) < end; ++i) {
       if (i + 1 >= 10 * motion.samples()) {
         response.truncated = true;

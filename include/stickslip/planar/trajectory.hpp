@@ -23,34 +23,22 @@ namespace stickslip {
 /// from 0 to `last` stands for the time.
 class PlanarArc {
  public:
-  template <class Flow>
-  PlanarArc(const Flow& flow, double end, double time)
-      : begin(time),
-        last(end),
-        place(flow.place()),
-        flow_(&flow),
-        at_([](const void* f, double s) -> PlanarProgress { return static_cast<const Flow*>(f)->at_parameter(s); }),
-        largest_radius_([](const void* f, double until, double& where) {
-          return static_cast<const Flow*>(f)->largest_radius(until, 0, where);
-        }),
-        acceleration_([](const void* f, double s) { return static_cast<const Flow*>(f)->acceleration_at(s); }) {}
+  PlanarArc(const detail::PlanarSlipFlow& flow, double end, double time)
+      : begin(time), last(end), place(flow.place()), flow_(flow) {}
 
   double begin;   ///< since the beginning of the segment [s]
   double last;    ///< largest parameter
   Vector2 place;  ///< r at its beginning [m]
 
   /// Time and displacement since the beginning of the arc, velocity, and length of the path.
-  PlanarProgress at(double parameter) const { return at_(flow_, parameter); }
+  PlanarProgress at(double parameter) const { return flow_.at_parameter(parameter); }
   /// r'' [m/s^2]; at a stop, its limit.
-  Vector2 acceleration(double parameter) const { return acceleration_(flow_, parameter); }
+  Vector2 acceleration(double parameter) const { return flow_.acceleration_at(parameter); }
   /// The largest distance from the origin [m]; `where` receives its parameter.
-  double largest_radius(double& where) const { return largest_radius_(flow_, last, where); }
+  double largest_radius(double& where) const { return flow_.largest_radius(last, 0, where); }
 
  private:
-  const void* flow_;
-  PlanarProgress (*at_)(const void*, double);
-  double (*largest_radius_)(const void*, double, double&);
-  Vector2 (*acceleration_)(const void*, double);
+  detail::PlanarSlipFlow flow_;
 };
 
 /// Receives a motion in the plane, segment by segment, while it is integrated again. The slider rests in the time that
@@ -68,14 +56,17 @@ struct PlanarTrajectoryReader {
 namespace detail {
 
 /// Shows flows and events to a reader.
-struct PlanarTracer {
-  PlanarTrajectoryReader& reader;
+class PlanarTracer final : public PlanarSink {
+ public:
+  explicit PlanarTracer(PlanarTrajectoryReader& reader) noexcept : reader_(reader) {}
 
-  void event(EventKind kind, double time, const PlanarState& state) { reader.event(kind, time, state); }
-  template <class Flow>
-  void follow(const Flow& flow, double last, double begin) {
-    reader.arc(PlanarArc(flow, last, begin));
+  void event(EventKind kind, double time, const PlanarState& state) override { reader_.event(kind, time, state); }
+  void follow(const PlanarSlipFlow& flow, double last, double begin) override {
+    reader_.arc(PlanarArc(flow, last, begin));
   }
+
+ private:
+  PlanarTrajectoryReader& reader_;
 };
 
 /// The last segment of a motion that begins at or before a time.
@@ -122,7 +113,7 @@ template <class Move>
 PlanarState trace_plane(const GroundMotion& motion, double slope, const PlanarResponse& response, double until,
                         PlanarTrajectoryReader& reader, Move&& move) {
   PlanarState state = start_of(response);
-  PlanarTracer tracer{reader};
+  PlanarTracer tracer(reader);
   const PlanarPieces pieces(motion, slope);
   between(pieces, motion, slope, motion.time(0), until, [&](double begin, const PlanarLoadSegment& segment) {
     reader.segment(begin, segment);

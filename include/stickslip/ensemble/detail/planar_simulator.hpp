@@ -34,7 +34,7 @@ struct PlanarMemberPlace {
 };
 
 /// Computes the largest |r| and the impacts of a member, and checks regularly whether the run was stopped.
-class PlanarPeakObserver {
+class PlanarPeakObserver final : public PlanarSink {
  public:
   PlanarPeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
 
@@ -42,13 +42,12 @@ class PlanarPeakObserver {
   /// Those on the circular stop, as impacts forward; their speed is the radial velocity.
   const Impacts& impacts() const noexcept { return impacts_; }
 
-  template <class Flow>
-  void follow(const Flow& flow, double last, double) {
+  void follow(const PlanarSlipFlow& flow, double last, double) override {
     count_work();
     double where = last;
     peak_ = std::max(peak_, flow.largest_radius(last, peak_, where));
   }
-  void event(EventKind kind, double, const PlanarState& state) {
+  void event(EventKind kind, double, const PlanarState& state) override {
     if (kind == EventKind::impact) {
       const double radius = norm(state.displacement);
       impacts_.add(radius, dot(state.displacement, state.velocity) / radius);
