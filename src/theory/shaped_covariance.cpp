@@ -32,22 +32,24 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_states = 18 + 2 * ShapedProblem::most_modes;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_states, max_states>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_states, 1>;
+using ComplexMatrix =
+    Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_states, max_states>;
+using ComplexVector = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, Eigen::ColMajor, max_states, 1>;
 constexpr int x = 0, v = 1;
 
 double squared(double value) { return value * value; }
 
 /// Q of A Q + Q A^T + W = 0, by the Schur form of A, for a stable A (Bartels and Stewart).
 Matrix lyapunov(const Matrix& a, const Matrix& w) {
-  using Complex = Eigen::MatrixXcd;
-  const Eigen::ComplexSchur<Eigen::MatrixXd> schur{Eigen::MatrixXd(a)};
-  const Complex &t = schur.matrixT(), &u = schur.matrixU();
-  const Complex right = u.adjoint() * w * u;
+  const Eigen::ComplexSchur<Matrix> schur(a);
+  const ComplexMatrix &t = schur.matrixT(), &u = schur.matrixU();
+  const ComplexMatrix right = u.adjoint() * w * u;
   const Eigen::Index n = a.rows();
-  Complex y = Complex::Zero(n, n);
+  ComplexMatrix y = ComplexMatrix::Zero(n, n);
   for (Eigen::Index j = n - 1; j >= 0; --j) {
-    Eigen::VectorXcd column = -right.col(j);
+    ComplexVector column = -right.col(j);
     for (Eigen::Index k = j + 1; k < n; ++k) column -= std::conj(t(j, k)) * y.col(k);
-    Complex shifted = t;
+    ComplexMatrix shifted = t;
     shifted.diagonal().array() += std::conj(t(j, j));
     y.col(j) = shifted.triangularView<Eigen::Upper>().solve(column);
   }
@@ -520,8 +522,7 @@ StationaryState solve_stationary(const ShapedProblem& problem) {
     return found;
   }
   // E[x y] of the others: 0 = E[x' y] + E[x y] A^T.
-  const Eigen::VectorXd with_x =
-      -Eigen::MatrixXd(a.bottomRightCorner(m, m)).lu().solve(Eigen::VectorXd(q.col(v).tail(m)));
+  const Eigen::VectorXd with_x = -Matrix(a.bottomRightCorner(m, m)).lu().solve(Vector(q.col(v).tail(m)));
   found.state.q12 = with_x[0];
   found.growth_rate = 2 * with_x[0];
   if (std::abs(found.state.q12 * a(v, v)) < 1e-9 * q(v, v)) found.growth_rate = found.state.q12 = 0;  // round-off
