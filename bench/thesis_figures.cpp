@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -22,7 +23,13 @@ constexpr const char* usage =
     "usage: thesis_figures [NUMBER...] [--members N] [--seed N] [--out FOLDER] [--check] [--expectations]\n"
     "  writes a CSV file for each figure (all of them if none is named) to FOLDER, prints the summary\n"
     "  --check         2000 members and seed 2 unless given; each number against what is expected of it\n"
-    "  --expectations  prints what reproduction/expected.inc is made of\n";
+    "  --expectations  prints what python/stickslip/thesis_expected.txt is made of\n";
+
+std::string expected() {
+  std::ifstream stream(STICKSLIP_THESIS_EXPECTED);
+  if (!stream) throw std::runtime_error("cannot read " STICKSLIP_THESIS_EXPECTED);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 std::string file_name(const std::string& number) {
   std::string name = number.find(' ') != std::string::npos ? number : "figure " + number;
@@ -79,6 +86,7 @@ int run(const std::vector<std::string>& arguments) {
     if (what != told) std::fprintf(stderr, "%.*s\n", static_cast<int>(what.size()), what.data());
     told = what;
   };
+  const std::string all_expected = check ? expected() : "";
   Thesis thesis(options);
   std::vector<ThesisFigure> figures;
   std::vector<ThesisCheck> checks;
@@ -86,7 +94,7 @@ int run(const std::vector<std::string>& arguments) {
     figures.push_back(thesis.figure(number));
     if (expectations) std::fputs(thesis_expectations(figures.back()).c_str(), stdout);
     if (check)
-      for (ThesisCheck& c : thesis_check(figures.back())) {
+      for (ThesisCheck& c : thesis_check(figures.back(), all_expected)) {
         if (!c.holds)
           std::printf("%s: found %.9g, expected %.9g, allowed %.3g\n", c.what.c_str(), c.found, c.expected, c.allowed);
         checks.push_back(std::move(c));

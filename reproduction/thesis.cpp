@@ -135,18 +135,14 @@ struct Expected {
   }
 };
 
-constexpr std::string_view expected_text =
-#include "reproduction/expected.inc"
-    ;
-
 struct Expectations {
   std::vector<Expected> numbers;
   Texts texts;
 };
 
-Expectations expectations_of(const std::string& number) {
+Expectations expectations_of(const std::string& number, const std::string& expectations) {
   Expectations result;
-  std::istringstream lines{std::string(expected_text)};
+  std::istringstream lines(expectations);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(number + ',')) continue;
     std::array<std::string, 5> cells;
@@ -284,8 +280,8 @@ std::string thesis_expectations(const ThesisFigure& figure) {
   return text;
 }
 
-std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure) {
-  const auto& [expected, expected_texts] = expectations_of(figure.number);
+std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure, const std::string& expectations) {
+  const auto& [expected, expected_texts] = expectations_of(figure.number, expectations);
   std::map<std::string, double, std::less<>> scales;  // the largest expected magnitude of each curve
   std::map<std::string, Estimate, std::less<>> estimates;
   for (const Expected& e : expected) {

@@ -148,12 +148,13 @@ std::string thesis_summary(std::span<const ThesisFigure> figures);
 ///
 /// Texts are the titles and axes of panels, the labels and kinds of curves, and of every statement the claim and
 /// whether the expected number agrees with it.
-std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure);
+/// @param expectations  the content of python/stickslip/thesis_expected.txt
+std::vector<ThesisCheck> thesis_check(const ThesisFigure& figure, const std::string& expectations);
 
 /// A summary of checks in one line: how many were made, how many are loose, how many fail.
 std::string thesis_verdict(std::span<const ThesisCheck> checks);
 
-/// The lines with which `thesis_check` would expect this figure: the content of reproduction/expected.inc.
+/// The lines with which `thesis_check` would expect this figure, a part of python/stickslip/thesis_expected.txt.
 std::string thesis_expectations(const ThesisFigure& figure);
 
 }  // namespace stickslip

@@ -1,4 +1,4 @@
-"""Check a wheel: it must be small, contain its licenses, and export one symbol only."""
+"""Check a wheel: it must be small, contain its data and licenses, and export one symbol only."""
 
 import subprocess
 import sys
@@ -35,6 +35,8 @@ if symbols != ["PyInit__core"]:
 for library in bundled:
     if not any(name.startswith(f"stickslip.libs/{library}") for name in libraries):
         wrong.append(f"lacks {library}, has {libraries}")
+if "stickslip/thesis_expected.txt" not in names:
+    wrong.append("lacks stickslip/thesis_expected.txt")
 for license_text in ("LICENSE", "NOTICE.md", "GPL-2.0.txt", "GPL-3.0.txt", "Apache-2.0.txt"):
     if license_text not in licenses:
         wrong.append(f"lacks the license text {license_text}, has {licenses}")

@@ -164,9 +164,7 @@ class Slider {
 namespace detail {
 
 /// Throws for a mounting that a function without vertical motion does not cover. (A pendulum is then a spring.)
-template <FrictionLaw Law>
-void require_plain_mounting(const Slider<Law>& slider, std::string_view function) {
-  const Mounting& on = slider.mounting();
+inline void require_plain_mounting(const Mounting& on, std::string_view function) {
   if (!equal(on.slope_degrees, 0) || on.one_way || on.stops)
     throw std::invalid_argument(std::string(function) +
                                 ": covers sliders on level ground that slide both ways, without stops");

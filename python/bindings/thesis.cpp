@@ -13,6 +13,13 @@ py::array_t<double> numbers(const py::object& self) {
   return view(self.cast<const ThesisCurve&>().*part, self);
 }
 
+/// The content of thesis_expected.txt, which is installed beside this module.
+std::string expected() {
+  const py::object file =
+      py::module_::import("importlib.resources").attr("files")("stickslip") / py::str("thesis_expected.txt");
+  return file.attr("read_text")("utf-8").cast<std::string>();
+}
+
 py::object limits(const std::vector<double>& two) {
   return two.empty() ? py::object(py::none()) : py::object(py::make_tuple(two[0], two[1]));
 }
@@ -109,8 +116,9 @@ void bind_figure(py::module_& m) {
       .def(
           "csv", &thesis_csv,
           "All curves and points as CSV, str: panel, label, kind, members, x, y, error; one line per point, 17 digits.")
-      .def("check", &thesis_check,
-           R"(Compare every number of the figure with its expected value.
+      .def(
+          "check", [](const ThesisFigure& figure) { return thesis_check(figure, expected()); },
+          R"(Compare every number of the figure with its expected value.
 
 Numbers are all simulated points, up to nine points of each other curve, and of each statement the number found, the
 number claimed and the deviation that the claim allows. A number that is missing, or for which there is no expected

@@ -397,9 +397,11 @@ void slide_levels(const LevelGround& ground, std::span<LevelLane> lanes, bool se
     const Watch watch{lane};
     if (settle && lane.state.mode != Mode::stuck) {
       const Slider slider(lane.law, Mounting{.slope_degrees = ground.slope_degrees()});
+      const EngineOf engine(slider);
+      ObserverSink sink(watch);
       try {
-        detail::settle(slider, lane.state, [&](double duration) {
-          advance(slider, Segment{duration, 0, 0}, lane.state, watch);
+        detail::settle(engine, lane.state, [&](double duration) {
+          advance(engine, Segment{duration, 0, 0}, !slider.plain(), Contact::flight, lane.state, sink);
         });
       } catch (const ConvergenceError& error) {
         lane.failure = error.what();

@@ -1,13 +1,12 @@
-// Explicit instantiations for the usual laws.
+// What is compiled once for all laws.
 #include "stickslip/sliding/integrate.hpp"
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
+#include "stickslip/sliding/trajectory.hpp"
 
-namespace stickslip {
+namespace stickslip::detail {
 
-template Response integrate(const Slider<Coulomb>&, const GroundMotion&, const IntegrateOptions&, Response);
-template Response integrate(const Slider<Coulomb>&, const HarmonicMotion&, const IntegrateOptions&, Response);
-template Response integrate(const Slider<Caster>&, const GroundMotion&, const IntegrateOptions&, Response);
-template Response integrate(const Slider<Caster>&, const HarmonicMotion&, const IntegrateOptions&, Response);
+template Response integrate(const Engine&, const GroundMotion&, const IntegrateOptions&, Response, bool);
+template Response integrate(const Engine&, const HarmonicMotion&, const IntegrateOptions&, Response, bool);
+template class TrajectoryUnder<GroundMotion>;
+template class TrajectoryUnder<HarmonicMotion>;
 
-}  // namespace stickslip
+}  // namespace stickslip::detail

@@ -8,8 +8,11 @@
 #include <memory>
 
 #include "lanes/coulomb_lanes.hpp"
+#include "stickslip/base/equal.hpp"
+#include "stickslip/friction/coulomb.hpp"
 #include "stickslip/lanes/transpose.hpp"
-#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
+#include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 
 namespace stickslip::detail {
@@ -23,7 +26,7 @@ constexpr std::size_t max_lines = 127, longest = max_lines * row_padding;
 /// @tparam RecorderType  a Recorder or NoRecorder
 template <class RecorderType>
 class SideBySide {
-  static constexpr bool recorded = std::same_as<RecorderType, Recorder<Coulomb>>;
+  static constexpr bool recorded = std::same_as<RecorderType, Recorder>;
 
  public:
   SideBySide(const Coulomb& law, const GroundMotion& motion, const HistorySpans& histories, RecorderType& recorder)
@@ -101,8 +104,9 @@ class SideBySide {
   void step(std::size_t segment, State& state) {
     recorder_.begin_segment(ground_.time(segment), ground_.time(segment + 1));
     BareState moving(state);
-    advance(BlockFlows(law_, Polynomial{}), ground_.segment(segment), moving, recorder_);
-    histories_.keep(segment + 1, law_, moving);
+    ToSink observer(recorder_);
+    advance(BlockFlows(law_, Polynomial{}), ground_.segment(segment), moving, observer);
+    histories_.keep(segment + 1, moving);
     moving.store(state);
   }
 
@@ -124,11 +128,12 @@ class SideBySide {
     });
     const double work = work_[length_ * pieces + piece] - work_[segment * pieces + piece];
     if (event == end || end[-1].kind == EventKind::arrest) {
-      recorder_.slide(Slip{Direction::forward, 0, 0, 0, work});
+      recorder_.slide(Slip{Direction::forward, 0, 0, 0, work}, SlipFlow{});
     } else {
       const double from = moved(end[-1].displacement), to = histories_.displacement[begin + length_];
       recorder_.slide(Slip{to < from ? Direction::backward : Direction::forward, from, std::abs(to - from),
-                           ground_.time(begin + length_) - at(end[-1]), work});
+                           ground_.time(begin + length_) - at(end[-1]), work},
+                      SlipFlow{});
     }
   }
 
@@ -150,8 +155,16 @@ class SideBySide {
 };
 
 template <class RecorderType>
-void run(const Coulomb& law, const GroundMotion& motion, State& state, RecorderType& recorder,
+bool run(const Engine& engine, const GroundMotion& motion, State& state, RecorderType& recorder,
          const HistorySpans& histories) {
+  const Mounting& mounting = engine.mounting();
+  if (!engine.law().coulomb || !equal(mounting.natural_frequency, 0) || !equal(mounting.damping, 0)) return false;
+  const Coulomb law(engine.resist({}, 1, Direction::forward), engine.resist({}, 1, Direction::backward));
+  // The lanes square speeds and accelerations, which must not underflow; above this slip level no relevant load does.
+  constexpr double smallest = 1e-100;
+  if (!std::isfinite(motion.dt()) || motion.samples() < 8192 || !(std::min(law.forward(), law.backward()) > smallest) ||
+      !(motion.peak_acceleration() > smallest) || !(motion.dt() > smallest))
+    return false;
   constexpr std::size_t most = pieces * longest;
   const std::size_t segments = motion.segments();
   SideBySide<RecorderType> side_by_side(law, motion, histories, recorder);
@@ -166,18 +179,18 @@ void run(const Coulomb& law, const GroundMotion& motion, State& state, RecorderT
     for (std::size_t p = 0; p < pieces; ++p, i += length) side_by_side.join(p, i, state);
   }
   for (; i < segments; ++i) side_by_side.step(i, state);
+  return true;
 }
 
 }  // namespace
 
-void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state, Recorder<Coulomb>& recorder,
-                   const HistorySpans& histories) {
-  run(law, motion, state, recorder, histories);
+bool recorded_by_pieces(const Engine& engine, const GroundMotion& motion, State& state, Recorder& recorder,
+                        const HistorySpans& histories) {
+  return run(engine, motion, state, recorder, histories);
 }
-
-void run_by_pieces(const Coulomb& law, const GroundMotion& motion, State& state, NoRecorder& none,
-                   const HistorySpans& histories) {
-  run(law, motion, state, none, histories);
+bool recorded_by_pieces(const Engine& engine, const GroundMotion& motion, State& state, NoRecorder& none,
+                        const HistorySpans& histories) {
+  return run(engine, motion, state, none, histories);
 }
 
 }  // namespace stickslip::detail

@@ -9,7 +9,7 @@
 #include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "support/reference_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -25,8 +25,10 @@ constexpr unsigned fewer = 10;
 constexpr unsigned fewer = 1;
 #endif
 
+Estimate measured(const reference::Value& value) { return {value["value"], value["error"]}; }
+
 /// The difference between a quantity and the measured value, in combined standard errors.
-double apart(const Estimate& found, const reference::Measured& measured) {
+double apart(const Estimate& found, const Estimate& measured) {
   return std::abs(found.value - measured.value) / std::hypot(found.error, measured.error);
 }
 
@@ -46,40 +48,45 @@ EnsembleOptions options(std::uint64_t members, bool velocity_spectrum = false) {
   return o;
 }
 
-GaussianExcitation excitation(const reference::BandPassRun& run) {
-  return {
-      Spectrum::band_pass(1, run.low, run.low + run.width), 0.1, run.samples, {.correct_interpolation = run.corrected}};
+GaussianExcitation excitation(const reference::Value& run) {
+  return {Spectrum::band_pass(1, run["low"], run["low"] + run["width"]),
+          0.1,
+          static_cast<std::size_t>(run["samples"].as<int>()),
+          {.correct_interpolation = run["corrected"].as<bool>()}};
 }
 
 }  // namespace
 
 TEST_CASE("the case of figures 4.4 to 4.6 comes out", "[monte_carlo]") {
-  const reference::BandPassRun& run = reference::band_pass_runs[0];
-  const double records = 50'000.0 / fewer, scale = std::sqrt(records / reference::figure_44_records);
+  const reference::Value run = reference::rows("monte_carlo", "band_pass")[0];
+  const double records = 50'000.0 / fewer, scale = std::sqrt(records / 100'000);
   const Ensemble ensemble = run_ensemble(Coulomb(1), excitation(run), options(50'000, true));
   const Stationary s = ensemble.stationary();
-  CHECK(apart(root(s.velocity_variance), run.sigma) < three);
-  CHECK(apart(s.growth_rate, run.growth) < three);
-  CHECK(apart(s.velocity_kurtosis, {run.kurtosis, scale * s.velocity_kurtosis.error}) < three);
+  CHECK(apart(root(s.velocity_variance), measured(run["sigma"])) < three);
+  CHECK(apart(s.growth_rate, measured(run["growth"])) < three);
+  CHECK(apart(s.velocity_kurtosis, {run["kurtosis"], scale * s.velocity_kurtosis.error}) < three);
   // Half of the growth rate, thesis (5.59).
   CHECK(std::abs(2 * s.covariance.value - s.growth_rate.value) <
         three * std::hypot(2 * s.covariance.error, s.growth_rate.error));
 
   const Estimates v = ensemble.velocity_variance(), x = ensemble.displacement_variance();
-  for (const auto& [time, value] : reference::figure_44_sigma) {
+  for (const auto& exact : reference::rows("monte_carlo", "figure_44_sigma")) {
+    const double time = exact["at"], value = exact["value"];
     const Estimate found = root(at(v, static_cast<std::size_t>(std::lround(time / 0.1))));
     CAPTURE(time, found.value, value, found.error);
     CHECK(apart(found, {value, scale * found.error}) < three);
   }
-  for (const auto& [time, value] : reference::figure_44_displacement_variance) {
+  for (const auto& exact : reference::rows("monte_carlo", "figure_44_displacement_variance")) {
+    const double time = exact["at"], value = exact["value"];
     const Estimate found = at(x, static_cast<std::size_t>(std::lround(time / 0.1)));
     CAPTURE(time, found.value, value, found.error);
     CHECK(apart(found, {value, scale * found.error}) < three);
   }
 
   const VelocitySpectrum spectrum = ensemble.velocity_spectrum();
-  CHECK(apart({spectrum.density[0], spectrum.error[0]}, reference::figure_44_spectrum_at_zero) < three);
-  for (const auto& [omega, value] : reference::figure_44_spectrum) {
+  CHECK(apart({spectrum.density[0], spectrum.error[0]}, {0.0024613513992449644, 1.5827071746751385e-05}) < three);
+  for (const auto& exact : reference::rows("monte_carlo", "figure_44_spectrum")) {
+    const double omega = exact["at"], value = exact["value"];
     const auto k = static_cast<std::size_t>(std::lround(omega / spectrum.omega[1]));
     REQUIRE(spectrum.omega[k] == Approx(omega).margin(1e-6));
     CAPTURE(omega, spectrum.density[k], value, spectrum.error[k]);
@@ -88,40 +95,42 @@ TEST_CASE("the case of figures 4.4 to 4.6 comes out", "[monte_carlo]") {
 }
 
 TEST_CASE("other bands, with and without correction of the interpolation, come out", "[monte_carlo][statistics]") {
-  for (const reference::BandPassRun& run : reference::band_pass_runs) {
-    INFO(run.id);
+  for (const reference::Value& run : reference::rows("monte_carlo", "band_pass")) {
+    INFO(run["id"].as<std::string>());
     const GaussianExcitation shaking = excitation(run);
-    CHECK(shaking.variance() == Approx(run.input_variance).epsilon(1e-12));
-    const Stationary s = run_ensemble(Coulomb(1), shaking, options(run.samples > 1024 ? 4000 : 20'000)).stationary();
+    CHECK(shaking.variance() == Approx(run["input_variance"]).epsilon(1e-12));
+    const Stationary s = run_ensemble(Coulomb(1), shaking, options(run["samples"] > 1024 ? 4000 : 20'000)).stationary();
     const Estimate sigma = root(s.velocity_variance);
     CAPTURE(sigma.value, sigma.error, s.velocity_kurtosis.value, s.growth_rate.value);
-    CHECK(apart(sigma, run.sigma) < three);
-    const double scale = run.sigma.error / sigma.error;
-    CHECK(apart(s.velocity_kurtosis, {run.kurtosis, scale * s.velocity_kurtosis.error}) < three);
+    CHECK(apart(sigma, measured(run["sigma"])) < three);
+    const double scale = run["sigma"]["error"] / sigma.error;
+    CHECK(apart(s.velocity_kurtosis, {run["kurtosis"], scale * s.velocity_kurtosis.error}) < three);
     // Displacements of narrow bands swing and hardly grow: which samples the lags end at would decide.
-    if (run.width >= 1) CHECK(apart(s.growth_rate, run.growth) < three);
+    if (run["width"] >= 1) CHECK(apart(s.growth_rate, measured(run["growth"])) < three);
   }
 }
 
 TEST_CASE("thesis 4.5: the uncorrected motion is too weak, and the right one stronger", "[monte_carlo]") {
   // Sigma 0.5911 against 0.5971, a difference of 0.006 with an error of 0.0005, the same phases in both.
-  const auto sigma = [](const reference::BandPassRun& run) {
+  const auto sigma = [](const reference::Value& run) {
     return root(run_ensemble(Coulomb(1), excitation(run), options(10'000)).stationary().velocity_variance).value;
   };
-  const double difference = sigma(reference::band_pass_runs[0]) - sigma(reference::band_pass_runs[1]);
+  const std::vector<reference::Value> runs = reference::rows("monte_carlo", "band_pass");
+  const double difference = sigma(runs[0]) - sigma(runs[1]);
   CHECK(std::abs(difference - 0.0059) < three * 0.0005 * std::sqrt(fewer));
 }
 
 TEST_CASE("Poisson pulses slide a block as far", "[monte_carlo]") {
-  for (const reference::PoissonRun& run : reference::poisson_runs) {
-    INFO(run.id);
+  for (const auto& run : reference::rows("monte_carlo", "poisson")) {
+    INFO(run["id"].as<std::string>());
     EnsembleOptions o = options(5000);
     o.dt = 1;
     // Twice the span: the central half is it.
-    const Stationary s = run_ensemble(Coulomb(1), PoissonPulses(run.rate, 1, run.sigma, 2 * run.span), o).stationary();
+    const Stationary s =
+        run_ensemble(Coulomb(1), PoissonPulses(run["rate"], 1, run["sigma"], 2 * run["span"]), o).stationary();
     CAPTURE(s.velocity_variance.value, s.growth_rate.value);
-    CHECK(apart(s.velocity_variance, run.velocity_variance) < three);
-    CHECK(apart(s.growth_rate, run.growth) < three);
+    CHECK(apart(s.velocity_variance, measured(run["velocity_variance"])) < three);
+    CHECK(apart(s.growth_rate, measured(run["growth"])) < three);
   }
 }
 
@@ -142,20 +151,20 @@ TEST_CASE("pulses move a block without friction as they move the ground, (5.46) 
 TEST_CASE("a caster under white noise moves as far", "[monte_carlo]") {
   // The study holds the slip level during a step at its value in the middle, which is off by (gamma v dt)^2 / 24 of
   // itself or so: 1e-3 at most where sigma_v is 7, a tenth of its standard errors. Its loads are held as ours.
-  for (const reference::CasterWhiteRun& run : reference::caster_white_runs) {
-    INFO(run.id);
-    const auto steps = static_cast<std::size_t>(std::lround(run.time / run.dt));
-    const GaussianExcitation white(Spectrum::white(1), run.dt, steps + 1,
+  for (const auto& run : reference::rows("monte_carlo", "caster_white")) {
+    INFO(run["id"].as<std::string>());
+    const auto steps = static_cast<std::size_t>(std::lround(run["time"] / run["dt"]));
+    const GaussianExcitation white(Spectrum::white(1), run["dt"], steps + 1,
                                    {.interpolation = Interpolation::constant,
                                     .correct_interpolation = false,
                                     .random_amplitudes = true,
                                     .zero_frequency = true});
-    const Ensemble ensemble = run_ensemble(Caster(1, 1 / run.gamma), white, options(3000));
+    const Ensemble ensemble = run_ensemble(Caster(1, 1 / run["gamma"]), white, options(3000));
     const Estimate x = at(ensemble.displacement_variance(), steps), xv = at(ensemble.covariance(), steps),
                    v = at(ensemble.velocity_variance(), steps);
     CAPTURE(x.value, xv.value, v.value);
-    CHECK(apart(x, run.displacement_variance) < three);
-    CHECK(apart(xv, run.covariance) < three);
-    CHECK(apart(v, run.velocity_variance) < three);
+    CHECK(apart(x, measured(run["displacement_variance"])) < three);
+    CHECK(apart(xv, measured(run["covariance"])) < three);
+    CHECK(apart(v, measured(run["velocity_variance"])) < three);
   }
 }

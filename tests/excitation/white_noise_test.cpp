@@ -17,7 +17,7 @@
 #include "stickslip/ensemble/run.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "support/reference_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -75,12 +75,13 @@ TEST_CASE("the velocity under white noise has a variance of 2 (pi S0 / a)^2 as d
     found[i] = run_ensemble(Coulomb(1), noise, options(5000)).stationary();
     CAPTURE(time_steps[i], found[i].velocity_variance.value, found[i].velocity_variance.error,
             found[i].growth_rate.value, found[i].growth_rate.error, found[i].velocity_kurtosis.value);
-    const reference::WhiteRun& run = reference::white_runs[i];
-    REQUIRE(run.dt == time_steps[i]);
-    CHECK(apart(found[i].growth_rate, run.growth.value, run.growth.error) < 3);
+    const reference::Value run = reference::rows("monte_carlo", "white")[i];
+    REQUIRE(run["dt"] == time_steps[i]);
+    CHECK(apart(found[i].growth_rate, run["growth"]["value"], run["growth"]["error"]) < 3);
     // The study's variance at 0.4 s, 18.60(10), is not that at the ends of the steps, see the next test.
     if (time_steps[i] < 0.4)
-      CHECK(apart(found[i].velocity_variance, run.velocity_variance.value, run.velocity_variance.error) < 3);
+      CHECK(apart(found[i].velocity_variance, run["velocity_variance"]["value"], run["velocity_variance"]["error"]) <
+            3);
   }
   // The error of the step halves with it.
   const auto step_error = [&](std::size_t i) {
@@ -155,17 +156,17 @@ TEST_CASE("from rest, displacement and velocity spread as the exact transients s
   const Ensemble coarse = run_ensemble(Coulomb(1), white(0.04, 20.48), options(20'000));
   const Ensemble fine = run_ensemble(Coulomb(1), white(0.02, 20.48), options(20'000));
   const auto at = [](const Estimates& all, std::size_t i) { return Estimate{all.value[i], all.error[i]}; };
-  for (const reference::WhiteTransient& exact : reference::white_transients) {
-    const auto i = static_cast<std::size_t>(std::lround(exact.time / 0.04));
+  for (const auto& exact : reference::rows("monte_carlo", "white_transients")) {
+    const auto i = static_cast<std::size_t>(std::lround(exact["time"] / 0.04));
     const auto limit = [&](Estimates (Ensemble::*quantity)(Component) const) {
       return extrapolated(at((coarse.*quantity)(Component::axis), i), at((fine.*quantity)(Component::axis), 2 * i));
     };
     const Estimate x = limit(&Ensemble::displacement_variance), xv = limit(&Ensemble::covariance),
                    v = limit(&Ensemble::velocity_variance);
-    CAPTURE(exact.time, x.value, x.error, xv.value, xv.error, v.value, v.error);
-    CHECK(apart(x, exact.displacement_variance) < 3);
-    CHECK(apart(xv, exact.covariance) < 3);
-    CHECK(apart(v, exact.velocity_variance) < 3);
+    CAPTURE(exact["time"], x.value, x.error, xv.value, xv.error, v.value, v.error);
+    CHECK(apart(x, exact["displacement_variance"]) < 3);
+    CHECK(apart(xv, exact["covariance"]) < 3);
+    CHECK(apart(v, exact["velocity_variance"]) < 3);
   }
 }
 

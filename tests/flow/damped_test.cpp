@@ -10,7 +10,7 @@
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/outcome.hpp"
-#include "support/reference_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -44,25 +44,26 @@ static_assert(form_of<Sticky> == Form::constant && LawWithHold<Sticky>);
 }  // namespace
 
 TEST_CASE("a damped block on a spring moves as the reference does, by closed form and by power series", "[damped]") {
-  for (const auto& run : reference::damped_runs) {
-    const double c = 2 * run.damping_ratio * run.natural_frequency;
+  for (const auto& run : reference::rows("sliders", "damped")) {
+    const double hold = run["hold"], resist = run["resist"], wn = run["natural_frequency"],
+                 c = 2 * run["damping_ratio"] * wn;
     const GroundMotion motion = record_a(Interpolation::linear);
-    const bool at_once = motion.acceleration()[0] > run.hold;  // the reference counts from the first event after t = 0
+    const bool at_once = motion.acceleration()[0] > hold;  // the reference counts from the first event after t = 0
     const auto check = [&](const Response& r, bool by_speed = false) {
-      INFO(run.id);
-      check_outcome(r, run.outcome, at_once);
+      INFO(run["id"].as<std::string>());
+      check_outcome(r, run, at_once);
       // Friction's; by a law of the speed it is the damper's too, of which the work is not given.
       if (by_speed)
-        CHECK(r.energy.dissipated > run.outcome.dissipated);
+        CHECK(r.energy.dissipated > run["dissipated"]);
       else
-        CHECK(std::abs(r.energy.dissipated - run.outcome.dissipated) <= 1e-12 * run.outcome.dissipated);
+        CHECK(std::abs(r.energy.dissipated - run["dissipated"]) <= 1e-12 * run["dissipated"]);
     };
-    check(integrate(Slider(Sticky{run.hold, run.resist}, run.natural_frequency, c), motion));
-    if (run.hold != run.resist) continue;
-    check(integrate(Slider(Coulomb(run.resist), run.natural_frequency, c), motion));
-    check(integrate(Slider(Disguised{run.resist}, run.natural_frequency, c), motion));
-    check(integrate(Slider(Viscous{run.resist, c}, run.natural_frequency), motion), true);
-    check(integrate(Slider(Viscous{run.resist, c / 4}, run.natural_frequency, 0.75 * c), motion), true);
+    check(integrate(Slider(Sticky{hold, resist}, wn, c), motion));
+    if (hold != resist) continue;
+    check(integrate(Slider(Coulomb(resist), wn, c), motion));
+    check(integrate(Slider(Disguised{resist}, wn, c), motion));
+    check(integrate(Slider(Viscous{resist, c}, wn), motion), true);
+    check(integrate(Slider(Viscous{resist, c / 4}, wn, 0.75 * c), motion), true);
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "support/reference_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -13,21 +13,23 @@ TEST_CASE("a caster under record A moves as 32 digits say", "[caster]") {
   // Each Taylor step is cut off at a quarter of a rounding and checked against the equation of motion to 32 of them:
   // some ten roundings a segment, 400 segments, friction forgetting those of the velocity: 400 * 10 * 1.1e-16 = 4e-13
   // if all went one way; at random, 1e-14.
-  for (const auto& run : reference::caster_runs) {
-    const Response r = integrate(Slider(Caster(1, 0.5), run.natural_frequency), record_a());
-    INFO(run.id);
-    CHECK(std::abs(r.residual - run.displacement) <= 1e-13 * run.peak);
-    CHECK(std::abs(r.state.velocity - run.velocity) <= 1e-13 * largest(r.velocity));
-    CHECK(std::abs(r.peak - run.peak) <= 1e-13 * run.peak);
-    CHECK(std::abs(r.energy.dissipated - run.dissipated) <= 1e-13 * run.dissipated);
-    CHECK(count(r.events) == Counts{run.breakaways, run.arrests, run.reversals});
+  for (const auto& run : reference::rows("sliders", "caster")) {
+    const Response r = integrate(Slider(Caster(1, 0.5), run["natural_frequency"]), record_a());
+    INFO(run["id"].as<std::string>());
+    CHECK(std::abs(r.residual - run["displacement"]) <= 1e-13 * run["peak"]);
+    CHECK(std::abs(r.state.velocity - run["velocity"]) <= 1e-13 * largest(r.velocity));
+    CHECK(std::abs(r.peak - run["peak"]) <= 1e-13 * run["peak"]);
+    CHECK(std::abs(r.energy.dissipated - run["dissipated"]) <= 1e-13 * run["dissipated"]);
+    CHECK(count(r.events) == Counts{run["breakaways"].as<int>(), run["arrests"].as<int>(), run["reversals"].as<int>()});
   }
 }
 
 TEST_CASE("the slip level is the sine of the wheel's angle", "[caster]") {
   const Caster law(2, 0.3);
-  for (const auto& [position, sine] : reference::angles)
+  for (const auto& angle : reference::rows("casters", "angles")) {
+    const double position = angle["position"], sine = angle["sine"];
     CHECK(std::abs(law.resist(position * 0.3, Direction::forward) - 2 * sine) <= 1e-15 * 2 * sine * 4);
+  }
   CHECK(law.resist(1e6, Direction::forward) == 0);
   CHECK(law.resist(0.7, Direction::forward) == law.resist(-0.7, Direction::backward));
 }
@@ -63,14 +65,14 @@ TEST_CASE("the work of a caster over its whole well is pi a reach", "[caster]") 
 
 TEST_CASE("a caster's level and reach follow from the balance of moments at its wheel", "[caster]") {
   const double mu = 0.4, width = 0.02;
-  for (const auto& wheel : reference::wheels) {
-    INFO("l/w = " << wheel.trail_over_width);
-    const double trail = wheel.trail_over_width * width;
+  for (const auto& wheel : reference::rows("casters", "wheels")) {
+    INFO("l/w = " << wheel["trail_over_width"]);
+    const double trail = wheel["trail_over_width"] * width;
     const Caster law = Caster::from_geometry(mu, trail, width);
-    CHECK(std::abs(law.slip_level() / (mu * standard_gravity) - wheel.level) <= 1e-14 * wheel.level);
-    CHECK(std::abs(law.reach() / trail - wheel.reach) <= 1e-14 * wheel.reach);
+    CHECK(std::abs(law.slip_level() / (mu * standard_gravity) - wheel["level"]) <= 1e-14 * wheel["level"]);
+    CHECK(std::abs(law.reach() / trail - wheel["reach"]) <= 1e-14 * wheel["reach"]);
     const Caster thesis = Caster::from_geometry_thesis(mu, trail, width);
-    CHECK(std::abs(thesis.slip_level() / (mu * standard_gravity) - wheel.thesis_level) <= 1e-14);
+    CHECK(std::abs(thesis.slip_level() / (mu * standard_gravity) - wheel["thesis_level"]) <= 1e-14);
     CHECK(thesis.reach() == 3 * trail);
   }
 }
@@ -127,7 +129,8 @@ TEST_CASE("mirrored ground moves a caster in mirror image, to the last bit", "[c
 
 TEST_CASE("a caster pushed below its escape speed stops where its energy is spent", "[caster]") {
   const Caster law(1, 0.5);
-  for (const auto& [start, speed, stop] : reference::escapes) {
+  for (const auto& escape : reference::rows("casters", "escapes")) {
+    const double start = escape["from"], speed = escape["speed"], stop = escape["stop"];
     INFO("from " << start);
     const Response r = integrate(law, held(0, 1), from(start, 0.9 * speed, true));
     // Its energy, known to some roundings, over the level where it stops gives the way; the level is 0.05 to 0.2 of
@@ -142,7 +145,8 @@ TEST_CASE("a caster pushed below its escape speed stops where its energy is spen
 
 TEST_CASE("a caster pushed beyond its escape speed never comes to rest", "[caster]") {
   const Caster law(1, 0.5);
-  for (const auto& [start, speed, stop] : reference::escapes) {
+  for (const auto& escape : reference::rows("casters", "escapes")) {
+    const double start = escape["from"], speed = escape["speed"];
     CHECK_THROWS_AS(integrate(law, held(0, 1), from(start, 1.01 * speed, true)), ConvergenceError);
     // and without settling, it drifts away at what speed its energy leaves it: v^2 - escape^2
     const Response r = integrate(law, held(0, 1e8), from(start, 1.01 * speed));
@@ -282,7 +286,8 @@ TEST_CASE("a caster that only rolls is a block of the same level", "[caster]") {
 
 TEST_CASE("rolling resistance stops a caster that would escape, where its energy is spent", "[caster]") {
   const Caster law(1, 0.5, 0.02);
-  for (const auto& [start, speed, stop] : reference::escapes) {
+  for (const auto& escape : reference::rows("casters", "escapes")) {
+    const double start = escape["from"], speed = escape["speed"];
     INFO("from " << start);
     const Response r = integrate(law, held(0, 1), from(start, 1.01 * speed, true));
     CHECK(r.state.mode == Mode::stuck);

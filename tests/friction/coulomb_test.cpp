@@ -6,14 +6,13 @@
 #include "support/catch.hpp"
 #include "support/long_double_slider.hpp"
 #include "support/motions.hpp"
-#include "support/reference_values.hpp"
+#include "support/outcome.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
 
 namespace {
-
-Slider<Coulomb> slider_of(const reference::Run& run) { return Slider(Coulomb(1, run.backward), run.natural_frequency); }
 
 // 100,000 segments, a few roundings of x each, of either sign: sqrt(4e5) * 1.1e-16 = 7e-14 of the scale of x; friction
 // forgets errors of the velocity. Rounding that always goes one way is what the rest of the 1e-12 allows for.
@@ -45,20 +44,18 @@ void agrees_with_long_double(double backward, double natural_frequency, const Gr
 TEST_CASE("a block under record A moves as 50 digits say, in all eight forms", "[coulomb]") {
   // 400 segments, a few roundings each of at most 1.1e-16 of the scale, friction forgetting those of the velocity:
   // below 400 * 2 * 1.1e-16 = 9e-14 even if all went one way.
-  for (const auto& run : reference::coulomb_runs) {
-    const Response r = integrate(slider_of(run), record_a(run.interpolation));
-    INFO(run.id);
-    const double x = 1e-13 * run.peak, v = 1e-13 * largest(r.velocity);
-    CHECK(std::abs(r.residual - run.displacement) <= x);
-    CHECK(std::abs(r.state.velocity - run.velocity) <= v);
-    CHECK(std::abs(r.peak - run.peak) <= x);
-    CHECK(std::abs(r.energy.dissipated - run.dissipated) <= 1e-13 * run.dissipated);
-    CHECK(count(r.events) == Counts{run.breakaways, run.arrests, run.reversals});
-    for (const auto& sample : run.samples) {
-      const auto node = static_cast<std::size_t>(sample.node);
-      CHECK(std::abs(r.displacement[node] - sample.displacement) <= x);
-      CHECK(std::abs(r.velocity[node] - sample.velocity) <= v);
-    }
+  for (const auto& run : reference::rows("sliders", "coulomb")) {
+    INFO(run["id"].as<std::string>());
+    const bool linear = run["interpolation"].as<std::string>() == "linear";
+    const Response r = integrate(Slider(Coulomb(1, run["backward"]), run["natural_frequency"]),
+                                 record_a(linear ? Interpolation::linear : Interpolation::constant));
+    const double x = 1e-13 * run["peak"], v = 1e-13 * largest(r.velocity);
+    CHECK(std::abs(r.residual - run["displacement"]) <= x);
+    CHECK(std::abs(r.state.velocity - run["velocity"]) <= v);
+    CHECK(std::abs(r.peak - run["peak"]) <= x);
+    CHECK(std::abs(r.energy.dissipated - run["dissipated"]) <= 1e-13 * run["dissipated"]);
+    CHECK(count(r.events) == Counts{run["breakaways"].as<int>(), run["arrests"].as<int>(), run["reversals"].as<int>()});
+    check_samples(r, run, x, v);
   }
 }
 
@@ -177,15 +174,16 @@ TEST_CASE("a pulse of ground acceleration moves a block as thesis (5.7), (5.8) a
 }
 
 TEST_CASE("a pulse of ten slip levels gives the reference's numbers", "[coulomb][pulse]") {
-  const auto& pulse = reference::pulse_of_10;
+  // values.json pulse.coulomb.b10: thesis (5.7), (5.8), (5.32) with a = dt = 1, b = 10, against mpmath quadrature to
+  // 1e-41.
   const Response r = integrate(Coulomb(1), steps({10, -10, 0, 0, 0}));
-  CHECK(std::abs(r.velocity[1] - pulse.velocity_dt) <= 1e-15 * 9 * 4);
-  CHECK(std::abs(r.velocity[2] - pulse.velocity_2dt) <= 1e-15 * 9 * 4);
-  CHECK(std::abs(r.residual - pulse.displacement) <= 1e-15 * 9 * 4);
-  CHECK(std::abs(r.peak - pulse.peak) <= 1e-15 * 9 * 4);
+  CHECK(std::abs(r.velocity[1] + 9.0) <= 1e-15 * 9 * 4);
+  CHECK(std::abs(r.velocity[2] - 1.636363636363636363636364) <= 1e-15 * 9 * 4);
+  CHECK(std::abs(r.residual + 6.694214876033057851239669) <= 1e-15 * 9 * 4);
+  CHECK(std::abs(r.peak - 8.181818181818181818181818) <= 1e-15 * 9 * 4);
   REQUIRE(r.events.size() == 4);
-  CHECK(std::abs(r.events[1].time - pulse.time_zero) <= 1e-15 * 4);
-  CHECK(std::abs(r.events[2].time - pulse.time_stop) <= 1e-15 * 4);
+  CHECK(std::abs(r.events[1].time - 1.818181818181818181818182) <= 1e-15 * 4);
+  CHECK(std::abs(r.events[2].time - 3.636363636363636363636364) <= 1e-15 * 4);
 }
 
 TEST_CASE("without friction a block stands still while the ground moves under it", "[coulomb]") {

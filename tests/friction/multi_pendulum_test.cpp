@@ -16,7 +16,7 @@
 #include "stickslip/sliding/forces.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "support/pendulum_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -28,7 +28,9 @@ static_assert(detail::SpringLaw<MultiPendulum::Piece> && !detail::SpringLaw<Degr
 
 namespace {
 
-MultiPendulum made(const reference::Bearing& b) { return {b.radii, b.mu, b.capacities, b.restitution, b.nested}; }
+MultiPendulum made(const reference::Value& b) {
+  return {b["radii"].list(), b["mu"].list(), b["capacities"].list(), b["restitution"], b["nested"].as<bool>()};
+}
 MultiPendulum in_series(std::vector<double> radii, std::vector<double> mu, std::vector<double> capacities,
                         double e = 0) {
   return {std::move(radii), std::move(mu), std::move(capacities), e};
@@ -77,57 +79,58 @@ MultiPendulum random_bearing(std::mt19937_64& bits, double restitution) {
 }  // namespace
 
 TEST_CASE("the loop of a pendulum with several surfaces has the values of the reference") {
-  for (const auto& v : reference::pendulum_loops) {
-    CAPTURE(v.id);
-    const PendulumLoop loop = trace(made(v.bearing), v.path);
-    check_all(loop.force, v.force, 1e-15);
-    check_all(loop.dissipated, v.dissipated, 1e-15);
+  for (const auto& v : reference::rows("pendulums", "loops")) {
+    CAPTURE(v["id"].as<std::string>());
+    const PendulumLoop loop = trace(made(v["bearing"]), v["path"].list());
+    check_all(loop.force, v["force"].list(), 1e-15);
+    check_all(loop.dissipated, v["dissipated"].list(), 1e-15);
     std::vector<double> elements, surfaces;
-    for (std::size_t k = 0; k < v.elements.size(); ++k) {
+    for (std::size_t k = 0; k < loop.displacement.size(); ++k) {
       elements.push_back(loop.displacement[k].back());
       surfaces.push_back(loop.surfaces[k].back());
     }
-    check_all(elements, v.elements, 2e-16);
-    check_all(surfaces, v.surfaces, 4e-16);
-    CHECK(loop.slides == v.slides);
-    CHECK(loop.stops == v.stops);
+    check_all(elements, v["elements"].list(), 2e-16);
+    check_all(surfaces, v["surfaces"].list(), 4e-16);
+    CHECK(loop.slides == v["slides"].as<std::vector<std::size_t>>());
+    CHECK(loop.stops == v["stops"].as<std::vector<std::size_t>>());
   }
 }
 
 TEST_CASE("the motion of a pendulum with several surfaces has the values of the reference") {
-  for (const auto& v : reference::pendulum_motions) {
-    CAPTURE(v.id);
-    const MultiPendulum law = made(v.bearing);
+  for (const auto& v : reference::rows("pendulums", "motions")) {
+    CAPTURE(v["id"].as<std::string>());
+    const MultiPendulum law = made(v["bearing"]);
     const Slider<MultiPendulum> slider(law);
-    const GroundMotion motion = shaking(v.factor, v.dt, v.vertical);
+    const GroundMotion motion = shaking(v["factor"], v["dt"], v["vertical"].as<bool>());
     const Response r = integrate(slider, motion);
-    const double x = 1e-12 * v.peak, work = 1e-12 * (v.dissipated + v.impact);
-    CHECK_THAT(r.displacement[400], WithinAbs(v.displacement, x));
-    CHECK_THAT(r.velocity[400], WithinAbs(v.velocity, 1e-12 * std::sqrt(v.dissipated)));
-    CHECK_THAT(r.peak, WithinAbs(v.peak, x));
-    check_all({r.displacement[100], r.displacement[200], r.displacement[300]}, {v.at_100, v.at_200, v.at_300}, x);
-    CHECK_THAT(r.energy.dissipated, WithinAbs(v.dissipated, work));
-    CHECK_THAT(r.energy.impact, WithinAbs(v.impact, work));
+    const double x = 1e-12 * v["peak"], work = 1e-12 * (v["dissipated"] + v["impact"]);
+    CHECK_THAT(r.displacement[400], WithinAbs(v["displacement"], x));
+    CHECK_THAT(r.velocity[400], WithinAbs(v["velocity"], 1e-12 * std::sqrt(v["dissipated"])));
+    CHECK_THAT(r.peak, WithinAbs(v["peak"], x));
+    check_all({r.displacement[100], r.displacement[200], r.displacement[300]}, {v["at_100"], v["at_200"], v["at_300"]},
+              x);
+    CHECK_THAT(r.energy.dissipated, WithinAbs(v["dissipated"], work));
+    CHECK_THAT(r.energy.impact, WithinAbs(v["impact"], work));
     CHECK_THAT(r.energy.imbalance(), WithinAbs(0, work));
-    CHECK(count(r, EventKind::breakaway) == v.breakaways);
-    CHECK(count(r, EventKind::reversal) == v.reversals);
-    CHECK(count(r, EventKind::arrest) == v.arrests);
-    CHECK(count(r, EventKind::impact) == v.impacts);
-    CHECK_THAT(integrate(slider, motion, settled()).residual, WithinAbs(v.residual, x));
+    CHECK(count(r, EventKind::breakaway) == v["breakaways"].as<int>());
+    CHECK(count(r, EventKind::reversal) == v["reversals"].as<int>());
+    CHECK(count(r, EventKind::arrest) == v["arrests"].as<int>());
+    CHECK(count(r, EventKind::impact) == v["impacts"].as<int>());
+    CHECK_THAT(integrate(slider, motion, settled()).residual, WithinAbs(v["residual"], x));
 
     const ElementMotion elements = element_motion(law, *trajectory(slider, motion, r));
-    check_all(elements.dissipated, v.element_dissipated, work);
-    check_all(elements.sliding_distance, v.element_distance, 1e-12 * r.sliding_distance);
-    check_all(elements.peak, v.element_peak, x);
-    CHECK(elements.slides == v.slides);
-    CHECK(elements.stops == v.stops);
+    check_all(elements.dissipated, v["element_dissipated"].list(), work);
+    check_all(elements.sliding_distance, v["element_distance"].list(), 1e-12 * r.sliding_distance);
+    check_all(elements.peak, v["element_peak"].list(), x);
+    CHECK(elements.slides == v["slides"].as<std::vector<std::size_t>>());
+    CHECK(elements.stops == v["stops"].as<std::vector<std::size_t>>());
     std::vector<double> last, last_surfaces;
-    for (std::size_t k = 0; k < v.elements.size(); ++k) {
+    for (std::size_t k = 0; k < elements.displacement.size(); ++k) {
       last.push_back(elements.displacement[k].back());
       last_surfaces.push_back(elements.surfaces[k].back());
     }
-    check_all(last, v.elements, x);
-    check_all(last_surfaces, v.surfaces, 2 * x);
+    check_all(last, v["elements"].list(), x);
+    check_all(last_surfaces, v["surfaces"].list(), 2 * x);
   }
 }
 

@@ -9,7 +9,7 @@
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 #include "support/outcome.hpp"
-#include "support/reference_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -42,12 +42,12 @@ static_assert(SpeedLaw<VelocityDependent> && SymmetricLaw<VelocityDependent>);
 
 TEST_CASE("a block on speed-dependent friction and a spring moves as the reference does", "[velocity_dependent]") {
   const GroundMotion motion = record_a(Interpolation::linear);
-  for (const auto& run : reference::speed_runs) {
-    INFO(run.id);
-    const VelocityDependent law(run.slow, run.fast, run.rate);
-    const Response r = integrate(Slider(law, run.natural_frequency), motion);
-    check_outcome(r, run.outcome, std::abs(motion.acceleration()[0]) > run.slow);
-    CHECK(std::abs(r.energy.dissipated - run.outcome.dissipated) <= 1e-12 * run.outcome.dissipated);
+  for (const auto& run : reference::rows("sliders", "speed_dependent")) {
+    INFO(run["id"].as<std::string>());
+    const VelocityDependent law(run["slow"], run["fast"], run["rate"]);
+    const Response r = integrate(Slider(law, run["natural_frequency"]), motion);
+    check_outcome(r, run, std::abs(motion.acceleration()[0]) > run["slow"]);
+    CHECK(std::abs(r.energy.dissipated - run["dissipated"]) <= 1e-12 * run["dissipated"]);
   }
 }
 

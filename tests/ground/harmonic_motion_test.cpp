@@ -2,9 +2,9 @@
 #include <numbers>
 #include <string>
 
-#include "ground/harmonic_reference.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -44,8 +44,10 @@ void for_each_slider(Visit&& visit) {
 TEST_CASE("a block settles into the exact orbit", "[harmonic_motion]") {
   // values.json harm.coulomb.b*; from rest its mean drifts by ever less, but the way between two reversals is soon
   // exact: differences die out by (B - a) / (B + a) a half cycle or sooner. Over 40 events x rounds at 1e-16 of itself.
-  for (const auto& [amplitude, exact, stops] : reference::coulomb_orbits)
+  for (const auto& orbit : reference::rows("harmonic", "coulomb"))
     for (const double omega : {0.5, 1.0, 20.0}) {
+      const double amplitude = orbit["amplitude"], exact = orbit["exact"];
+      const bool stops = orbit["stops"].as<bool>();
       INFO("B " << amplitude << ", omega " << omega);
       const Response r = integrate(Coulomb(1), cycles(amplitude, omega, 150));
       const double late = 140 * 2 * pi / omega;
@@ -58,7 +60,9 @@ TEST_CASE("a block settles into the exact orbit", "[harmonic_motion]") {
 
 TEST_CASE("a block on a spring settles into Den Hartog's orbit, or stops twice a cycle or more", "[harmonic_motion]") {
   // values.json harm.coulomb_spring.*: simulated to 1e-8; Den Hartog's to the last digits once 300 cycles are over.
-  for (const auto& [amplitude, omega, simulated, den_hartog] : reference::spring_orbits) {
+  for (const auto& orbit : reference::rows("harmonic", "spring")) {
+    const double amplitude = orbit["amplitude"], omega = orbit["omega"], simulated = orbit["simulated"],
+                 den_hartog = orbit["den_hartog"];
     INFO("B " << amplitude << ", omega " << omega);
     const Response r = integrate(Slider(Coulomb(1), std::sqrt(0.5)), cycles(amplitude, omega, 300));
     const double found = amplitude_after(r, 270 * 2 * pi / omega);
@@ -78,9 +82,9 @@ TEST_CASE("at resonance the amplitude of a block on a spring grows in proportion
       if (std::abs(e.time / (2 * pi) - cycle) < 0.6) peak = std::max(peak, std::abs(e.displacement));
     return peak;
   };
-  for (const auto& [cycle, peak] : reference::resonant_peaks) {
+  for (const auto& resonant : reference::rows("harmonic", "resonance")) {
     // which of the half cycles next to it is meant the reference does not say: one adds half a cycle's growth
-    CHECK(std::abs(peak_at(cycle) - peak) <= 1.2);
+    CHECK(std::abs(peak_at(resonant["cycle"].as<int>()) - resonant["peak"]) <= 1.2);
   }
   CHECK(std::abs((peak_at(400) - peak_at(200)) / 200 - (2 - 4 / pi) * pi) <= 1e-4);
   // Below 4 a/pi it stays bounded, 0.1638 at B/a = 1.2 (ERRATA 2.3.2).

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "ground/harmonic_reference.hpp"
 #include "stickslip/harmonic/continuation.hpp"
 #include "stickslip/harmonic/orbits.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -68,8 +68,10 @@ Response along(const S& slider, const Orbit& orbit, double periods, double sampl
 }  // namespace
 
 TEST_CASE("a block has the exact orbit in closed form", "[orbits]") {
-  for (const auto& [amplitude, exact, stops] : reference::coulomb_orbits)
+  for (const auto& row : reference::rows("harmonic", "coulomb"))
     for (const double omega : {0.5, 1.0, 20.0}) {
+      const double amplitude = row["amplitude"], exact = row["exact"];
+      const bool stops = row["stops"].as<bool>();
       INFO("B " << amplitude << ", omega " << omega);
       const auto found = orbits(Coulomb(1), amplitude, omega);
       REQUIRE(found.size() == 1);
@@ -118,7 +120,9 @@ TEST_CASE("below the slip level there is nothing but rest", "[orbits]") {
 }
 
 TEST_CASE("a block on a spring has Den Hartog's orbit, or one that stops", "[orbits]") {
-  for (const auto& [load, omega, simulated, den_hartog] : reference::spring_orbits) {
+  for (const auto& row : reference::rows("harmonic", "spring")) {
+    const double load = row["amplitude"], omega = row["omega"], simulated = row["simulated"],
+                 den_hartog = row["den_hartog"];
     INFO("B " << load << ", omega " << omega);
     const auto found = orbits(Slider(Coulomb(1), std::sqrt(0.5)), load, omega);
     REQUIRE(found.size() == 1);
@@ -187,16 +191,16 @@ TEST_CASE("without friction the orbit is the linear response", "[orbits]") {
 
 TEST_CASE("a caster's orbits are those of the reference, stable or not", "[orbits]") {
   // values.json orbit.caster.*: to 1e-9, the multipliers to the six digits given, the determinant to its own noise.
-  for (const auto& c : reference::caster_orbits) {
-    INFO("wn^2 " << c.stiffness << ", B " << c.load << ", omega " << c.omega << ", A " << c.amplitude);
-    const auto found = orbits(Slider(Caster(1, 1), std::sqrt(c.stiffness)), c.load, c.omega);
-    const Orbit orbit = orbit_near(found, c.amplitude);
-    CHECK(std::abs(orbit.amplitude - c.amplitude) <= 1e-9 * c.amplitude);
-    CHECK(angle_between(orbit.phase, c.phase) <= 1e-9);
+  for (const auto& c : reference::rows("harmonic", "casters")) {
+    INFO("wn^2 " << c["stiffness"] << ", B " << c["load"] << ", omega " << c["omega"] << ", A " << c["amplitude"]);
+    const auto found = orbits(Slider(Caster(1, 1), std::sqrt(c["stiffness"])), c["load"], c["omega"]);
+    const Orbit orbit = orbit_near(found, c["amplitude"]);
+    CHECK(std::abs(orbit.amplitude - c["amplitude"]) <= 1e-9 * c["amplitude"]);
+    CHECK(angle_between(orbit.phase, c["phase"]) <= 1e-9);
     const std::complex<double> m = orbit.half_period_multipliers[0];
-    CHECK(std::abs(m - std::complex(c.multiplier_re, std::copysign(c.multiplier_im, m.imag()))) <= 1e-6);
-    CHECK(std::abs(determinant(orbit) - c.determinant) <= 1e-8);
-    CHECK(orbit.stable == (std::hypot(c.multiplier_re, c.multiplier_im) < 1 + 1e-6));
+    CHECK(std::abs(m - std::complex<double>(c["multiplier_re"], std::copysign(c["multiplier_im"], m.imag()))) <= 1e-6);
+    CHECK(std::abs(determinant(orbit) - double{c["determinant"]}) <= 1e-8);
+    CHECK(orbit.stable == (std::hypot(c["multiplier_re"], c["multiplier_im"]) < 1 + 1e-6));
     CHECK(std::ranges::is_sorted(found, {}, &Orbit::amplitude));
   }
 }

@@ -10,7 +10,7 @@
 #include "stickslip/planar/integrate.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "support/reference_values.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -56,7 +56,7 @@ PlanarLoadSegment under(double duration, Vector2 load, Vector2 rate = {}) {
 }
 
 double distance(Vector2 a, Vector2 b) { return norm(a - b); }
-double distance(Vector2 a, reference::Pair b) { return norm(a - Vector2{b.axis, b.transverse}); }
+double distance(Vector2 a, const std::vector<double>& b) { return norm(a - Vector2{b[0], b[1]}); }
 
 std::vector<double> transverse_samples() {
   std::vector<double> n;
@@ -74,20 +74,16 @@ GroundMotion both(Interpolation interpolation = Interpolation::linear) {
   return record_a(interpolation).with_components(transverse_samples(), {});
 }
 
-const reference::PlanarRun& run(std::string_view id) {
-  for (const auto& run : reference::planar_runs)
-    if (id == run.id) return run;
-  throw "no such run";
-}
+reference::Value run(const char* id) { return reference::row("sliders", "planar", id); }
 
-void check(const PlanarResponse& r, const reference::PlanarRun& run) {
+void check(const PlanarResponse& r, const reference::Value& run) {
   const double scale = r.peak, fast = 1;
-  CHECK(distance(r.residual, run.displacement) <= 1e-12 * scale);
-  CHECK(distance(r.state.velocity, run.velocity) <= 1e-12 * fast);
-  for (const auto& sample : run.samples) {
-    const auto node = static_cast<std::size_t>(sample.node);
-    CHECK(distance(r.displacement[node], sample.displacement) <= 1e-12 * scale);
-    CHECK(distance(r.velocity[node], sample.velocity) <= 1e-12 * fast);
+  CHECK(distance(r.residual, run["displacement"].list()) <= 1e-12 * scale);
+  CHECK(distance(r.state.velocity, run["velocity"].list()) <= 1e-12 * fast);
+  const auto nodes = run["nodes"].as<std::vector<std::size_t>>();
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    CHECK(distance(r.displacement[nodes[k]], run["displacements"].items()[k].list()) <= 1e-12 * scale);
+    CHECK(distance(r.velocity[nodes[k]], run["velocities"].items()[k].list()) <= 1e-12 * fast);
   }
   CHECK(std::abs(r.energy.imbalance()) <= 1e-12 * turnover(r.energy));
 }

@@ -8,6 +8,7 @@ import sys
 import numpy as np
 import pytest
 import stickslip as ss
+from reference import tuples
 
 INF, NAN = math.inf, math.nan
 BLOCK = ss.Coulomb(slip_level=1.0)
@@ -104,21 +105,13 @@ except KeyboardInterrupt:
 
 # ---- orbits
 
-# values.json harm.coulomb.b*: B, A omega^2 / a exactly
-BLOCKS = [
-    (1.2, 0.07766883300360187407600033),
-    (2.0, 1.237981784893324004068443),
-    (4.0, 3.678668087736057269598076),
-    (8.0, 7.844271725260902787646823),
-]
 
-
-@pytest.mark.parametrize("B, exact", BLOCKS)
-def test_a_block_has_one_orbit(B, exact):
+@pytest.mark.parametrize("B, exact, stops", tuples("harmonic", "coulomb"))
+def test_a_block_has_one_orbit(B, exact, stops):
     (orbit,) = ss.harmonic.orbits(BLOCK, B, omega=0.5)
     assert orbit.amplitude == pytest.approx(exact / 0.25, rel=2e-14)
-    limit = math.sqrt(1 + math.pi**2 / 4)
-    assert orbit.stops_per_cycle == (0 if limit <= B else 2)
+    assert orbit.stops_per_cycle == (2 if stops else 0)
+    assert stops == (math.sqrt(1 + math.pi**2 / 4) > B)
     assert orbit.stable and orbit.mean_arbitrary
     assert orbit.multipliers[0] == pytest.approx(1, abs=1e-14)
     if orbit.stops_per_cycle == 0:

@@ -3,11 +3,11 @@
 import math
 import subprocess
 import sys
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 import stickslip as ss
+from reference import rows, tuples
 
 INF, NAN = math.inf, math.nan
 
@@ -29,159 +29,33 @@ def steps(*values, duration=1.0):
 # ---- record A, whole
 
 
-class Run(NamedTuple):
-    id: str
-    law: object
-    natural_frequency: float
-    interpolation: str
-    displacement: float
-    velocity: float
-    peak: float
-    dissipated: float
-    counts: tuple  # breakaways, arrests, reversals
-
-
-# values.json, entries of these ids: event-exact closed forms of 50 digits for Coulomb friction (70
-# digits agree to 1e-49), Taylor series of order 40 with 32 digits for the caster (40 digits agree
-# to 1e-26).
 RUNS = [
-    Run(
-        "rec.coulomb.A.linear.nospring_sym",
-        ss.Coulomb(slip_level=1.0),
-        0.0,
-        "linear",
-        displacement=-0.0541467216041000885110,
-        velocity=-0.0977229257273829489699,
-        peak=0.0595810921821711316056,
-        dissipated=4.40429006251153758516,
-        counts=(26, 25, 64),
+    *(
+        (run, ss.Coulomb(slip_level=1.0, backward=run["backward"]))
+        for run in rows("sliders", "coulomb")
     ),
-    Run(
-        "rec.coulomb.A.linear.spring1.3_sym",
-        ss.Coulomb(slip_level=1.0),
-        1.3,
-        "linear",
-        displacement=-0.0302335564625927967696,
-        velocity=-0.0961138317629951027503,
-        peak=0.0435373461438776818586,
-        dissipated=4.56599406315313879593,
-        counts=(26, 25, 64),
-    ),
-    Run(
-        "rec.coulomb.A.linear.nospring_asym",
-        ss.Coulomb(slip_level=1.0, backward=1.6),
-        0.0,
-        "linear",
-        displacement=1.87560469582549071522,
-        velocity=0.0,
-        peak=1.89234498588482754813,
-        dissipated=3.35857916034695812645,
-        counts=(78, 78, 25),
-    ),
-    Run(
-        "rec.coulomb.A.linear.spring1.3_asym",
-        ss.Coulomb(slip_level=1.0, backward=1.6),
-        1.3,
-        "linear",
-        displacement=0.155811562302884225688,
-        velocity=0.0,
-        peak=0.198312343234154920731,
-        dissipated=3.35195516784884880867,
-        counts=(90, 90, 11),
-    ),
-    Run(
-        "rec.coulomb.A.const.nospring_sym",
-        ss.Coulomb(slip_level=1.0),
-        0.0,
-        "constant",
-        displacement=-0.0507790076562712858142,
-        velocity=-0.119308416722825298498,
-        peak=0.0676596838273969406889,
-        dissipated=4.78441192769720583010,
-        counts=(27, 26, 65),
-    ),
-    Run(
-        "rec.coulomb.A.const.spring1.3_sym",
-        ss.Coulomb(slip_level=1.0),
-        1.3,
-        "constant",
-        displacement=-0.0229503902582244111023,
-        velocity=-0.118457215906601426916,
-        peak=0.0498048198447721568612,
-        dissipated=4.95135180351354687806,
-        counts=(25, 24, 69),
-    ),
-    Run(
-        "rec.coulomb.A.const.nospring_asym",
-        ss.Coulomb(slip_level=1.0, backward=1.6),
-        0.0,
-        "constant",
-        displacement=2.20013620371955424198,
-        velocity=0.0,
-        peak=2.21769964405673111366,
-        dissipated=4.06666062330523627002,
-        counts=(60, 60, 44),
-    ),
-    Run(
-        "rec.coulomb.A.const.spring1.3_asym",
-        ss.Coulomb(slip_level=1.0, backward=1.6),
-        1.3,
-        "constant",
-        displacement=0.147386725525312899325,
-        velocity=-0.0345396028275564772315,
-        peak=0.212384722519216039714,
-        dissipated=4.24288009891149721427,
-        counts=(65, 64, 36),
-    ),
-    Run(
-        "rec.caster.A.linear.nospring",
-        ss.Caster(slip_level=1.0, reach=0.5),
-        0.0,
-        "linear",
-        displacement=-0.0467037113225215496432,
-        velocity=-0.0980351162492525811804,
-        peak=0.0576739377688448540535,
-        dissipated=4.40695624097005788778,
-        counts=(26, 25, 64),
-    ),
-    Run(
-        "rec.caster.A.linear.spring1.3",
-        ss.Caster(slip_level=1.0, reach=0.5),
-        1.3,
-        "linear",
-        displacement=-0.0302044675879465458520,
-        velocity=-0.0963219232833278727201,
-        peak=0.0433829755558518221835,
-        dissipated=4.56827338938638775817,
-        counts=(26, 25, 64),
-    ),
+    *((run, ss.Caster(slip_level=1.0, reach=0.5)) for run in rows("sliders", "caster")),
 ]
 
 
-@pytest.mark.parametrize("run", RUNS, ids=lambda run: run.id)
-def test_record_a_ends_as_fifty_digits_say(run, record_a):
+@pytest.mark.parametrize("run, law", RUNS, ids=[run["id"] for run, _ in RUNS])
+def test_record_a_ends_as_fifty_digits_say(run, law, record_a):
     # Coulomb: each of some 500 closed-form steps rounds a few times to 1.1e-16 of the scale of x;
     # were they all to go one way, 500 * 2 * 1.1e-16 = 1e-13. The caster: ten roundings more a step,
     # and the tolerance it promises is "near round-off" only.
-    tolerance = 1e-11 if isinstance(run.law, ss.Caster) else 1e-13
-    quake = ss.GroundMotion(record_a, dt=0.1, interpolation=run.interpolation)
-    r = ss.integrate(ss.Slider(run.law, run.natural_frequency), quake)
+    tolerance = 1e-11 if isinstance(law, ss.Caster) else 1e-13
+    quake = ss.GroundMotion(record_a, dt=0.1, interpolation=run.get("interpolation", "linear"))
+    r = ss.integrate(ss.Slider(law, run["natural_frequency"]), quake)
     speed = np.max(np.abs(r.velocity))
-    assert r.residual == pytest.approx(run.displacement, rel=0, abs=tolerance * run.peak)
-    assert r.velocity[-1] == pytest.approx(run.velocity, rel=0, abs=tolerance * speed)
-    assert r.peak == pytest.approx(run.peak, rel=tolerance)
-    assert r.energy.dissipated == pytest.approx(run.dissipated, rel=tolerance)
-    assert counts(r) == run.counts
+    assert r.residual == pytest.approx(run["displacement"], rel=0, abs=tolerance * run["peak"])
+    assert r.velocity[-1] == pytest.approx(run["velocity"], rel=0, abs=tolerance * speed)
+    assert r.peak == pytest.approx(run["peak"], rel=tolerance)
+    assert r.energy.dissipated == pytest.approx(run["dissipated"], rel=tolerance)
+    assert counts(r) == (run["breakaways"], run["arrests"], run["reversals"])
 
 
-# values.json rec.coulomb.A.linear.nospring_sym, samples_x_v_at_node: node, x, x'
-NODES = [
-    (10, -0.0029996978312478799422, -0.032471834165317052411),
-    (50, -0.050000312495609190423, -0.11193164323745543185),
-    (100, -0.013417336886153157682, -0.019808325757520301470),
-    (200, -0.013008027040733415706, -0.099183193594209642400),
-    (300, -0.025274028663742918220, -0.14569543020362055546),
-]
+COLUMNS = ("nodes", "displacements", "velocities")
+NODES = list(zip(*(rows("sliders", "coulomb")[0][column] for column in COLUMNS)))
 
 
 @pytest.mark.parametrize("node, displacement, velocity", NODES)
@@ -266,15 +140,7 @@ def test_the_two_levels_of_a_block_act_each_in_its_direction():
     assert counts(r) == (1, 0, 3)
 
 
-# values.json edge.caster_escape.x*: x0, v_escape, where it stops from 0.9 v_escape; energy balance
-ESCAPES = [
-    (1.0, 0.518686794461630302411423, 1.833285361824268666406812),
-    (5.0, 0.009528896025384344071882353, 5.830365603741949783168232),
-    (10.0, 0.0000642051964008920048260565, 10.83036560341082545469598),
-]
-
-
-@pytest.mark.parametrize("start, escape, stop", ESCAPES)
+@pytest.mark.parametrize("start, escape, stop", tuples("casters", "escapes"))
 def test_a_caster_stops_below_its_escape_velocity_and_never_above(start, escape, stop):
     law, still = ss.Caster(slip_level=1.0, reach=0.5), line(0, 0, 1)
     r = ss.integrate(law, still, displacement=start, velocity=0.9 * escape, settle=True)

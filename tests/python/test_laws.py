@@ -6,6 +6,7 @@ import pickle
 
 import pytest
 import stickslip as ss
+from reference import tuples
 
 G = 9.80665  # m/s^2, exact by definition (CGPM 1901)
 INF, NAN = math.inf, math.nan
@@ -31,26 +32,8 @@ LAWS = [
     ss.VelocityDependent(slow=1.3, fast=0.8, rate=10),
 ]
 
-# Wheels of several l/w: (l/w, s, l_eff / l) of the mechanics, and s of thesis (A.16).
-# values.json caster.s.gamma*: s_correct, Leff_over_l_correct, s_thesis_A16; 40 digits, bisection.
-WHEELS = [
-    (0.05, 0.9852444366511172934905516, 33.94076204262572503114, 0.4624876682545505240507),
-    (0.1, 0.9437668084758543733718207, 8.961729870949958414645, 0.6588924585484382842500),
-    (0.2, 0.8119570449588159422547168, 2.778894978628731270918, 0.8380744101194069887187),
-    (0.3, 0.6702046283339531628334752, 1.693487245705430111594, 0.9101833646324906063971),
-    (0.5, 0.4634586366216264267604496, 1.200729974934805395672, 0.9624236501192068949955),
-    (1.0, 0.2460929213835410029856924, 1.037441355919584941383, 0.9898658461890538117791),
-    (2.0, 0.1245941961614961699878797, 1.007390598846844881130, 0.9974139753715419514058),
-]
-
-# The sine of the wheel's angle at x / reach: values.json caster.theta.y*, closed form.
-ANGLES = [
-    (-2.0, 0.2658022288340796921208627),
-    (0.0, 1.0),
-    (0.5, 0.8868188839700739086588978),
-    (1.0, 0.6480542736638853995749774),
-    (3.0, 0.09932792741943320782901245),
-]
+# l/w, slip level / (mu g), reach / l, and the slip level of thesis (A.16) / (mu g).
+WHEELS = tuples("casters", "wheels")
 
 
 def test_standard_gravity_is_the_definition():
@@ -165,7 +148,7 @@ def test_a_real_wheel_never_resists_more_than_its_moment_allows():
         assert law.slip_level <= 0.2 * G * min(1.0, 1 / (4 * l_over_w))
 
 
-@pytest.mark.parametrize("position, sine", ANGLES)
+@pytest.mark.parametrize("position, sine", tuples("casters", "angles"))
 def test_the_slip_level_of_a_caster_is_the_sine_of_its_angle(position, sine):
     law = ss.Slider(ss.Caster(slip_level=2.0, reach=0.25))
     assert law.resist(position * 0.25) == pytest.approx(2 * sine, rel=4e-16 * (1 + abs(position)))

@@ -13,8 +13,8 @@
 #include "stickslip/theory/equivalent_linearization.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
+#include "support/reference.hpp"
 #include "theory/covariance.hpp"
-#include "theory/equivalent_linearization_reference.hpp"
 #include "theory/linear_friction.hpp"
 
 using namespace stickslip;
@@ -81,14 +81,15 @@ const EquivalentLinearization by_gauss, without_a21({.force = Force::gaussian_a2
 }  // namespace
 
 TEST_CASE("covariances are those of independent solutions", "[equivalent_linearization]") {
-  for (const reference::WhiteCovariance& value : reference::white_covariances) {
-    const EquivalentLinearization el(
-        {.force = force(value.force), .start = value.from_rest ? From::rest : From::thesis, .tolerance = 1e-12});
+  for (const auto& value : reference::rows("equivalent_linearization", "covariances")) {
+    const EquivalentLinearization el({.force = force(value["force"].as<std::string>()),
+                                      .start = value["from_rest"].as<bool>() ? From::rest : From::thesis,
+                                      .tolerance = 1e-12});
     // gamma = infinity: a reach so short that no friction is left.
-    const Caster law(1, value.gamma == reference::no_reach ? 1e-300 : 1 / value.gamma);
-    CAPTURE(value.id);
-    CHECK(apart(at(el, law, 1, value.time), {value.q11, value.q12, value.q22}) <
-          std::max(1e-10, 3 * value.error));  // its error is that of one component, of the last digits
+    const Caster law(1, value["gamma"] == infinity ? 1e-300 : 1 / value["gamma"]);
+    CAPTURE(value["id"].as<std::string>());
+    CHECK(apart(at(el, law, 1, value["time"]), {value["q11"], value["q12"], value["q22"]}) <
+          std::max(1e-10, 3 * value["error"]));  // its error is that of one component, of the last digits
   }
 }
 
@@ -117,16 +118,16 @@ TEST_CASE("tolerances are kept", "[equivalent_linearization]") {
 }
 
 TEST_CASE("coefficients are the Gaussian expectations", "[equivalent_linearization]") {
-  for (const reference::WhiteCoefficients& value : reference::white_coefficients) {
-    const Caster law(1, value.reach);
-    CAPTURE(value.id);
-    const LinearFriction full = by_gauss.coefficients(law, value.q11, value.q12, value.q22);
-    CHECK(relative(full.a22, value.a22) < 1e-12);
-    CHECK(relative(full.a21, value.a21) < 1e-12);
-    CHECK(relative(without_a21.coefficients(law, value.q11, value.q12, value.q22).a22, value.a22) < 1e-12);
-    CHECK(without_a21.coefficients(law, value.q11, value.q12, value.q22).a21 == 0);
-    const LinearFriction thesis = by_thesis.coefficients(law, value.q11, value.q12, value.q22);
-    CHECK(relative(thesis.a22, value.a22_thesis) < 1e-12);
+  for (const auto& value : reference::rows("equivalent_linearization", "coefficients")) {
+    const Caster law(1, value["reach"]);
+    CAPTURE(value["id"].as<std::string>());
+    const LinearFriction full = by_gauss.coefficients(law, value["q11"], value["q12"], value["q22"]);
+    CHECK(relative(full.a22, value["a22"]) < 1e-12);
+    CHECK(relative(full.a21, value["a21"]) < 1e-12);
+    CHECK(relative(without_a21.coefficients(law, value["q11"], value["q12"], value["q22"]).a22, value["a22"]) < 1e-12);
+    CHECK(without_a21.coefficients(law, value["q11"], value["q12"], value["q22"]).a21 == 0);
+    const LinearFriction thesis = by_thesis.coefficients(law, value["q11"], value["q12"], value["q22"]);
+    CHECK(relative(thesis.a22, value["a22_thesis"]) < 1e-12);
     CHECK(thesis.a21 == 0);
   }
   const LinearFriction coulomb = by_gauss.coefficients(Coulomb(2), 7, 3, 5);
@@ -419,8 +420,8 @@ TEST_CASE("z exp(z^2) erfc(z) for any z", "[equivalent_linearization]") {
 }
 
 TEST_CASE("transition times", "[equivalent_linearization]") {
-  for (const reference::Transition& value : reference::transitions)
-    CHECK(relative(transition_time(Caster(1, 1 / value.gamma), 1.0).thesis, value.time) < 1e-12);
+  for (const auto& value : reference::rows("equivalent_linearization", "transitions"))
+    CHECK(relative(transition_time(Caster(1, 1 / value["gamma"]), 1.0).thesis, value["time"]) < 1e-12);
   // ERRATA to (3.51): 35.1 and 44.8 for gamma = 0.01.
   const theory::TransitionTime t = transition_time(Caster(1, 100), Spectrum::white(1));
   CHECK(t.thesis == Approx(35.1).margin(0.05));

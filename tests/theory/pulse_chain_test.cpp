@@ -13,7 +13,7 @@
 #include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"
 #include "support/catch.hpp"
-#include "theory/pulse_chain_reference.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace stickslip::theory;
@@ -65,18 +65,18 @@ double promise(double sigma) { return sigma >= 1 ? 0.04 : 0.09; }
 TEST_CASE("pairs of pulses do what a midpoint rule finds", "[pulse_chain]") {
   // That rule is off by (a spacing of sigma / 8)^2 at kinks, like the coarser of ours, whose error is then taken away:
   // to 0.5 % together, as its own convergence and ours show.
-  for (const auto& row : reference::pair_rows) {
-    CAPTURE(row.sigma);
-    const stickslip::detail::PairTable one = stickslip::detail::pair_coefficients(row.sigma, 1);
-    const stickslip::detail::PairTable two = stickslip::detail::pair_coefficients(row.sigma, 2);
-    CHECK(one.growth.single == Approx(row.c1).epsilon(0.005));
-    CHECK(one.growth.pair == Approx(row.c2).epsilon(0.005));
-    CHECK(one.growth.lattice == Approx(row.c2_1).epsilon(0.005));
-    CHECK(two.growth.lattice == Approx(row.c2_2).epsilon(0.005));
-    CHECK(one.velocity.single == Approx(row.c1v).epsilon(0.005));
-    CHECK(one.velocity.pair == Approx(row.c2v).epsilon(0.005));
-    CHECK(one.velocity.lattice == Approx(row.c2v_1).epsilon(0.005));
-    CHECK(two.velocity.lattice == Approx(row.c2v_2).epsilon(0.005));
+  for (const auto& row : reference::rows("pulse_chain", "pairs")) {
+    CAPTURE(row["sigma"]);
+    const stickslip::detail::PairTable one = stickslip::detail::pair_coefficients(row["sigma"], 1);
+    const stickslip::detail::PairTable two = stickslip::detail::pair_coefficients(row["sigma"], 2);
+    CHECK(one.growth.single == Approx(row["c1"]).epsilon(0.005));
+    CHECK(one.growth.pair == Approx(row["c2"]).epsilon(0.005));
+    CHECK(one.growth.lattice == Approx(row["c2_1"]).epsilon(0.005));
+    CHECK(two.growth.lattice == Approx(row["c2_2"]).epsilon(0.005));
+    CHECK(one.velocity.single == Approx(row["c1v"]).epsilon(0.005));
+    CHECK(one.velocity.pair == Approx(row["c2v"]).epsilon(0.005));
+    CHECK(one.velocity.lattice == Approx(row["c2v_1"]).epsilon(0.005));
+    CHECK(two.velocity.lattice == Approx(row["c2v_2"]).epsilon(0.005));
   }
 }
 
@@ -162,14 +162,14 @@ TEST_CASE("the displacement variance comes to grow at the growth rate", "[pulse_
 }
 
 TEST_CASE("an independent program's simulations are within the theory's promise", "[pulse_chain][statistics]") {
-  for (const auto& run : reference::chain_runs)
+  for (const auto& run : reference::rows("pulse_chain", "runs"))
     for (const bool refined : {false, true}) {
-      CAPTURE(run.sigma, run.rate, refined);
-      const Moments m = predict(run.rate, run.sigma, refined);
-      CHECK(std::abs(m.growth_rate.value - run.growth) <
-            (refined ? 0.03 : promise(run.sigma)) * run.growth + 3 * run.growth_error);
-      CHECK(std::abs(m.velocity_variance.value[0] - run.velocity_variance) <
-            (refined ? 0.03 : 0.07) * run.velocity_variance + 3 * run.velocity_variance_error);
+      CAPTURE(run["sigma"], run["rate"], refined);
+      const Moments m = predict(run["rate"], run["sigma"], refined);
+      CHECK(std::abs(m.growth_rate.value - run["growth"]) <
+            (refined ? 0.03 : promise(run["sigma"])) * run["growth"] + 3 * run["growth_error"]);
+      CHECK(std::abs(m.velocity_variance.value[0] - run["velocity_variance"]) <
+            (refined ? 0.03 : 0.07) * run["velocity_variance"] + 3 * run["velocity_variance_error"]);
     }
 }
 

@@ -14,7 +14,7 @@
 #include "stickslip/theory/pulse_chain.hpp"
 #include "stickslip/theory/pulse_superposition.hpp"
 #include "support/catch.hpp"
-#include "theory/pulse_superposition_reference.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace stickslip::theory;
@@ -34,7 +34,8 @@ Moments predict(Overlap overlap, double rate, double sigma) {
 }  // namespace
 
 TEST_CASE("h and g of (5.35), (5.41) come out to 1e-12", "[pulse_superposition]") {
-  for (const auto& [sigma, h, g] : reference::pulse_integrals) {
+  for (const auto& row : reference::rows("pulse_superposition", "integrals")) {
+    const double sigma = row["sigma"], h = row["h"], g = row["g"];
     CAPTURE(sigma);
     const Moments m = predict(Overlap::none, 1, sigma);  // (5.34), (5.40) with all else 1
     CHECK(m.velocity_variance.value[0] * sigma == Approx(h).epsilon(1e-12));
@@ -43,31 +44,31 @@ TEST_CASE("h and g of (5.35), (5.41) come out to 1e-12", "[pulse_superposition]"
 }
 
 TEST_CASE("the overlap series come out to 1e-12, as printed and corrected", "[pulse_superposition]") {
-  for (const auto& row : reference::pulse_series)
+  for (const auto& row : reference::rows("pulse_superposition", "series"))
     for (std::size_t i = 0; i < 3; ++i) {
-      CAPTURE(row.sigma, row.overlap, i);
-      const Moments m = predict(overlaps[i], row.overlap, row.sigma);
-      CHECK(m.velocity_variance.value[0] == Approx(row.velocity_variance[i]).epsilon(1e-12));
-      CHECK(m.growth_rate.value == Approx(row.growth[i]).epsilon(1e-12));
-      CHECK(m.displacement_variance.value[0] == Approx(100 * row.growth[i]).epsilon(1e-12));
-      CHECK(m.covariance.value[0] == Approx(row.growth[i] / 2).epsilon(1e-12));
+      CAPTURE(row["sigma"], row["overlap"], i);
+      const Moments m = predict(overlaps[i], row["overlap"], row["sigma"]);
+      CHECK(m.velocity_variance.value[0] == Approx(row["velocity_variance"].list()[i]).epsilon(1e-12));
+      CHECK(m.growth_rate.value == Approx(row["growth"].list()[i]).epsilon(1e-12));
+      CHECK(m.displacement_variance.value[0] == Approx(100 * row["growth"].list()[i]).epsilon(1e-12));
+      CHECK(m.covariance.value[0] == Approx(row["growth"].list()[i] / 2).epsilon(1e-12));
     }
 }
 
 TEST_CASE("the curves of figure 5.7 come out", "[pulse_superposition]") {
-  for (const auto& row : reference::event_displacements)
+  for (const auto& row : reference::rows("pulse_superposition", "events"))
     for (std::size_t i = 0; i < 3; ++i) {
-      CAPTURE(row.event, row.mu, row.gravity, i);
-      const PoissonPulses pulses = PoissonPulses::event(row.event);
+      CAPTURE(row["event"].as<std::string>(), row["mu"], row["gravity"], i);
+      const PoissonPulses pulses = PoissonPulses::event(row["event"].as<std::string>());
       const PulseSuperposition theory(overlaps[i]);
       // The study's first column loses digits where sigma / a is small, for it integrates in one piece from the
       // threshold to infinity: 1e-10 at 0.146, 3e-4 at 0.102. See below.
-      const bool coarse = i == 0 && pulses.sigma() < 0.15 * row.mu * row.gravity;
-      CHECK(theory.final_rms(block(row.mu * row.gravity), pulses) * 100 ==
-            Approx(row.displacement[i]).epsilon(coarse ? 5e-4 : 1e-12));
+      const bool coarse = i == 0 && pulses.sigma() < 0.15 * row["mu"] * row["gravity"];
+      CHECK(theory.final_rms(block(row["mu"] * row["gravity"]), pulses) * 100 ==
+            Approx(row["displacement"].list()[i]).epsilon(coarse ? 5e-4 : 1e-12));
       if (overlaps[i] == Overlap::thesis) {
-        const Moments m = theory.predict(block(row.mu * row.gravity), pulses, late);
-        CHECK(std::sqrt(m.velocity_variance.value[0]) * 100 == Approx(row.velocity).epsilon(1e-11));
+        const Moments m = theory.predict(block(row["mu"] * row["gravity"]), pulses, late);
+        CHECK(std::sqrt(m.velocity_variance.value[0]) * 100 == Approx(row["velocity"]).epsilon(1e-11));
       }
     }
 }

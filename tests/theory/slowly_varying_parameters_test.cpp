@@ -10,7 +10,7 @@
 #include "stickslip/harmonic/orbits.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "theory/slowly_varying_parameters_reference.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -72,20 +72,19 @@ struct Lopsided {
 };
 
 // The error of an amplitude: some roundings of B^2 over the slope of (2.16), 2 A times the determinant (2.19).
-double allowed(double B, const reference::CasterSolution& s) {
-  return round_off * (8 + 8 * B * B / (s.amplitude * s.amplitude * std::abs(s.determinant)));
+double allowed(double B, const reference::Value& s) {
+  return round_off * (8 + 8 * B * B / (s["amplitude"] * s["amplitude"] * std::abs(s["determinant"])));
 }
 
-void check_solutions(const Theory& svp, double B, double omega,
-                     const std::vector<reference::CasterSolution>& expected) {
+void check_solutions(const Theory& svp, double B, double omega, const std::vector<reference::Value>& expected) {
   INFO("B = " << B << ", omega = " << omega);
   const auto found = svp.response(B, omega);
   REQUIRE(found.size() == expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    CHECK(relative(found[i].amplitude, expected[i].amplitude) <= allowed(B, expected[i]));
-    CHECK(relative(found[i].amplitude, expected[i].amplitude) <= 1e-12);
-    CHECK(std::abs(found[i].phase / pi - expected[i].phase_over_pi) <= 1e-14);  // its last digit
-    CHECK(found[i].stable == expected[i].stable);
+    CHECK(relative(found[i].amplitude, expected[i]["amplitude"]) <= allowed(B, expected[i]));
+    CHECK(relative(found[i].amplitude, expected[i]["amplitude"]) <= 1e-12);
+    CHECK(std::abs(found[i].phase / pi - expected[i]["phase_over_pi"]) <= 1e-14);  // its last digit
+    CHECK(found[i].stable == expected[i]["stable"].as<bool>());
   }
 }
 
@@ -94,28 +93,30 @@ void check_solutions(const Theory& svp, double B, double omega,
 // ---- S and C
 
 TEST_CASE("S and C are what quadrature in 30 digits says", "[svp]") {
-  for (const auto& r : reference::dissipations) {
-    INFO("A = " << r.amplitude << ", reach " << r.reach);
-    const Theory svp = r.reach > 0 ? Theory(Slider(Caster(1, r.reach), 0.7)) : Theory(Slider(Coulomb(1), 0.7));
-    CHECK(relative(svp.dissipative(r.amplitude), r.s) <= 1e-15);
-    CHECK(std::abs(svp.dissipative_slope(r.amplitude) - r.slope) <= 1e-14 * r.slope);
-    CHECK(svp.in_phase(r.amplitude) == 0.7 * 0.7 * r.amplitude);
-    CHECK(svp.in_phase_slope(r.amplitude) == 0.7 * 0.7);
+  for (const auto& r : reference::rows("slowly_varying_parameters", "dissipations")) {
+    INFO("A = " << r["amplitude"] << ", reach " << r["reach"]);
+    const Theory svp = r["reach"] > 0 ? Theory(Slider(Caster(1, r["reach"]), 0.7)) : Theory(Slider(Coulomb(1), 0.7));
+    CHECK(relative(svp.dissipative(r["amplitude"]), r["s"]) <= 1e-15);
+    CHECK(std::abs(svp.dissipative_slope(r["amplitude"]) - r["slope"]) <= 1e-14 * r["slope"]);
+    CHECK(svp.in_phase(r["amplitude"]) == 0.7 * 0.7 * r["amplitude"]);
+    CHECK(svp.in_phase_slope(r["amplitude"]) == 0.7 * 0.7);
   }
 }
 
 TEST_CASE("S of a caster and its derivative keep their digits however far the amplitude is from the reach", "[svp]") {
   // S': the difference of mean and last level is at worst 1/25 of either, of some four roundings.
-  for (const auto& r : reference::caster_means)
+  for (const auto& r : reference::rows("slowly_varying_parameters", "caster_means"))
     for (const double reach : {1e-20, 0.003, 1.0, 7e5}) {
-      INFO("y = " << r.y << ", reach " << reach);
+      INFO("y = " << r["y"] << ", reach " << reach);
       const Theory svp(Caster(2.5, reach));
-      const double y_rounding = std::abs(r.y * reach / reach - r.y) / r.y * 3;
-      CHECK(relative(svp.dissipative(r.y * reach), -4 / pi * 2.5 * r.mean) <= 2e-15 + y_rounding);
-      CHECK(relative(svp.dissipative_slope(r.y * reach), -4 / pi * 2.5 / reach * r.y * r.slope) <= 3e-14 + y_rounding);
+      const double y_rounding = std::abs(r["y"] * reach / reach - r["y"]) / r["y"] * 3;
+      CHECK(relative(svp.dissipative(r["y"] * reach), -4 / pi * 2.5 * r["mean"]) <= 2e-15 + y_rounding);
+      CHECK(relative(svp.dissipative_slope(r["y"] * reach), -4 / pi * 2.5 / reach * r["y"] * r["slope"]) <=
+            3e-14 + y_rounding);
     }
   const Theory svp(Caster(1, 1));
-  CHECK(relative(-svp.dissipative(18) * 18 * pi / 4, reference::gudermannian_of_18) <= 1e-15);
+  // gd(18), values.json svp.pitfall.arcsin_tanh: arcsin(tanh y) is wrong by 6.6e-10 there.
+  CHECK(relative(-svp.dissipative(18) * 18 * pi / 4, 1.570796296334937129806067) <= 1e-15);
   CHECK(svp.dissipative(0) == Approx(-4 / pi).epsilon(1e-15));
   CHECK(svp.dissipative_slope(0) == 0);
 }
@@ -212,20 +213,20 @@ TEST_CASE("friction takes energy, so the first condition of stability always hol
 TEST_CASE("Coulomb friction answers at every frequency once B exceeds 4 a / pi, and is stable", "[svp]") {
   // A^2 is the difference of B^2 and (4a/pi)^2, of a rounding each, over the stiffness.
   const Theory free(Coulomb(1)), spring(Slider(Coulomb(1), half));
-  for (const auto& r : reference::coulomb_solutions) {
-    INFO("B = " << r.B << ", omega = " << r.omega);
-    const double rounding = 1e-15 * (1 + r.B * r.B / (r.B * r.B - 16 / pi / pi));
+  for (const auto& r : reference::rows("slowly_varying_parameters", "coulomb")) {
+    INFO("B = " << r["B"] << ", omega = " << r["omega"]);
+    const double rounding = 1e-15 * (1 + r["B"] * r["B"] / (r["B"] * r["B"] - 16 / pi / pi));
     const auto check = [&](const Theory& svp, double amplitude, double phase) {
-      const auto found = svp.response(r.B, r.omega);
+      const auto found = svp.response(r["B"], r["omega"]);
       REQUIRE(found.size() == 1);
       CHECK(relative(found[0].amplitude, amplitude) <= rounding);
       CHECK(std::abs(found[0].phase - phase) <= 8e-15);
       CHECK(found[0].stable);
-      CHECK_FALSE(svp.rests(r.B));
+      CHECK_FALSE(svp.rests(r["B"]));
     };
-    check(free, r.amplitude, r.phase);
-    check(spring, r.amplitude_spring, r.phase_spring);
-    CHECK(free.min_amplitude(r.B) == 0);
+    check(free, r["amplitude"], r["phase"]);
+    check(spring, r["amplitude_spring"], r["phase_spring"]);
+    CHECK(free.min_amplitude(r["B"]) == 0);
   }
   for (const double B : {0.1, 1.0, 1.27}) {
     CHECK(free.response(B, 1).empty());
@@ -249,12 +250,12 @@ TEST_CASE("the amplitude of Coulomb friction is that of the ground less the fric
 
 TEST_CASE("the lower branch of Coulomb friction on a spring begins at frequency zero", "[svp]") {
   const Theory svp(Slider(Coulomb(1), half));
-  for (const auto& r : reference::coulomb_branch_starts) {
-    INFO("B = " << r.B);
-    CHECK(std::isnan(svp.frequency(r.B, r.amplitude * (1 - 1e-13)).lower));
-    CHECK(svp.frequency(r.B, r.amplitude * (1 + 1e-13)).lower <= 1e-6);  // sqrt(1e-13 wn^2)
-    CHECK(svp.frequency(r.B, r.amplitude).upper == Approx(1).epsilon(1e-14));
-    const auto [lower, upper] = svp.stability_boundary(r.amplitude);
+  for (const auto& r : reference::rows("slowly_varying_parameters", "coulomb_branch_starts")) {
+    INFO("B = " << r["B"]);
+    CHECK(std::isnan(svp.frequency(r["B"], r["amplitude"] * (1 - 1e-13)).lower));
+    CHECK(svp.frequency(r["B"], r["amplitude"] * (1 + 1e-13)).lower <= 1e-6);  // sqrt(1e-13 wn^2)
+    CHECK(svp.frequency(r["B"], r["amplitude"]).upper == Approx(1).epsilon(1e-14));
+    const auto [lower, upper] = svp.stability_boundary(r["amplitude"]);
     CHECK(lower == upper);  // nothing between
   }
 }
@@ -274,43 +275,45 @@ TEST_CASE("a spring makes the response larger exactly above wn / sqrt(2)", "[svp
 
 TEST_CASE("a caster has the solutions found with 40 digits, with and without a spring", "[svp]") {
   const Theory free(Caster(1, 1)), spring(Slider(Caster(1, 1), half));
-  for (const auto& r : reference::caster_responses) {
-    check_solutions(free, r.B, r.omega, r.free);
-    check_solutions(spring, r.B, r.omega, r.spring);
+  for (const auto& r : reference::rows("slowly_varying_parameters", "casters")) {
+    check_solutions(free, r["B"], r["omega"], r["free"].items());
+    check_solutions(spring, r["B"], r["omega"], r["spring"].items());
   }
 }
 
 TEST_CASE("solutions keep their digits where B is next to 4 a / pi", "[svp]") {
   const Theory svp(Caster(1, 1));
-  for (const auto& r : reference::small_solutions) {
-    INFO("B = " << r.B << ", omega = " << r.omega);
-    const auto found = svp.response(r.B, r.omega);
+  for (const auto& r : reference::rows("slowly_varying_parameters", "small")) {
+    INFO("B = " << r["B"] << ", omega = " << r["omega"]);
+    const auto found = svp.response(r["B"], r["omega"]);
     REQUIRE(!found.empty());
-    CHECK(relative(found[0].amplitude, r.amplitude) <= 4e-15);  // a few roundings of each term of (2.16)
-    CHECK(std::abs(found[0].phase / pi - r.phase_over_pi) <= 1e-15);
-    CHECK(found[0].stable == r.stable);
-    CHECK(relative(svp.frequency(r.B, r.amplitude).upper, r.omega) <= 4e-15);
+    CHECK(relative(found[0].amplitude, r["amplitude"]) <= 4e-15);  // a few roundings of each term of (2.16)
+    CHECK(std::abs(found[0].phase / pi - r["phase_over_pi"]) <= 1e-15);
+    CHECK(found[0].stable == r["stable"].as<bool>());
+    CHECK(relative(svp.frequency(r["B"], r["amplitude"]).upper, r["omega"]) <= 4e-15);
   }
 }
 
 TEST_CASE("a curve of the caster folds where its frequency is highest", "[svp]") {
   const Theory svp(Caster(1, 1));
-  const auto& fold = reference::caster_fold;
-  CHECK(relative(svp.min_amplitude(1), fold.least) <= 1e-15);
-  CHECK(relative(svp.frequency(1, fold.amplitude).upper, fold.omega) <= 1e-15);
-  CHECK(relative(svp.stability_boundary(fold.amplitude).upper, fold.omega) <= 1e-15);
-  CHECK(svp.stability_boundary(fold.amplitude).lower == 0);
+  // values.json svp.caster.fold.b1.0
+  const double least = 1.360590103585858371543901, amplitude = 2.207428623391956413395823,
+               omega = 0.5326142189713826773184624;
+  CHECK(relative(svp.min_amplitude(1), least) <= 1e-15);
+  CHECK(relative(svp.frequency(1, amplitude).upper, omega) <= 1e-15);
+  CHECK(relative(svp.stability_boundary(amplitude).upper, omega) <= 1e-15);
+  CHECK(svp.stability_boundary(amplitude).lower == 0);
 
-  CHECK(svp.response(1, fold.omega * (1 + 1e-14)).empty());
+  CHECK(svp.response(1, omega * (1 + 1e-14)).empty());
   for (const double off : {1e-14, 1e-10, 1e-6, 1e-2}) {  // A differs from the fold's by as much as sqrt(off)
     INFO(off);
-    const auto found = svp.response(1, fold.omega * (1 - off));
+    const auto found = svp.response(1, omega * (1 - off));
     REQUIRE(found.size() == 2);
-    CHECK(found[0].amplitude < fold.amplitude);
-    CHECK(found[1].amplitude > fold.amplitude);
+    CHECK(found[0].amplitude < amplitude);
+    CHECK(found[1].amplitude > amplitude);
     CHECK_FALSE(found[0].stable);
     CHECK(found[1].stable);
-    CHECK(found[1].amplitude - found[0].amplitude <= 8 * std::sqrt(off) * fold.amplitude);
+    CHECK(found[1].amplitude - found[0].amplitude <= 8 * std::sqrt(off) * amplitude);
   }
 }
 
@@ -368,30 +371,33 @@ TEST_CASE("a caster has one solution above 4 a / pi; below, two or none, and at 
 
 TEST_CASE("the branches of a caster on a spring begin and end where 40 digits say", "[svp]") {
   const Theory svp(Slider(Caster(1, 1), half));
-  for (const auto& r : reference::caster_branches) {
-    INFO("B = " << r.B);
-    CHECK(std::abs(svp.min_amplitude(r.B) - r.least) <= 1e-15 * r.least * (1 + r.B / std::abs(4 / pi - r.B)));
-    if (r.least > 0) {
-      CHECK(std::isnan(svp.frequency(r.B, r.least * (1 - 1e-13)).upper));
-      CHECK(svp.frequency(r.B, r.least * (1 + 1e-13)).upper == Approx(half).epsilon(1e-5));
-      CHECK(svp.frequency(r.B, r.least * (1 + 1e-13)).lower == Approx(half).epsilon(1e-5));
+  for (const auto& r : reference::rows("slowly_varying_parameters", "caster_branches")) {
+    INFO("B = " << r["B"]);
+    CHECK(std::abs(svp.min_amplitude(r["B"]) - r["least"]) <=
+          1e-15 * r["least"] * (1 + r["B"] / std::abs(4 / pi - r["B"])));
+    if (r["least"] > 0) {
+      CHECK(std::isnan(svp.frequency(r["B"], r["least"] * (1 - 1e-13)).upper));
+      CHECK(svp.frequency(r["B"], r["least"] * (1 + 1e-13)).upper == Approx(half).epsilon(1e-5));
+      CHECK(svp.frequency(r["B"], r["least"] * (1 + 1e-13)).lower == Approx(half).epsilon(1e-5));
     }
-    bool real = r.least > 0;  // from the least amplitude on, then by turns
-    for (const double end : r.ends) {
-      CHECK(std::isnan(svp.frequency(r.B, end * (1 - 1e-12)).lower) != real);
-      CHECK(std::isnan(svp.frequency(r.B, end * (1 + 1e-12)).lower) == real);
-      CHECK(svp.frequency(r.B, end).upper == Approx(1).epsilon(1e-14));  // wn^2 + R = 2 wn^2
+    bool real = r["least"] > 0;  // from the least amplitude on, then by turns
+    for (const double end : r["ends"].list()) {
+      CHECK(std::isnan(svp.frequency(r["B"], end * (1 - 1e-12)).lower) != real);
+      CHECK(std::isnan(svp.frequency(r["B"], end * (1 + 1e-12)).lower) == real);
+      CHECK(svp.frequency(r["B"], end).upper == Approx(1).epsilon(1e-14));  // wn^2 + R = 2 wn^2
       real = !real;
     }
     CHECK(real);
-    for (double y = std::max(r.least, 1e-3) * 1.001; y < 1e4; y *= 1.3) CHECK(svp.frequency(r.B, y).upper >= half);
+    for (double y = std::max<double>(r["least"], 1e-3) * 1.001; y < 1e4; y *= 1.3)
+      CHECK(svp.frequency(r["B"], y).upper >= half);
   }
 }
 
 TEST_CASE("solutions are unstable inside the locus of vertical tangencies", "[svp]") {
   const Theory free(Caster(1, 1)), spring(Slider(Caster(1, 1), half));
-  CHECK(relative(free.stability_boundary(1e-9).upper, reference::caster_locus_start) <= 1e-15);
-  CHECK(relative(Theory(Caster(9, 0.25)).stability_boundary(1e-9).upper, 6 * reference::caster_locus_start) <= 1e-15);
+  const double start = 0.8573827581049917128557100;  // values.json svp.caster.locus_at_A0, thesis (2.42)
+  CHECK(relative(free.stability_boundary(1e-9).upper, start) <= 1e-15);
+  CHECK(relative(Theory(Caster(9, 0.25)).stability_boundary(1e-9).upper, 6 * start) <= 1e-15);
   for (double y = 0.01; y < 100; y *= 1.1) {
     INFO("y = " << y);
     const double locus = free.stability_boundary(y).upper;

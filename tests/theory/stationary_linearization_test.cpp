@@ -13,7 +13,7 @@
 #include "stickslip/theory/stationary_linearization.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "theory/stationary_linearization_reference.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -72,36 +72,36 @@ double closure(const StationaryPrediction& p, double a) {
 }  // namespace
 
 TEST_CASE("linearization of a band has its root, its displacement and its growth", "[stationary_linearization]") {
-  for (const auto& r : reference::band_pass_linearizations) {
-    CAPTURE(r.low, r.width);
-    const StationaryPrediction p = in_band(r.low, r.width);
-    if (std::isinf(r.damping)) {
+  for (const auto& r : reference::rows("stationary_linearization", "band_pass")) {
+    CAPTURE(r["low"], r["width"]);
+    const StationaryPrediction p = in_band(r["low"], r["width"]);
+    if (std::isinf(r["damping"])) {
       CHECK((std::isinf(p.damping) && p.velocity_std == 0 && p.displacement_std == 0 && p.growth_rate == 0));
       CHECK_THAT(p.remark, ContainsSubstring("no motion"));
       continue;
     }
     // Round-off of the edges and of 2/pi, as large as the variance's is of its excess over 2/pi.
-    const double tolerance = 1e-14 / (1 - 1 / (pi * r.width));
-    CHECK(p.damping == Approx(r.damping).epsilon(tolerance));
-    CHECK(p.velocity_std == Approx(r.velocity_std).epsilon(tolerance));
-    if (r.low > 0) {
-      CHECK(p.displacement_std == Approx(r.displacement_std).epsilon(2 * tolerance));
+    const double tolerance = 1e-14 / (1 - 1 / (pi * r["width"]));
+    CHECK(p.damping == Approx(r["damping"]).epsilon(tolerance));
+    CHECK(p.velocity_std == Approx(r["velocity_std"]).epsilon(tolerance));
+    if (r["low"] > 0) {
+      CHECK(p.displacement_std == Approx(r["displacement_std"]).epsilon(2 * tolerance));
       CHECK(p.growth_rate == 0);
     } else {
       CHECK(std::isinf(p.displacement_std));
-      CHECK(p.growth_rate == Approx(r.growth_rate).epsilon(2 * tolerance));
+      CHECK(p.growth_rate == Approx(r["growth_rate"]).epsilon(2 * tolerance));
     }
   }
 }
 
 TEST_CASE("a band without an upper edge is the limit of broad ones", "[stationary_linearization]") {
-  for (const auto& r : reference::high_pass_linearizations) {
-    CAPTURE(r.low);
-    const Spectrum far = Spectrum::band_pass(1, r.low, 1e14);  // what is beyond has 1e-14 of the velocity's variance
+  for (const auto& r : reference::rows("stationary_linearization", "high_pass")) {
+    CAPTURE(r["low"]);
+    const Spectrum far = Spectrum::band_pass(1, r["low"], 1e14);  // what is beyond has 1e-14 of the velocity's variance
     const StationaryPrediction p = method.predict(Coulomb(1), far);
-    CHECK(p.damping == Approx(r.damping).epsilon(1e-12));
-    CHECK(p.velocity_std == Approx(r.velocity_std).epsilon(1e-12));
-    CHECK(p.displacement_std == Approx(r.displacement_std).epsilon(1e-12));
+    CHECK(p.damping == Approx(r["damping"]).epsilon(1e-12));
+    CHECK(p.velocity_std == Approx(r["velocity_std"]).epsilon(1e-12));
+    CHECK(p.displacement_std == Approx(r["displacement_std"]).epsilon(1e-12));
   }
   // and from zero on white noise, thesis (4.40), (4.36)
   const StationaryPrediction white = method.predict(Coulomb(3), Spectrum::white(2));
@@ -292,12 +292,12 @@ TEST_CASE("from rest the linear system comes to its stationary velocity", "[stat
   const double band = 20 / (pi * pi);
   const StationaryPrediction p = in_band(band, band);
   std::vector<double> times;
-  for (const auto& r : reference::figure_44_transient) times.push_back(r.time);
+  const std::vector<reference::Value> transient = reference::rows("stationary_linearization", "transient");
+  for (const reference::Value& r : transient) times.push_back(r["time"]);
   const Moments m = p.transient(times);
   for (std::size_t i = 0; i < times.size(); ++i) {
     CAPTURE(times[i]);
-    CHECK(std::sqrt(m.velocity_variance.value[i]) ==
-          Approx(reference::figure_44_transient[i].velocity_std).epsilon(1e-8));
+    CHECK(std::sqrt(m.velocity_variance.value[i]) == Approx(transient[i]["velocity_std"]).epsilon(1e-8));
   }
   CHECK(m.velocity_mean.value == std::vector<double>(times.size()));
   CHECK(m.velocity_variance.error == std::vector<double>(times.size()));

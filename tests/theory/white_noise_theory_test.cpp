@@ -13,7 +13,7 @@
 #include "stickslip/theory/white_noise.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
-#include "theory/white_noise_theory_reference.hpp"
+#include "support/reference.hpp"
 
 using namespace stickslip;
 using namespace test;
@@ -72,12 +72,12 @@ static_assert(!std::is_constructible_v<WhiteNoise, Slider<Caster>, double>);
 static_assert(std::is_constructible_v<WhiteNoise, Slider<Coulomb>, Spectrum>);
 
 TEST_CASE("the moments of the velocity are those of the closed density", "[white_noise_theory]") {
-  for (const reference::WhiteVelocity& value : reference::white_velocities) {
-    CAPTURE(value.time);
-    CHECK(relative(unit.absolute_moment(2, value.time), value.square) < 1e-12);
-    CHECK(relative(unit.absolute_moment(1, value.time), value.absolute) < 1e-12);
-    CHECK(relative(unit.absolute_moment(4, value.time), value.fourth) < 1e-12);
-    CHECK(relative(at(unit, value.time).velocity_variance.value[0], value.square) < 1e-12);
+  for (const auto& value : reference::rows("white_noise_theory", "velocities")) {
+    CAPTURE(value["time"]);
+    CHECK(relative(unit.absolute_moment(2, value["time"]), value["square"]) < 1e-12);
+    CHECK(relative(unit.absolute_moment(1, value["time"]), value["absolute"]) < 1e-12);
+    CHECK(relative(unit.absolute_moment(4, value["time"]), value["fourth"]) < 1e-12);
+    CHECK(relative(at(unit, value["time"]).velocity_variance.value[0], value["square"]) < 1e-12);
   }
   for (const int order : {3, 6, 8}) {
     const double moment =
@@ -88,13 +88,13 @@ TEST_CASE("the moments of the velocity are those of the closed density", "[white
 }
 
 TEST_CASE("displacements are those of the moments' differential equations", "[white_noise_theory]") {
-  for (const reference::WhiteDisplacement& value : reference::white_displacements) {
-    const Moments m = at(unit, value.time);
-    CAPTURE(value.time, value.error);
+  for (const auto& value : reference::rows("white_noise_theory", "displacements")) {
+    const Moments m = at(unit, value["time"]);
+    CAPTURE(value["time"], value["error"]);
     // The reference's error is an estimate, by extrapolation, of its largest; twice that is allowed.
-    CHECK(relative(m.displacement_variance.value[0], value.q11) < 2 * value.error);
-    CHECK(relative(m.covariance.value[0], value.q12) < 2 * value.error);
-    CHECK(relative(m.velocity_variance.value[0], value.q22) < 1e-12);
+    CHECK(relative(m.displacement_variance.value[0], value["q11"]) < 2 * value["error"]);
+    CHECK(relative(m.covariance.value[0], value["q12"]) < 2 * value["error"]);
+    CHECK(relative(m.velocity_variance.value[0], value["q22"]) < 1e-12);
   }
 }
 

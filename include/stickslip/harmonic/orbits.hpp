@@ -472,7 +472,7 @@ auto with_finder(const Slider<Law>& slider, double load, double omega, Work&& wo
 template <FrictionLaw Law>
 void check_orbit_arguments(const Slider<Law>& slider, double load, double omega, const std::string& who) {
   static_assert(PositionLaw<Law>, "orbits: a resistance that depends on the speed or the distance slid is not covered");
-  require_plain_mounting(slider, who);
+  require_plain_mounting(slider.mounting(), who);
   require(equal(slider.damping(), 0), who + ": a slider with a damper is not covered, damping must be 0",
           slider.damping(), "1/s");
   require(load > 0 && load <= GroundMotion::max_acceleration, who + ": B must be positive and at most 1e100 m/s^2",

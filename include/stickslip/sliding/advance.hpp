@@ -11,69 +11,21 @@
 #include "stickslip/base/equal.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/flow/damped.hpp"
 #include "stickslip/flow/detail/block.hpp"
-#include "stickslip/flow/oscillator.hpp"
 #include "stickslip/flow/polynomial.hpp"
-#include "stickslip/flow/remembering.hpp"
-#include "stickslip/flow/sinusoidal.hpp"
-#include "stickslip/flow/taylor.hpp"
+#include "stickslip/friction/coulomb.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/detail/axis.hpp"
-#include "stickslip/sliding/detail/contact.hpp"
+#include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
+#include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip {
 namespace detail {
-
-/// Return the result of `work` with the flows that suit the slider: closed forms if the resistance is constant or
-/// linear in the distance slid, else Taylor series.
-template <FrictionLaw Law, class Work>
-[[gnu::always_inline]] inline auto with_flows(const Slider<Law>& slider, double usual_duration, Work&& work) {
-  if constexpr (form_of<Law> == Form::constant) {
-    if (slider.mounting().pendulum) [[unlikely]]
-      return work(Taylor<Law>(slider));
-    if (slider.damping() > 0) [[unlikely]]
-      return work(BlockFlows(slider.law(), Damped(slider.damping(), slider.natural_frequency(), usual_duration)));
-    if (slider.stiffness() > 0)
-      return work(BlockFlows(slider.law(), Harmonic(slider.natural_frequency(), usual_duration)));
-    return work(BlockFlows(slider.law(), Polynomial{}));
-  } else {
-    return work(general_flows(slider));
-  }
-}
-
-/// The same under a load of one frequency.
-template <FrictionLaw Law, class Work>
-auto with_harmonic_flows(const Slider<Law>& slider, double omega, double usual_duration, Work&& work) {
-  if constexpr (form_of<Law> == Form::constant) {
-    if (equal(slider.stiffness(), 0) && equal(slider.damping(), 0))
-      return work(BlockFlows(slider.law(), Sinusoidal(omega, usual_duration)));
-  }
-  return work(general_flows(slider));
-}
-
-/// Move a state through a segment.
-template <FlowMaker Flows, class Piece, MotionObserver Observer>
-[[gnu::always_inline]] inline void move(const Flows& flows, const Piece& segment, typename Flows::Place& state,
-                                        Observer& observer) {
-  advance(flows, segment, state, observer);
-}
-
-/// The same with a damper. It is out of line to keep the common case small, and takes everything by value, so that the
-/// values can stay in registers.
-template <FrictionLaw Law, class Piece, MotionObserver Observer>
-[[gnu::noinline]] BareState moved(BlockFlows<Law, Damped> flows, Piece segment, BareState state, Observer& observer) {
-  advance(flows, segment, state, observer);
-  return state;
-}
-template <FrictionLaw Law, class Piece, MotionObserver Observer>
-void move(const BlockFlows<Law, Damped>& flows, const Piece& segment, BareState& state, Observer& observer) {
-  state = moved(flows, segment, state, observer);
-}
 
 /// Whether all numbers are finite, judged by their sum: numbers near the largest double count as infinite.
 template <class... Numbers>
@@ -115,50 +67,14 @@ template <class Piece>
                               description(state));
 }
 /// @param state  at the start
-template <FrictionLaw Law>
-[[noreturn, gnu::noinline]] void refuse_overflow(const Law& law, State state) {
-  if (state.mode != Mode::stuck && !std::isfinite(resist(law_at(law, state), state.displacement,
-                                                         std::abs(state.velocity), direction_of(state.mode))))
+[[noreturn, gnu::noinline]] inline void refuse_overflow(const Engine& engine, State state) {
+  if (state.mode != Mode::stuck && !std::isfinite(engine.resist(state, 1, direction_of(state.mode))))
     refuse("advance: velocity must not point where the slip level is infinite", state.velocity, "m/s");
   throw std::overflow_error("advance: the motion leaves the range of doubles, from " + description(state));
 }
 
-/// The state after a segment for a slider that is not plain, or under a variable normal force. Out of line, as above.
-template <FrictionLaw Law, MotionObserver Observer>
-[[gnu::noinline]] StateOf<Law> advanced(const Slider<Law>& slider, const LoadSegment& segment, Contact contact,
-                                        double usual_duration, StateOf<Law> state, Observer& observer) {
-  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
-  with_flows(slider, usual_duration,
-             [&](const auto& flows) { advance(flows, segment, bounds, contact, state, observer); });
-  return state;
-}
-
-/// Throw if the sliding distance is invalid for a law with memory.
-template <FrictionLaw Law>
-void check_memory(const State& state) {
-  if constexpr (MemoryLaw<Law>)
-    require(std::isfinite(state.sliding_distance) && state.sliding_distance >= 0,
-            "advance: sliding_distance must be finite and at least 0", state.sliding_distance, "m");
-}
-
-/// `advance` of a plain slider on the ground.
-template <FrictionLaw Law, MotionObserver Observer>
-void advance_plain(const Slider<Law>& slider, const Segment& segment, State& state, Observer& observer) {
-  if (!finite(segment, state)) [[unlikely]]
-    refuse(segment, state);
-  check_memory<Law>(state);
-  StateOf<Law> moved = with_memory(slider.law(), state);
-  with_flows(slider, std::numeric_limits<double>::quiet_NaN(),
-             [&](const auto& flows) { move(flows, segment, moved, observer); });
-  if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
-    refuse_overflow(slider.law(), state);
-  store(moved, state);
-}
-
 /// Throw if the slider starts beyond a stop, or moves backward although it is one-way.
-template <FrictionLaw Law>
-void check_start(const Slider<Law>& slider, const State& state, const char* function) {
-  const Mounting& mounting = slider.mounting();
+inline void check_start(const Mounting& mounting, const State& state, const char* function) {
   const double first = -mounting.stops.backward(), last = mounting.stops.forward();
   if (state.displacement < first || state.displacement > last)
     refuse(std::string(function) + ": displacement must be between the stops, from " + shortest(first) + " to " +
@@ -166,6 +82,88 @@ void check_start(const Slider<Law>& slider, const State& state, const char* func
            state.displacement, "m");
   if (mounting.one_way && state.velocity < 0)
     refuse(std::string(function) + ": velocity must not point backward on a one-way slider", state.velocity, "m/s");
+}
+
+/// `advance` of a slider of any law, where `move(segments, state)` moves it. An engine that throws leaves the state as
+/// it was.
+template <class Piece, class Move>
+void advance_by(const Engine& engine, const Piece& segment, State& state, Move&& move) {
+  OneSegment one(segment);
+  if (!engine.law().memory) {
+    const BareState before(state);
+    move(one, state);
+    if (finite(state.displacement, state.velocity)) [[likely]]
+      return;
+    before.store(state);
+    refuse_overflow(engine, state);
+  }
+  require(std::isfinite(state.sliding_distance) && state.sliding_distance >= 0,
+          "advance: sliding_distance must be finite and at least 0", state.sliding_distance, "m");
+  State moved = engine.started(state);
+  move(one, moved);
+  if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
+    refuse_overflow(engine, state);
+  state = moved;
+}
+inline constexpr double unusual = std::numeric_limits<double>::quiet_NaN();  // duration of a single segment
+
+inline void advance(const Engine& engine, const Segment& segment, State& state, Sink& sink) {
+  if (!finite(segment, state)) [[unlikely]]
+    refuse(segment, state);
+  advance_by(engine, segment, state, [&](auto& one, State& moved) { engine.move(one, unusual, moved, sink); });
+}
+inline void advance(const Engine& engine, const LoadSegment& segment, Contact contact, State& state, Sink& sink) {
+  if (!finite(segment, state)) [[unlikely]]
+    refuse(segment, state);
+  const double largest = std::max(std::max(std::abs(segment.load_start), std::abs(segment.load_end)),
+                                  std::max(std::abs(segment.normal_start), std::abs(segment.normal_end)));
+  require(largest <= 1e100, "advance: load and normal force must be at most 1e100 m/s^2 in magnitude", largest,
+          "m/s^2");
+  check_start(engine.mounting(), state, "advance");
+  advance_by(engine, segment, state, [&](auto& one, State& moved) { engine.move(one, unusual, contact, moved, sink); });
+}
+inline void advance(const Engine& engine, const HarmonicSegment& segment, State& state, Sink& sink) {
+  if (!finite(segment, state)) [[unlikely]]
+    refuse(segment, state);
+  advance_by(engine, segment, state,
+             [&](auto& one, State& moved) { engine.move(one, segment.omega, unusual, moved, sink); });
+}
+/// The same, as the mounting needs it.
+inline void advance(const Engine& engine, const Segment& segment, bool loaded, Contact contact, State& state,
+                    Sink& sink) {
+  if (loaded)
+    advance(engine, load_segment(segment, engine.mounting().slope()), contact, state, sink);
+  else
+    advance(engine, segment, state, sink);
+}
+
+template <FlowMaker Flows, MotionObserver Observer>
+[[gnu::always_inline]] inline void move_block(const Flows& flows, const Segment& segment, BareState& state,
+                                              Observer& observer) {
+  advance(flows, segment, state, observer);
+}
+/// The same with a damper. It is out of line to keep the common case small, and takes everything by value, so that the
+/// values can stay in registers.
+template <FrictionLaw Law, MotionObserver Observer>
+[[gnu::noinline]] BareState moved(BlockFlows<Law, Damped> flows, Segment segment, BareState state, Observer& observer) {
+  advance(flows, segment, state, observer);
+  return state;
+}
+template <FrictionLaw Law, MotionObserver Observer>
+void move_block(const BlockFlows<Law, Damped>& flows, const Segment& segment, BareState& state, Observer& observer) {
+  state = moved(flows, segment, state, observer);
+}
+
+/// Coulomb friction on level ground, where a few nanoseconds matter: the observer is inlined into the event loop.
+template <MotionObserver Observer>
+void advance_block(const Slider<Coulomb>& slider, const Segment& segment, State& state, Observer& observer) {
+  if (!finite(segment, state)) [[unlikely]]
+    refuse(segment, state);
+  BareState moved(state);
+  with_block_flows(slider, unusual, [&](const auto& flows) { move_block(flows, segment, moved, observer); });
+  if (!finite(moved.displacement, moved.velocity)) [[unlikely]]
+    refuse_overflow(EngineOf<Coulomb>(slider), state);
+  moved.store(state);
 }
 
 }  // namespace detail
@@ -185,20 +183,9 @@ void check_start(const Slider<Law>& slider, const State& state, const char* func
 template <FrictionLaw Law, std::same_as<LoadSegment> Piece, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {},
              Contact contact = Contact::flight) {
-  if (!detail::finite(segment, state)) [[unlikely]]
-    detail::refuse(segment, state);
-  const double largest = std::max(std::max(std::abs(segment.load_start), std::abs(segment.load_end)),
-                                  std::max(std::abs(segment.normal_start), std::abs(segment.normal_end)));
-  detail::require(largest <= 1e100, "advance: load and normal force must be at most 1e100 m/s^2 in magnitude", largest,
-                  "m/s^2");
-  detail::check_start(slider, state, "advance");
-  detail::check_memory<Law>(state);
-  const double unusual = std::numeric_limits<double>::quiet_NaN();
-  const auto moved =
-      detail::advanced(slider, segment, contact, unusual, detail::with_memory(slider.law(), state), observer);
-  if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
-    detail::refuse_overflow(slider.law(), state);
-  detail::store(moved, state);
+  detail::ObserverSink sink(observer);
+  detail::advance(detail::EngineOf<Law>(slider), segment, contact, state, sink);
+  sink.show_energy();
 }
 
 /// Integrate the motion of a slider over one segment of ground motion:
@@ -226,24 +213,18 @@ void advance(const Slider<Law>& slider, const Segment& segment, State& state, Ob
              Contact contact = Contact::flight) {
   if (!slider.plain() || state.in_flight) [[unlikely]]
     return advance(slider, detail::load_segment(segment, slider.slope()), state, observer, contact);
-  detail::advance_plain(slider, segment, state, observer);
+  if constexpr (std::same_as<Law, Coulomb>) return detail::advance_block(slider, segment, state, observer);
+  detail::ObserverSink sink(observer);
+  detail::advance(detail::EngineOf<Law>(slider), segment, state, sink);
 }
 
 /// The same over a segment of a harmonic motion, -n(t) = B cos(omega t + phase), thesis (2.28). (A template, so that a
 /// braced initializer list is a Segment.)
 template <FrictionLaw Law, std::same_as<HarmonicSegment> Piece, MotionObserver Observer = const NoObserver>
 void advance(const Slider<Law>& slider, const Piece& segment, State& state, Observer&& observer = {}) {
-  detail::require_plain_mounting(slider, "advance over a HarmonicSegment");
-  if (!detail::finite(segment, state)) [[unlikely]]
-    detail::refuse(segment, state);
-  detail::check_memory<Law>(state);
-  const double unusual = std::numeric_limits<double>::quiet_NaN();
-  detail::StateOf<Law> moved = detail::with_memory(slider.law(), state);
-  detail::with_harmonic_flows(slider, segment.omega, unusual,
-                              [&](const auto& flows) { detail::move(flows, segment, moved, observer); });
-  if (!detail::finite(moved.displacement, moved.velocity)) [[unlikely]]
-    detail::refuse_overflow(slider.law(), state);
-  detail::store(moved, state);
+  detail::require_plain_mounting(slider.mounting(), "advance over a HarmonicSegment");
+  detail::ObserverSink sink(observer);
+  detail::advance(detail::EngineOf<Law>(slider), segment, state, sink);
 }
 
 }  // namespace stickslip

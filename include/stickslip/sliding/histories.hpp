@@ -10,6 +10,7 @@
 
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/state.hpp"
@@ -37,15 +38,14 @@ template <FrictionLaw Law>
 Histories histories(const Slider<Law>& slider, const GroundMotion& motion, const std::function<void()>& progress = {}) {
   Histories result{std::vector<double>(motion.samples()), std::vector<double>(motion.samples())};
   const detail::HistorySpans spans{result.displacement, result.velocity};
+  const detail::EngineOf<Law> engine(slider);
   State state;
   detail::NoRecorder none(detail::max_events(motion.segments()), progress);
-  if (detail::loaded(slider, motion)) {
+  if (engine.loaded(motion)) {
     detail::check_landing(motion, slider.slope());
-    detail::with_flows(slider, motion, [&](const auto& flows) {
-      detail::run_loaded(slider, flows, motion, Contact::flight, state, none, spans);
-    });
+    detail::run_loaded(engine, motion, Contact::flight, state, none, spans);
   } else {
-    detail::run(slider, motion, state, none, spans);
+    detail::run(engine, motion, false, state, none, spans);
   }
   bool finite = true;
   for (const auto* values : {&result.displacement, &result.velocity})
@@ -60,13 +60,3 @@ Histories histories(const Law& law, const GroundMotion& motion, const std::funct
 }
 
 }  // namespace stickslip
-
-#ifdef STICKSLIP_LIBRARY  // the linked library contains these
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
-
-namespace stickslip {
-extern template Histories histories(const Slider<Coulomb>&, const GroundMotion&, const std::function<void()>&);
-extern template Histories histories(const Slider<Caster>&, const GroundMotion&, const std::function<void()>&);
-}  // namespace stickslip
-#endif

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,8 @@
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/slider.hpp"
 #include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
 #include "stickslip/sliding/response.hpp"
@@ -37,36 +40,33 @@ namespace detail {
 /// spring or where friction vanishes at rest. It is at rest when x no longer changes, but by round-off, and its speed
 /// is negligible beside the spring or, without one, has at least halved meanwhile.
 /// @return whether it crept to rest, without an event
-template <FrictionLaw Law, class Place, class Go>
-bool settle(const Slider<Law>& slider, Place& state, Go&& go) {
+template <class Go>
+bool settle(const Engine& engine, State& state, Go&& go) {
   double longest = 0x1p40;  // [s], about 35,000 years
-  if constexpr (form_of<Law> == Form::constant) {
-    const auto holds = [&](Direction direction) { return hold(slider.law(), state.displacement, direction) > 0; };
+  if (engine.law().constant) {
+    const auto holds = [&](Direction direction) { return engine.hold(state, 1, direction) > 0; };
     if (!holds(Direction::forward) && !holds(Direction::backward) && state.mode != Mode::stuck) longest = 0;
   }
-  const double wn = slider.natural_frequency();
+  const double wn = engine.mounting().natural_frequency;
   double scale = wn > 0 ? std::abs(state.velocity) / wn : 0;  // of the displacement [m]
   for (double duration = 1; duration <= longest; duration *= 2) {
     const double from = state.displacement, speed = std::abs(state.velocity);
     go(duration);
     if (state.in_flight) continue;
     if (state.mode == Mode::stuck) return false;
-    if constexpr (!PositionLaw<Law>) {
-      scale = std::max(scale, std::max(std::abs(from), std::abs(state.displacement)));
-      const bool rests = std::abs(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
-      if (rests && std::abs(state.displacement - from) <= 0x1p-50 * scale) {
-        state.velocity = 0;
-        state.mode = Mode::stuck;
-        return true;
-      }
+    if (engine.law().position) continue;
+    scale = std::max(scale, std::max(std::abs(from), std::abs(state.displacement)));
+    const bool rests = std::abs(state.velocity) <= (wn > 0 ? 0x1p-40 * wn * scale : speed / 2);
+    if (rests && std::abs(state.displacement - from) <= 0x1p-50 * scale) {
+      state.velocity = 0;
+      state.mode = Mode::stuck;
+      return true;
     }
   }
   throw ConvergenceError(
       "without ground motion the slider does not come to rest: at x = " + shortest(state.displacement) +
       " m it still moves at " + shortest(state.velocity) + " m/s, with a slip level of " +
-      shortest(
-          resist(law_at(slider.law(), state), state.displacement, std::abs(state.velocity), direction_of(state.mode))) +
-      " m/s^2 there; use settle = false");
+      shortest(engine.resist(state, 1, direction_of(state.mode))) + " m/s^2 there; use settle = false");
 }
 
 /// Append samples from the end of a motion up to the first at or after the final rest, but at most nine times as many
@@ -75,8 +75,8 @@ bool settle(const Slider<Law>& slider, Place& state, Go&& go) {
 /// @param from  the state at the end of the motion
 /// @param rest  time of the final rest [s], at `residual` [m]
 /// @return whether the samples reach the final rest
-template <FrictionLaw Law, Motion M, class Move>
-bool add_samples(const Law& law, const M& motion, Move&& move, State from, double rest, double residual,
+template <Motion M, class Move>
+bool add_samples(const Engine& engine, const M& motion, Move&& move, State from, double rest, double residual,
                  Response& response) {
   const Segment step{motion.last_step(), 0, 0};
   for (std::size_t i = motion.segments(); motion.time(i) < rest; ++i) {
@@ -90,27 +90,41 @@ bool add_samples(const Law& law, const M& motion, Move&& move, State from, doubl
     response.displacement.push_back(from.displacement);
     response.velocity.push_back(from.velocity);
     if (!response.gap.empty()) response.gap.push_back(from.gap);
-    if constexpr (HeatedLaw<Law>) response.temperature.push_back(law.temperature(from));
+    if (engine.law().heated) response.temperature.push_back(engine.temperature(from));
   }
   return true;
 }
 
-/// `integrate`, where `run(state, recorder, histories)` integrates over the ground motion and
-/// `move(segment, state, observer)` over a segment.
-template <class RecorderType, FrictionLaw Law, Motion M, class Run, class Move>
-Response integrate_by(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
-                      Run&& run, Move&& move) {
+/// `integrate` of a slider of any law.
+/// @param in_order  segment by segment, as the header-only core does
+template <Motion M>
+Response integrate(const Engine& engine, const M& motion, const IntegrateOptions& options, Response storage,
+                   bool in_order) {
+  const Mounting& mounting = engine.mounting();
+  bool loaded = false;
+  storage.gap.clear();
+  if constexpr (std::same_as<M, GroundMotion>) {
+    loaded = engine.loaded(motion);
+    if (loaded) {
+      check_start(mounting, State::at(options.displacement, options.velocity), "integrate");
+      if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
+        check_landing(motion, mounting.slope());
+      if (may_fly(motion, mounting.slope()) && options.contact == Contact::flight)
+        storage.gap.assign(motion.samples(), 0);
+    }
+  } else {
+    require_plain_mounting(mounting, "integrate under a HarmonicMotion");
+  }
   require(std::isfinite(options.displacement), "integrate: displacement must be finite", options.displacement, "m");
   require(std::isfinite(options.velocity), "integrate: velocity must be finite", options.velocity, "m/s");
   require(std::isfinite(options.sliding_distance) && options.sliding_distance >= 0,
           "integrate: sliding_distance must be finite and at least 0", options.sliding_distance, "m");
-  State start = State::at(options.displacement, options.velocity);
-  start.sliding_distance = options.sliding_distance;
-  start.heat = options.heat;
-  State state(with_memory(slider.law(), start));
+  State state = State::at(options.displacement, options.velocity);
+  state.sliding_distance = options.sliding_distance;
+  state.heat = options.heat;
+  state = engine.started(state);
   if (state.mode != Mode::stuck)
-    require(std::isfinite(resist(law_at(slider.law(), state), state.displacement, std::abs(state.velocity),
-                                 direction_of(state.mode))),
+    require(std::isfinite(engine.resist(state, 1, direction_of(state.mode))),
             "integrate: velocity must not point where the slip level is infinite", options.velocity, "m/s");
 
   Response response = std::move(storage);
@@ -118,30 +132,41 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   response.velocity.resize(motion.samples());
   const auto kinetic = [&] { return state.velocity * state.velocity / 2; };
   const auto elastic = [&] {
-    return slider.stiffness() * state.displacement * state.displacement / 2 + detail::elastic(slider.law(), state);
+    return mounting.stiffness() * state.displacement * state.displacement / 2 + engine.elastic(state);
   };
 
   response.temperature.clear();
-  if constexpr (HeatedLaw<Law>) response.temperature.resize(motion.samples(), slider.law().temperature(state));
+  if (engine.law().heated) response.temperature.resize(motion.samples(), engine.temperature(state));
   response.displacement[0] = state.displacement;
   response.velocity[0] = state.velocity;
-  response.energy.initial = kinetic() + elastic();
-  RecorderType recorder(slider.law(), state.displacement, max_events(pieces(motion)), options.progress,
-                        std::move(response.events));
+  const double initial = kinetic() + elastic();
+  Recorder recorder(engine, loaded, state.displacement, max_events(pieces(motion)), options.progress,
+                    std::move(response.events));
   recorder.begin_segment(motion.time(0), motion.time(0));
   if (state.mode != Mode::stuck) recorder.event(EventKind::breakaway, 0, state);
   double end = motion.time(motion.segments());
   const HistorySpans histories{response.displacement, response.velocity, response.gap, response.temperature};
-  run(state, recorder, histories);
+  if constexpr (std::same_as<M, GroundMotion>) {
+    if (loaded)
+      run_loaded(engine, motion, options.contact, state, recorder, histories);
+    else
+      run(engine, motion, in_order, state, recorder, histories);
+  } else {
+    HarmonicSegments segments(motion, engine, recorder, histories);
+    engine.move(segments, motion.omega(), motion.dt(), state, recorder);
+  }
   response.truncated = false;
   response.contact = options.contact;
   response.components = name_of(Component::axis);  // a transverse component never acts
   if constexpr (std::same_as<M, GroundMotion>)
     if (motion.has_vertical()) response.components += std::string(" + ") + name_of(Component::vertical);
   if (options.settle) {
+    const auto move = [&](const Segment& segment, State& moving, Sink& sink) {
+      advance(engine, segment, loaded, options.contact, moving, sink);
+    };
     const State at_end = state;
     double time = end;
-    const bool crept = settle(slider, state, [&](double duration) {
+    const bool crept = settle(engine, state, [&](double duration) {
       recorder.begin_segment(time, time + duration);
       move(Segment{duration, 0, 0}, state, recorder);
       time += duration;
@@ -151,15 +176,14 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
       recorder.event(EventKind::arrest, 0, state);
     }
     end = std::max(end, recorder.last_event());
-    const auto step = [&](const Segment& segment, State& from) {
-      NoObserver none;
-      move(segment, from, none);
-    };
-    response.truncated = !add_samples(slider.law(), motion, step, at_end, end, state.displacement, response);
+    NoSink none;
+    const auto step = [&](const Segment& segment, State& from) { move(segment, from, none); };
+    response.truncated = !add_samples(engine, motion, step, at_end, end, state.displacement, response);
   }
   recorder.finish(end, state, response);
 
   response.residual = state.displacement;
+  response.energy.initial = initial;
   response.energy.kinetic = kinetic();
   response.energy.elastic = elastic();
   response.state = state;
@@ -169,57 +193,11 @@ Response integrate_by(const Slider<Law>& slider, const M& motion, const Integrat
   return response;
 }
 
-/// `integrate` of a plain slider under horizontal motion; `run` as above.
-template <FrictionLaw Law, Motion M, class Run>
-Response integrate_plain(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
-                         Run&& run) {
-  storage.gap.clear();
-  const auto move = [&](const Segment& segment, State& state, auto& observer) {
-    advance_plain(slider, segment, state, observer);
-  };
-  return integrate_by<RecorderFor<M, Law>>(slider, motion, options, std::move(storage), run, move);
-}
-
-/// `integrate` of any slider under horizontal and vertical motion.
-template <FrictionLaw Law>
-Response integrate_loaded(const Slider<Law>& slider, const GroundMotion& motion, const IntegrateOptions& options,
-                          Response storage) {
-  check_start(slider, State::at(options.displacement, options.velocity), "integrate");
-  if (options.contact == Contact::flight && !options.settle && !options.may_end_in_flight)
-    check_landing(motion, slider.slope());
-  storage.gap.assign(may_fly(motion, slider.slope()) && options.contact == Contact::flight ? motion.samples() : 0, 0);
-  const auto run = [&](State& state, auto& recorder, const HistorySpans& histories) {
-    with_flows(slider, motion, [&](const auto& flows) {
-      run_loaded(slider, flows, motion, options.contact, state, recorder, histories);
-    });
-  };
-  const auto move = [&](const Segment& segment, State& state, auto& observer) {
-    advance(slider, load_segment(segment, slider.slope()), state, observer, options.contact);
-  };
-  using LoadedRecorder = Recorder<Law, true, true>;
-  return integrate_by<LoadedRecorder>(slider, motion, options, std::move(storage), run, move);
-}
-
-/// `integrate`, where `run` integrates a plain slider.
-template <FrictionLaw Law, Motion M, class Run>
-Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options, Response storage,
-                   Run&& run) {
-  if constexpr (std::same_as<M, GroundMotion>) {
-    if (loaded(slider, motion)) return integrate_loaded(slider, motion, options, std::move(storage));
-  } else {
-    require_plain_mounting(slider, "integrate under a HarmonicMotion");
-  }
-  return integrate_plain(slider, motion, options, std::move(storage), run);
-}
-
 /// `integrate` by the event loop, segment by segment, as the header-only core does.
 template <FrictionLaw Law, Motion M>
 Response integrate_in_order(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                             Response storage = {}) {
-  return integrate(slider, motion, options, std::move(storage),
-                   [&](State& state, auto& recorder, const HistorySpans& histories) {
-                     run_in_order(slider, motion, state, recorder, histories);
-                   });
+  return integrate(EngineOf<Law>(slider), motion, options, std::move(storage), true);
 }
 
 }  // namespace detail
@@ -256,10 +234,7 @@ Response integrate_in_order(const Slider<Law>& slider, const M& motion, const In
 template <FrictionLaw Law, Motion M>
 Response integrate(const Slider<Law>& slider, const M& motion, const IntegrateOptions& options = {},
                    Response storage = {}) {
-  return detail::integrate(slider, motion, options, std::move(storage),
-                           [&](State& state, auto& recorder, const detail::HistorySpans& histories) {
-                             detail::run(slider, motion, state, recorder, histories);
-                           });
+  return detail::integrate(detail::EngineOf<Law>(slider), motion, options, std::move(storage), false);
 }
 
 template <FrictionLaw Law, Motion M>
@@ -270,13 +245,8 @@ Response integrate(const Law& law, const M& motion, const IntegrateOptions& opti
 }  // namespace stickslip
 
 #ifdef STICKSLIP_LIBRARY  // the linked library contains these
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
-
-namespace stickslip {
-extern template Response integrate(const Slider<Coulomb>&, const GroundMotion&, const IntegrateOptions&, Response);
-extern template Response integrate(const Slider<Coulomb>&, const HarmonicMotion&, const IntegrateOptions&, Response);
-extern template Response integrate(const Slider<Caster>&, const GroundMotion&, const IntegrateOptions&, Response);
-extern template Response integrate(const Slider<Caster>&, const HarmonicMotion&, const IntegrateOptions&, Response);
-}  // namespace stickslip
+namespace stickslip::detail {
+extern template Response integrate(const Engine&, const GroundMotion&, const IntegrateOptions&, Response, bool);
+extern template Response integrate(const Engine&, const HarmonicMotion&, const IntegrateOptions&, Response, bool);
+}  // namespace stickslip::detail
 #endif

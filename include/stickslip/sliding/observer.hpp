@@ -18,7 +18,8 @@ struct Slip {
 };
 
 /// Receives each slip, or part of one, and each event while a motion is computed. Times are measured from the start of
-/// the segment [s]. If it has `follow(flow, taken)`, it also receives each flow and its duration [s].
+/// the segment [s]. If it has `follow(flow, taken)`, it first receives the motion of each
+/// slip, whose place and speed are `flow.at(t)`, and its duration [s].
 template <class Observer>
 concept MotionObserver = requires(Observer& observer, const Slip& slip, double time, EventKind kind, State state) {
   observer.slide(slip);
@@ -26,12 +27,24 @@ concept MotionObserver = requires(Observer& observer, const Slip& slip, double t
 };
 
 /// An observer that also receives the work against friction, and the energy lost in impacts and landings, each per unit
-/// mass [m^2/s^2].
+/// mass [m^2/s^2]. If it has `counts_energy()`, that says whether it needs the work against friction, which costs time.
 template <class Observer>
 concept EnergyObserver = MotionObserver<Observer> && requires(Observer& observer, double work) {
   observer.dissipate(work);
   observer.lose(work);
 };
+
+namespace detail {
+
+template <EnergyObserver Observer>
+bool counts_energy(const Observer& observer) noexcept {
+  if constexpr (requires { observer.counts_energy(); })
+    return observer.counts_energy();
+  else
+    return true;
+}
+
+}  // namespace detail
 
 /// An observer that ignores everything.
 struct NoObserver {

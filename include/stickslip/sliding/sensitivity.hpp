@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -20,9 +21,12 @@
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/friction_variation.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
+#include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/integrate.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/parameter.hpp"
@@ -133,11 +137,13 @@ class WeighedPropagator {
 /// (of a pendulum with wn^2 N+/g for wn^2; where the level a has a slope, d(a) contains that times dx),
 /// with its propagator and Gauss-Legendre quadrature; at events by the jumps that result from the shift of their times.
 template <FrictionLaw Law>
-class VariationalMotion : public NoRecorder {
+class VariationalMotion final : public Sink {
  public:
+  static constexpr std::uint32_t work_per_report = NoRecorder::work_per_report;
+
   VariationalMotion(const Slider<Law>& slider, const GroundMotion& motion, const Change& change,
                     const FrictionVariation<Law>& friction, const State& start)
-      : NoRecorder(max_events(motion.segments()), none_),
+      : events_(max_events(motion.segments()), none_),
         slider_(slider),
         motion_(motion),
         pieces_(motion, slider.slope()),
@@ -148,6 +154,7 @@ class VariationalMotion : public NoRecorder {
     friction_.begin(start);
   }
 
+  void report_progress() const noexcept {}
   void begin_segment(double, double) {
     begin_piece(pieces_.segment(segment_), ground(segment_));
     ++segment_;
@@ -155,25 +162,13 @@ class VariationalMotion : public NoRecorder {
   /// A segment after the motion.
   void begin_still(double duration) { begin_piece(load_segment(Segment{duration, 0, 0}, slider_.slope()), {}); }
 
-  template <class Flow>
-  void follow(const Flow& flow, double taken) {
-    nodes_.clear();
-    speed_ = flow.at(taken).speed;
-    if (equal(change_.stiffness, 0) && equal(change_.damping, 0) && !spring().pendulum &&
-        !FrictionVariation<Law>::depends_on_place)
-      return;
-    each_node(taken, [&](double t, double) {
-      const Progress now = flow.at(t);
-      nodes_.push_back({now.distance, now.speed});
-    });
-  }
-
-  void slide(const Slip& slip) {
+  void slide(const Slip& slip, const SlipFlow& flow) override {
     const double s = sign(slip.direction), taken = slip.duration, c = slider_.damping();
+    const bool needs_motion = !equal(change_.stiffness, 0) || !equal(change_.damping, 0) || spring().pendulum ||
+                              FrictionVariation<Law>::depends_on_place;
     const LevelLine line = friction_.line(slip.direction, slip.from);
     const bool presses = load_.normal(time_ + taken / 2) > 0;
     double x = 0, v = 0;
-    std::size_t i = 0;
     const auto weight_at = [&](double t) { return presses ? load_.normal(time_ + t) / standard_gravity : 0; };
     const auto stiffness_at = [&](double t) { return spring().under(weight_at(t)) + line.slope * weight_at(t); };
     const double stiffness = stiffness_at(0), stiffness_after = stiffness_at(taken);
@@ -185,11 +180,11 @@ class VariationalMotion : public NoRecorder {
     }
     each_node(taken, [&](double t, double weight) {
       const double at = time_ + t, heavier = presses ? by_normal(at) / standard_gravity : 0;
-      const auto [distance, speed] = nodes_.empty() ? std::array<double, 2>{} : nodes_[i++];
-      const double here = slip.from + s * distance;
+      const Progress now = needs_motion ? flow.at(t) : Progress{};
+      const double here = slip.from + s * now.distance;
       double force = by_load(at) - line.change_at(here) * weight_at(t) - line.at(here) * heavier;
       force -= (change_of_spring().under(weight_at(t)) + spring().rate(heavier)) * here;
-      force -= change_.damping * s * speed;
+      force -= change_.damping * s * now.speed;
       if (swings) {
         const auto [psi, psi_rate] = swings->of_push(t, swings->at(t), last);
         x += weight * psi * force;
@@ -216,11 +211,11 @@ class VariationalMotion : public NoRecorder {
     at_stop_ = false;
     arrives_ = line.at(slip.to());
     const LevelJump jump = friction_.slide(slip, dx_);
-    if (!equal(jump.size, 0)) dv_ += jump.size * weight() * (jump.place - dx_) / (s * speed_);
+    if (!equal(jump.size, 0)) dv_ += jump.size * weight() * (jump.place - dx_) / (s * flow.at(taken).speed);
   }
 
-  void event(EventKind kind, double time, const State& state) {
-    NoRecorder::event(kind, time, state);
+  void event(EventKind kind, double time, const State& state) override {
+    events_.event(kind, time, state);
     time_ = time;
     const double s = sign(direction_);
     const auto push = [&](double way, double speed) {  // acceleration during sliding in that direction
@@ -340,6 +335,8 @@ class VariationalMotion : public NoRecorder {
     at_peak_ = x < 0 ? -change : change;
   }
 
+  std::function<void()> none_{};
+  NoRecorder events_;  // counts them
   const Slider<Law>& slider_;
   const GroundMotion& motion_;
   LoadPieces pieces_;
@@ -347,15 +344,13 @@ class VariationalMotion : public NoRecorder {
   FrictionVariation<Law> friction_;
   double peak_;
   Mode before_;
-  std::function<void()> none_{};
   std::size_t segment_ = 0;
   LoadSegment load_{1, 0, 0, standard_gravity, standard_gravity}, change_of_load_{1, 0, 0, 0, 0};
   double time_ = 0, dx_ = 0, dv_ = 0, at_peak_ = 0;
   double rate_ = std::sqrt(slider_.stiffness() + friction_.steepest());  // of a free motion, at most [rad/s]
-  double arrives_ = 0, speed_ = 0;  // force of the law and |x'| at the end of the last slip
+  double arrives_ = 0;                                                   // force of the law at the end of the last slip
   Direction direction_ = Direction::forward;
   bool at_stop_ = false;  // an impact, and no slip since
-  std::vector<std::array<double, 2>> nodes_;
 };
 
 /// The effects of a parameter on the mounting and the load; rejects a parameter that the mounting does not have.
@@ -421,18 +416,16 @@ Sensitivity sensitivity(const Slider<Law>& slider, const GroundMotion& motion, c
   } else {
     const detail::Change change = detail::change_of(slider.mounting(), parameter);
     const detail::FrictionVariation<Law> friction(slider.law(), parameter, surface);
-    State state(detail::with_memory(slider.law(), State::at(response.displacement.front(), response.velocity.front())));
+    const detail::EngineOf<Law> engine(slider);
+    State state = engine.started(State::at(response.displacement.front(), response.velocity.front()));
     detail::VariationalMotion<Law> variation(slider, motion, change, friction, state);
     std::vector<double> x(motion.samples()), v(motion.samples());
     const detail::HistorySpans spans{x, v};
-    detail::with_flows(slider, motion, [&](const auto& flows) {
-      detail::run_loaded(slider, flows, motion, response.contact, state, variation, spans);
-    });
+    detail::run_loaded(engine, motion, response.contact, state, variation, spans);
     if (response.events.back().time > motion.time(motion.segments()))
-      detail::settle(slider, state, [&](double duration) {
+      detail::settle(engine, state, [&](double duration) {
         variation.begin_still(duration);
-        advance(slider, detail::load_segment(Segment{duration, 0, 0}, slider.slope()), state, variation,
-                response.contact);
+        detail::advance(engine, Segment{duration, 0, 0}, true, response.contact, state, variation);
       });
     const Sensitivity result = variation.finish(state);
     if (!std::isfinite(result.peak) || !std::isfinite(result.residual) || !std::isfinite(result.velocity))
@@ -450,10 +443,3 @@ Sensitivity sensitivity(const Law& law, const GroundMotion& motion, const Respon
 }
 
 }  // namespace stickslip
-
-#ifdef STICKSLIP_LIBRARY  // the linked library contains these
-namespace stickslip {
-extern template Sensitivity sensitivity(const Slider<Coulomb>&, const GroundMotion&, const Response&, Parameter,
-                                        std::optional<std::size_t>);
-}  // namespace stickslip
-#endif

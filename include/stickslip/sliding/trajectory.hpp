@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,9 +19,11 @@
 #include "stickslip/ground/motion.hpp"
 #include "stickslip/ground/segment.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/advance.hpp"
+#include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/load.hpp"
 #include "stickslip/sliding/detail/run.hpp"
+#include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
@@ -70,7 +74,7 @@ class Arc {
 
   /// x'' [m/s^2].
   double acceleration(double t) const {
-    return rests() ? 0 : sign(direction_of(start.mode)) * at_(flow_, t).acceleration;
+    return rests() ? 0 : sign(direction_of(start.mode)) * flow_.at(t).acceleration;
   }
 
   /// The state at a time, with the memory of the law.
@@ -83,20 +87,21 @@ class Arc {
  private:
   friend class detail::Tracer;
 
-  Arc(double from, double to, double lasts, const State& state, const LoadSegment& line) noexcept
-      : begin(from), end(to), duration(lasts), start(state), line_(line) {}
+  Arc(double from, double to, double lasts, const State& state, const LoadSegment& line,
+      const detail::Engine& engine) noexcept
+      : begin(from), end(to), duration(lasts), start(state), line_(line), engine_(&engine) {}
 
   // Moves the state at the beginning to a time.
   void go(State& state, double t) const {
     if (!rests()) {
-      const Progress progress = at_(flow_, t);
+      const Progress progress = flow_.at(t);
       const double s = sign(direction_of(start.mode));
       state.displacement += s * progress.distance;
       state.velocity = s * std::max(progress.speed, 0.0);
-      if (remember_ != nullptr) remember_(law_, state, progress.distance);
+      if (engine_->law().memory) engine_->slide(state, progress.distance);
     }
-    if (heat_ != nullptr)
-      heat_(flow_, t, state.heat);
+    if (flow_.heats())
+      flow_.heat(t, state.heat);
     else
       state.heat.rest(t);
     if (!state.in_flight) return;
@@ -108,11 +113,8 @@ class Arc {
   LoadSegment line_;                       // of the arc
   const HarmonicSegment* wave_ = nullptr;  // that contains it; null if the load is linear
   double offset_ = 0;                      // of its beginning in that segment [s]
-  const void* flow_ = nullptr;             // of a slip
-  Progress (*at_)(const void* flow, double t) = nullptr;
-  void (*heat_)(const void* flow, double t, SurfaceHeat&) = nullptr;
-  const void* law_ = nullptr;
-  void (*remember_)(const void* law, State&, double distance) = nullptr;  // null for a law without memory
+  detail::SlipFlow flow_{};                // of a slip
+  const detail::Engine* engine_;
 };
 
 /// Receives the arcs and events of a trajectory in order. At an event the state is that before it, as in Event.
@@ -125,8 +127,8 @@ struct TrajectoryReader {
 };
 
 /// The continuous motion of a response: exact at any time, not only at samples. It is integrated again whenever it is
-/// read; nothing of it is stored. Forces, margins, floor motions and hysteresis loops are readers of it, compiled once
-/// for all laws. `trajectory` makes one.
+/// read; nothing of it is stored. Forces, margins, floor motions and hysteresis loops are readers of it. `trajectory`
+/// makes one.
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
@@ -140,52 +142,54 @@ class Trajectory {
 
   /// Resistance to sliding, and largest friction at rest, as of the law under a normal force of `weight` times g,
   /// divided by the weight [m/s^2].
-  virtual double resist(const State& state, double weight, Direction direction) const = 0;
-  virtual double hold(const State& state, double weight, Direction direction) const = 0;
+  double resist(const State& state, double weight, Direction direction) const {
+    return engine_.resist(state, weight, direction);
+  }
+  double hold(const State& state, double weight, Direction direction) const {
+    return engine_.hold(state, weight, direction);
+  }
 
   /// Energy of the spring, and of springs in the law, under the weight, per unit mass [m^2/s^2].
-  virtual double elastic(const State& state) const = 0;
+  double elastic(const State& state) const {
+    return mounting().stiffness() * state.displacement * state.displacement / 2 + engine_.elastic(state);
+  }
   /// Whether a spring draws the slider back.
-  virtual bool has_spring() const = 0;
+  bool has_spring() const noexcept { return mounting().stiffness() > 0 || engine_.law().springs; }
 
   /// Time of a sample of the response [s].
   virtual double time(std::size_t sample) const = 0;
   /// Number of samples of the ground motion.
   virtual std::size_t samples() const = 0;
 
-  const Mounting& mounting() const noexcept { return mounting_; }
+  const Mounting& mounting() const noexcept { return engine_.mounting(); }
   const Response& response() const noexcept { return response_; }
   double begin() const { return time(0); }
   /// End of the response: its last event [s].
   double end() const noexcept { return response_.events.back().time; }
 
   /// Force of the spring at x under a weight N+/g, per unit mass [m/s^2].
-  double pull(double x, double weight) const noexcept { return mounting_.spring().under(weight) * x; }
+  double pull(double x, double weight) const noexcept { return mounting().spring().under(weight) * x; }
   /// g sin(slope), the load of the weight [m/s^2].
   double downhill() const noexcept {
-    return mounting_.slope_degrees > 0 ? standard_gravity * std::sin(mounting_.slope()) : 0;
+    return mounting().slope_degrees > 0 ? standard_gravity * std::sin(mounting().slope()) : 0;
   }
 
  protected:
-  Trajectory(const Mounting& mounting, const Response& response) : mounting_(mounting), response_(response) {}
+  Trajectory(const detail::Engine& engine, const Response& response) : engine_(engine), response_(response) {}
+
+  const detail::Engine& engine_;
 
  private:
-  Mounting mounting_;
   const Response& response_;
 };
 
 namespace detail {
 
-/// Observes the event loop, segment by segment, and shows arcs and events to a reader.
-class Tracer {
+/// Shows the arcs and events of a motion to a reader, segment by segment.
+class Tracer final : public Sink {
  public:
-  template <FrictionLaw Law>
-  Tracer(TrajectoryReader& reader, const Law& law, const State& start) : reader_(reader), state_(start), law_(&law) {
-    if constexpr (MemoryLaw<Law>)
-      remember_ = [](const void* of, State& state, double distance) {
-        detail::slide(*static_cast<const Law*>(of), state, distance);
-      };
-  }
+  Tracer(TrajectoryReader& reader, const Engine& engine, const State& start)
+      : reader_(reader), engine_(engine), state_(start) {}
 
   /// @param begin, end  times of the next segment [s]
   void begin_segment(double begin, double end, const LoadSegment& line) noexcept {
@@ -203,32 +207,19 @@ class Tracer {
   }
   void finish() { reader_.event(EventKind::end, end_, state_, load(line_.duration)); }
 
-  template <class Flow>
-  void follow(const Flow& flow, [[maybe_unused]] double taken) {
-    flow_ = &flow;
-    at_ = [](const void* slip, double t) -> Progress { return static_cast<const Flow*>(slip)->at(t); };
-    if constexpr (requires(SurfaceHeat & heat) { flow.heat(taken, heat); })
-      heat_ = [](const void* slip, double t, SurfaceHeat& heat) { static_cast<const Flow*>(slip)->heat(t, heat); };
-    if constexpr (requires { flow.pendulum_work(taken); }) pendulum_work_ = flow.pendulum_work(taken);
-  }
-
-  [[gnu::noinline]] void slide(const Slip& slip) {
+  void slide(const Slip& slip, const SlipFlow& flow) override {
     if (!(slip.duration > 0)) return;
     state_.displacement = slip.from;
-    state_.velocity = sign(slip.direction) * std::max(at_(flow_, 0).speed, 0.0);
+    state_.velocity = sign(slip.direction) * std::max(flow.at(0).speed, 0.0);
     state_.mode = mode_of(slip.direction);
     Arc arc = next(slip.duration);
     arc.distance = slip.distance;
-    arc.work = slip.work + pendulum_work_;
-    arc.flow_ = flow_;
-    arc.at_ = at_;
-    arc.heat_ = heat_;
-    arc.law_ = law_;
-    arc.remember_ = remember_;
+    arc.work = slip.work + flow.pendulum_work(slip.duration);
+    arc.flow_ = flow;
     show(arc);
   }
 
-  [[gnu::noinline]] void event(EventKind kind, double time, const State& at) {
+  void event(EventKind kind, double time, const State& at) override {
     rest(time);
     now_ = time;
     state_.displacement = at.displacement;
@@ -268,7 +259,7 @@ class Tracer {
   Arc next(double duration) const noexcept {
     const Load first = load(now_), last = load(now_ + duration);
     Arc arc(absolute(now_), absolute(now_ + duration), duration, state_,
-            {duration, first.load, last.load, first.normal, last.normal});
+            {duration, first.load, last.load, first.normal, last.normal}, engine_);
     arc.wave_ = wave_;
     arc.offset_ = now_;
     return arc;
@@ -280,103 +271,126 @@ class Tracer {
   }
 
   TrajectoryReader& reader_;
+  const Engine& engine_;
   State state_;
-  const void* law_;
-  void (*remember_)(const void*, State&, double) = nullptr;
   double begin_ = 0, end_ = 0;  // of the segment [s]
   double now_ = 0;              // since its beginning [s]
   LoadSegment line_{};
   const HarmonicSegment* wave_ = nullptr;
-  // of the present slip
-  const void* flow_ = nullptr;
-  Progress (*at_)(const void*, double) = nullptr;
-  void (*heat_)(const void*, double, SurfaceHeat&) = nullptr;
-  double pendulum_work_ = 0;
 };
 
-/// Trace a slider under a ground motion, or from a time on without one (`motion` is null), to a time.
-template <FrictionLaw Law>
-[[gnu::noinline]] void trace(const Slider<Law>& slider, double usual_duration, const GroundMotion* motion, double from,
-                             double until, Contact contact, State& state, Tracer& tracer) {
-  with_flows(slider, usual_duration, [&](const auto& flows) {
-    const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
-    StateOf<Law> moving(state);
-    const auto go = [&](double begin, double end, const LoadSegment& segment) {
-      tracer.begin_segment(begin, end, segment);
-      advance(flows, segment, bounds, contact, moving, tracer);
-      tracer.end_segment(State(moving));
-    };
-    if (motion != nullptr) {
-      const LoadPieces pieces(*motion, slider.slope());
-      for (std::size_t i = 0; i < motion->segments() && from < until; ++i)
-        go(std::exchange(from, pieces.time(i + 1)), pieces.time(i + 1), pieces.segment(i));
-    }
-    if (from < until) go(from, until, load_segment(Segment{until - from, 0, 0}, slider.slope()));
-    store(moving, state);
-  });
-}
-
-/// The same under a harmonic motion, to its end. A segment is from crest to crest, so that the load is monotonic.
-template <FrictionLaw Law>
-[[gnu::noinline]] void trace(const Slider<Law>& slider, const HarmonicMotion& motion, double until, State& state,
-                             Tracer& tracer) {
-  with_flows(slider, motion, [&](const auto& flows) {
-    typename std::remove_cvref_t<decltype(flows)>::Place moving(state);
-    const double half = motion.period() / 2, last = motion.time(motion.segments());
-    double begin = motion.time(0);
-    for (double crest = 1; begin < std::min(last, until); ++crest) {
-      const double end = std::min(crest * half, last);
-      const HarmonicSegment segment{end - begin, motion.amplitude(), motion.omega(), motion.phase(begin)};
-      tracer.begin_segment(begin, end, segment);
-      advance(flows, segment, moving, tracer);
-      tracer.end_segment(State(moving));
-      begin = end;
-    }
-    store(moving, state);
-  });
-}
-
-template <FrictionLaw Law, Motion M>
-class TrajectoryOf final : public Trajectory {
+/// The segments of a trajectory to a time, shown to a tracer: those of a ground motion, if there is one, and one more
+/// without ground acceleration.
+class TracedSegments final : public Segments<LoadSegment> {
  public:
-  TrajectoryOf(const Slider<Law>& slider, const M& motion, const Response& response)
-      : Trajectory(slider.mounting(), response), slider_(slider), motion_(motion) {}
+  /// @param motion       null for none
+  /// @param from, until  times [s]
+  TracedSegments(const GroundMotion* motion, double slope, double from, double until, Tracer& tracer)
+      : motion_(motion), slope_(slope), now_(from), until_(until), tracer_(tracer) {
+    if (motion_ != nullptr) pieces_.emplace(*motion_, slope);
+  }
 
-  void read(TrajectoryReader& reader, double until) const override {
-    State start = State::at(response().displacement.front(), response().velocity.front());
-    start.sliding_distance = std::max(response().state.sliding_distance - response().sliding_distance, 0.0);
-    if constexpr (HeatedLaw<Law>)
-      start.heat = SurfaceHeat::with(slider_.law().half_integral_at(response().temperature.front()));
-    State state(with_memory(slider_.law(), start));
-    Tracer tracer(reader, slider_.law(), state);
-    if constexpr (std::same_as<M, GroundMotion>) {
-      trace(slider_, motion_.dt(), &motion_, begin(), until, response().contact, state, tracer);
+  bool next(const StateView& now, LoadSegment& segment) override {
+    if (begun_) tracer_.end_segment(now.state());
+    if (!(now_ < until_)) return false;
+    begun_ = true;
+    const double begin = now_;
+    if (motion_ != nullptr && i_ < motion_->segments()) {
+      segment = pieces_->segment(i_);
+      now_ = pieces_->time(++i_);
     } else {
-      trace(slider_, motion_, until, state, tracer);
-      trace(slider_, motion_.dt(), nullptr, motion_.time(motion_.segments()), until, response().contact, state, tracer);
+      segment = load_segment(Segment{until_ - begin, 0, 0}, slope_);
+      now_ = until_;
     }
-    tracer.finish();
+    tracer_.begin_segment(begin, now_, segment);
+    return true;
   }
 
-  double resist(const State& state, double weight, Direction direction) const override {
-    return stickslip::resist(law_at(slider_.law(), state, weight), state.displacement, std::abs(state.velocity),
-                             direction);
+ private:
+  const GroundMotion* motion_;
+  Slope slope_;
+  std::optional<LoadPieces> pieces_;
+  std::size_t i_ = 0;
+  double now_, until_;
+  Tracer& tracer_;
+  bool begun_ = false;
+};
+
+/// The same of a harmonic motion, to its end. A segment is from crest to crest, so that the load is monotonic.
+class TracedWaves final : public Segments<HarmonicSegment> {
+ public:
+  TracedWaves(const HarmonicMotion& motion, double until, Tracer& tracer)
+      : motion_(motion), begin_(motion.time(0)), until_(until), tracer_(tracer) {}
+
+  bool next(const StateView& now, HarmonicSegment& segment) override {
+    if (crests_ > 0) tracer_.end_segment(now.state());
+    const double last = motion_.time(motion_.segments());
+    if (!(begin_ < std::min(last, until_))) return false;
+    const double end = std::min(++crests_ * (motion_.period() / 2), last);
+    wave_ = {end - begin_, motion_.amplitude(), motion_.omega(), motion_.phase(begin_)};
+    tracer_.begin_segment(begin_, end, wave_);
+    begin_ = end;
+    segment = wave_;
+    return true;
   }
-  double hold(const State& state, double weight, Direction direction) const override {
-    return stickslip::hold(law_at(slider_.law(), state, weight), state.displacement, direction);
-  }
-  double elastic(const State& state) const override {
-    return slider_.stiffness() * state.displacement * state.displacement / 2 + detail::elastic(slider_.law(), state);
-  }
-  bool has_spring() const override {
-    return slider_.stiffness() > 0 || requires(const Law& law, const State& state) { law.elastic(state); };
-  }
+
+ private:
+  const HarmonicMotion& motion_;
+  double begin_, until_;
+  Tracer& tracer_;
+  double crests_ = 0;
+  HarmonicSegment wave_{};
+};
+
+template <Motion M>
+class TrajectoryUnder : public Trajectory {
+ public:
+  void read(TrajectoryReader& reader, double until) const override;
   double time(std::size_t sample) const override { return motion_.time(sample); }
   std::size_t samples() const override { return motion_.samples(); }
 
+ protected:
+  TrajectoryUnder(const Engine& engine, const M& motion, const Response& response)
+      : Trajectory(engine, response), motion_(motion) {}
+
  private:
-  Slider<Law> slider_;
   const M& motion_;
+};
+
+template <Motion M>
+void TrajectoryUnder<M>::read(TrajectoryReader& reader, double until) const {
+  State start = State::at(response().displacement.front(), response().velocity.front());
+  start.sliding_distance = std::max(response().state.sliding_distance - response().sliding_distance, 0.0);
+  if (engine_.law().heated) start.heat = engine_.heat_at(response().temperature.front());
+  State state = engine_.started(start);
+  Tracer tracer(reader, engine_, state);
+  const auto trace = [&](const GroundMotion* motion, double from) {
+    if (!(from < until)) return;
+    TracedSegments segments(motion, mounting().slope(), from, until, tracer);
+    engine_.move(segments, motion_.dt(), response().contact, state, tracer);
+  };
+  if constexpr (std::same_as<M, GroundMotion>) {
+    trace(&motion_, begin());
+  } else {
+    TracedWaves waves(motion_, until, tracer);
+    engine_.move(waves, motion_.omega(), motion_.dt(), state, tracer);
+    trace(nullptr, motion_.time(motion_.segments()));
+  }
+  tracer.finish();
+}
+
+/// Keeps a copy of the slider.
+template <FrictionLaw Law>
+struct SliderWithEngine {
+  explicit SliderWithEngine(const Slider<Law>& slider) : kept(slider), engine(kept) {}
+  Slider<Law> kept;
+  EngineOf<Law> engine;
+};
+template <FrictionLaw Law, Motion M>
+class TrajectoryOf final : SliderWithEngine<Law>, public TrajectoryUnder<M> {
+ public:
+  TrajectoryOf(const Slider<Law>& slider, const M& motion, const Response& response)
+      : SliderWithEngine<Law>(slider), TrajectoryUnder<M>(this->engine, motion, response) {}
 };
 
 }  // namespace detail
@@ -459,3 +473,10 @@ std::vector<State> states_at(const Slider& slider, const M& motion, const Respon
 }
 
 }  // namespace stickslip
+
+#ifdef STICKSLIP_LIBRARY  // the linked library contains these
+namespace stickslip::detail {
+extern template class TrajectoryUnder<GroundMotion>;
+extern template class TrajectoryUnder<HarmonicMotion>;
+}  // namespace stickslip::detail
+#endif

@@ -77,7 +77,7 @@ template <FrictionLaw Law>
 /// distance slid, and static friction that differs from kinetic.
 template <FrictionLaw Law>
 void require_one_level(const Slider<Law>& slider, const std::string& theory) {
-  require_plain_mounting(slider, theory);
+  require_plain_mounting(slider.mounting(), theory);
   if constexpr (!PositionLaw<Law>) {
     refuse_law<Law>(theory);
   } else if constexpr (LawWithHold<Law>) {

@@ -33,8 +33,8 @@ struct TransportPrediction : Moments {
       std::make_shared<std::optional<TransportStationary>>();
 };
 
-TransportPrediction predict(const Transport& self, const AnySlider& slider, const DistributionSource& excitation,
-                            const py::object& times) {
+TransportPrediction predicted(const Transport& self, const AnySlider& slider, const DistributionSource& excitation,
+                              const py::object& times) {
   const std::vector<double> at = to_vector(times, "Transport: times", "s");
   const py::gil_scoped_release released;
   const theory::TransportPrediction found =
@@ -42,7 +42,8 @@ TransportPrediction predict(const Transport& self, const AnySlider& slider, cons
   return {self, slider, excitation, found, found.cost()};
 }
 
-TransportStationary stationary(const Transport& self, const AnySlider& slider, const DistributionSource& excitation) {
+TransportStationary stationary_motion(const Transport& self, const AnySlider& slider,
+                                      const DistributionSource& excitation) {
   const py::gil_scoped_release released;
   return self.stationary(slider, transport_excitation(excitation), &check_for_interrupt);
 }
@@ -99,7 +100,7 @@ DisplacementDistribution displacement_of(const TransportPrediction& self, double
 }
 
 TransportStationary stationary_of(const TransportPrediction& self) {
-  if (!*self.stationary) *self.stationary = stationary(self.theory, self.slider, self.excitation);
+  if (!*self.stationary) *self.stationary = stationary_motion(self.theory, self.slider, self.excitation);
   return **self.stationary;
 }
 
@@ -415,7 +416,7 @@ ValueError
     A tolerance out of range.)");
   type.def(py::init<double>(), py::kw_only(), py::arg("tolerance") = 1e-2)
       .def_property_readonly("tolerance", &Transport::tolerance, "Relative.")
-      .def("predict", &predict, py::arg("slider"), py::arg("excitation"), py::arg("times"),
+      .def("predict", &predicted, py::arg("slider"), py::arg("excitation"), py::arg("times"),
            R"(Predict moments by time, from rest.
 
 Parameters
@@ -444,7 +445,7 @@ Notes
 -----
 Takes 0.3 to 2 s for a block, 2 to 8 s for static friction, 2 to 60 s with a spring, 3 to 300 s for a caster; under pulses
 0.2 to 5 s for a block, 2 to 25 s with a spring.)")
-      .def("stationary", &stationary, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
+      .def("stationary", &stationary_motion, py::arg("slider"), py::arg("excitation"), R"(Predict the stationary motion.
 
 Parameters
 ----------

@@ -62,7 +62,7 @@ HeldMotion::HeldMotion(const AnySlider& slider)
             if constexpr (!covered<Law>) {
               throw std::invalid_argument("Transport: does not cover laws with memory, nor functions");
             } else {
-              require_plain_mounting(one, "Transport");
+              require_plain_mounting(one.mounting(), "Transport");
               return Slider<Law>(one.law(), one.natural_frequency(), one.damping());
             }
           },

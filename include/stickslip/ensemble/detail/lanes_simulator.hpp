@@ -26,15 +26,14 @@ namespace stickslip::detail {
 template <class Law>
 void settle_all(const Slider<Law>& slider, const LaneStates& states, std::uint64_t first_member, std::size_t members,
                 std::size_t segments, const Block& block) {
-  with_flows(slider, 0, [&](const auto& flows) {
-    for (std::size_t i = 0; i < members; ++i) {
-      StateOf<Law> state(State::at(states.displacement[i], states.velocity[i]));
-      PeakObserver<Law> observer(block, max_events(segments + block.times().count));
-      naming_member(first_member + i, [&] { settle_member(slider, flows, state, observer, block); });
-      states.displacement[i] = state.displacement;
-      states.peak[i] = std::max(states.peak[i], observer.peak());
-    }
-  });
+  const EngineOf<Law> engine(slider);
+  for (std::size_t i = 0; i < members; ++i) {
+    State state = engine.started(State::at(states.displacement[i], states.velocity[i]));
+    PeakObserver observer(block, max_events(segments + block.times().count));
+    naming_member(first_member + i, [&] { settle_member(engine, false, Contact::flight, state, observer, block); });
+    states.displacement[i] = state.displacement;
+    states.peak[i] = std::max(states.peak[i], observer.peak());
+  }
 }
 
 /// Members under a Gaussian excitation, which have common times.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,16 +17,16 @@
 #include "stickslip/ensemble/detail/block.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/friction/caster.hpp"
-#include "stickslip/friction/coulomb.hpp"
 #include "stickslip/ground/ground_motion.hpp"
 #include "stickslip/slider.hpp"
-#include "stickslip/sliding/advance.hpp"
 #include "stickslip/sliding/any_slider.hpp"
+#include "stickslip/sliding/detail/contact.hpp"
+#include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/engine_of.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
 #include "stickslip/sliding/detail/run.hpp"
+#include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/impacts.hpp"
-#include "stickslip/sliding/integrate.hpp"
 
 namespace stickslip {
 class SlidingStructure;
@@ -86,36 +87,70 @@ AnyLoadSegment cut(AnyLoadSegment& segment, double time, double rest) noexcept {
   return taken;
 }
 
-/// Iterate over the segments of a motion: `go` integrates over a segment, and `keep` is called at each time of the
-/// statistics, which divides the segment that contains it.
-template <class Pieces, class Go, class Keep>
-void go_through(const Pieces& pieces, std::size_t segments, const Block& block, Go&& go, Keep&& keep_at) {
-  const std::size_t times = block.times().count;
-  const double dt = block.times().dt, begin = pieces.time(0);
-  std::size_t next = 0;  // time of the statistics
-  const auto keep = [&] { keep_at(next++); };
-  if (times > 0) keep();
-  double wanted = dt;
-  const auto through = [&](std::size_t, double segment_begins, double segment_ends, auto segment) {
-    double from = segment_begins - begin;
-    const double to = segment_ends - begin;
-    while (next < times && wanted < to) {
-      if (wanted > from) {
-        go(cut(segment, wanted - from, to - wanted));
-        from = wanted;
+/// The segments of a motion, of which those that contain a time of the statistics are divided there.
+template <class Pieces, class AnySegment = decltype(std::declval<const Pieces&>().segment(0))>
+class DividedSegments {
+ public:
+  DividedSegments(const Pieces& pieces, std::size_t segments, const Block& block)
+      : pieces_(pieces), count_(segments), block_(block), begin_(pieces.time(0)), dt_(block.times().dt) {
+    block_.check_stopped();
+  }
+
+  /// Put the next segment.
+  /// @param keep  called with the index of each time that has been reached
+  /// @return whether there is one
+  template <class Keep>
+  bool next(AnySegment& segment, Keep&& keep) {
+    const std::size_t times = block_.times().count;
+    const auto reach = [&] {
+      keep(next_++);
+      wanted_ = static_cast<double>(next_) * dt_;
+    };
+    for (;;) {
+      if (!inside_) {
+        if (next_ < times && equal(wanted_, to_)) reach();  // also the start
+        if (i_ == count_) {
+          while (next_ < times) reach();  // a last time that exceeds the end by rounding
+          return false;
+        }
+        if (i_ > 0 && i_ % 1024 == 0) block_.check_stopped();
+        from_ = to_;
+        to_ = pieces_.time(i_ + 1) - begin_;
+        rest_ = pieces_.segment(i_++);
+        inside_ = true;
       }
-      keep();
-      wanted = static_cast<double>(next) * dt;
+      while (next_ < times && wanted_ < to_) {
+        if (wanted_ > from_) {
+          segment = cut(rest_, wanted_ - from_, to_ - wanted_);
+          from_ = wanted_;
+          return true;
+        }
+        reach();
+      }
+      segment = rest_;
+      inside_ = false;
+      return true;
     }
-    go(segment);
-    if (next < times && equal(wanted, to)) {
-      keep();
-      wanted = static_cast<double>(next) * dt;
-    }
-  };
-  block.check_stopped();
-  walk(pieces, segments, 1024, through, [&] { block.check_stopped(); });
-  while (next < times) keep();  // a last time that exceeds the end by rounding
+  }
+
+ private:
+  Pieces pieces_;
+  std::size_t count_, i_ = 0;  // segments begun
+  const Block& block_;
+  double begin_, dt_;
+  std::size_t next_ = 0;      // time of the statistics
+  double wanted_ = 0;         // the same, after the beginning [s]
+  double from_ = 0, to_ = 0;  // of the rest of the present segment [s]
+  AnySegment rest_{};
+  bool inside_ = false;
+};
+
+/// Move through the segments of a motion: `go` integrates over a segment, and `keep` is called at each time of the
+/// statistics.
+template <class Pieces, class Go, class Keep>
+void go_through(const Pieces& pieces, std::size_t segments, const Block& block, Go&& go, Keep&& keep) {
+  DividedSegments divided(pieces, segments, block);
+  for (decltype(pieces.segment(0)) segment{}; divided.next(segment, keep);) go(segment);
 }
 
 /// The ground acceleration at the times of the statistics; at a jump, the value after it.
@@ -134,19 +169,18 @@ inline void accelerations(const GroundMotion& motion, const EnsembleTimes& times
 }
 
 /// Computes the largest |x| and the impacts of a member, and checks regularly whether the run was stopped.
-template <FrictionLaw Law>
-class PeakObserver {
+class PeakObserver final : public Sink {
  public:
   PeakObserver(const Block& block, std::size_t event_limit) : block_(block), event_limit_(event_limit) {}
 
   double peak() const noexcept { return peak_; }
   const Impacts& impacts() const noexcept { return impacts_; }
 
-  void slide(const Slip& slip) {
-    if constexpr (form_of<Law> != Form::constant) count_work();
+  void slide(const Slip& slip, const SlipFlow&) override {
+    count_work();
     peak_ = std::max(peak_, std::abs(slip.to()));
   }
-  void event(EventKind kind, double, const State& state) {
+  void event(EventKind kind, double, const State& state) override {
     if (kind == EventKind::impact) impacts_.add(state.displacement, state.velocity);
     count_work();
     if (++events_ > event_limit_) refuse_more_events(event_limit_);
@@ -154,7 +188,7 @@ class PeakObserver {
 
  private:
   void count_work() {
-    if (++work_ % Recorder<Law>::work_per_report == 0) block_.check_stopped();
+    if (++work_ % Recorder::work_per_report == 0) block_.check_stopped();
   }
   const Block& block_;
   std::size_t event_limit_, events_ = 0;
@@ -163,62 +197,18 @@ class PeakObserver {
   Impacts impacts_;
 };
 
-// Out of line: inlined at each call it would take minutes to compile.
-template <FlowMaker Flows, class Observer>
-[[gnu::flatten, gnu::noinline]] void advance_member(const Flows& flows, const Segment& segment,
-                                                    typename Flows::Place& state, Observer& observer) {
-  advance(flows, segment, state, observer);
-}
-
-/// Continue without ground acceleration until the slider rests.
-template <FrictionLaw Law, FlowMaker Flows>
-void settle_member(const Slider<Law>& slider, const Flows& flows, StateOf<Law>& state, PeakObserver<Law>& observer,
-                   const Block& block) {
-  settle(slider, state, [&](double duration) {
-    block.check_stopped();
-    advance_member(flows, Segment{duration, 0, 0}, state, observer);
-  });
-}
-
-/// The same for any slider, under load and normal force.
-template <FrictionLaw Law, FlowMaker Flows>
-[[gnu::noinline]] void advance_member(const Slider<Law>& slider, const Flows& flows, const LoadSegment& segment,
-                                      Contact contact, StateOf<Law>& state, PeakObserver<Law>& observer) {
-  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
-  advance(flows, segment, bounds, contact, state, observer);
-}
+/// Continue a member without ground acceleration until it rests.
+void settle_member(const Engine& engine, bool loaded, Contact contact, State& state, PeakObserver& observer,
+                   const Block& block);
 
 /// Simulate one member from rest at x = 0, by the event loop of `advance`. A member may end in flight.
 /// @param settle  whether to continue without ground acceleration until it comes to rest
+void simulate_member(const Engine& engine, const GroundMotion& motion, bool settle, Contact contact,
+                     const MemberPlace& place);
 template <FrictionLaw Law>
 void simulate_member(const Slider<Law>& slider, const GroundMotion& motion, bool settle, Contact contact,
                      const MemberPlace& place) {
-  Block& block = place.block;
-  const bool under_load = loaded(slider, motion);
-  with_flows(slider, motion.dt(), [&](const auto& flows) {
-    StateOf<Law> state;
-    PeakObserver<Law> observer(block, max_events(motion.segments() + block.times().count));
-    const auto keep = [&](std::size_t time) { place.keep(time, state.displacement, state.velocity); };
-    const auto go_loaded = [&](const LoadSegment& segment) {
-      advance_member(slider, flows, segment, contact, state, observer);
-    };
-    if (under_load)
-      go_through(LoadPieces(motion, slider.slope()), motion.segments(), block, go_loaded, keep);
-    else
-      go_through(
-          GroundMotion::Pieces(motion), motion.segments(), block,
-          [&](const Segment& segment) { advance_member(flows, segment, state, observer); }, keep);
-    if (settle && under_load)
-      detail::settle(slider, state, [&](double duration) {
-        block.check_stopped();
-        go_loaded(load_segment(Segment{duration, 0, 0}, slider.slope()));
-      });
-    else if (settle)
-      settle_member(slider, flows, state, observer, block);
-    place.end(observer.peak(), state.displacement);
-    if (const Stops& stops = slider.mounting().stops) block.impacts(place.index, gaps_of(stops), observer.impacts());
-    if (state.in_flight) block.ends_airborne();
-  });
+  simulate_member(EngineOf<Law>(slider), motion, settle, contact, place);
 }
 
 /// The same for a slider of any law.
@@ -270,12 +260,3 @@ class MemberSimulator final : public Simulator {
 };
 
 }  // namespace stickslip::detail
-
-#ifdef STICKSLIP_LIBRARY  // the linked library contains these
-namespace stickslip::detail {
-extern template void simulate_member(const Slider<Coulomb>&, const GroundMotion&, bool, Contact, const MemberPlace&);
-extern template void simulate_member(const Slider<Caster>&, const GroundMotion&, bool, Contact, const MemberPlace&);
-extern template void simulate_member(const Slider<VelocityDependent>&, const GroundMotion&, bool, Contact,
-                                     const MemberPlace&);
-}  // namespace stickslip::detail
-#endif

@@ -51,9 +51,10 @@ concept FlowMaker = requires(const Maker& maker, const typename Maker::Place& st
 };
 
 /// The answers of a maker of flows that only depend on its law.
-template <FrictionLaw Law>
+template <FrictionLaw AnyLaw>
 class LawFlows {
  public:
+  using Law = AnyLaw;
   using Place = StateOf<Law>;
   static constexpr bool in_closed_form = false, stops_twice_at_most = false;
   static constexpr int most_steps = 3'000'000;

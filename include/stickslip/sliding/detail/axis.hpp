@@ -140,7 +140,8 @@ class Axis {
   [[gnu::always_inline]] void show(const Slide& slide, const Leg& leg, Observer& observer) {
     if constexpr (requires { observer.follow(slide.flow, leg.time); }) observer.follow(slide.flow, leg.time);
     flows_.remember(slide.flow, leg.time, state_);
-    if constexpr (EnergyObserver<Observer>) observer.dissipate(flows_.friction_work(slide, leg, state_));
+    if constexpr (EnergyObserver<Observer>)
+      if (counts_energy(observer)) observer.dissipate(flows_.friction_work(slide, leg, state_));
     const double s = sign(slide.direction);
     observer.slide(Slip{slide.direction, state_.displacement, leg.end.distance, leg.time,
                         slide.start.work(slide.flow, s * slide.load, leg.gain, leg.time, leg.end)});

@@ -33,6 +33,7 @@ struct WithinSegment {
     o.follow(flow, taken);
   }
   { observer.follow(flow, taken); }
+  bool counts_energy() const requires EnergyObserver<Observer> { return detail::counts_energy(observer); }
   void dissipate(double work) requires EnergyObserver<Observer> { observer.dissipate(work); }
   void lose(double energy) requires EnergyObserver<Observer> { observer.lose(energy); }
 };

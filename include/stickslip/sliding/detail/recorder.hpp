@@ -12,7 +12,8 @@
 #include "stickslip/base/function.hpp"
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/error.hpp"
-#include "stickslip/friction/law.hpp"
+#include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/sink.hpp"
 #include "stickslip/sliding/observer.hpp"
 #include "stickslip/sliding/response.hpp"
 #include "stickslip/state.hpp"
@@ -31,27 +32,23 @@ constexpr std::size_t max_events(std::size_t segments) noexcept { return 1'000'0
       "long");
 }
 
-/// A flow that can have a damper.
-template <class Flow>
-concept FlowWithDamper = requires(const Flow& flow, double time) {
-  flow.damped_work(time);
-};
-
 /// Accumulates the sums over slips and stores the events.
-/// @tparam in_steps  slips come in steps, possibly enough per segment that they must report progress themselves
-/// @tparam loaded    normal force may vary, and there may be stops: the event loop supplies the work against friction
-template <FrictionLaw Law, bool in_steps = (form_of<Law> != Form::constant), bool loaded = false>
-class Recorder {
+class Recorder final : public Sink {
  public:
   static constexpr std::uint32_t work_per_report = 16384;  // segments, events or steps, each far below a millisecond
 
+  /// @param engine       of the slider
+  /// @param loaded       the normal force may vary, or there may be stops: the engine adds the work against friction
   /// @param from         x at the start [m]
   /// @param event_limit  limit on the number of events; an event beyond it throws
   /// @param progress     called after each `work_per_report` segments, events or steps; may throw
   /// @param storage      memory for the events
-  Recorder(const Law& law, double from, std::size_t event_limit, const std::function<void()>& progress,
-           std::vector<Event> storage)
-      : law_(law),
+  Recorder(const Engine& engine, bool loaded, double from, std::size_t event_limit,
+           const std::function<void()>& progress, std::vector<Event> storage)
+      : Sink(loaded || !engine.law().position ? Account::whole : Account::without_friction),
+        engine_(engine),
+        closed_work_(account() != Account::whole && engine.law().closed_work),
+        work_of_slips_(account() != Account::whole && !closed_work_),
         slip_from_(from),
         peak_(std::abs(from)),
         events_(std::move(storage)),
@@ -66,34 +63,21 @@ class Recorder {
     segment_ends_ = end;
   }
 
-  /// Call the progress callback. The loop over segments does so regularly; within long segments, events and steps of
-  /// Taylor flows do.
+  /// Call the progress callback. The loop over segments does so regularly; within long segments, events and slips do.
   void report_progress() const {
     if (progress_) progress_();
   }
 
-  /// Add the work that only a flow can compute: on a damper, and against friction that depends on more than x.
-  template <class Flow>
-  requires(!PositionLaw<Law> || FlowWithDamper<Flow>) void follow(const Flow& flow, double taken) {
-    if constexpr (FlowWithDamper<Flow>) damped_ += flow.damped_work(taken);
-    if constexpr (!PositionLaw<Law> && !loaded) dissipated_ += flow.friction_work(taken);
-    if constexpr (requires { flow.pendulum_work(taken); }) input_ += flow.pendulum_work(taken);
-  }
-
-  void dissipate(double work) requires loaded { dissipated_ += work; }
-  void lose(double energy) requires loaded { impact_ += energy; }
-
-  void slide(const Slip& slip) {
-    if constexpr (in_steps) count_work();
+  void slide(const Slip& slip, const SlipFlow& /*flow*/) override {
+    count_work();
     slip_direction_ = slip.direction;
     slip_distance_ += slip.distance;
     time_sliding_ += slip.duration;
-    input_ += slip.work;
-    if constexpr (PositionLaw<Law> && !LawWithWork<Law> && !loaded)
-      dissipated_ += friction_work(law_, slip.from, slip.distance, slip.direction);
+    energy.input += slip.work;
+    if (work_of_slips_) energy.dissipated += engine_.work(slip.from, slip.distance, slip.direction);
   }
 
-  void event(EventKind kind, double time, const State& state) {
+  void event(EventKind kind, double time, const State& state) override {
     count_work();
     if (events_.size() >= event_limit_) refuse_more_events(event_limit_, segment_begins_ + time);
     // Rounding may move the sum past the end of the segment.
@@ -101,16 +85,16 @@ class Recorder {
     events_.push_back({when, state.displacement, state.velocity, kind});
     peak_ = std::max(peak_, std::abs(state.displacement));  // x is monotonic between events
     sliding_distance_ += slip_distance_;
-    if constexpr (LawWithWork<Law> && !loaded) dissipated_ += law_.work(slip_from_, slip_distance_, slip_direction_);
+    if (closed_work_) energy.dissipated += engine_.work(slip_from_, slip_distance_, slip_direction_);
     slip_from_ = state.displacement;
     slip_distance_ = 0;
   }
 
-  /// Add many events at once, starting from rest. Equivalent to calls of `slide` and `event`, except that the work of
-  /// the ground is not added.
+  /// Add many events of a law of constant levels at once, starting from rest. Equivalent to calls of `slide` and
+  /// `event`, except that the work of the ground is not added.
   /// @param event  the k-th of `count`, in order
   template <class Generate>
-  void events(std::size_t count, Generate&& event) requires(form_of<Law> == Form::constant) {
+  void events(std::size_t count, Generate&& event) {
     if (events_.size() + count > event_limit_) refuse_more_events(event_limit_, segment_begins_);
     events_.resize(events_.size() + count);
     Event* const added = events_.data() + (events_.size() - count);
@@ -127,7 +111,7 @@ class Recorder {
       time = e.time;
     }
     sliding_distance_ += forward + backward;
-    dissipated_ += law_.work(0, forward, Direction::forward) + law_.work(0, backward, Direction::backward);
+    energy.dissipated += engine_.work(0, forward, Direction::forward) + engine_.work(0, backward, Direction::backward);
     time_sliding_ += time_sliding;
     peak_ = peak;
     slip_from_ = x;
@@ -145,10 +129,7 @@ class Recorder {
     response.peak = peak_;
     response.sliding_distance = sliding_distance_;
     response.time_sliding = time_sliding_;
-    response.energy.input = input_;
-    response.energy.dissipated = dissipated_;
-    response.energy.damped = damped_;
-    response.energy.impact = impact_;
+    response.energy = energy;
   }
 
  private:
@@ -156,13 +137,14 @@ class Recorder {
     if (++work_ % work_per_report == 0) report_progress();
   }
 
-  const Law& law_;
+  const Engine& engine_;
+  bool closed_work_, work_of_slips_;  // the work against friction is added at events, or at each slip
   double segment_begins_ = 0, segment_ends_ = 0;
   double slip_from_;  // x at the start of the current slip
   double slip_distance_ = 0;
   Direction slip_direction_ = Direction::forward;
   double peak_;
-  double sliding_distance_ = 0, time_sliding_ = 0, input_ = 0, dissipated_ = 0, damped_ = 0, impact_ = 0;
+  double sliding_distance_ = 0, time_sliding_ = 0;
   std::vector<Event> events_;
   std::size_t event_limit_;
   std::uint32_t work_ = 0;
@@ -170,7 +152,7 @@ class Recorder {
 };
 
 /// Replaces a recorder if only the motion is needed.
-class NoRecorder : public NoObserver {
+class NoRecorder final : public Sink {
  public:
   static constexpr std::uint32_t work_per_report = 4096;  // segments or events
 
@@ -181,7 +163,8 @@ class NoRecorder : public NoObserver {
   void report_progress() const {
     if (progress_) progress_();
   }
-  void event(EventKind, double, const State&) {
+  void slide(const Slip&, const SlipFlow&) override {}
+  void event(EventKind, double, const State&) override {
     if (++events_ % work_per_report != 0) return;
     report_progress();
     if (events_ > event_limit_) refuse_more_events(event_limit_);

@@ -1,4 +1,4 @@
-// Integrate a slider over a whole ground motion, segment by segment.
+// The segments of a whole ground motion, and what is kept at its samples.
 #pragma once
 
 #include <cmath>
@@ -8,13 +8,15 @@
 #include <utility>
 
 #include "stickslip/base/min_max.hpp"
+#include "stickslip/error.hpp"
+#include "stickslip/ground/motion.hpp"
+#include "stickslip/ground/segment.hpp"
+#include "stickslip/sliding/detail/engine.hpp"
+#include "stickslip/sliding/detail/sink.hpp"
+#include "stickslip/state.hpp"
 #ifdef STICKSLIP_LIBRARY
 #include "stickslip/sliding/detail/pieces.hpp"
 #endif
-#include "stickslip/ground/motion.hpp"
-#include "stickslip/sliding/advance.hpp"
-#include "stickslip/sliding/detail/recorder.hpp"
-#include "stickslip/state.hpp"
 
 namespace stickslip::detail {
 
@@ -24,18 +26,22 @@ struct HistorySpans {
   std::span<double> gap{};          // empty if the slider cannot leave the ground
   std::span<double> temperature{};  // empty if friction does not depend on it
 
-  template <FrictionLaw Law>
-  void keep(std::size_t sample, const Law& law, const StateOf<Law>& state) const noexcept {
+  void keep(std::size_t sample, const BareState& state) const noexcept {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
-    if constexpr (HeatedLaw<Law>)
-      if (!temperature.empty()) temperature[sample] = law.temperature(state);
+  }
+  [[gnu::always_inline]] void keep(std::size_t sample, const StateView& state, const Engine& engine) const {
+    keep(sample, state);
+    if (!gap.empty() || !temperature.empty()) [[unlikely]]
+      keep_rarer(sample, state, engine);
+  }
+
+ private:
+  [[gnu::noinline]] void keep_rarer(std::size_t sample, const StateView& state, const Engine& engine) const {
+    if (!gap.empty()) gap[sample] = state.gap;
+    if (!temperature.empty()) temperature[sample] = engine.temperature(state.state());
   }
 };
-
-/// Under a harmonic motion, slips come in several steps for every law but Coulomb friction without a spring.
-template <Motion M, FrictionLaw Law>
-using RecorderFor = Recorder<Law, std::same_as<M, HarmonicMotion> || form_of<Law> != Form::constant>;
 
 /// Iterate over the segments of a motion: call `go(i, begin, end, segment)` for each segment, from `begin` to `end`
 /// [s], and `report()` after every `segments_per_report` segments, except after the last one.
@@ -58,67 +64,6 @@ template <class Go, class Report>
   walk(GroundMotion::Pieces(motion), motion.segments(), segments_per_report, go, report);
 }
 
-/// Integrate over all segments in order.
-/// @tparam RecorderType  a RecorderFor the motion and law, or NoRecorder
-template <FlowMaker Flows, class RecorderType>
-[[gnu::flatten]] void run(const Flows& flows, const GroundMotion& motion, State& state, RecorderType& recorder,
-                          const HistorySpans& histories) {
-  typename Flows::Place moving(state);
-  walk(
-      GroundMotion::Pieces(motion), motion.segments(), RecorderType::work_per_report,
-      [&](std::size_t i, double begin, double end, const Segment& segment) {
-        recorder.begin_segment(begin, end);
-        detail::advance(flows, segment, moving, recorder);
-        histories.keep(i + 1, flows.law(), moving);
-      },
-      [&] { recorder.report_progress(); });
-  store(moving, state);
-}
-
-/// Call `work` with the flows that suit the slider under a motion.
-template <FrictionLaw Law, class Work>
-void with_flows(const Slider<Law>& slider, const GroundMotion& motion, Work&& work) {
-  with_flows(slider, motion.dt(), std::forward<Work>(work));
-}
-template <FrictionLaw Law, class Work>
-void with_flows(const Slider<Law>& slider, const HarmonicMotion& motion, Work&& work) {
-  with_harmonic_flows(slider, motion.omega(), motion.dt(), std::forward<Work>(work));
-}
-
-/// Minimum number of segments into which a motion is split: for a harmonic motion at least one per period, so that
-/// phases stay small.
-inline std::size_t pieces(const GroundMotion& motion) noexcept { return motion.segments(); }
-inline std::size_t pieces(const HarmonicMotion& motion) noexcept {
-  return std::max(motion.segments(), static_cast<std::size_t>(motion.duration() / motion.period()));
-}
-
-template <FlowMaker Flows, class RecorderType>
-void run(const Flows& flows, const HarmonicMotion& motion, State& state, RecorderType& recorder,
-         const HistorySpans& histories) {
-  typename Flows::Place moving(state);
-  std::uint32_t pieces = 0;
-  const auto piece = [&](double begin, double end, double duration, double phase) {
-    if (++pieces % RecorderType::work_per_report == 0) recorder.report_progress();
-    recorder.begin_segment(begin, end);
-    detail::advance(flows, HarmonicSegment{duration, motion.amplitude(), motion.omega(), phase}, moving, recorder);
-  };
-  const bool short_steps = motion.dt() <= motion.period();
-  for (std::size_t i = 0; i < motion.segments(); ++i) {
-    const double begin = motion.time(i), end = motion.time(i + 1);
-    if (short_steps && i + 1 < motion.segments()) {  // equal durations, without the rounding of the times
-      piece(begin, end, motion.dt(), motion.phase(begin, std::fma(static_cast<double>(i), motion.dt(), -begin)));
-    } else {
-      for (double time = begin; time < end;) {
-        const double next = std::min(time + motion.period(), end);
-        piece(time, next, next - time, motion.phase(time));
-        time = next;
-      }
-    }
-    histories.keep(i + 1, flows.law(), moving);
-  }
-  store(moving, state);
-}
-
 /// The load and normal force of a slider on a slope under a ground motion.
 class LoadPieces {
  public:
@@ -129,7 +74,7 @@ class LoadPieces {
         slope_(slope) {}
 
   double time(std::size_t i) const noexcept { return pieces_.time(i); }
-  LoadSegment segment(std::size_t i) const noexcept {
+  [[gnu::always_inline]] LoadSegment segment(std::size_t i) const noexcept {
     if (up_.empty()) return load_segment(pieces_.segment(i), slope_);
     return load_segment(pieces_.segment(i), slope_, up_[i], up_[i + next_]);
   }
@@ -141,15 +86,82 @@ class LoadPieces {
   Slope slope_;
 };
 
-/// Whether the motion needs the event loop with load and normal force.
-template <FrictionLaw Law>
-bool loaded(const Slider<Law>& slider, const GroundMotion& motion) noexcept {
-  return !slider.plain() || motion.has_vertical();
+/// The segments of a ground motion, of which a sink is told the times and histories are kept.
+/// @tparam Pieces  of the motion: GroundMotion::Pieces or LoadPieces
+template <class Pieces, class AnySink, class AnySegment = decltype(std::declval<const Pieces&>().segment(0))>
+class SampledSegments final : public Segments<AnySegment> {
+ public:
+  SampledSegments(const Pieces& pieces, std::size_t count, const Engine& engine, AnySink& sink,
+                  const HistorySpans& histories)
+      : pieces_(pieces), count_(count), engine_(engine), sink_(sink), histories_(histories), end_(pieces.time(0)) {}
+
+  bool next(const StateView& now, AnySegment& segment) override {
+    if (i_ > 0) histories_.keep(i_, now, engine_);
+    if (i_ == count_) return false;
+    if (i_ > 0 && i_ % AnySink::work_per_report == 0) sink_.report_progress();
+    const double begin = std::exchange(end_, pieces_.time(i_ + 1));
+    sink_.begin_segment(begin, end_);
+    segment = pieces_.segment(i_++);
+    return true;
+  }
+
+ private:
+  Pieces pieces_;
+  std::size_t count_, i_ = 0;  // segments given
+  const Engine& engine_;
+  AnySink& sink_;
+  HistorySpans histories_;
+  double end_;  // of the last segment [s]
+};
+
+/// Minimum number of segments into which a motion is split: for a harmonic motion at least one per period, so that
+/// phases stay small.
+inline std::size_t pieces(const GroundMotion& motion) noexcept { return motion.segments(); }
+inline std::size_t pieces(const HarmonicMotion& motion) noexcept {
+  return std::max(motion.segments(), static_cast<std::size_t>(motion.duration() / motion.period()));
 }
-template <FrictionLaw Law>
-bool loaded(const Slider<Law>& slider, const HarmonicMotion&) noexcept {
-  return !slider.plain();
-}
+
+/// The same of a harmonic motion: from sample to sample, in segments of at most one period.
+template <class AnySink>
+class HarmonicSegments final : public Segments<HarmonicSegment> {
+ public:
+  HarmonicSegments(const HarmonicMotion& motion, const Engine& engine, AnySink& sink, const HistorySpans& histories)
+      : motion_(motion), engine_(engine), sink_(sink), histories_(histories), time_(motion.time(0)), end_(time_) {}
+
+  bool next(const StateView& now, HarmonicSegment& segment) override {
+    if (!(time_ < end_)) {  // at a sample
+      if (i_ > 0) histories_.keep(i_, now, engine_);
+      if (i_ == motion_.segments()) return false;
+      time_ = motion_.time(i_);
+      end_ = motion_.time(++i_);
+      if (motion_.dt() <= motion_.period() && i_ < motion_.segments()) {
+        // Equal durations, without the rounding of the times.
+        const double begin = std::exchange(time_, end_);
+        segment = piece(begin, end_, motion_.dt(),
+                        motion_.phase(begin, std::fma(static_cast<double>(i_ - 1), motion_.dt(), -begin)));
+        return true;
+      }
+    }
+    const double begin = std::exchange(time_, std::min(time_ + motion_.period(), end_));
+    segment = piece(begin, time_, time_ - begin, motion_.phase(begin));
+    return true;
+  }
+
+ private:
+  HarmonicSegment piece(double begin, double end, double duration, double phase) {
+    if (++pieces_ % AnySink::work_per_report == 0) sink_.report_progress();
+    sink_.begin_segment(begin, end);
+    return {duration, motion_.amplitude(), motion_.omega(), phase};
+  }
+
+  const HarmonicMotion& motion_;
+  const Engine& engine_;
+  AnySink& sink_;
+  const HistorySpans& histories_;
+  std::size_t i_ = 0;         // samples reached or under way
+  double time_, end_;         // where the next segment begins, and the next sample [s]
+  std::uint32_t pieces_ = 0;  // given
+};
 
 /// Whether the normal force is negative anywhere.
 inline bool may_fly(const GroundMotion& motion, double slope) noexcept {
@@ -172,39 +184,23 @@ inline void check_landing(const GroundMotion& motion, double slope) {
           segment.normal_end, "m/s^2");
 }
 
-/// Integrate over all segments of load and normal force in order.
-template <FrictionLaw Law, FlowMaker Flows, class RecorderType>
-[[gnu::flatten]] void run_loaded(const Slider<Law>& slider, const Flows& flows, const GroundMotion& motion,
-                                 Contact contact, State& state, RecorderType& recorder, const HistorySpans& histories) {
-  const Bounds bounds{slider.mounting().stops, slider.mounting().one_way};
-  const LoadPieces pieces(motion, slider.slope());
-  StateOf<Law> moving(state);
-  const auto go = [&](std::size_t i, double begin, double end, const LoadSegment& segment) {
-    recorder.begin_segment(begin, end);
-    advance(flows, segment, bounds, contact, moving, recorder);
-    histories.keep(i + 1, slider.law(), moving);
-    if (!histories.gap.empty()) histories.gap[i + 1] = moving.gap;
-  };
-  walk(pieces, motion.segments(), RecorderType::work_per_report, go, [&] { recorder.report_progress(); });
-  store(moving, state);
-}
-
-/// The same with the flows that suit the slider.
-template <FrictionLaw Law, Motion M, class RecorderType>
-void run_in_order(const Slider<Law>& slider, const M& motion, State& state, RecorderType& recorder,
-                  const HistorySpans& histories) {
-  with_flows(slider, motion, [&](const auto& flows) { run(flows, motion, state, recorder, histories); });
-}
-
-/// The same by the fastest available method.
-template <FrictionLaw Law, Motion M, class RecorderType>
-void run(const Slider<Law>& slider, const M& motion, State& state, RecorderType& recorder,
-         const HistorySpans& histories) {
+/// Move a slider through a whole ground motion by the fastest method there is.
+/// @param in_order  segment by segment, as the header-only core does
+template <class AnyRecorder>
+void run(const Engine& engine, const GroundMotion& motion, [[maybe_unused]] bool in_order, State& state,
+         AnyRecorder& recorder, const HistorySpans& histories) {
 #ifdef STICKSLIP_LIBRARY
-  if constexpr (std::same_as<Law, Coulomb> && std::same_as<M, GroundMotion>)
-    if (worth_pieces(slider, motion)) return run_by_pieces(slider.law(), motion, state, recorder, histories);
+  if (!in_order && recorded_by_pieces(engine, motion, state, recorder, histories)) return;
 #endif
-  run_in_order(slider, motion, state, recorder, histories);
+  engine.record(motion, state, recorder, histories);
+}
+
+/// Move a slider through a whole ground motion under load and normal force.
+template <class AnySink>
+void run_loaded(const Engine& engine, const GroundMotion& motion, Contact contact, State& state, AnySink& sink,
+                const HistorySpans& histories) {
+  SampledSegments segments(LoadPieces(motion, engine.mounting().slope()), motion.segments(), engine, sink, histories);
+  engine.move(segments, motion.dt(), contact, state, sink);
 }
 
 }  // namespace stickslip::detail

@@ -1,0 +1,9 @@
+// Engines of laws of the library; see engines.hpp.
+#include "stickslip/sliding/detail/engines.hpp"
+
+namespace stickslip::detail {
+
+template class EngineOf<KumarFriction>;
+template class EngineOf<FunctionLaw>;
+
+}  // namespace stickslip::detail
