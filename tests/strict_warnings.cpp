@@ -1,5 +1,5 @@
 // Templates of the headers as a user's code makes them, compiled with the warnings of a strict user.
-#include <stickslip/stickslip.hpp>
+#include <all_headers.hpp>
 
 using namespace stickslip;
 

@@ -90,6 +90,7 @@ def test_the_number_of_tests_is_counted_and_nowhere_typed(monkeypatch):
     assert names == set(found)
 
 
+@pytest.mark.slow
 def test_the_site_says_how_many_tests_there_are(site):
     text = (SITE / "validation.html").read_text(encoding="utf-8")
     assert re.search(r"\d+ test cases in C\+\+, \d+ test functions in\s+Python", text)
@@ -162,7 +163,7 @@ def test_no_equation_stands_on_two_pages():
     assert sorted(numbers) == sorted(set(numbers))
 
 
-# ---- the site, where it was built
+# ---- the site, where it was built: slow, as that is
 
 
 LOADS = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
@@ -196,6 +197,7 @@ def site():
     return {file: Page(file) for file in SITE.rglob("*.html")}
 
 
+@pytest.mark.slow
 def test_links_within_the_site_hold(site):
     broken = []
     for file, page in site.items():
@@ -212,6 +214,7 @@ def test_links_within_the_site_hold(site):
     assert not broken
 
 
+@pytest.mark.slow
 def test_nothing_is_loaded_from_outside(site):
     outside = {link for page in site.values() for link in page.loads if urlsplit(link).netloc}
     for file in [*SITE.rglob("*.css"), *SITE.rglob("*.html")]:
@@ -221,6 +224,7 @@ def test_nothing_is_loaded_from_outside(site):
     assert not outside
 
 
+@pytest.mark.slow
 def test_every_public_name_stands_in_the_reference(site):
     import stickslip as ss
 

@@ -143,17 +143,31 @@ def test_a_number_of_the_paper_stands_in_the_documentation(words, page, there):
     assert there in " ".join((ROOT / page).read_text(encoding="utf-8").split())
 
 
-def test_links_of_the_pages_beside_the_site_name_files():
-    checked = 0
-    names = ("README.md", "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "docs/roadmap.md")
-    for name in names:
-        page = ROOT / name
-        text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
-        for target in re.findall(r"\]\(([^)\s]+)\)", text):
-            if "://" not in target and not target.startswith("#"):
-                checked += 1
-                assert (page.parent / target.partition("#")[0]).exists(), f"{name}: {target}"
-    assert checked > 20
+def text_of(page):
+    return re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+
+
+def anchors(page):
+    """As a forge makes them of headings, and Sphinx of those of three levels."""
+    headings = re.findall(r"^#{1,3} +(.*?) *$", text_of(page).lower(), re.M)
+    return {re.sub(r"[^\w -]", "", heading).replace(" ", "-") for heading in headings}
+
+
+def test_links_of_the_pages_name_files_and_headings():
+    """Without the site: test_docs.py reads that, where it was built."""
+    checked, broken = 0, []
+    for page in [*ROOT.glob("*.md"), *ROOT.glob("*/README.md"), *(ROOT / "docs").rglob("*.md")]:
+        for target in re.findall(r"\]\(([^)\s]+)\)", text_of(page)):
+            if "://" in target:
+                continue
+            checked += 1
+            name, _, heading = target.partition("#")
+            file = page.parent / name if name else page
+            lost = heading and file.suffix == ".md" and heading not in anchors(file)
+            if not file.exists() or lost:
+                broken.append(f"{page.relative_to(ROOT)}: {target}")
+    assert checked > 400
+    assert not broken
 
 
 def laws():
