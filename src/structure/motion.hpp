@@ -55,8 +55,7 @@ struct InterfacePassage {
 
 /// A structure with one sliding interface during one segment (a SlidingSystem).
 /// @tparam Observer  `event(kind, time, place)`, `follow(expansion, mode)` after each expansion, whose duration is
-/// over,
-///                   `lose(energy)`, and `decide(difference)` where the velocity is zero
+///                   over, `lose(energy)`, and `decide(difference)` where the velocity is zero
 template <FrictionLaw Law, class Observer>
 class StructureMotion {
  public:

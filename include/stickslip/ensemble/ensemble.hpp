@@ -197,8 +197,7 @@ class Ensemble {
 
   /// Add the members of another part of the same ensemble.
   /// @throws std::invalid_argument if the configurations differ (the message names the difference) or members occur
-  /// twice;
-  ///         this ensemble is then unchanged
+  ///         twice; this ensemble is then unchanged
   void merge(const Ensemble& other);
 
  private:
