@@ -336,7 +336,6 @@ def test_the_claims_about_the_chain_are_those_of_the_table():
     for text in (
         (ROOT / "README.md").read_text(encoding="utf-8"),
         (ROOT / "docs/guides/random_vibration.md").read_text(encoding="utf-8"),
-        (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"),
         ss.theory.PulseChain.__doc__,
     ):
         assert re.search(

@@ -380,21 +380,6 @@ def linked(h5, name):
     h5[name] = h5py.ExternalLink("other.h5", name)
 
 
-def test_a_suite_without_checksums_is_read(tmp_path):
-    """As versions before there were checksums wrote it."""
-    h5py = pytest.importorskip("h5py")
-    file = SUITE.save(tmp_path / "s.h5")
-    with h5py.File(tmp_path / "old.h5", "w") as old, h5py.File(file) as h5:
-        old.attrs["format"] = "stickslip suite 1"
-        for name in h5:
-            if name != "metadata":
-                old[name] = h5[name][:]
-        group = old.create_group("metadata", track_order=True)
-        for name in h5["metadata"]:
-            group[name] = h5["metadata"][name][:]
-    assert ss.Suite.open(tmp_path / "old.h5") == SUITE
-
-
 # ---- stations
 
 
