@@ -274,9 +274,8 @@ def test_polarities_that_are_the_same_are_one_line():
     assert labels == ["recorded", "reversed"]
 
 
-def test_a_grid_has_an_axis_for_each_parameter_in_xarray(tmp_path):
-    xarray = pytest.importorskip("xarray")
-    pytest.importorskip("h5netcdf")
+def test_a_grid_has_an_axis_for_each_parameter_in_xarray():
+    pytest.importorskip("xarray")
     floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=MU), period=[2, 3])
     table = ss.sweep(floors, QUAKES)
     data = table.to_xarray()
@@ -287,18 +286,24 @@ def test_a_grid_has_an_axis_for_each_parameter_in_xarray(tmp_path):
         assert there.slider.item() == table.sliders[i]
     assert data.peak.sel(mu=0.11, method="nearest").mu == 0.1
     assert "slider" in ss.sweep([*floors[:3], *floors[5:]], QUAKES).to_xarray().dims
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine, package", [("h5netcdf", "h5netcdf"), ("netcdf4", "netCDF4")])
+def test_a_saved_table_is_a_netcdf_file(tmp_path, engine, package):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip(package)
+    floors = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=MU), period=[2, 3])
+    table = ss.sweep(floors, QUAKES)
     file = table.save(tmp_path / "t.h5")
-    for engine in ("h5netcdf", "netcdf4"):
-        if engine == "netcdf4":
-            pytest.importorskip("netCDF4")
-        with xarray.open_dataset(file, engine=engine) as stored:
-            assert stored.peak.dims == ("slider", "record", "polarity")
-            assert np.array_equal(stored.peak, table.peak)
-            assert stored.peak.attrs["units"] == "m"
-            assert stored.coords["mu"].dims == ("slider",)
-            assert stored.record.values.tolist() == list(QUAKES.names)
-            assert stored.polarity.values.tolist() == ["recorded", "reversed"]
-            assert np.array_equal(stored.coords["magnitude"], QUAKES.magnitude)
+    with xarray.open_dataset(file, engine=engine) as stored:
+        assert stored.peak.dims == ("slider", "record", "polarity")
+        assert np.array_equal(stored.peak, table.peak)
+        assert stored.peak.attrs["units"] == "m"
+        assert stored.coords["mu"].dims == ("slider",)
+        assert stored.record.values.tolist() == list(QUAKES.names)
+        assert stored.polarity.values.tolist() == ["recorded", "reversed"]
+        assert np.array_equal(stored.coords["magnitude"], QUAKES.magnitude)
 
 
 def test_columns_with_the_names_of_results_are_kept(tmp_path):
@@ -373,6 +378,7 @@ def test_processes_find_the_same_bits():
         assert ss.sweep(sliders, QUAKES, executor=pool) == ss.sweep(sliders, QUAKES)
 
 
+@pytest.mark.slow
 def test_a_cluster_one_worker_of_which_is_killed_finds_the_same_bits():
     sliders = ss.grid(ss.Slider, law=ss.grid(ss.Coulomb, mu=np.linspace(0.01, 0.3, 40)), period=2)
     quakes = [quake(i, 4000) for i in range(64)]
