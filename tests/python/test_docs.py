@@ -18,6 +18,7 @@ ELSEWHERE = {
     "examples.md",
 }  # pages whose code and what it prints have a test of their own
 
+SLOW = {"random_vibration.md", "transport.md"}
 NUMBER = r"(?:[2-5]|A|W)\.[1-9][0-9]?"
 
 
@@ -26,7 +27,11 @@ NUMBER = r"(?:[2-5]|A|W)\.[1-9][0-9]?"
 
 @pytest.mark.parametrize(
     "page",
-    [page for page in PAGES if page.name not in ELSEWHERE and blocks(page, "python")],
+    [
+        pytest.param(page, marks=[pytest.mark.slow] * (page.name in SLOW))
+        for page in PAGES
+        if page.name not in ELSEWHERE and blocks(page, "python")
+    ],
     ids=lambda page: page.relative_to(DOCS).as_posix(),
 )
 def test_the_python_of_a_page_runs(page, kobe):

@@ -92,12 +92,20 @@ def comments(code, pattern=COMMENT_OR_LITERAL):
     )
 
 
+WRONG = {
+    re.compile(rf"\b(?:{words})\b", re.IGNORECASE): better
+    for words, better in ((old.replace(" ", r"\s+"), better) for old, better in INSTEAD.items())
+}
+ANY_WRONG = re.compile("|".join(pattern.pattern for pattern in WRONG), re.IGNORECASE)
+
+
 def wrong(text):
     """Line, words and what to write instead, of each word or phrase to avoid."""
     text = prose(text)
-    for pattern, better in INSTEAD.items():
-        words = pattern.replace(" ", r"\s+")
-        for found in re.finditer(rf"\b(?:{words})\b", text, re.IGNORECASE):
+    if not ANY_WRONG.search(text):  # ten times faster than each by its own
+        return
+    for pattern, better in WRONG.items():
+        for found in pattern.finditer(text):
             yield text.count("\n", 0, found.start()) + 1, found[0], better
 
 

@@ -95,6 +95,7 @@ def test_the_table_of_the_first_page_is_the_one_printed(empty, capsys):
     assert all(row in [line.split()[-6:] for line in shown] for row in figures)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", blocks("cpp"))
 def test_the_cpp_compiles_and_runs(code, tmp_path):
     compiler = shutil.which("c++")

@@ -304,6 +304,7 @@ ROWS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]}, {row[1]}")
 def test_in_the_thesiss_events_the_chain_is_as_far_off_as_the_page_says(row):
     event, mu, sigma, *numbers = row

@@ -85,6 +85,7 @@ def test_the_command_lines_run(tmp_path, monkeypatch):
         assert main(words[1:]) == 0
 
 
+@pytest.mark.slow
 def test_the_cpp_compiles_and_answers(tmp_path):
     compiler = shutil.which("c++")
     if compiler is None:

@@ -325,6 +325,7 @@ def test_all_components_are_saved_and_told_apart(tmp_path):
     assert ss.Suite([whole, whole]).duplicates == [(0, 1)]
 
 
+@pytest.mark.slow
 def test_every_changed_byte_of_a_saved_suite_is_found_or_changes_nothing(tmp_path):
     """Bytes of padding may change; values may not."""
     pytest.importorskip("h5py")

@@ -92,6 +92,7 @@ def test_one_figure_is_one_figure(tmp_path, capsys):
     assert ": at most 0.5 (thesis), " in printed and " here" in printed
 
 
+@pytest.mark.slow
 def test_reference_lines_come_last_in_a_legend():
     pytest.importorskip("matplotlib")
     figure = Thesis(members=100).figure("5.7")
@@ -104,7 +105,7 @@ def test_reference_lines_come_last_in_a_legend():
         assert len(labels) == 5
 
 
-@pytest.mark.parametrize("number", ["2.2", "5.4", "5.7"])
+@pytest.mark.parametrize("number", ["2.2", "5.4", pytest.param("5.7", marks=pytest.mark.slow)])
 def test_a_legend_hides_no_curve(number):
     pytest.importorskip("matplotlib")
     picture = plot(Thesis(members=100).figure(number))
