@@ -35,7 +35,8 @@ def blocks(language):
         text = page.read_text(encoding="utf-8")
         for block in re.finditer(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
             line = text[: block.start(1)].count("\n") + 1
-            found.append(pytest.param(block[1], id=f"{page.stem}-{line}"))
+            slow = [pytest.mark.slow] * ("thesis --check" in block[1])
+            found.append(pytest.param(block[1], id=f"{page.stem}-{line}", marks=slow))
     return found
 
 

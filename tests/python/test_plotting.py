@@ -469,7 +469,11 @@ def outside(figure):
     ]
 
 
-@pytest.mark.parametrize("name", [LONG, 3 * LONG, "/".join(20 * ["folder"]), "W" * 200])
+@pytest.mark.parametrize(
+    "name",
+    [LONG, 3 * LONG, "/".join(20 * ["folder"]), pytest.param("W" * 200, marks=pytest.mark.slow)],
+    ids=["long", "longer", "path", "wide"],
+)
 def test_names_of_any_length_lie_within_the_picture(name):
     quake = ss.GroundMotion(motion().acceleration, dt=0.02, name=name)
     slider = ss.Slider(ss.Coulomb(mu=0.05, backward=0.1), natural_frequency=2.0, damping=0.1)

@@ -202,6 +202,7 @@ def test_moments_under_pulses_are_those_of_simulation(slider, rate, sigma, seed)
     assert "lattice of times" in p.remark
 
 
+@pytest.mark.slow
 def test_the_distribution_and_the_peak_under_pulses_are_those_of_simulation():
     # Each probability within its stated error and 4.5 standard errors: one false alarm in 100,000.
     p = theory.Transport().predict(BLOCK, pulses(1.0, 2.0), [20.0])
