@@ -12,6 +12,16 @@ def test_every_figure_has_a_name_of_its_own():
     assert {"figure_2_1", "figure_a_2", "table_5_1", "section_5_6"} <= stems
 
 
+@pytest.mark.parametrize(
+    "number", [pytest.param(n, marks=[pytest.mark.slow] * (n == "5.7")) for n in Thesis.numbers]
+)
+def test_the_numbers_of_a_figure_are_the_expected_ones(number):
+    """With few members, for which the allowed differences are larger; with all: script/docs."""
+    checks = Thesis(members=200).figure(number).check()
+    assert checks
+    assert not [check.what for check in checks if not check.holds]
+
+
 def test_a_picture_has_the_panels_and_says_what_is_seen():
     matplotlib = pytest.importorskip("matplotlib")
     figure = Thesis(members=200).figure("4.5")
