@@ -81,10 +81,10 @@ class Ensemble {
     detail::TallyTree tallies;
     std::map<std::uint64_t, std::size_t> cut;  ///< incomplete blocks and their numbers of members
     std::map<std::uint64_t, Kept>
-        kept;                 ///< by the number of the block; empty if there are more than `max_kept` members
-    detail::Sketch peaks;     ///< counts the peaks in that case,
-    Hits hits{};              ///< and these the impacts
-    SmallestGaps gaps{};      ///< of the sliders of all members
+        kept;              ///< by the number of the block; empty if there are more than `max_kept` members
+    detail::Sketch peaks;  ///< counts the peaks in that case,
+    Hits hits{};           ///< and these the impacts
+    SmallestGaps gaps{};   ///< of the sliders of all members
     std::uint64_t airborne = 0;
     bool in_plane = false;  ///< whether the sliders are in the plane
     friend bool operator==(const Parts&, const Parts&) = default;
