@@ -354,8 +354,7 @@ STICKSLIP_EXPORT(names) void names() { said = std::string(setting_names) + "\n" 
 /// Reads a record. The input is the file's name, units and component, each followed by a zero byte, and the content.
 /// @param dt  NaN: as the file states
 /// @return the number of the first component; `text` has a line of name, component, orientation, units and whether it
-/// is
-///         vertical for each, separated by tabs
+/// is vertical for each, separated by tabs
 STICKSLIP_EXPORT(read) int read(double dt, int gaps) {
   return guarded([&] {
     std::string_view content(given.data(), given.size());

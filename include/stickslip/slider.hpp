@@ -39,8 +39,8 @@ struct Mounting {
 ///     x'' + resist N+/g sgn(x') + c x' + wn^2 x = p(t),                              thesis (2.27), (2.50), (4.2)
 ///     p = (g + a_z) sin(slope) - n cos(slope),   N = (g + a_z) cos(slope) + n sin(slope),   N+ = max(N, 0)
 /// x the displacement relative to the ground [m], along the slope and positive downhill; n and a_z the horizontal and
-/// the upward ground acceleration [m/s^2]. On level ground without vertical motion p = -n and N = g. At rest it stays
-/// while
+/// the upward ground acceleration [m/s^2]. On level ground without vertical motion p = -n and N = g. At rest
+/// it stays while
 ///     -hold_backward N+/g <= p - wn^2 x <= hold_forward N+/g.
 template <class Law>
 class Slider {

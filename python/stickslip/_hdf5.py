@@ -31,7 +31,6 @@ __all__ = [
     "opening",
     "read",
     "read_columns",
-    "read_texts",
     "write",
     "write_columns",
 ]
@@ -57,7 +56,7 @@ _Saved = TypeVar("_Saved", bound="Saved")
 class Saved(ABC):
     """An object that an HDF5 file can hold."""
 
-    _formats: ClassVar[tuple[str, ...]]  # those that `open` reads; the first is written
+    _format: ClassVar[str]  # named in the file
 
     @abstractmethod
     def _write(self, h5: Any) -> None:
@@ -66,7 +65,7 @@ class Saved(ABC):
     @classmethod
     @abstractmethod
     def _read(cls: type[_Saved], h5: Any) -> _Saved:
-        """The object of a file of one of the formats."""
+        """The object of a file."""
 
     def save(self, file: str | os.PathLike[str]) -> Path:
         """Write all to one HDF5 file.
@@ -87,7 +86,7 @@ class Saved(ABC):
         OSError
             The file cannot be written.
         """
-        with creating(file, self._formats[0], f"{type(self).__name__}.save") as h5:
+        with creating(file, self._format, f"{type(self).__name__}.save") as h5:
             self._write(h5)
         return Path(os.fsdecode(file))
 
@@ -102,8 +101,7 @@ class Saved(ABC):
         Returns
         -------
         Suite or SweepTable
-            Equal to the one that was saved, to the last bit. Files of earlier versions are read,
-            too.
+            Equal to the one that was saved, to the last bit.
 
         Raises
         ------
@@ -115,7 +113,7 @@ class Saved(ABC):
             The file holds no such object, or is damaged: a checksum differs, arrays have different
             lengths, or one is a link.
         """
-        with opening(file, cls._formats, f"{cls.__name__}.open") as h5:
+        with opening(file, cls._format, f"{cls.__name__}.open") as h5:
             return cls._read(h5)
 
 
@@ -141,8 +139,8 @@ def creating(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]
 
 
 @contextmanager
-def opening(file: str | os.PathLike[str], forms: tuple[str, ...], who: str) -> Iterator[Any]:
-    """A file that `creating` made, of one of several formats; the first is the present one.
+def opening(file: str | os.PathLike[str], form: str, who: str) -> Iterator[Any]:
+    """A file that `creating` made, of the same format.
 
     Raises
     ------
@@ -167,8 +165,8 @@ def opening(file: str | os.PathLike[str], forms: tuple[str, ...], who: str) -> I
             found = h5.attrs.get("format")
         except damage as error:
             raise ValueError(f"{who}: '{path}' is damaged: {error}") from error
-        if found not in forms:
-            raise ValueError(f"{who}: '{path}' must be of format '{forms[0]}', got '{found}'")
+        if found != form:
+            raise ValueError(f"{who}: '{path}' must be of format '{form}', got '{found}'")
         try:
             yield h5
         except damage as error:
@@ -192,8 +190,6 @@ def write(h5: Any, name: str, values: Any) -> Any:
 def read(h5: Any, name: str, shape: tuple[int, ...] | None = None) -> NDArray[Any]:
     """Read an array of numbers or texts that `write` wrote.
 
-    Files from before there were checksums are read as they are.
-
     Parameters
     ----------
     shape : tuple of int, optional
@@ -213,8 +209,8 @@ def read(h5: Any, name: str, shape: tuple[int, ...] | None = None) -> NDArray[An
         raise ValueError(f"'{name}' is not an array of this file")
     if shape is not None and data.shape != shape:
         raise ValueError(f"'{name}' must have shape {shape}, has {data.shape}")
-    values: NDArray[Any] = data[...] if data.dtype.kind in "biuf" else read_texts(data)
-    if "crc32" in data.attrs and data.attrs["crc32"] != _checksum(values):
+    values: NDArray[Any] = data[...] if data.dtype.kind in "biuf" else data.asstr()[:]
+    if data.attrs["crc32"] != _checksum(values):
         raise ValueError(f"the checksum of '{name}' differs")
     return values
 
@@ -230,12 +226,6 @@ def read_columns(h5: Any, name: str, length: int | None = None) -> dict[str, NDA
     """Read the columns that `write_columns` wrote; each must have the length, if it is given."""
     shape = None if length is None else (length,)
     return {key.replace("\\", "/"): read(h5[name], key, shape) for key in h5[name]}
-
-
-def read_texts(data: Any) -> NDArray[Any]:
-    """Read a dataset of texts."""
-    texts: NDArray[Any] = data.asstr()[:]
-    return texts
 
 
 def _checksum(array: NDArray[Any]) -> np.uint32:

@@ -63,8 +63,8 @@ inline std::optional<double> read_number_by_strtod(std::string_view text) {
   return value;
 }
 
-/// The finite decimal number that is the whole text, as std::from_chars reads it: with an optional minus sign, and
-/// neither blanks nor a plus sign at the front. Nothing for any other text, and for a number beyond the range of
+/// Parses the whole text as a finite decimal number, as std::from_chars does: with an optional minus sign, and neither
+/// blanks nor a plus sign at the front. Returns nothing for any other text, and for a number beyond the range of
 /// doubles.
 template <class Double = double>  // so that the branch not taken is not compiled
 std::optional<double> read_number(std::string_view text) {

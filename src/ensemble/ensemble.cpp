@@ -231,7 +231,6 @@ void Ensemble::merge(const Ensemble& other) {
   parts_.peaks.merge(other.parts_.peaks);
   add(parts_.hits, other.parts_.hits);
   parts_.gaps.include(other.parts_.gaps);
-  parts_.has_impacts = parts_.has_impacts && other.parts_.has_impacts;
   parts_.airborne += other.parts_.airborne;
   bound_memory();
 }
@@ -555,10 +554,6 @@ Interval quantile_of(std::uint64_t n, double probability, double confidence, con
 }  // namespace
 
 void Ensemble::need_impacts(double gap, const char* side) const {
-  if (!parts_.has_impacts)
-    throw std::domain_error(
-        "Ensemble: impacts are unknown, because members come from a file written before impacts were kept; run the "
-        "ensemble again");
   if (!std::isfinite(gap)) throw std::domain_error(std::string("Ensemble: no member has a stop") + side);
 }
 
@@ -714,7 +709,6 @@ Interval Ensemble::quantile(double probability, double confidence) const {
 
 Interval Ensemble::exceedance(double level, double confidence) const {
   detail::require(level >= 0 && std::isfinite(level), "Ensemble: level must be finite and at least 0", level, "m");
-  if (!parts_.has_impacts) need_impacts(0, "");
   const double gap = parts_.gaps.smallest();
   if (level > gap)
     throw std::invalid_argument("Ensemble: level must be at most " + detail::shortest(gap) +

@@ -48,7 +48,7 @@ double level_at_rest(const LinearizedLaw& law, theory::EquivalentLinearization::
 }
 
 // Two states under stationary white noise have their own equations instead of those of shaped_covariance.cpp: scale
-// free, valid from the first instant, and without a Jacobian, they take a fiftieth of the time.
+// free, valid from the first instant, and without a Jacobian, they are 50 times faster.
 //
 // The covariance in the variables of the integration: logarithms of q11 and q22 relative to those without friction or
 // spring, (3.43) and (3.41), and the correlation between them. Their frictionless values are 0, sqrt(3) / 2 and 0.

@@ -26,11 +26,13 @@ def cells(heading):
     return [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines[begin:end]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["samples", "vertical"])
 def test_a_table_is_what_comes_out(tables, name):
     assert_same_table(TEXT, tables[name])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["pairs", "station"])
 def test_a_table_of_agency_files_is_what_comes_out(tables, agency_files, name):
     if name not in tables:
@@ -38,6 +40,7 @@ def test_a_table_of_agency_files_is_what_comes_out(tables, agency_files, name):
     assert_same_table(TEXT, tables[name])
 
 
+@pytest.mark.slow
 def test_the_picture_is_what_comes_out(tables, tmp_path):
     pytest.importorskip("matplotlib")
     measured.draw(tmp_path / "picture.png", measured.figure)

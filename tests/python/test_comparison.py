@@ -79,6 +79,7 @@ def test_white_noise_brings_the_exact_answer_and_linearization():
     assert np.all(c.ratio("EquivalentLinearization", "velocity_variance")[0] < 0.95)
 
 
+@pytest.mark.slow
 def test_what_does_not_apply_says_why():
     cart = ss.Caster(slip_level=1.0, reach=2.0)
     c = ss.compare(cart, white(), [20.0, 40.0], members=640, seed=1)

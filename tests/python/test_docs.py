@@ -8,6 +8,7 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 from pages import ROOT, blocks, run
+from test_guides import PAGES as GUIDES  # whose blocks run there, one by one
 
 DOCS = ROOT / "docs"
 SITE = ROOT / "build" / "docs" / "html"
@@ -18,6 +19,7 @@ ELSEWHERE = {
     "examples.md",
 }  # pages whose code and what it prints have a test of their own
 
+SLOW = {"transport.md"}
 NUMBER = r"(?:[2-5]|A|W)\.[1-9][0-9]?"
 
 
@@ -26,7 +28,11 @@ NUMBER = r"(?:[2-5]|A|W)\.[1-9][0-9]?"
 
 @pytest.mark.parametrize(
     "page",
-    [page for page in PAGES if page.name not in ELSEWHERE and blocks(page, "python")],
+    [
+        pytest.param(page, marks=[pytest.mark.slow] * (page.name in SLOW or page in GUIDES))
+        for page in PAGES
+        if page.name not in ELSEWHERE and blocks(page, "python")
+    ],
     ids=lambda page: page.relative_to(DOCS).as_posix(),
 )
 def test_the_python_of_a_page_runs(page, kobe):

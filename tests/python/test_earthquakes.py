@@ -78,6 +78,7 @@ def said(pattern):
 # two standard deviations off, sqrt(3 sum p (1 - p)) = 6 for the finals, 5 for the peaks.
 
 
+@pytest.mark.slow
 def test_as_many_records_end_within_a_factor_of_two_as_the_models_own_earthquakes(trials):
     count = sum(within_two(t.final, t.rms) for t in trials)
     expected = sum(within_two(t.finals, t.rms).mean() for t in trials)
@@ -101,6 +102,7 @@ def test_as_many_peaks_are_within_a_factor_of_two_of_the_median(trials):
     assert abs(count - expected) < 10
 
 
+@pytest.mark.slow
 def test_so_it_is_with_more_friction(pyslammer_files, strong):
     moving = [t for t in slide(pyslammer_files, strong, (0.2, 0.3)) if t.median > 0]
     count = sum(within_two(t.peak, t.median) for t in moving)

@@ -92,19 +92,27 @@ def comments(code, pattern=COMMENT_OR_LITERAL):
     )
 
 
+WRONG = {
+    re.compile(rf"\b(?:{words})\b", re.IGNORECASE): better
+    for words, better in ((old.replace(" ", r"\s+"), better) for old, better in INSTEAD.items())
+}
+ANY_WRONG = re.compile("|".join(pattern.pattern for pattern in WRONG), re.IGNORECASE)
+
+
 def wrong(text):
     """Line, words and what to write instead, of each word or phrase to avoid."""
     text = prose(text)
-    for pattern, better in INSTEAD.items():
-        words = pattern.replace(" ", r"\s+")
-        for found in re.finditer(rf"\b(?:{words})\b", text, re.IGNORECASE):
+    if not ANY_WRONG.search(text):  # ten times faster than each by its own
+        return
+    for pattern, better in WRONG.items():
+        for found in pattern.finditer(text):
             yield text.count("\n", 0, found.start()) + 1, found[0], better
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
-def test_a_page_has_no_word_to_avoid(page):
+def test_pages_have_no_word_to_avoid():
     found = [
         f"{page.relative_to(ROOT)}:{line}: '{words}', write '{better}'"
+        for page in PAGES
         for line, words, better in wrong(page.read_text(encoding="utf-8"))
     ]
     assert not found, "\n".join(found)
@@ -113,11 +121,11 @@ def test_a_page_has_no_word_to_avoid(page):
 MODULES = sorted((ROOT / "python" / "stickslip").rglob("*.py"))
 
 
-@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.relative_to(ROOT).as_posix())
-def test_a_module_has_no_word_to_avoid_in_its_strings(module):
+def test_modules_have_no_word_to_avoid_in_their_strings():
     """Docstrings, help texts and messages; names and keywords are not read."""
     found = [
         f"{module.relative_to(ROOT)}:{node.lineno}: '{words}', write '{better}'"
+        for module in MODULES
         for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
         for _, words, better in wrong(node.value)
@@ -141,13 +149,16 @@ SOURCES = sorted(
 )
 
 
-@pytest.mark.parametrize("source", SOURCES, ids=lambda source: source.relative_to(ROOT).as_posix())
-def test_a_comment_has_no_word_to_avoid(source):
+def comments_of(source):
     pattern = FORTRAN_COMMENT_OR_LITERAL if source.suffix == ".f90" else COMMENT_OR_LITERAL
-    text = comments(source.read_text(encoding="utf-8"), pattern)
+    return comments(source.read_text(encoding="utf-8"), pattern)
+
+
+def test_comments_have_no_word_to_avoid():
     found = [
         f"{source.relative_to(ROOT)}:{line}: '{words}', write '{better}'"
-        for line, words, better in wrong(text)
+        for source in SOURCES
+        for line, words, better in wrong(comments_of(source))
     ]
     assert not found, "\n".join(found)
 

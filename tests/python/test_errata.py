@@ -30,7 +30,13 @@ def value_and_slack(token):
     return float(mantissa) * power, last * max(1, int(error or 0))
 
 
-@pytest.mark.parametrize("name", entries())
+SLOW = {"3g", "4a", "5d", "5e", "5h"}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.slow] * (n in SLOW)) for n in entries()],
+)
 def test_the_programs_print_what_is_shown(name, capsys):
     programs = re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", entries()[name], re.DOTALL)
     assert len(programs) == entries()[name].count("```python") == 1

@@ -177,6 +177,7 @@ def test_06_theory(run, capsys):
 needs_compiler = pytest.mark.skipif(shutil.which("c++") is None, reason="no c++ here")
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_07_own_law(run):
     names = run("07_own_law")
@@ -188,6 +189,7 @@ def test_07_own_law(run):
     assert rough == pytest.approx(r.displacement, abs=1e-5)
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_08_time_loop(run):
     names = run("08_time_loop")
@@ -260,6 +262,7 @@ def test_12_isolated_hospital(run):
     assert stiff == pytest.approx(r.floors.peak_acceleration[2], rel=0.05)
 
 
+@pytest.mark.slow
 def test_13_dam(run):
     names = run("13_dam")
     coupled, decoupled, rigid = names["coupled"], names["decoupled"], names["rigid"]

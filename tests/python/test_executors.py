@@ -187,6 +187,7 @@ def test_what_cannot_be_pickled_is_said(processes):
 # ---- Dask
 
 
+@pytest.mark.slow
 def test_a_cluster_one_worker_of_which_is_killed_gives_the_same_bits(slow_whole):
     with losing_a_worker() as (pool, kill_one):
         e = run(pool, Delayed(1e-3), progress=kill_one)

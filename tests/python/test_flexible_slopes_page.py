@@ -22,12 +22,14 @@ def numbers(cells):
     return [[float(number) for number in cell.split(", ")] for cell in cells]
 
 
+@pytest.mark.slow
 def test_the_methods_differ_as_the_page_says(measured):
     """All exact displacements of the page."""
     new = measured.table(measured.METHOD_HEADING, measured.method_rows())
     assert_same_table(PAGE, new)
 
 
+@pytest.mark.slow
 def test_the_rows_of_short_records_are_what_comes_out(measured):
     table = rows(measured.RECORD_HEADING)
     suite = ss.sample_records()

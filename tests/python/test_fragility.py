@@ -472,6 +472,7 @@ def test_openquake_reads_the_curves(tmp_path):
     assert np.array(poes) == pytest.approx(logit.probability(im), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_openquake_itself_reads_the_curves(tmp_path):
     nrml = pytest.importorskip("openquake.hazardlib.nrml")
     pytest.importorskip("openquake.risklib.read_nrml")
@@ -482,6 +483,7 @@ def test_openquake_itself_reads_the_curves(tmp_path):
         assert curve(np.array([0.3])) == pytest.approx(f.probability([0.3])[i], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_pelicun_itself_reads_the_curves(tmp_path):
     assessment = pytest.importorskip("pelicun.assessment")
     pandas = pytest.importorskip("pandas")

@@ -463,6 +463,7 @@ def test_the_channel_of_a_trace_states_its_orientation(channel, orientation):
         ss.sweep([ss.Coulomb(mu=0.1)], both)
 
 
+@pytest.mark.slow
 def test_a_trace_of_obspy_itself_becomes_a_motion():
     obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
     header = {"delta": 0.005, "network": "XX", "station": "STA", "channel": "HNE"}
@@ -477,6 +478,7 @@ def test_a_trace_of_obspy_itself_becomes_a_motion():
     assert ss.GroundMotion.from_obspy(obspy.Stream([trace])) == motion
 
 
+@pytest.mark.slow
 def test_a_stream_of_obspy_becomes_a_station():
     obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
     samples = np.random.default_rng(5).normal(size=(3, 40))

@@ -5,13 +5,13 @@ import re
 import shlex
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stickslip as ss
 from pages import write_records
+from stickslip.cli import main
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
@@ -35,7 +35,8 @@ def blocks(language):
         text = page.read_text(encoding="utf-8")
         for block in re.finditer(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE):
             line = text[: block.start(1)].count("\n") + 1
-            found.append(pytest.param(block[1], id=f"{page.stem}-{line}"))
+            slow = [pytest.mark.slow] * ("thesis --check" in block[1])
+            found.append(pytest.param(block[1], id=f"{page.stem}-{line}", marks=slow))
     return found
 
 
@@ -83,20 +84,19 @@ def test_the_commands_run(block, empty):
             continue
         if "--plot" in words:
             pytest.importorskip("matplotlib")
-        subprocess.run([sys.executable, "-m", *words], check=True, capture_output=True)
+        assert main(words[1:]) == 0
 
 
-def test_the_table_of_the_first_page_is_the_one_printed(empty):
-    command = ["stickslip", "slide", "sample:Kobe", "--mu", "0.1", "0.2", "0.3"]
-    printed = subprocess.run(
-        [sys.executable, "-m", *command], check=True, capture_output=True, text=True
-    ).stdout
+def test_the_table_of_the_first_page_is_the_one_printed(empty, capsys):
+    assert main(["slide", "sample:Kobe", "--mu", "0.1", "0.2", "0.3"]) == 0
+    printed = capsys.readouterr().out
     shown = (DOCS / "start.md").read_text(encoding="utf-8").splitlines()
     figures = [line.split()[-6:] for line in printed.splitlines()[1:]]  # mu and what follows it
     assert len(figures) == 3
     assert all(row in [line.split()[-6:] for line in shown] for row in figures)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", blocks("cpp"))
 def test_the_cpp_compiles_and_runs(code, tmp_path):
     compiler = shutil.which("c++")

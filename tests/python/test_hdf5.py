@@ -15,7 +15,7 @@ COLUMNS = {"magnitude": np.array([6.9, 7.4, np.nan, 5.0]), "a/b": TEXTS, "rank":
 @pytest.fixture
 def file(tmp_path):
     path = tmp_path / "x.h5"
-    with creating(path, "form 2", "test") as h5:
+    with creating(path, "form 1", "test") as h5:
         write(h5, "numbers", NUMBERS)
         write(h5, "texts", TEXTS)
         write(h5, "nothing", np.zeros(0))
@@ -24,7 +24,7 @@ def file(tmp_path):
 
 
 def contents(path):
-    with opening(path, ("form 2", "form 1"), "test") as h5:
+    with opening(path, "form 1", "test") as h5:
         return (
             read(h5, "numbers", NUMBERS.shape),
             read(h5, "texts", (4,)),
@@ -74,7 +74,8 @@ def test_every_changed_byte_is_found_or_changes_nothing(file):
         (lambda h5: linked(h5, h5py.ExternalLink("other.h5", "numbers")), "is a link"),
         (lambda h5: linked(h5, h5py.SoftLink("/nothing")), "is a link"),
         (lambda h5: h5["texts"].__setitem__(1, "Tabus"), "checksum of 'texts' differs"),
-        (lambda h5: h5.attrs.__setitem__("format", "other"), "must be of format 'form 2', got"),
+        (lambda h5: h5["texts"].attrs.__delitem__("crc32"), "crc32"),
+        (lambda h5: h5.attrs.__setitem__("format", "other"), "must be of format 'form 1', got"),
     ],
 )
 def test_rewritten_files_are_refused(file, change, message):

@@ -122,30 +122,6 @@ def test_the_bits_do_not_depend_on_threads_parts_or_files(boxed, tmp_path):
     assert ensemble(walled(), checkpoint=tmp_path / "e.npz") == boxed
 
 
-def as_former(file):
-    """Rewrite a saved ensemble as it was before impacts were kept."""
-    new = ("has_impacts", "airborne", "gaps", "hits", "impact_block", *COLUMNS)
-    new += ("in_plane", "residual_transverse", "floor_peaks")
-    with np.load(file) as kept:
-        old = {name: kept[name] for name in kept.files if name not in new}
-    assert len(old) == len(np.load(file).files) - len(new)
-    np.savez(file, **old | {"format": np.array("stickslip ensemble 3")})
-
-
-def test_files_from_before_impacts_were_kept_open_and_say_so(free, boxed, tmp_path):
-    boxed.save(tmp_path / "e.npz")
-    as_former(tmp_path / "e.npz")
-    old = ss.Ensemble.load(tmp_path / "e.npz")
-    assert np.array_equal(old.peak, boxed.peak)
-    assert old.quantile(0.5) == boxed.quantile(0.5)
-    for ask in (lambda: old.impact_probability, lambda: old.exceedance(GAP)):
-        with pytest.raises(ValueError, match="written before impacts were kept; run the ensemble"):
-            ask()
-    free.save(tmp_path / "e.npz")
-    as_former(tmp_path / "e.npz")
-    assert ss.Ensemble.load(tmp_path / "e.npz") == free
-
-
 def test_impossible_impacts_in_a_file_are_rejected(boxed, tmp_path):
     file = tmp_path / "e.npz"
     boxed.save(file)
@@ -349,15 +325,3 @@ def test_impacts_go_wherever_a_table_goes(table, tmp_path):
     assert "impacts_forward" not in plain.to_dataframe()
     with pytest.raises(ValueError, match="no slider has stops"):
         _ = plain.impacts_forward
-
-
-def test_tables_from_before_impacts_were_kept_open_and_say_so(table):
-    document = json.loads(table.to_json())
-    for name in (*COLUMNS, "airborne"):
-        del document[name]
-    document |= {"format": "stickslip sweep table 1", "polarity": ["as recorded", "flipped"]}
-    old = ss.SweepTable.from_json(json.dumps(document))
-    assert old.polarity == ("recorded", "reversed")
-    assert np.array_equal(old.peak, table.peak)
-    with pytest.raises(ValueError, match="saved before impacts were kept; run the sweep again"):
-        _ = old.impact_fraction

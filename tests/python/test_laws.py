@@ -107,8 +107,6 @@ def test_on_a_slope_gravity_helps_downhill_and_hinders_uphill():
 def test_a_block_that_slides_under_its_own_weight_is_refused():
     with pytest.raises(ValueError, match=r"20 degrees .* weight .* at least 0\.36397.*got 0\.2"):
         ss.Slider(ss.Coulomb(mu=0.2), slope_degrees=20)
-    with pytest.raises(TypeError, match=r"use Slider\(Coulomb\(mu=...\), slope_degrees=...\)"):
-        ss.Coulomb.on_slope(mu=0.6, degrees=20)
 
 
 @pytest.mark.filterwarnings(

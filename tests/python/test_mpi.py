@@ -7,7 +7,6 @@ import sys
 
 import pytest
 
-pytest.importorskip("mpi4py", reason="needs MPI: pip install mpi4py")
 MPIEXEC = shutil.which("mpiexec")
 
 PROGRAM = """
@@ -39,8 +38,10 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(MPIEXEC is None, reason="needs mpiexec, as of Open MPI")
 def test_processes_of_mpi_find_the_same_bits(tmp_path):
+    pytest.importorskip("mpi4py", reason="needs MPI: pip install mpi4py")
     program = tmp_path / "program.py"
     program.write_text(PROGRAM)
     # What Open MPI asks for in a container: more processes than cores, and root.

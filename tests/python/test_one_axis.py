@@ -30,6 +30,7 @@ def test_the_tables_are_those_of_the_measured_values(measured, rows, monkeypatch
         assert name == "triples" or found in TEXT, name
 
 
+@pytest.mark.slow
 def test_the_table_of_synthetic_motions_is_what_comes_out(measured):
     # The largest ratio and friction, where vertical motion matters most.
     row = measured.of_triples(1.0, 0.2)

@@ -68,6 +68,7 @@ def test_a_law_from_functions_is_asked_what_it_says():
     assert ss.Slider(ss.Law(resist=lambda x, v, d: 1 + v)).hold() == 1
 
 
+@pytest.mark.slow
 def test_compiled_functions_are_called_without_the_interpreter():
     numba = pytest.importorskip("numba")
     compiled = numba.cfunc("float64(float64, float64, float64)")(liner)

@@ -8,6 +8,7 @@ PAGE = ROOT / "docs" / "pendulums.md"
 measured = measuring("measure_pendulums")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["single", "bounds"])
 def test_the_tables_are_what_comes_out(pyslammer_files, name):
     assert_same_table(PAGE.read_text(encoding="utf-8"), measured.tables()[name])

@@ -469,21 +469,25 @@ def outside(figure):
     ]
 
 
-def test_names_of_any_length_lie_within_the_picture():
-    for name in (LONG, 3 * LONG, "/".join(20 * ["folder"]), "W" * 200):
-        quake = ss.GroundMotion(motion().acceleration, dt=0.02, name=name)
-        slider = ss.Slider(ss.Coulomb(mu=0.05, backward=0.1), natural_frequency=2.0, damping=0.1)
-        r = ss.integrate(slider, quake, settle=True)
-        for figure in (
-            r.plot(),
-            plotting.plot_response(r, time=(1, 3)),
-            r.plot_hysteresis(),
-            quake.plot(),
-            plotting.plot_responses([r]),
-        ):
-            assert not outside(figure), name
-            title = figure.axes[0].get_title(loc="left")
-            assert "".join(title.split()) == "".join(name.split())
+@pytest.mark.parametrize(
+    "name",
+    [LONG, 3 * LONG, "/".join(20 * ["folder"]), pytest.param("W" * 200, marks=pytest.mark.slow)],
+    ids=["long", "longer", "path", "wide"],
+)
+def test_names_of_any_length_lie_within_the_picture(name):
+    quake = ss.GroundMotion(motion().acceleration, dt=0.02, name=name)
+    slider = ss.Slider(ss.Coulomb(mu=0.05, backward=0.1), natural_frequency=2.0, damping=0.1)
+    r = ss.integrate(slider, quake, settle=True)
+    for figure in (
+        r.plot(),
+        plotting.plot_response(r, time=(1, 3)),
+        r.plot_hysteresis(),
+        quake.plot(),
+        plotting.plot_responses([r]),
+    ):
+        assert not outside(figure)
+        title = figure.axes[0].get_title(loc="left")
+        assert "".join(title.split()) == "".join(name.split())
 
 
 def test_a_part_of_a_response_is_drawn():

@@ -1,5 +1,6 @@
 """Files that other sites read: they parse, and what they name exists."""
 
+import importlib.metadata
 import re
 
 import pytest
@@ -12,6 +13,17 @@ TEMPLATES = sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml"))
 
 def load(file):
     return yaml.safe_load(file.read_text(encoding="utf-8"))
+
+
+@pytest.mark.slow
+def test_the_packages_of_the_slow_tests_are_installed():
+    """So that none of them is skipped for lack of one."""
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    extra = re.search(r"^test-all = \[\n(.*?)^\]", text, re.DOTALL | re.MULTILINE)[1]
+    packages = set(re.findall(r'"([\w-]+)', extra)) - {"stickslip"}
+    assert len(packages) > 5
+    for package in packages:
+        assert importlib.metadata.version(package)
 
 
 def test_read_the_docs_builds_what_script_docs_builds():

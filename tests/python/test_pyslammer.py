@@ -97,6 +97,7 @@ def test_the_difference_shrinks_as_the_square_of_the_step(records):
     assert 1.7 < order < 2.3
 
 
+@pytest.mark.slow
 def test_steps_fine_enough_come_to_our_answer_without_events(records):
     errors = {parts: [] for parts in (8, 32, 128)}
     for record in records.values():

@@ -451,6 +451,7 @@ def test_ctrl_c_ends_the_wait_for_a_large_file(tmp_path):
 # ---- what ObsPy reads
 
 
+@pytest.mark.slow
 def test_what_obspy_reads_is_read_by_it(tmp_path):
     obspy = pytest.importorskip("obspy", reason="obspy is not installed: pip install obspy")
     samples = np.array([1.0, -2.5, 3.0, 0.5])

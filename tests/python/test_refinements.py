@@ -25,11 +25,13 @@ def tables(pyslammer_files):
     return measured.tables()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["blocks", "floors", "slopes", "vertical", "isolators", "fast"])
 def test_a_table_is_what_comes_out(tables, name):
     agree(tables[name])
 
 
+@pytest.mark.slow
 def test_the_table_of_the_station_is_what_comes_out(tables, agency_files):
     if not (agency_files / measured.STATION).is_file():
         pytest.skip(f"no {measured.STATION} in $STICKSLIP_RECORDS")
@@ -118,6 +120,7 @@ def test_the_largest_force_of_a_constant_coefficient_is_that_at_its_peak(pyslamm
         assert largest - near <= np.abs(r.force).max() <= largest * (1 + 1e-12)
 
 
+@pytest.mark.slow
 def test_the_coefficients_that_give_one_quantity_do_and_the_best_is_not_worse(tables):
     for isolator in measured.ISOLATORS:
         fits = measured.fits(isolator)
@@ -131,6 +134,7 @@ def test_the_coefficients_that_give_one_quantity_do_and_the_best_is_not_worse(ta
             assert math.log1p(one.compromise) <= error + 1e-4
 
 
+@pytest.mark.slow
 def test_what_the_text_says_of_the_isolators(tables):
     fits = [one for isolator in measured.ISOLATORS for one in measured.fits(isolator)]
     shown = next(one for one in measured.fits(measured.ISOLATORS[1]) if "PAC" in one.motion.name)

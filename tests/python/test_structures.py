@@ -360,6 +360,7 @@ def test_what_repr_says_of_rigid_modes() -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_slope_without_friction_is_told_how_to_end() -> None:
     slope = ss.FlexibleSlope(ky_g=0, height=50, shear_velocity=600, damping_ratio=0.05)
     with pytest.raises(

@@ -242,11 +242,13 @@ def test_the_package_carries_its_types():
     assert (package / "_core.pyi").exists()
 
 
+@pytest.mark.slow
 @needs_mypy
 def test_the_stubs_say_what_the_compiled_module_is(tmp_path):
     run("mypy.stubtest", "stickslip._core", cwd=tmp_path)
 
 
+@pytest.mark.slow
 @needs_mypy
 def test_a_strict_checker_takes_what_runs_and_refuses_what_does_not(tmp_path):
     (tmp_path / "script.py").write_text(SCRIPT)
@@ -266,12 +268,14 @@ def documented(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 @needs_mypy
 def test_the_code_of_readme_and_guides_passes_a_strict_checker(documented):
     cache = str(documented / "cache")
     run("mypy", "--strict", "--cache-dir", cache, *os.listdir(documented), cwd=documented)
 
 
+@pytest.mark.slow
 def test_pyright_passes_the_code_of_readme_and_guides_and_the_stubs(documented):
     pyright = [sys.executable, "-m", "pyright"]  # fetches itself from npm's registry when first run
     if subprocess.run([*pyright, "--version"], capture_output=True, check=False).returncode:

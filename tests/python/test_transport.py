@@ -18,18 +18,24 @@ def excitation(spectrum=GROUND, dt=0.1, samples=301, period=1200, **options):
     return ss.GaussianExcitation(spectrum, dt, samples, period=period, **options)
 
 
+UNEQUAL = ss.Coulomb(slip_level=1.0, backward=1.6)
+LINER = ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0)
+STRIBECK = ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1)
+SLOW = pytest.mark.slow
+
+
 @pytest.mark.parametrize(
     ("slider", "seed"),
     [
         (ss.Slider(BLOCK), 1),
-        (ss.Slider(ss.Coulomb(slip_level=1.0, backward=1.6)), 2),
-        (ss.Slider(ss.Coulomb(slip_level=1.0, backward=math.inf)), 3),
-        (ss.Slider(BLOCK, natural_frequency=0.5), 4),
-        (ss.Slider(BLOCK, natural_frequency=0.7, damping=0.2), 5),
-        (ss.Slider(ss.Coulomb(slip_level=1.0, backward=1.6), natural_frequency=0.8), 6),
-        (ss.Slider(ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0)), 7),
-        (ss.Slider(ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0), natural_frequency=0.5), 8),
-        (ss.Slider(ss.Stribeck(static=1.3, kinetic=0.8, velocity=0.3, exponent=1)), 9),
+        (ss.Slider(UNEQUAL), 2),
+        pytest.param(ss.Slider(ss.Coulomb(slip_level=1.0, backward=math.inf)), 3, marks=SLOW),
+        pytest.param(ss.Slider(BLOCK, natural_frequency=0.5), 4, marks=SLOW),
+        pytest.param(ss.Slider(BLOCK, natural_frequency=0.7, damping=0.2), 5, marks=SLOW),
+        pytest.param(ss.Slider(UNEQUAL, natural_frequency=0.8), 6, marks=SLOW),
+        pytest.param(ss.Slider(LINER), 7, marks=SLOW),
+        pytest.param(ss.Slider(LINER, natural_frequency=0.5), 8, marks=SLOW),
+        pytest.param(ss.Slider(STRIBECK), 9, marks=SLOW),
         (ss.Slider(ss.StaticKinetic(BLOCK, static=1.3)), 10),
     ],
     ids=[
@@ -65,6 +71,7 @@ def test_moments_are_those_of_simulation(slider, seed):
         assert np.all(np.abs(value - found) <= error + 0.005 * scale), name
 
 
+@pytest.mark.slow
 def test_the_distribution_is_that_of_simulation():
     # The stated error, 1 % for the simulation's own step, and 4.5 standard errors of a fraction:
     # one false alarm in 150,000 for each of 10 values.
@@ -86,6 +93,7 @@ def test_the_distribution_is_that_of_simulation():
             assert abs(found - said) < d.error + 0.01 + 4.5 * math.sqrt(said * (1 - said) / members)
 
 
+@pytest.mark.slow
 def test_the_peak_is_that_of_simulation():
     # As above, for two levels; the quantile within twice its confidence interval.
     time, members = 20.0, 40_000
@@ -105,7 +113,7 @@ def test_the_velocity_is_that_of_simulation():
     # The errors as above; at rest the velocity is exactly 0.
     time, members = 20.0, 4000
     shaking = excitation(samples=201)
-    for law in (BLOCK, ss.Coulomb(slip_level=1.0, backward=1.6)):
+    for law in (BLOCK, UNEQUAL):
         d = theory.Transport(tolerance=0.05).predict(law, GROUND, [time]).velocity(time)
         v = np.array(
             [
@@ -170,9 +178,11 @@ def pulses(rate, sigma, duration=20.0):
         (ss.Slider(BLOCK), 0.5, 1.0, 21),
         (ss.Slider(BLOCK), 2.0, 0.5, 22),
         (ss.Slider(ss.Coulomb(slip_level=1.0, backward=2.0)), 1.0, 1.0, 23),
-        (ss.Slider(BLOCK, natural_frequency=0.5), 1.0, 3.0, 24),
-        (ss.Slider(BLOCK, natural_frequency=0.5, damping=0.2), 1.0, 0.8, 25),
-        (ss.Slider(ss.VelocityDependent(slow=0.5, fast=1.0, rate=2.0)), 0.5, 1.0, 26),
+        pytest.param(ss.Slider(BLOCK, natural_frequency=0.5), 1.0, 3.0, 24, marks=SLOW),
+        pytest.param(
+            ss.Slider(BLOCK, natural_frequency=0.5, damping=0.2), 1.0, 0.8, 25, marks=SLOW
+        ),
+        pytest.param(ss.Slider(LINER), 0.5, 1.0, 26, marks=SLOW),
     ],
     ids=["block", "weak", "unequal", "strong on a spring", "damper", "liner"],
 )
@@ -192,6 +202,7 @@ def test_moments_under_pulses_are_those_of_simulation(slider, rate, sigma, seed)
     assert "lattice of times" in p.remark
 
 
+@pytest.mark.slow
 def test_the_distribution_and_the_peak_under_pulses_are_those_of_simulation():
     # Each probability within its stated error and 4.5 standard errors: one false alarm in 100,000.
     p = theory.Transport().predict(BLOCK, pulses(1.0, 2.0), [20.0])

@@ -9,6 +9,7 @@ measured = measuring("measure_transport")
 side_by_side = measuring("measure_theories")
 
 
+@pytest.mark.slow
 def test_casters_break_loose_when_the_page_says():
     table = rows_below(TRANSPORT, measured.CASTER_HEADING)
     assert [float(row[0]) for row in table] == list(measured.CASTERS)
@@ -48,6 +49,7 @@ def test_every_setting_has_a_row_beside_all_theories():
     assert [row[:2] for row in table] == [list(setting[:2]) for setting in side_by_side.SETTINGS]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("excitation", ["pulses, lambda Dt = 0.1, sigma / a = 2", "0.1, 2"])
 def test_a_row_beside_all_theories_is_what_comes_out(excitation):
     setting = next(s for s in side_by_side.SETTINGS if s[1] == excitation)

@@ -32,7 +32,8 @@ TWO = ss.GroundMotion(
 )
 ENSEMBLE = ss.run_ensemble(BLOCK, SHAKING, members=70, seed=1)
 SMALLER = ss.run_ensemble(BLOCK, SHAKING, members=64, seed=1)
-COMPARED = ss.compare(ss.Coulomb(slip_level=0.5), PULSES, [2, 4], members=64)
+QUICK = [one for one in theory.THEORIES if one.name != "Transport"]
+COMPARED = ss.compare(ss.Coulomb(slip_level=0.5), PULSES, [2, 4], members=64, theories=QUICK)
 SWEPT = ss.sweep(ss.Coulomb(mu=0.1), EVEN)
 RESPONSES = [
     ss.integrate(BLOCK, EVEN, displacement=0.01, velocity=-0.3, settle=True),
@@ -49,7 +50,7 @@ DRAWN = thesis.Thesis(members=100)
 FIGURES = [DRAWN.figure(number) for number in ("4.3", "A.2", "Table 5.1")]
 STATEMENTS = [s for figure in FIGURES for s in figure.statements]
 CARRIED = [
-    theory.Transport(tolerance=0.2).predict(BLOCK, level, [1.0, 2.0]) for level in (0.3, 0.5)
+    theory.Transport(tolerance=0.3).predict(BLOCK, level, [1.0, 2.0]) for level in (0.3, 0.5)
 ]
 RARE = ss.PoissonPulses(rate=0.01, half_width=1, sigma=2, duration=100)
 
@@ -333,7 +334,7 @@ EXAMPLES = {
         ss.run_ensemble(BLOCK, SHAKING, members=70, seed=2),
         FLOORS,
     ],
-    ss.Comparison: [COMPARED, ss.compare(CART.law, PULSES, [2, 4], members=64)],
+    ss.Comparison: [COMPARED, ss.compare(CART.law, PULSES, [2, 4], members=64, theories=QUICK)],
     ss.ConvergenceError: [ss.ConvergenceError("not yet")],
     ss.PlausibilityWarning: [ss.PlausibilityWarning("other units")],
     ss.EnsembleError: [ss.EnsembleError("no motion here", range(64, 70), SMALLER)],
@@ -411,7 +412,6 @@ PUBLIC = {
     for thing in (getattr(module, name) for name in module.__all__)
     if isinstance(thing, type)
 }
-ALL = [pytest.param(e, id=f"{c.__name__} {i}") for c in EXAMPLES for i, e in enumerate(EXAMPLES[c])]
 
 
 def content(thing):
@@ -450,10 +450,10 @@ def twins(thing):
     ]
 
 
-def is_same(twin, thing):
+def is_same(twin, thing, expected):
     assert type(twin) is type(thing)
     assert twin is not thing
-    assert content(twin) == content(thing)
+    assert content(twin) == expected
     if not isinstance(thing, Exception):
         assert twin == thing
         assert not twin != thing  # noqa: SIM202
@@ -465,17 +465,27 @@ def test_of_every_public_class_there_is_an_example():
     assert all(EXAMPLES.values())
 
 
-@pytest.mark.parametrize("thing", ALL)
-def test_pickled_and_copied_all_is_the_same_to_the_bit(thing):
-    for twin in twins(thing):
-        is_same(twin, thing)
+# Read from a file, this class carries the motion again.
+SLOW = {theory.DisplacementDistribution}
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [pytest.param(kind, marks=[pytest.mark.slow] * (kind in SLOW)) for kind in EXAMPLES],
+    ids=lambda kind: kind.__name__,
+)
+def test_pickled_and_copied_all_is_the_same_to_the_bit(kind):
+    for thing in EXAMPLES[kind]:
+        expected = content(thing)
+        for twin in twins(thing):
+            is_same(twin, thing, expected)
 
 
 def test_all_go_through_other_processes():
     things = [example for examples in EXAMPLES.values() for example in examples]
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
         for twin, thing in zip(pool.map(copy.deepcopy, things), things, strict=True):
-            is_same(twin, thing)
+            is_same(twin, thing, content(thing))
 
 
 @pytest.mark.parametrize("kind", EXAMPLES, ids=lambda kind: kind.__name__)

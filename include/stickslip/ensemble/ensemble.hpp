@@ -81,11 +81,10 @@ class Ensemble {
     detail::TallyTree tallies;
     std::map<std::uint64_t, std::size_t> cut;  ///< incomplete blocks and their numbers of members
     std::map<std::uint64_t, Kept>
-        kept;                 ///< by the number of the block; empty if there are more than `max_kept` members
-    detail::Sketch peaks;     ///< counts the peaks in that case,
-    Hits hits{};              ///< and these the impacts
-    SmallestGaps gaps{};      ///< of the sliders of all members
-    bool has_impacts = true;  ///< false if sliders with stops come from a file written before impacts were kept
+        kept;              ///< by the number of the block; empty if there are more than `max_kept` members
+    detail::Sketch peaks;  ///< counts the peaks in that case,
+    Hits hits{};           ///< and these the impacts
+    SmallestGaps gaps{};   ///< of the sliders of all members
     std::uint64_t airborne = 0;
     bool in_plane = false;  ///< whether the sliders are in the plane
     friend bool operator==(const Parts&, const Parts&) = default;
@@ -170,8 +169,7 @@ class Ensemble {
   std::vector<double> peak_base_shear() const;
 
   /// The impacts of each member on its stops, in the order of the members.
-  /// @throws std::domain_error if no member has stops; for more than `max_kept` members; if members come from a file
-  ///         written before impacts were kept
+  /// @throws std::domain_error if no member has stops; for more than `max_kept` members
   std::vector<Impacts> impacts() const;
   /// The fraction of members that hit a stop, on either side or on one; bounds of Clopper and Pearson (1934).
   /// @throws std::domain_error with fewer than two members; if no member has a stop, or none on that side; as `impacts`
@@ -190,15 +188,13 @@ class Ensemble {
   /// The fraction of members whose peak exceeds a level; bounds of Clopper and Pearson (1934). At the smallest gap of a
   /// stop, which |x| can reach but not exceed there, the fraction of members that exceed the level or hit a stop.
   /// @param level  [m], at least 0 and at most the smallest gap of a stop of any member
-  /// @throws std::domain_error with fewer than two members; a level at a stop for more than `max_kept` members; sliders
-  ///         with stops from a file written before impacts were kept
+  /// @throws std::domain_error with fewer than two members; a level at a stop for more than `max_kept` members
   /// @throws std::invalid_argument  a level out of range: at or beyond a stop the peaks say nothing
   Interval exceedance(double level, double confidence = 0.95) const;
 
   /// Add the members of another part of the same ensemble.
   /// @throws std::invalid_argument if the configurations differ (the message names the difference) or members occur
-  /// twice;
-  ///         this ensemble is then unchanged
+  ///         twice; this ensemble is then unchanged
   void merge(const Ensemble& other);
 
  private:

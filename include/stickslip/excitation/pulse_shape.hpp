@@ -32,8 +32,8 @@ class PulseShape {
   /// omega = 0 the shape leaves no velocity, up to rounding; for one that decreases as omega^4 it also leaves no
   /// displacement.
   /// @param spectrum   positive from 0 to pi / dt, except at single frequencies, where it may be zero: for other
-  /// spectra
-  ///                   no causal pulse exists (Paley and Wiener). Add a floor to the spectrum of a record or a band
+  ///                   spectra no causal pulse exists (Paley and Wiener). Add a floor to the spectrum of a record or a
+  ///                   band
   /// @param dt         length of a piece, in units of the half width (seconds for a half width of 1 s); finite and
   ///                   positive. The pulses have the spectrum below pi / dt; the steps cause an image of it above
   /// @param tolerance  the integral of |S of the pulses - S| over that of S, from 0 to pi / dt; from 1e-6 to 0.1. The

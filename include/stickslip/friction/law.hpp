@@ -103,7 +103,7 @@ concept HeatedLaw = MemoryLaw<Law> && requires(const Law& law, const State& stat
 
 /// A heated law whose level is a factor of normal force and heat times one of the speed:
 ///
-///     level_at_high_speed(weight, H)   // [m/s^2]; does not fall as H falls, nor as the weight does
+///     level_at_high_speed(weight, H)   // [m/s^2]; non-increasing in H and in the weight
 ///     speed_factor(speed)              // for numbers and series
 ///     edge()                           // largest |r| at which the temperature is that of a covered surface [m]
 template <class Law>

@@ -53,8 +53,8 @@ class MultiPendulum {
   /// @param capacities   largest displacements of each surface [m], positive; infinite: no stop
   /// @param restitution  of the impact where all elements are at their stops, from 0 to 1
   /// @param nested       whether the radii are those of nested surfaces, from the innermost outward: inner (which
-  /// occurs
-  ///                     twice), lower, upper (, lower, upper). Otherwise they are the elements, from bottom to top
+  ///                     occurs twice), lower, upper (, lower, upper). Otherwise they are the elements, from bottom to
+  ///                     top
   /// @throws std::invalid_argument naming the value; if a list has another length; in a nested bearing, if an inner
   ///         surface would have to slide after an outer one, or would reach its stop before
   MultiPendulum(std::vector<double> radii, std::vector<double> mu, std::vector<double> capacities,

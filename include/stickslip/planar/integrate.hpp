@@ -216,8 +216,7 @@ bool settle(const PlanarSlider<Law>& slider, PlanarState& state, Go&& go) {
 ///                                `may_end_in_flight`)
 /// @throws std::overflow_error    a displacement, velocity or energy beyond the range of doubles
 /// @throws ConvergenceError       with `settle`, the slider does not come to rest; more events than 1,000,000 plus
-/// eight
-///                                per segment; more than three million steps within a hundredth of a segment
+///                                eight per segment; more than three million steps within a hundredth of a segment
 /// Accuracy: 1e-12 of the scale of r, 1e-10 s for the times of arrests. Cost: some 10 ns a sample at rest; sliding,
 /// about 2 us a sample; some 20 us for each slip that begins under a load that grows smoothly, and for each stop.
 template <IsotropicLaw Law>

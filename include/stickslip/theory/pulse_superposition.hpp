@@ -101,12 +101,10 @@ class PulseSuperposition {
   /// @param times   of the moments [s], finite, at least 0
   /// @param progress  called regularly; may throw to stop the work; optional
   /// @return moments; velocities are stationary, `growth_rate` NaN under an envelope. `remark` states that times are
-  /// too
-  ///         short, that nothing slips and why, the factor by which overlaps matter for a caster, and the fraction of
-  ///         pulses that would make it escape
+  ///         too short, that nothing slips and why, the factor by which overlaps matter for a caster, and the fraction
+  ///         of pulses that would make it escape
   /// @throws std::invalid_argument naming what is not covered or the rejected value, and why a caster escapes within
-  /// the
-  ///         excitation, for any times
+  ///         the excitation, for any times
   /// Coulomb friction: integrals over the amplitudes to 1e-13; 20 to 60 us. Casters: 0.1 to 10 s, most for a large
   /// displacement variance.
   template <PositionLaw Law>
@@ -148,8 +146,7 @@ class PulseSuperposition {
   /// @param pulses  without an envelope, lambda dt at most 0.1
   /// @param time    [s], finite and at least 0
   /// @throws std::invalid_argument naming what is not covered or the rejected value; also if overlaps change the
-  /// standard
-  ///         deviation by more than a factor of 2
+  ///         standard deviation by more than a factor of 2
   /// Takes some 30 ms.
   template <PositionLaw Law>
   DisplacementDistribution distribution(const Slider<Law>& slider, const PoissonPulses& pulses, double time) const {

@@ -80,8 +80,8 @@ class WhiteNoise {
   /// exp(-a |v| / D) / (d - 1)!. 0 for negative speeds and if a level is 0; NaN for NaN.
   double speed_density(double speed) const;
 
-  /// Probability density of the velocity at `time`, given the velocity `start` at time 0 [s/m]. With y = |v|, y0 =
-  /// |v0|:
+  /// Probability density of the velocity at `time`, given the velocity `start` at time 0 [s/m]. With y = |v| and
+  /// y0 = |v0|:
   ///     exp(-(y - y0 + a t)^2 / 4 D t) / sqrt(4 pi D t) + q   on the side of the start,
   ///     exp(-a y / D) exp(-(y + y0 - a t)^2 / 4 D t) / sqrt(4 pi D t) + q   beyond rest,
   ///     q = a / (4 D) exp(-a y / D) erfc((y + y0 - a t) / sqrt(4 D t)).

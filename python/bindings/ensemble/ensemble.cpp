@@ -280,14 +280,13 @@ Interval
 Raises
 ------
 ValueError
-    A level or confidence out of range, such as a level beyond a stop; fewer than two members; sliders with stops from a
-    file written before impacts were kept.)")
+    A level or confidence out of range, such as a level beyond a stop; fewer than two members.)")
       .def_property_readonly(
           "impact_probability", [](const Ensemble& e) { return e.impact_probability(); },
           R"(Fraction of members that hit a stop, on either side, with 95 % bounds (`Interval`).
 
 The bounds are those of Clopper and Pearson (1934), which hold for any number of members. ValueError if no member has
-stops; with fewer than two members; if members come from a file written before impacts were kept.)")
+stops; with fewer than two members.)")
       .def_property_readonly(
           "impact_probability_forward", [](const Ensemble& e) { return e.impact_probability(Direction::forward); },
           "Fraction of members that hit the stop forward; ValueError also if no member has a stop there.")
@@ -297,8 +296,7 @@ stops; with fewer than two members; if members come from a file written before i
       .def_property_readonly("impacts_forward", &impacts_of<&Impacts::forward, &SideImpacts::count>,
                              R"(Number of impacts on the stop forward, bounces included, by member.
 
-ValueError if no member has stops; for more than 16,777,216 members; if members come from a file written before impacts
-were kept.)")
+ValueError if no member has stops; for more than 16,777,216 members.)")
       .def_property_readonly("impacts_backward", &impacts_of<&Impacts::backward, &SideImpacts::count>,
                              "Number of impacts on the stop backward by member; ValueError as for `impacts_forward`.")
       .def_property_readonly("impact_speed_forward", &impacts_of<&Impacts::forward, &SideImpacts::speed>,

@@ -94,7 +94,6 @@ py::dict state_of(const Ensemble& ensemble) {
   state["floor_peaks"] = array_of(std::move(floor_peaks));
   state["bin"] = array_of(std::move(bin));
   state["bin_count"] = array_of(std::move(bin_count));
-  state["has_impacts"] = parts.has_impacts;
   state["airborne"] = parts.airborne;
   state["gaps"] = array_of(std::vector{parts.gaps.forward, parts.gaps.backward});
   state["hits"] = array_of(std::vector{parts.hits.either, parts.hits.forward, parts.hits.backward});
@@ -168,7 +167,6 @@ Ensemble ensemble_of(const py::dict& state) {
   }
   expect(from == peak.size(), "there are more peaks than members");
 
-  parts.has_impacts = state["has_impacts"].cast<bool>();
   parts.airborne = state["airborne"].cast<std::uint64_t>();
   const auto gaps = column<double>(state, "gaps");
   const auto hits = column<std::uint64_t>(state, "hits");

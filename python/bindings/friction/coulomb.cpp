@@ -40,14 +40,6 @@ N. M. Newmark, Effects of earthquakes on dams and embankments, Geotechnique 15 (
            }),
            py::kw_only(), py::arg("mu") = py::none(), py::arg("slip_level") = py::none(),
            py::arg("backward") = py::none(), py::arg("mu_backward") = py::none())
-      .def_static(
-          "on_slope",
-          [](const py::args&, const py::kwargs&) {
-            throw py::type_error(
-                "Coulomb.on_slope was removed: use Slider(Coulomb(mu=...), slope_degrees=...), whose ground "
-                "acceleration is horizontal and whose normal force follows it");
-          },
-          "Removed: use Slider(Coulomb(mu=...), slope_degrees=...).")
       .def_property_readonly("slip_level", &Coulomb::forward, "Level against forward sliding [m/s^2].")
       .def_property_readonly("backward", &Coulomb::backward, "Level against backward sliding [m/s^2].")
       .def_property_readonly(

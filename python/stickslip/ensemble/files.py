@@ -7,7 +7,6 @@ import json
 import os
 import zipfile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,30 +14,15 @@ from .. import _core
 from .._core import Ensemble
 from .._files import check_regular, replacing
 
-_FORMAT = "stickslip ensemble 6"
-# What earlier formats did not hold, and what then stands for it.
-_IMPACTS = {
-    "airborne": 0,
-    "gaps": np.full(2, np.inf),
-    "hits": np.zeros(3, np.uint64),
-    **{name: np.zeros(0, np.uint64) for name in ("impact_block", "impacts_forward")},
-    "impacts_backward": np.zeros(0, np.uint64),
-    **{f"impact_speed_{side}": np.zeros(0) for side in ("forward", "backward")},
-}
-_PLANE = {"in_plane": False, "residual_transverse": np.zeros(0)}
-_FLOORS = {"floor_peaks": np.zeros(0)}
-_FORMER: dict[str, dict[str, Any]] = {
-    "stickslip ensemble 5": _FLOORS,
-    "stickslip ensemble 4": _FLOORS | _PLANE,
-    "stickslip ensemble 3": _FLOORS | _PLANE | _IMPACTS,
-    "stickslip ensemble 2": _FLOORS | _PLANE | _IMPACTS | {"ground_acceleration": False},
-}
+_FORMAT = "stickslip ensemble 1"
 _ABOUT = frozenset(("format", "library"))
 _NAMES = _ABOUT | {
     *("configuration", "dt", "times", "velocity_spectrum", "ground_acceleration"),
     *("level", "number", "count", "sums", "cut_block", "cut_size"),
     *("kept_block", "kept_size", "peak", "residual", "bin", "bin_count"),
-    *("has_impacts", *_IMPACTS, *_PLANE, *_FLOORS),
+    *("airborne", "gaps", "hits", "impact_block", "impacts_forward", "impacts_backward"),
+    *("impact_speed_forward", "impact_speed_backward"),
+    *("in_plane", "residual_transverse", "floor_peaks"),
 }
 
 
@@ -74,28 +58,21 @@ def load(file: str | os.PathLike[str]) -> Ensemble:
             raise refuse(f"is damaged: {error}") from error
         if not str(about.get("format")).startswith("stickslip ensemble "):
             raise refuse(f"is not an ensemble: it holds {', '.join(sorted(entries)) or 'nothing'}")
-        missing = {_FORMAT: {}, **_FORMER}.get(str(about["format"]))
-        if missing is None:
+        if str(about["format"]) != _FORMAT:
             raise refuse(
                 f"is of format '{about['format']}', of stickslip {about.get('library')}; this is"
-                f" stickslip {_core.__version__}, which reads '{_FORMAT}' and"
-                f" {' and '.join(map(repr, _FORMER))}"
+                f" stickslip {_core.__version__}, which reads '{_FORMAT}'"
             )
-        knows_impacts = not missing.keys() & _IMPACTS.keys()
-        names = _NAMES - missing.keys() - (set() if knows_impacts else {"has_impacts"})
-        if entries.keys() != names:
-            odd = ", ".join(sorted(entries.keys() ^ names))
+        if entries.keys() != _NAMES:
+            odd = ", ".join(sorted(entries.keys() ^ _NAMES))
             raise refuse(f"does not hold what an ensemble does: missing or unknown {odd}")
         try:
-            state = {name: _array(archive, entries[name]) for name in names - _ABOUT}
+            state = {name: _array(archive, entries[name]) for name in _NAMES - _ABOUT}
         except Exception as error:
             raise refuse(f"is damaged: {error}") from error
     ensemble = Ensemble.__new__(Ensemble)
     try:
         plain = {name: array.item() if array.ndim == 0 else array for name, array in state.items()}
-        plain |= missing
-        # Former files hold no impacts: they are unknown if there may be stops.
-        plain.setdefault("has_impacts", "stops" not in plain["configuration"])
         plain["configuration"] = [tuple(entry) for entry in json.loads(plain["configuration"])]
         ensemble.__setstate__(plain)
     except (RuntimeError, TypeError, ValueError) as error:

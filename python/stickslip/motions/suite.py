@@ -83,7 +83,7 @@ class Suite(Tabular, Saved, Sequence[GroundMotion]):
     1
     """
 
-    _formats = ("stickslip suite 1",)
+    _format = "stickslip suite 1"
 
     def __init__(
         self, motions: Iterable[GroundMotion], metadata: Mapping[str, ArrayLike] | Any | None = None

@@ -18,7 +18,7 @@ from .error import SweepError
 from .parameter_grid import AnySwept
 from .table import SweepFailure, SweepTable
 
-_FORMAT = "stickslip sweep 3"
+_FORMAT = "stickslip sweep 1"
 
 
 class Checkpoint(checkpoint.Checkpoint[SweepTable]):

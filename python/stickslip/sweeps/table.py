@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .._core import STANDARD_GRAVITY, Coulomb, GroundMotion
-from .._hdf5 import Saved, as_column, read, read_columns, read_texts, write
+from .._hdf5 import Saved, as_column, read, write
 from .._optional import optional
 from .._tables import Columns, Repeated, json_text
 from .._tabular import Tabular, same
@@ -24,10 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SweepFailure", "SweepTable"]
 
-_FORMAT = "stickslip sweep table 2"
-_FORMER = "stickslip sweep table 1"  # without impacts, other words for polarities, other layout
 POLARITIES = ("recorded", "reversed")
-_FORMER_POLARITIES = {"as recorded": "recorded", "flipped": "reversed"}
 _AXES = {"slider": "sliders", "record": "records", "polarity": "polarity"}
 QUANTITIES = {
     "peak": ("peak", "m", "largest displacement over all time"),
@@ -93,7 +90,7 @@ class SweepTable(Tabular, Saved):
         residual is then x at the end of the ground motion.
     impacts_forward, impacts_backward : ndarray of int
         Number of impacts on the stop of each side, bounces included. ValueError if no slider has
-        stops, or if the table was saved before impacts were kept; so too the next three.
+        stops; so too the next three.
     impact_speed_forward, impact_speed_backward : ndarray
         Largest speed just before an impact [m/s]; 0 without impacts.
     impacts, impact_speed : ndarray
@@ -134,7 +131,7 @@ class SweepTable(Tabular, Saved):
     array has checksums; `open` rejects a damaged file.
     """
 
-    _formats = (_FORMAT, _FORMER)
+    _format = "stickslip sweep table 1"
 
     def __init__(
         self,
@@ -174,7 +171,7 @@ class SweepTable(Tabular, Saved):
         self._components: dict[str, NDArray[np.float64]] = {}  # in the plane
         if components is not None:
             self._components = {name: np.array(components[name], float) for name in COMPONENTS}
-        # None if no slider has stops, or if the table was saved before impacts were kept.
+        # None if no slider has stops.
         self._impacts: dict[str, NDArray[Any]] | None = None
         if impacts is not None:
             self._impacts = {
@@ -265,11 +262,6 @@ class SweepTable(Tabular, Saved):
                     f" {' and '.join(self._impacts)}"
                 )
             return self._impacts[name]
-        if any("stops=" in slider for slider in self.sliders):
-            raise ValueError(
-                "SweepTable: impacts are unknown, because the table was saved before impacts were"
-                " kept; run the sweep again"
-            )
         raise ValueError("SweepTable: no slider has stops")
 
     @property
@@ -300,8 +292,7 @@ class SweepTable(Tabular, Saved):
     def impact_fraction(self) -> NDArray[np.float64]:
         """Fraction of the records and polarities in which a slider hits a stop, shape (sliders,).
 
-        Combinations that failed do not count. ValueError if no slider has stops, or if the table
-        was saved before impacts were kept.
+        Combinations that failed do not count. ValueError if no slider has stops.
         """
         counts = self.impacts if self.planar else self.impacts_forward + self.impacts_backward
         hit = (counts > 0).sum(axis=(1, 2))
@@ -427,7 +418,7 @@ class SweepTable(Tabular, Saved):
         ``"Infinity"`` and ``"-Infinity"``.
         """
         document = {
-            "format": _FORMAT,
+            "format": self._format,
             "settle": self.settle,
             "contact": self.contact,
             **{name: getattr(self, name) for name in ("sliders", "records", "polarity")},
@@ -464,20 +455,20 @@ class SweepTable(Tabular, Saved):
         except ValueError as error:
             raise ValueError(f"SweepTable.from_json: needs a JSON document: {error}") from None
         found = document.get("format") if isinstance(document, dict) else None
-        if found not in (_FORMAT, _FORMER):
+        if found != cls._format:
             raise ValueError(
-                f"SweepTable.from_json: the document must be of format '{_FORMAT}', got {found!r}"
+                f"SweepTable.from_json: the document must be of format '{cls._format}', got"
+                f" {found!r}"
             )
         try:
-            return cls._of(
-                found == _FORMER,
+            return cls(
                 **{name: document[name] for name in ("sliders", "records", "polarity")},
                 **{
                     name: {key: _unlisted(values) for key, values in document[name].items()}
                     for name in ("parameters", "metadata")
                 },
                 **{name: document[name] for name in QUANTITIES},  # float makes NaN of null
-                airborne=document.get("airborne"),
+                airborne=document["airborne"],
                 components=document if "residual_axis" in document else None,
                 impacts=document if {"impacts_forward", "impacts"} & document.keys() else None,
                 settle=document["settle"],
@@ -585,14 +576,6 @@ class SweepTable(Tabular, Saved):
             "contact": h5.attrs["contact"],
             "failures": json.loads(h5.attrs["failures"]),
         }
-        if h5.attrs["format"] == _FORMER:
-            return cls._of(
-                True,
-                **{name: read_texts(h5[name]) for name in ("sliders", "records", "polarity")},
-                **{name: read_columns(h5, name) for name in ("parameters", "metadata")},
-                **{name: h5[name][:] for name in QUANTITIES},
-                **about,
-            )
         axes = {name: read(h5, axis) for axis, name in _AXES.items()}
         shape = tuple(len(values) for values in axes.values())
         columns: dict[str, dict[str, NDArray[Any]]] = {"parameters": {}, "metadata": {}}
@@ -608,8 +591,7 @@ class SweepTable(Tabular, Saved):
             for name in group
             if first in h5
         }
-        return cls._of(
-            False,
+        return cls(
             **axes,
             **columns,
             **{name: read(h5, name, shape) for name in (*QUANTITIES, "airborne")},
@@ -617,17 +599,6 @@ class SweepTable(Tabular, Saved):
             impacts=impacts or None,
             **about,
         )
-
-    @classmethod
-    def _of(cls, former: bool, **content: Any) -> SweepTable:
-        """The table of a file, whose words for polarities may be former ones."""
-        if former:
-            now = _FORMER_POLARITIES
-            content["polarity"] = [now.get(one, one) for one in content["polarity"]]
-            content["failures"] = [
-                SweepFailure(s, r, now.get(p, p), text) for s, r, p, text in content["failures"]
-            ]
-        return cls(**content)
 
     @overload
     def plot(

@@ -114,9 +114,9 @@ class Heating {
       surface.rest(time);
   }
 
-  /// When the level falls below a load at rest: `excess(time, level)` is the square of the load minus that of the
-  /// level, which is positive after the departure. The margin is approximated by polynomials on successive parts of the
-  /// time, to 1e-9 of its terms. The surface cools until then.
+  /// The time at which the level falls below the load of a slider at rest: `excess(time, level)` is the square of the
+  /// load minus that of the level, which is positive after the departure. The margin is approximated by polynomials on
+  /// successive parts of the time, to 1e-9 of its terms. The surface cools until then.
   /// @return the time [s]; `never` if it is held
   template <class Weight, class Excess>
   double departure(SurfaceHeat& surface, double left, Weight&& weight, Excess&& excess) {

@@ -19,8 +19,7 @@ enum class Resumption { from_rest, onward, reversed };
 ///     at_rest()                // whether nothing slides; other parts of the system may move
 ///     has_stopped()            // whether a slip has just ended, at this time
 ///     departure()              // when the next slip begins: `departs()` in this segment, after `delay`. If it does
-///     not
-///                              // depart, the system is at the end of the segment
+///                              // not depart, the system is at the end of the segment
 ///     depart(departure)        // goes there, and says how it resumes
 ///     slide()                  // the slip from here on: `stop`, its first stop or `never`, and its flow
 ///     passage(slide)           // where it passes a bound or a change of its law before that stop: `passes`, `leg`
