@@ -11,8 +11,6 @@
 namespace stickslip {
 namespace {
 
-using Eigen::VectorXd;
-
 detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, double mass) {
   const Eigen::Index floors = structure.floors();
   if (floors == 0)
@@ -22,7 +20,7 @@ detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, 
                                 std::to_string(floor));
   detail::require(std::isfinite(mass) && mass >= 0, "EquipmentOnFloor: mass must be finite and at least 0", mass, "kg");
   const Modes& modes = structure.modes();
-  const VectorXd shape = modes.shapes.row(floor - 1), &participation = modes.participation;
+  const RealVector shape = modes.shapes.row(floor - 1), &participation = modes.participation;
   const double influence = structure.influence()[floor - 1];
   detail::ModalInterface of;
   of.stiffness = modes.frequencies.cwiseAbs2();

@@ -111,8 +111,8 @@ double Expansion::take_demand(int k, double demand) {
     }
   } else {
     const auto n = static_cast<Eigen::Index>(modes_);
-    Eigen::Map<Eigen::VectorXd> force(force_.data(), n);
-    force.noalias() = of_.damping * Eigen::Map<const Eigen::VectorXd>(rate, n);
+    Eigen::Map<RealVector> force(force_.data(), n);
+    force.noalias() = of_.damping * Eigen::Map<const RealVector>(rate, n);
     for (std::size_t j = 0; j < modes_; ++j) {
       force_[j] += stiffness[j] * y[j];
       sum += d[j] * force_[j];
@@ -146,12 +146,11 @@ void Expansion::next(int k, double acceleration) {
   }
 }
 
-Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding) {
-  using Eigen::MatrixXd;
+RealMatrix flow_matrix(const ModalInterface& of, bool sliding) {
   const Eigen::Index n = of.modes(), first = sliding ? 2 : 0;
-  MatrixXd flow = MatrixXd::Zero(2 * n + first, 2 * n + first);
+  RealMatrix flow = RealMatrix::Zero(2 * n + first, 2 * n + first);
   // y'' = (-1 + reaction demand' - jump demand' / mass) r + ..., r = w^2 y + D y'
-  MatrixXd of_force = of.reaction * of.demand.transpose();
+  RealMatrix of_force = of.reaction * of.demand.transpose();
   of_force.diagonal().array() -= 1;
   if (sliding) of_force -= of.jump * of.demand.transpose() / of.mass;
   flow.block(first, first + n, n, n).setIdentity();
@@ -172,7 +171,7 @@ Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding) {
 void set_fastest(ModalInterface& of) {
   of.fastest = 0;
   for (const bool sliding : {false, true}) {
-    const Eigen::MatrixXd flow = flow_matrix(of, sliding);
+    const RealMatrix flow = flow_matrix(of, sliding);
     if (flow.rows() == 0) continue;
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(flow, false);
     if (solver.info() != Eigen::Success)
@@ -183,13 +182,13 @@ void set_fastest(ModalInterface& of) {
 
 StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
   using Eigen::Index;
-  const Eigen::MatrixXd flow = flow_matrix(of, false);
+  const RealMatrix flow = flow_matrix(of, false);
   for (Index i = 0; i < 2 * modes_; ++i)  // a rigid-body mode acts by its velocity only
     if (i >= modes_ || of.stiffness[i] > 0) kept_.push_back(i);
   if (kept_.empty()) return;
   const auto size = static_cast<Index>(kept_.size());
-  Eigen::MatrixXd reduced(size, size);
-  Eigen::VectorXd row(size);
+  RealMatrix reduced(size, size);
+  RealVector row(size);
   for (Index i = 0; i < size; ++i) {
     const Index from = kept_[static_cast<std::size_t>(i)];
     for (Index j = 0; j < size; ++j) reduced(i, j) = flow(from, kept_[static_cast<std::size_t>(j)]);
@@ -200,7 +199,7 @@ StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
   weights_ = (row.cast<std::complex<double>>().transpose() * solver.eigenvectors()).cwiseAbs().transpose();
 }
 
-double StuckBound::operator()(const Eigen::VectorXd& y, const Eigen::VectorXd& rate) const {
+double StuckBound::operator()(const RealVector& y, const RealVector& rate) const {
   if (kept_.empty()) return 0;
   Eigen::VectorXcd state(static_cast<Eigen::Index>(kept_.size()));
   for (std::size_t i = 0; i < kept_.size(); ++i)

@@ -18,20 +18,20 @@
 namespace stickslip {
 namespace {
 
-using Eigen::VectorXd;
 using std::numbers::pi;
 
 Structure column(const FlexibleSlope& slope, const SlopeProperties& properties) {
-  VectorXd fractions(slope.modes), frequencies(slope.modes);
+  RealVector fractions(slope.modes), frequencies(slope.modes);
   for (int j = 0; j < slope.modes; ++j) {
     const double odd = 2 * j + 1;
     fractions[j] = 8 / (odd * odd * pi * pi);
     frequencies[j] = odd * pi * properties.shear_velocity / (2 * slope.height);
   }
   // The top of the column moves by (4/pi) (-1)^j / (2 j + 1) times the mode.
-  Eigen::MatrixXd top(1, slope.modes);
+  RealMatrix top(1, slope.modes);
   for (int j = 0; j < slope.modes; ++j) top(0, j) = (j % 2 == 0 ? 4 : -4) / (pi * (2 * j + 1));
-  return Structure::from_modes(fractions, frequencies, VectorXd::Constant(slope.modes, properties.damping_ratio), top);
+  return Structure::from_modes(fractions, frequencies, RealVector::Constant(slope.modes, properties.damping_ratio),
+                               top);
 }
 
 // Downhill only.
@@ -50,7 +50,7 @@ double largest_top_of(const FlexibleSlope& slope, const SlopeProperties& propert
   of.stiffness = modes.frequencies.cwiseAbs2();
   of.damping = structure.modal_damping();
   of.load = modes.participation;
-  of.demand = of.reaction = of.jump = VectorXd::Zero(slope.modes);
+  of.demand = of.reaction = of.jump = RealVector::Zero(slope.modes);
   of.shapes = modes.shapes;
   of.fastest = std::max(modes.frequencies.maxCoeff(), of.damping.diagonal().maxCoeff());
   if (const auto largest = detail::largest_top(of, motion)) return *largest;

@@ -22,7 +22,6 @@ namespace stickslip {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
 // The modes of a structure that nothing slides on.
 class Driven {
@@ -59,7 +58,7 @@ class Driven {
   detail::ModalInterface of_;
   detail::Expansion expansion_;
   std::optional<detail::StuckFlow> flow_{};
-  VectorXd state_{};
+  RealVector state_{};
 };
 
 // The motion with each segment in equal parts.
@@ -100,11 +99,11 @@ std::vector<GroundMotion> floor_motions(const Structure& structure, const Ground
   const detail::ModalInterface& of = driven.modal();
   const Index floors = structure.floors();
   // The part of the ground acceleration that the modes do not bring to a floor; with all modes, none.
-  VectorXd direct = structure.influence() - of.shapes * of.load;
+  RealVector direct = structure.influence() - of.shapes * of.load;
   if (structure.has_matrices()) direct.setZero();
   const auto samples = static_cast<Index>(fine.samples());
-  Eigen::MatrixXd accelerations(samples, floors);
-  VectorXd force(of.modes());
+  RealMatrix accelerations(samples, floors);
+  RealVector force(of.modes());
   const auto keep = [&](Index sample, double n) {
     force = of.stiffness.cwiseProduct(driven.displacement());
     if (of.classical)

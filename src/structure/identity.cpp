@@ -13,14 +13,14 @@
 namespace stickslip {
 namespace {
 
-std::string json_of(const Eigen::VectorXd& values) {
+std::string json_of(const RealVector& values) {
   return detail::json(std::span(values.data(), static_cast<std::size_t>(values.size())));
 }
 
-std::string json_of(const Eigen::MatrixXd& values) {
+std::string json_of(const RealMatrix& values) {
   std::string text = "[";
   for (Eigen::Index i = 0; i < values.rows(); ++i)
-    text.append(i > 0 ? ", " : "").append(json_of(Eigen::VectorXd(values.row(i))));
+    text.append(i > 0 ? ", " : "").append(json_of(RealVector(values.row(i))));
   return text + "]";
 }
 

@@ -11,12 +11,10 @@
 namespace stickslip {
 namespace {
 
-using Eigen::VectorXd;
-
 // The floors of a structure on a base that moves with the interface.
 detail::ModalInterface on_base(const Structure& structure, double base_mass) {
   const Modes& modes = structure.modes();
-  const VectorXd& participation = modes.participation;
+  const RealVector& participation = modes.participation;
   const bool matrices = structure.has_matrices();
   // With matrices all modes are there; otherwise masses are fractions of the whole.
   const double total = matrices ? base_mass + structure.influence().dot(structure.mass() * structure.influence()) : 1;
@@ -27,7 +25,7 @@ detail::ModalInterface on_base(const Structure& structure, double base_mass) {
   of.demand = participation / total;
   of.load = participation;
   of.jump = participation;
-  of.reaction = VectorXd::Zero(structure.size());
+  of.reaction = RealVector::Zero(structure.size());
   of.ground_demand = of.mass = base_mass / total;
   of.coupling = of.input = participation / total;
   of.modal_mass = 1 / total;

@@ -88,14 +88,14 @@ class Histories {
     resize(count_);
     if (rows == nullptr) return;
     const auto& y = response_.modal_displacement;
-    Eigen::MatrixXd force = response_.modal_velocity * of_.damping;  // symmetric
+    RealMatrix force = response_.modal_velocity * of_.damping;  // symmetric
     force += y * of_.stiffness.asDiagonal();
-    const Eigen::VectorXd demand = force * of_.demand;
-    const Eigen::MatrixXd accelerations = demand * of_.reaction.transpose() - force - ground_ * of_.load.transpose() -
-                                          acceleration_ * of_.jump.transpose();
-    const Eigen::MatrixXd forces = accelerations * rows->forces.transpose() +
-                                   response_.base_acceleration * rows->with_base.transpose() +
-                                   acceleration_ * rows->with_slider.transpose();
+    const RealVector demand = force * of_.demand;
+    const RealMatrix accelerations = demand * of_.reaction.transpose() - force - ground_ * of_.load.transpose() -
+                                     acceleration_ * of_.jump.transpose();
+    const RealMatrix forces = accelerations * rows->forces.transpose() +
+                              response_.base_acceleration * rows->with_base.transpose() +
+                              acceleration_ * rows->with_slider.transpose();
     Floors& floors = response_.floors;
     floors.displacement = y * of_.shapes.transpose();
     floors.drift = y * rows->drifts.transpose();
@@ -119,7 +119,7 @@ class Histories {
   const SlidingStructure& system_;
   const detail::ModalInterface& of_;
   StructureResponse& response_;
-  Eigen::VectorXd ground_{}, acceleration_{};
+  RealVector ground_{}, acceleration_{};
   std::size_t count_ = 0;
   bool heated_;
 };
@@ -244,7 +244,7 @@ const detail::ModalInterface& SlidingStructure::modal() const noexcept { return 
 
 StructureState SlidingStructure::rest() const {
   const Index n = data_->modal.modes();
-  return {.modal_displacement = Eigen::VectorXd::Zero(n), .modal_velocity = Eigen::VectorXd::Zero(n)};
+  return {.modal_displacement = RealVector::Zero(n), .modal_velocity = RealVector::Zero(n)};
 }
 
 double SlidingStructure::demand(const StructureState& state, double ground, double weight) const {

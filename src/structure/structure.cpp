@@ -16,14 +16,12 @@
 namespace stickslip {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 struct Structure::Data {
-  MatrixXd mass{}, damping{}, stiffness{};
-  VectorXd influence{};
+  RealMatrix mass{}, damping{}, stiffness{};
+  RealVector influence{};
   Modes modes{};
-  MatrixXd modal_damping{}, unit_shapes{};
+  RealMatrix modal_damping{}, unit_shapes{};
   bool classical = true, uniform = true;
 };
 
@@ -34,7 +32,7 @@ std::string element(const char* name, Index i, Index j) {
   return std::string(name) + '[' + std::to_string(i) + ", " + std::to_string(j) + ']';
 }
 
-void check_matrix(const char* name, const MatrixXd& matrix, Index size) {
+void check_matrix(const char* name, const RealMatrix& matrix, Index size) {
   if (matrix.rows() != size || matrix.cols() != size)
     throw std::invalid_argument(std::string("Structure: ") + name + " must be " + std::to_string(size) + " by " +
                                 std::to_string(size) + ", as the mass matrix, got " + std::to_string(matrix.rows()) +
@@ -52,9 +50,9 @@ void check_matrix(const char* name, const MatrixXd& matrix, Index size) {
                                     element(name, j, i) + " = " + detail::shortest(matrix(j, i)));
 }
 
-MatrixXd symmetric(const MatrixXd& matrix) { return (matrix + matrix.transpose()) / 2; }
+RealMatrix symmetric(const RealMatrix& matrix) { return (matrix + matrix.transpose()) / 2; }
 
-void check_entries(const char* function, const char* name, const VectorXd& values, Index size, double least,
+void check_entries(const char* function, const char* name, const RealVector& values, Index size, double least,
                    bool included, const char* unit) {
   if (values.size() != size)
     throw std::invalid_argument(std::string(function) + ": " + name + " must have " + std::to_string(size) +
@@ -69,12 +67,12 @@ void check_entries(const char* function, const char* name, const VectorXd& value
 }
 
 // Mass and stiffness of a shear building.
-std::pair<MatrixXd, MatrixXd> matrices_of(const VectorXd& masses, const VectorXd& stiffnesses) {
+std::pair<RealMatrix, RealMatrix> matrices_of(const RealVector& masses, const RealVector& stiffnesses) {
   if (masses.size() == 0) throw std::invalid_argument("Structure.shear_building: needs at least one floor, got none");
   check_entries("Structure.shear_building", "masses", masses, masses.size(), 0, false, "kg");
   check_entries("Structure.shear_building", "stiffnesses", stiffnesses, masses.size(), 0, false, "N/m");
   const Index n = masses.size();
-  MatrixXd stiffness = MatrixXd::Zero(n, n);
+  RealMatrix stiffness = RealMatrix::Zero(n, n);
   for (Index i = 0; i < n; ++i) {
     stiffness(i, i) += stiffnesses[i];
     if (i > 0) {
@@ -89,10 +87,10 @@ std::pair<MatrixXd, MatrixXd> matrices_of(const VectorXd& masses, const VectorXd
 
 Structure::Structure(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
-Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness)
-    : Structure(mass, std::move(damping), std::move(stiffness), VectorXd::Ones(mass.rows())) {}
+Structure::Structure(RealMatrix mass, RealMatrix damping, RealMatrix stiffness)
+    : Structure(mass, std::move(damping), std::move(stiffness), RealVector::Ones(mass.rows())) {}
 
-Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, VectorXd influence) {
+Structure::Structure(RealMatrix mass, RealMatrix damping, RealMatrix stiffness, RealVector influence) {
   const Index n = mass.rows();
   if (n == 0) throw std::invalid_argument("Structure: needs at least one degree of freedom, got an empty mass matrix");
   check_matrix("mass", mass, n);
@@ -109,16 +107,16 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   for (Index i = 0; i < n; ++i)
     if (!std::isfinite(data->influence[i]))
       detail::refuse("Structure: " + element("influence", i) + " must be finite", data->influence[i]);
-  data->uniform = data->influence == VectorXd::Ones(n);
+  data->uniform = data->influence == RealVector::Ones(n);
 
-  const auto smallest = [](const MatrixXd& matrix) {
-    return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const auto smallest = [](const RealMatrix& matrix) {
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
   };
   // Round-off of the eigenvalues of a matrix with these entries.
-  const auto round_off = [n](const MatrixXd& matrix) {
+  const auto round_off = [n](const RealMatrix& matrix) {
     return 1e-14 * static_cast<double>(n) * matrix.cwiseAbs().maxCoeff();
   };
-  const auto check = [&](const char* name, const MatrixXd& matrix, bool definite) {
+  const auto check = [&](const char* name, const RealMatrix& matrix, bool definite) {
     const double least = smallest(matrix);
     if (definite ? !(least > 0) : !(least >= -round_off(matrix)))
       throw std::invalid_argument(std::string("Structure: ") + name + " must be positive " +
@@ -131,7 +129,7 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   if (!(data->stiffness.cwiseAbs().maxCoeff() > 0))
     throw std::invalid_argument("Structure: it must have a stiffness, got a stiffness matrix of zeros");
 
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(data->stiffness, data->mass);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(data->stiffness, data->mass);
   if (solver.info() != Eigen::Success)
     throw ConvergenceError("Structure: the modes do not converge; are mass and stiffness in consistent units?");
   Modes& modes = data->modes;
@@ -144,7 +142,7 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   });
   // A stiffness that is lost beside that of the fastest mode is not that of a rigid body.
   for (Index j = 0; j < n; ++j) {
-    const VectorXd shape = modes.shapes.col(j), size = shape.cwiseAbs();
+    const RealVector shape = modes.shapes.col(j), size = shape.cwiseAbs();
     const double bends = shape.dot(data->stiffness * shape), terms = size.dot(data->stiffness.cwiseAbs() * size);
     if (modes.frequencies[j] <= 0 && bends > 1e-9 * terms)
       throw std::invalid_argument(
@@ -157,10 +155,10 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   data->modal_damping = symmetric(modes.shapes.transpose() * data->damping * modes.shapes);
   const double most = data->modal_damping.cwiseAbs().maxCoeff();
   // Coupling that is below the round-off of the shapes is none.
-  MatrixXd coupling = data->modal_damping;
+  RealMatrix coupling = data->modal_damping;
   coupling.diagonal().setZero();
   data->classical = coupling.cwiseAbs().maxCoeff() <= 1e-13 * static_cast<double>(n) * most;
-  if (data->classical) data->modal_damping = MatrixXd(data->modal_damping.diagonal().cwiseMax(0).asDiagonal());
+  if (data->classical) data->modal_damping = RealMatrix(data->modal_damping.diagonal().cwiseMax(0).asDiagonal());
   modes.damping_ratios =
       (data->modal_damping.diagonal().array() / (2 * modes.frequencies.array())).unaryExpr([](double ratio) {
         return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
@@ -170,29 +168,30 @@ Structure::Structure(MatrixXd mass, MatrixXd damping, MatrixXd stiffness, Vector
   data_ = std::move(data);
 }
 
-Structure Structure::shear_building(const VectorXd& masses, const VectorXd& stiffnesses, const Rayleigh& damping) {
+Structure Structure::shear_building(const RealVector& masses, const RealVector& stiffnesses, const Rayleigh& damping) {
   detail::require(std::isfinite(damping.alpha) && damping.alpha >= 0, "Rayleigh: alpha must be finite and at least 0",
                   damping.alpha, "1/s");
   detail::require(std::isfinite(damping.beta) && damping.beta >= 0, "Rayleigh: beta must be finite and at least 0",
                   damping.beta, "s");
   auto [mass, stiffness] = matrices_of(masses, stiffnesses);
-  MatrixXd matrix = damping.alpha * mass + damping.beta * stiffness;
+  RealMatrix matrix = damping.alpha * mass + damping.beta * stiffness;
   return Structure(std::move(mass), std::move(matrix), std::move(stiffness));
 }
 
-Structure Structure::shear_building(const VectorXd& masses, const VectorXd& stiffnesses, double damping_ratio) {
+Structure Structure::shear_building(const RealVector& masses, const RealVector& stiffnesses, double damping_ratio) {
   detail::require(std::isfinite(damping_ratio) && damping_ratio >= 0,
                   "Structure.shear_building: damping_ratio must be finite and at least 0", damping_ratio);
   auto [mass, stiffness] = matrices_of(masses, stiffnesses);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(stiffness, mass);
-  const MatrixXd weighted = mass * solver.eigenvectors();
-  const VectorXd modal = 2 * damping_ratio * solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-  MatrixXd matrix = symmetric(weighted * modal.asDiagonal() * weighted.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+  const RealMatrix weighted = mass * solver.eigenvectors();
+  const RealVector modal = 2 * damping_ratio * solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+  RealMatrix matrix = symmetric(weighted * modal.asDiagonal() * weighted.transpose());
   return Structure(std::move(mass), std::move(matrix), std::move(stiffness));
 }
 
-std::shared_ptr<Structure::Data> Structure::data_of_modes(const VectorXd& mass_fractions, const VectorXd& frequencies,
-                                                          const VectorXd& damping_ratios) {
+std::shared_ptr<Structure::Data> Structure::data_of_modes(const RealVector& mass_fractions,
+                                                          const RealVector& frequencies,
+                                                          const RealVector& damping_ratios) {
   constexpr const char* function = "Structure.from_modes";
   const Index n = mass_fractions.size();
   if (n == 0) throw std::invalid_argument("Structure.from_modes: needs at least one mode, got none");
@@ -209,17 +208,17 @@ std::shared_ptr<Structure::Data> Structure::data_of_modes(const VectorXd& mass_f
   modes.participation = mass_fractions.cwiseSqrt();
   modes.effective_masses = mass_fractions;
   modes.shapes.resize(0, n);
-  data->modal_damping = MatrixXd((2 * damping_ratios.array() * frequencies.array()).matrix().asDiagonal());
+  data->modal_damping = RealMatrix((2 * damping_ratios.array() * frequencies.array()).matrix().asDiagonal());
   return data;
 }
 
-Structure Structure::from_modes(const VectorXd& mass_fractions, const VectorXd& frequencies,
-                                const VectorXd& damping_ratios) {
+Structure Structure::from_modes(const RealVector& mass_fractions, const RealVector& frequencies,
+                                const RealVector& damping_ratios) {
   return Structure(data_of_modes(mass_fractions, frequencies, damping_ratios));
 }
 
-Structure Structure::from_modes(const VectorXd& mass_fractions, const VectorXd& frequencies,
-                                const VectorXd& damping_ratios, const MatrixXd& shapes) {
+Structure Structure::from_modes(const RealVector& mass_fractions, const RealVector& frequencies,
+                                const RealVector& damping_ratios, const RealMatrix& shapes) {
   const auto data = data_of_modes(mass_fractions, frequencies, damping_ratios);
   const Index n = mass_fractions.size();
   if (shapes.cols() != n || shapes.rows() == 0)
@@ -231,7 +230,7 @@ Structure Structure::from_modes(const VectorXd& mass_fractions, const VectorXd& 
       if (!std::isfinite(shapes(i, j)))
         detail::refuse("Structure.from_modes: " + element("shapes", i, j) + " must be finite", shapes(i, j));
   data->modes.shapes = shapes * data->modes.participation.cwiseInverse().asDiagonal();
-  data->influence = VectorXd::Ones(shapes.rows());
+  data->influence = RealVector::Ones(shapes.rows());
   data->unit_shapes = shapes;
   return Structure(data);
 }
@@ -239,14 +238,14 @@ Structure Structure::from_modes(const VectorXd& mass_fractions, const VectorXd& 
 Index Structure::size() const noexcept { return data_->modes.frequencies.size(); }
 Index Structure::floors() const noexcept { return data_->modes.shapes.rows(); }
 bool Structure::has_matrices() const noexcept { return data_->mass.size() > 0; }
-const MatrixXd& Structure::mass() const noexcept { return data_->mass; }
-const MatrixXd& Structure::damping() const noexcept { return data_->damping; }
-const MatrixXd& Structure::stiffness() const noexcept { return data_->stiffness; }
-const VectorXd& Structure::influence() const noexcept { return data_->influence; }
+const RealMatrix& Structure::mass() const noexcept { return data_->mass; }
+const RealMatrix& Structure::damping() const noexcept { return data_->damping; }
+const RealMatrix& Structure::stiffness() const noexcept { return data_->stiffness; }
+const RealVector& Structure::influence() const noexcept { return data_->influence; }
 bool Structure::uniform_influence() const noexcept { return data_->uniform; }
 const Modes& Structure::modes() const noexcept { return data_->modes; }
-const MatrixXd& Structure::modal_damping() const noexcept { return data_->modal_damping; }
-const MatrixXd& Structure::unit_shapes() const noexcept { return data_->unit_shapes; }
+const RealMatrix& Structure::modal_damping() const noexcept { return data_->modal_damping; }
+const RealMatrix& Structure::unit_shapes() const noexcept { return data_->unit_shapes; }
 bool Structure::classical() const noexcept { return data_->classical; }
 
 bool Structure::operator==(const Structure& other) const {

@@ -12,7 +12,6 @@ namespace stickslip::detail {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
 
 // A part is at most this divided by the fastest mode.
 constexpr double reach = 0.5;
@@ -61,20 +60,20 @@ StuckFlow::StuckFlow(const ModalInterface& of, double step)
   ModalInterface stuck = of;
   stuck.fastest = fastest_of(of);
   Expansion expansion(stuck, part_);
-  const VectorXd ones = VectorXd::Ones(n), zeros = VectorXd::Zero(n);
+  const RealVector ones = RealVector::Ones(n), zeros = RealVector::Zero(n);
   enum Source { from_y, from_rate, from_n, from_change };
   for (const Source source : {from_y, from_rate, from_n, from_change}) {
     const GroundLoad load{part_, source == from_n ? 1.0 : 0.0, source == from_n || source == from_change ? 1.0 : 0.0};
     StructureState state{.modal_displacement = source == from_y ? ones : zeros,
                          .modal_velocity = source == from_rate ? ones : zeros};
     expansion.expand(state, load, part_, part_, 0, Coulomb(1));
-    const Eigen::MatrixXd y = expansion.modal_displacement(), rate = expansion.modal_velocity();
-    const Eigen::MatrixXd force = y * of.stiffness.asDiagonal() + rate * of.damping.diagonal().asDiagonal();
+    const RealMatrix y = expansion.modal_displacement(), rate = expansion.modal_velocity();
+    const RealMatrix force = y * of.stiffness.asDiagonal() + rate * of.damping.diagonal().asDiagonal();
     for (Index k = 2; k < y.rows(); ++k) {
       const double below = below_chord(static_cast<int>(k));
-      const VectorXd q = force.row(k).transpose().cwiseProduct(of.demand);
-      const VectorXd u = has_top ? y.row(k).cwiseProduct(of.shapes.row(0)).transpose() : zeros;
-      for (const auto& [row, terms] : {std::pair<Row&, const VectorXd&>(demand_, q), {top_, u}}) {
+      const RealVector q = force.row(k).transpose().cwiseProduct(of.demand);
+      const RealVector u = has_top ? y.row(k).cwiseProduct(of.shapes.row(0)).transpose() : zeros;
+      for (const auto& [row, terms] : {std::pair<Row&, const RealVector&>(demand_, q), {top_, u}}) {
         if (source == from_n) row.from_n_ += below * std::abs(terms.sum());
         if (source == from_change) row.from_change_ += below * std::abs(terms.sum());
         for (std::size_t j = 0; source <= from_rate && j < count; ++j)

@@ -22,8 +22,6 @@
 namespace stickslip::detail {
 namespace {
 
-using Eigen::VectorXd;
-
 // Keeps what a sweep shows.
 class Tally final : public StructureSink {
  public:
@@ -71,8 +69,8 @@ class SweptInterface {
         sign_(reversed ? -1 : 1),
         tally_(max_events(motion.segments()), check),
         expansion_(of, law, mean_step(motion)),
-        deviation_(VectorXd::Zero(2 * of.modes())) {
-    state_.modal_displacement = state_.modal_velocity = VectorXd::Zero(of.modes());
+        deviation_(RealVector::Zero(2 * of.modes())) {
+    state_.modal_displacement = state_.modal_velocity = RealVector::Zero(of.modes());
     hold_from_here();
   }
 
@@ -98,13 +96,13 @@ class SweptInterface {
   // The state of the structure from the deviation, and the deviation from the state.
   void rejoin() {
     const Eigen::Index n = of_.modes();
-    const Eigen::Map<const VectorXd> whole(stuck_.state(at_), 2 * n);
+    const Eigen::Map<const RealVector> whole(stuck_.state(at_), 2 * n);
     state_.modal_displacement = sign_ * whole.head(n) + deviation_.head(n);
     state_.modal_velocity = sign_ * whole.tail(n) + deviation_.tail(n);
   }
   void part() {
     const Eigen::Index n = of_.modes();
-    const Eigen::Map<const VectorXd> whole(stuck_.state(at_), 2 * n);
+    const Eigen::Map<const RealVector> whole(stuck_.state(at_), 2 * n);
     deviation_.head(n) = state_.modal_displacement - sign_ * whole.head(n);
     deviation_.tail(n) = state_.modal_velocity - sign_ * whole.tail(n);
     bound_ = stuck_.flow().later_demand(deviation_.data());
@@ -189,7 +187,7 @@ class SweptInterface {
     const StuckFlow& flow = stuck_.flow();
     const Eigen::Index n = of_.modes();
     const std::size_t from = steps;
-    VectorXd now(2 * n), next(2 * n);
+    RealVector now(2 * n), next(2 * n);
     now << state_.modal_displacement, state_.modal_velocity;
     double amplitude = never;
     for (;; ++steps) {
@@ -217,7 +215,7 @@ class SweptInterface {
   StructureState state_{};
   std::size_t at_ = 0;  // the segment that comes next
   // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.
-  VectorXd deviation_;
+  RealVector deviation_;
   double bound_ = 0, pull_ = 0, pull_low_ = 0, pull_high_ = 0;
   StuckLevels levels_{};
 };

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include <Eigen/Core>
+#include "stickslip/structure/matrix.hpp"
 
 namespace stickslip {
 
@@ -17,12 +17,12 @@ struct Rayleigh {
 
 /// The modes of a structure on a fixed base, in order of frequency.
 struct Modes {
-  Eigen::VectorXd frequencies;       ///< w_j [rad/s]; 0 for a rigid-body mode
-  Eigen::VectorXd damping_ratios;    ///< diagonal of the modal damping, divided by 2 w_j; infinite where w_j = 0
-  Eigen::VectorXd participation;     ///< shape' M influence; with `from_modes`, the square root of the mass fraction
-  Eigen::VectorXd effective_masses;  ///< participation squared [kg]; with `from_modes`, the mass fractions
+  RealVector frequencies;       ///< w_j [rad/s]; 0 for a rigid-body mode
+  RealVector damping_ratios;    ///< diagonal of the modal damping, divided by 2 w_j; infinite where w_j = 0
+  RealVector participation;     ///< shape' M influence; with `from_modes`, the square root of the mass fraction
+  RealVector effective_masses;  ///< participation squared [kg]; with `from_modes`, the mass fractions
   /// One column per mode and one row per degree of freedom, shape' M shape = 1; empty if `from_modes` was given none.
-  Eigen::MatrixXd shapes;
+  RealMatrix shapes;
 };
 
 /// A linear structure on a base that moves with acceleration n,
@@ -35,23 +35,21 @@ class Structure {
   /// @param damping    C [N s/m], symmetric and positive semidefinite; it need not be diagonal in the modes
   /// @param stiffness  K [N/m], symmetric and positive semidefinite, not zero
   /// @throws std::invalid_argument  naming the matrix and the entry or the eigenvalue
-  Structure(Eigen::MatrixXd mass, Eigen::MatrixXd damping, Eigen::MatrixXd stiffness);
+  Structure(RealMatrix mass, RealMatrix damping, RealMatrix stiffness);
 
   /// The same with another influence than ones.
   /// @param influence  displacements under a unit displacement of the base
-  Structure(Eigen::MatrixXd mass, Eigen::MatrixXd damping, Eigen::MatrixXd stiffness, Eigen::VectorXd influence);
+  Structure(RealMatrix mass, RealMatrix damping, RealMatrix stiffness, RealVector influence);
 
   /// A building of rigid floors, counted from the bottom; stiffness i is that of the story below floor i.
   /// @param masses       of the floors [kg], positive and finite
   /// @param stiffnesses  of the stories [N/m], as many, positive and finite
   /// @throws std::invalid_argument  naming the entry
-  static Structure shear_building(const Eigen::VectorXd& masses, const Eigen::VectorXd& stiffnesses,
-                                  const Rayleigh& damping);
+  static Structure shear_building(const RealVector& masses, const RealVector& stiffnesses, const Rayleigh& damping);
 
   /// The same with one damping ratio for all modes.
   /// @param damping_ratio  finite and at least 0
-  static Structure shear_building(const Eigen::VectorXd& masses, const Eigen::VectorXd& stiffnesses,
-                                  double damping_ratio);
+  static Structure shear_building(const RealVector& masses, const RealVector& stiffnesses, double damping_ratio);
 
   /// A structure that is known by some of its modes. Each mode y_j is that of a single oscillator,
   ///     y_j'' + 2 z_j w_j y_j' + w_j^2 y_j = -n,
@@ -60,30 +58,30 @@ class Structure {
   /// @param frequencies     w_j [rad/s], positive and finite
   /// @param damping_ratios  z_j, finite and at least 0
   /// @throws std::invalid_argument  naming the entry
-  static Structure from_modes(const Eigen::VectorXd& mass_fractions, const Eigen::VectorXd& frequencies,
-                              const Eigen::VectorXd& damping_ratios);
+  static Structure from_modes(const RealVector& mass_fractions, const RealVector& frequencies,
+                              const RealVector& damping_ratios);
 
   /// The same with the shapes of the modes.
   /// @param shapes  one row per floor and one column per mode: the displacements of the floors are shapes y. With all
   ///                modes, each row has the sum 1
-  static Structure from_modes(const Eigen::VectorXd& mass_fractions, const Eigen::VectorXd& frequencies,
-                              const Eigen::VectorXd& damping_ratios, const Eigen::MatrixXd& shapes);
+  static Structure from_modes(const RealVector& mass_fractions, const RealVector& frequencies,
+                              const RealVector& damping_ratios, const RealMatrix& shapes);
 
   Eigen::Index size() const noexcept;    ///< number of modes
   Eigen::Index floors() const noexcept;  ///< number of degrees of freedom; 0 if `from_modes` was given no shapes
   bool has_matrices() const noexcept;    ///< whether it is not made by `from_modes`
 
-  const Eigen::MatrixXd& mass() const noexcept;       ///< M [kg]; empty without matrices
-  const Eigen::MatrixXd& damping() const noexcept;    ///< C [N s/m]
-  const Eigen::MatrixXd& stiffness() const noexcept;  ///< K [N/m]
-  const Eigen::VectorXd& influence() const noexcept;  ///< ones with `from_modes`
-  bool uniform_influence() const noexcept;            ///< whether `influence` is ones
+  const RealMatrix& mass() const noexcept;       ///< M [kg]; empty without matrices
+  const RealMatrix& damping() const noexcept;    ///< C [N s/m]
+  const RealMatrix& stiffness() const noexcept;  ///< K [N/m]
+  const RealVector& influence() const noexcept;  ///< ones with `from_modes`
+  bool uniform_influence() const noexcept;       ///< whether `influence` is ones
 
   const Modes& modes() const noexcept;
   /// shapes' C shapes, per unit modal mass [1/s].
-  const Eigen::MatrixXd& modal_damping() const noexcept;
+  const RealMatrix& modal_damping() const noexcept;
   /// The shapes that `from_modes` was given; empty otherwise.
-  const Eigen::MatrixXd& unit_shapes() const noexcept;
+  const RealMatrix& unit_shapes() const noexcept;
   /// Whether `modal_damping` is diagonal, up to round-off.
   bool classical() const noexcept;
 
@@ -92,8 +90,8 @@ class Structure {
  private:
   struct Data;
   explicit Structure(std::shared_ptr<const Data> data);
-  static std::shared_ptr<Data> data_of_modes(const Eigen::VectorXd& mass_fractions, const Eigen::VectorXd& frequencies,
-                                             const Eigen::VectorXd& damping_ratios);
+  static std::shared_ptr<Data> data_of_modes(const RealVector& mass_fractions, const RealVector& frequencies,
+                                             const RealVector& damping_ratios);
   std::shared_ptr<const Data> data_;
 };
 

@@ -12,17 +12,17 @@
 
 namespace stickslip::python {
 
-inline Eigen::VectorXd vector_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
+inline RealVector vector_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
   const std::vector<double> numbers = to_vector(values, name, unit);
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  return Eigen::Map<const RealVector>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
 }
 
-inline Eigen::MatrixXd matrix_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
+inline RealMatrix matrix_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
   const Numbers numbers = to_numbers(values, name, unit);
   if (numbers.ndim() != 2)
     throw std::invalid_argument(name + " must be two-dimensional, got " + std::to_string(numbers.ndim()) +
                                 (numbers.ndim() == 1 ? " dimension" : " dimensions"));
-  Eigen::MatrixXd matrix(numbers.shape(0), numbers.shape(1));
+  RealMatrix matrix(numbers.shape(0), numbers.shape(1));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = *numbers.data(i, j);
   return matrix;

@@ -27,9 +27,6 @@
 namespace stickslip::python {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 py::tuple inputs_of_structure(const Structure& s) {
   if (s.has_matrices())
     return py::make_tuple("matrices", plain(s.mass()), plain(s.damping()), plain(s.stiffness()), plain(s.influence()));
@@ -39,9 +36,9 @@ py::tuple inputs_of_structure(const Structure& s) {
 
 Structure structure_of_modes(const py::object& fractions, const py::object& frequencies, const py::object& ratios,
                              const py::object& shapes) {
-  const VectorXd f = vector_from(fractions, "Structure.from_modes: mass_fractions"),
-                 w = vector_from(frequencies, "Structure.from_modes: frequencies", "rad/s"),
-                 z = vector_from(ratios, "Structure.from_modes: damping_ratios");
+  const RealVector f = vector_from(fractions, "Structure.from_modes: mass_fractions"),
+                   w = vector_from(frequencies, "Structure.from_modes: frequencies", "rad/s"),
+                   z = vector_from(ratios, "Structure.from_modes: damping_ratios");
   if (shapes.is_none()) return Structure::from_modes(f, w, z);
   return Structure::from_modes(f, w, z, matrix_from(shapes, "Structure.from_modes: shapes"));
 }
@@ -49,7 +46,7 @@ Structure structure_of_modes(const py::object& fractions, const py::object& freq
 Structure plausible_structure_of_modes(const py::object& fractions, const py::object& frequencies,
                                        const py::object& ratios, const py::object& shapes) {
   Structure structure = structure_of_modes(fractions, frequencies, ratios, shapes);
-  const VectorXd& all = structure.modes().damping_ratios;
+  const RealVector& all = structure.modes().damping_ratios;
   for (Eigen::Index i = 0; i < all.size(); ++i)
     check_damping_ratio("Structure.from_modes", "damping_ratios[" + std::to_string(i) + "]", all[i]);
   return structure;
@@ -57,8 +54,8 @@ Structure plausible_structure_of_modes(const py::object& fractions, const py::ob
 
 Structure structure_of_matrices(const py::object& mass, const py::object& damping, const py::object& stiffness,
                                 const py::object& influence) {
-  MatrixXd m = matrix_from(mass, "Structure: mass", "kg"), c = matrix_from(damping, "Structure: damping", "N*s/m"),
-           k = matrix_from(stiffness, "Structure: stiffness", "N/m");
+  RealMatrix m = matrix_from(mass, "Structure: mass", "kg"), c = matrix_from(damping, "Structure: damping", "N*s/m"),
+             k = matrix_from(stiffness, "Structure: stiffness", "N/m");
   if (influence.is_none()) return Structure(std::move(m), std::move(c), std::move(k));
   return Structure(std::move(m), std::move(c), std::move(k), vector_from(influence, "Structure: influence"));
 }
@@ -71,7 +68,7 @@ Structure structure_from_inputs(const py::tuple& inputs) {
 }
 
 std::string description(const Structure& s) {
-  const VectorXd& w = s.modes().frequencies;
+  const RealVector& w = s.modes().frequencies;
   const Eigen::Index rigid = (w.array() <= 0).count();
   const double first = (w.array() > 0).select(w, std::numeric_limits<double>::infinity()).minCoeff();
   const auto count = [](Eigen::Index n, const char* what) {
@@ -267,8 +264,8 @@ ValueError
           "shear_building",
           [](const py::object& masses, const py::object& stiffnesses, const std::optional<Rayleigh>& damping,
              std::optional<double> damping_ratio) {
-            const VectorXd mass = vector_from(masses, "Structure.shear_building: masses", "kg"),
-                           stiffness = vector_from(stiffnesses, "Structure.shear_building: stiffnesses", "N/m");
+            const RealVector mass = vector_from(masses, "Structure.shear_building: masses", "kg"),
+                             stiffness = vector_from(stiffnesses, "Structure.shear_building: stiffnesses", "N/m");
             if (damping.has_value() == damping_ratio.has_value())
               throw std::invalid_argument("Structure.shear_building: give either damping or damping_ratio, got " +
                                           std::string(damping ? "both" : "neither"));
