@@ -283,11 +283,7 @@ class StructureMotion {
     motion_.end(state_);
     motion_.heat(state_.heat);
     observer_.follow(motion_, state_.mode);
-    // A time below the resolution of `left_` passes as the smallest one: where a load is held against a level that
-    // rises from zero, slips could follow each other without an end.
-    const double after = left_ - motion_.duration();
-    const bool passes = after < left_ || !(motion_.duration() > 0);
-    left_ = last ? 0 : passes ? after : std::nextafter(left_, 0.0);
+    left_ = last ? 0 : pass_time(left_, motion_.duration());
   }
   void finish_slip(const InterfaceSlide::Leg& leg) { finish(leg.part); }
   void move(const InterfaceSlide& slide, const InterfaceSlide::Leg& leg) {

@@ -42,6 +42,7 @@ struct LoadStart : Start {
   double weight;         ///< N+ / g at the start
   double weight_gained;  ///< change of the weight over the flow's duration
   double level;          ///< resistance at the start under a normal force of g [m/s^2]
+  bool begins = false;  ///< from rest, at its level: `gain` is positive, and that of the net acceleration at this place
 
   double gain_within(double t, double duration) const noexcept {
     return t < duration ? load_gain * (t / duration) : load_gain;

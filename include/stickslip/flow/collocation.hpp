@@ -71,7 +71,8 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
   using Base = PowerSeriesFlow<SlipStart>;
   using Base::at_part, Base::end_series, Base::find_first_stop, Base::integral, Base::stiffness, Base::weight;
   using Base::loaded, Base::mounting_, Base::direction_, Base::displacement_, Base::start_, Base::gain_, Base::horizon_,
-      Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_, Base::weight_rate_;
+      Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_, Base::weight_rate_,
+      Base::rise_rate_;
   using Nodes = detail::Nodes;
   using Values = Nodes::Values;
   static constexpr bool heated = HeatedLaw<Law>;
@@ -243,8 +244,11 @@ class CollocationFlow : public PowerSeriesFlow<SlipStart> {
     const double last = std::abs(c[n - 1]) + std::abs(c[n - 2]);
     if (h * last > tolerance * fastest && last > least) return false;
     Values coefficients;
-    const int degree = Nodes::powers(c, noise(a), coefficients);
+    int degree = Nodes::powers(c, noise(a), coefficients);
     coefficients[0] = start_.acceleration;
+    if constexpr (!heated) {  // of a slip that begins, only round-off can change the sign
+      if (rise_rate_ > 0 && !(coefficients[1] > 0)) coefficients[1] = rise_rate_ * h, degree = std::max(degree, 1);
+    }
     speed_[0] = start_.speed;
     distance_[0] = h * start_.speed;
     for (int k = 0; k <= degree; ++k) {

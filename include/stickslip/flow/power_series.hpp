@@ -223,6 +223,7 @@ class PowerSeriesFlow {
         start_(start),
         gain_(detail::gain_series(start, duration)),
         weight_rate_(weight_rate(start, duration)),
+        rise_rate_(rise_rate(start, duration)),
         horizon_(std::min(std::min(duration, longest), gain_.reach(mounting.natural_frequency))) {}
   ~PowerSeriesFlow() = default;
 
@@ -274,6 +275,16 @@ class PowerSeriesFlow {
       return 0;
   }
 
+  // The rate of the acceleration of a slip that begins at its level, handed over by the departure [m/s^3]; else 0.
+  static double rise_rate(const SlipStart& start, double duration) noexcept {
+    if constexpr (loaded)
+      return start.begins ? start.gain / duration : 0;
+    else if constexpr (std::same_as<SlipStart, Start>)
+      return start.speed > 0 || !detail::equal(start.acceleration, 0) ? 0 : std::max(start.gain, 0.0) / duration;
+    else
+      return 0;
+  }
+
   // Even and odd powers are summed separately, to shorten the chain of dependent additions. The value at the start, by
   // far the largest term, is added last and unrounded.
   Progress at_part(double s) const noexcept {
@@ -317,6 +328,7 @@ class PowerSeriesFlow {
   SlipStart start_;
   decltype(detail::gain_series(SlipStart{}, 0)) gain_;
   double weight_rate_;  // of N/g [1/s]
+  double rise_rate_;    // [m/s^3]
   double horizon_;
   int order_ = 0;
   // Coefficients, for time in units of the horizon, of the distance divided by that time [m], of the speed [m/s] and of

@@ -37,7 +37,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
   using Base = PowerSeriesFlow<SlipStart>;
   using Base::at_part, Base::end_series, Base::find_first_stop, Base::integral, Base::weight;
   using Base::loaded, Base::direction_, Base::displacement_, Base::start_, Base::gain_, Base::weight_rate_,
-      Base::horizon_, Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_;
+      Base::rise_rate_, Base::horizon_, Base::order_, Base::distance_, Base::speed_, Base::acceleration_, Base::end_;
 
  public:
   /// Kept out of line: inlining it wherever a flow is made doubles the compile time of a law.
@@ -175,6 +175,7 @@ class TaylorFlow : public PowerSeriesFlow<SlipStart> {
           double pull = distance_[k - 1];
           if (pendulum) pull = weight_now * pull + weight_gains * (k == 1 ? s * displacement_ : distance_[k - 2]);
           net = gain(k) - stiffness * pull - (weight_now * level[k] + weight_gains * level[k - 1]);
+          if (k == 1 && rise_rate_ > 0) net = rise_rate_ * h;
         } else {
           net = gain(k) - stiffness * distance_[k - 1] - level[k];
         }

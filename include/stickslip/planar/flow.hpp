@@ -940,12 +940,6 @@ class PlanarFlow {
     last_ = longest > 0 ? std::min(longest, 1.0) : 1;
     end_series(order);
     if (!constant) keep_to(law);
-    if (slow) {
-      // It remains slow; otherwise steps in tau are as long.
-      while (last_ > 0x1p-10 && follows * std::max(u_[0] + value(u_, last_), u_[0] + value(u_, last_ / 2)) > load * h)
-        last_ /= 2;
-      if (!(load * h * last_ > 16 * (u_[0] + std::abs(value(u_, last_))))) return false;
-    }
     // Where the speed returns to zero, a slip along one line stops, and so does a slow one. Any other still turns: the
     // series ends before.
     Array slower{};  // for GCC, which takes it for uninitialized
@@ -961,6 +955,14 @@ class PlanarFlow {
         stops_ = last_ * h <= duration_;
       else
         last_ *= 0.75;
+    }
+    if (slow) {
+      // It remains slow; otherwise steps in tau are as long.
+      const double reached = last_;
+      while (last_ > 0x1p-10 && follows * std::max(u_[0] + value(u_, last_), u_[0] + value(u_, last_ / 2)) > load * h)
+        last_ /= 2;
+      if (!(load * h * last_ > 16 * (u_[0] + std::abs(value(u_, last_))))) return stops_ = false;
+      if (last_ < reached) stops_ = false;
     }
     finish();
     return true;
@@ -996,7 +998,8 @@ class PlanarFlow {
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     vx_[0] = velocity_.axis, vy_[0] = velocity_.transverse;
     reaction[0] = pa - spring * gap + speed * speed / gap;
-    if (std::abs(reaction[0]) <= graze * (largest_load() + spring * gap + speed * speed / gap)) reaction[0] = 0;
+    // It is pressed against the stop, or would not start so.
+    if (reaction[0] <= graze * (largest_load() + spring * gap + speed * speed / gap)) reaction[0] = 0;
     for (int k = 0; k < highest_order; ++k) {
       const double by = h * series::reciprocal[k + 1];
       if (k > 0) {

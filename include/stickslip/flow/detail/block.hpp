@@ -18,7 +18,6 @@ template <FrictionLaw Law, class Oscillator>
 requires(form_of<Law> == Form::constant) class BlockFlows : public LawFlows<Law> {
  public:
   static constexpr bool in_closed_form = requires { typename Oscillator::Basis; };
-  static constexpr bool stops_twice_at_most = std::same_as<Oscillator, Polynomial>;
   static constexpr int most_steps = in_closed_form ? 1'000'000 : 3'000'000;
 
   BlockFlows(const Law& law, Oscillator oscillator) : LawFlows<Law>(law), oscillator_(std::move(oscillator)) {}

@@ -2,18 +2,27 @@
 #pragma once
 
 #include <concepts>
+#include <type_traits>
 
+#include "stickslip/base/min_max.hpp"
 #include "stickslip/flow/closed_form.hpp"
 #include "stickslip/friction/law.hpp"
 #include "stickslip/state.hpp"
 
 namespace stickslip::detail {
 
-/// The direction and the time in which a slider at rest begins to slip; stuck if it stays at rest.
+/// The direction and the time in which a slider at rest begins to slip; stuck if it stays at rest. The slip starts with
+/// the acceleration that decided this: computed once more it may round differently, as where a compiler contracts
+/// multiplication and addition, and the slip would stop at once and begin again without end.
 struct Departure {
   Mode mode = Mode::stuck;
   double delay = 0;  ///< from now [s]
   double net = 0;    ///< load minus pull of the spring at that time [m/s^2]
+  double acceleration =
+      0;  ///< of the slip at that time [m/s^2], at least 0; 0 if it begins at the level that resists it
+  /// Of a slip that begins at the level that resists it, positive: the change of its acceleration at that place until the
+  /// end of a segment of linear forces [m/s^2].
+  double rise = 0;
 
   bool departs() const noexcept { return mode != Mode::stuck; }
 };
@@ -28,13 +37,13 @@ struct Departure {
 ///                                       // longer. `law_now` applies over a distance `ahead(state, direction)` [m], at
 ///                                       // whose end `pass(state, direction)` puts a state
 ///     departure(load, bounds, state, net, pull, forward, backward, left)
-///                                       // as SegmentLoad, with the net load at that time. A memory that changes
-///                                       // at rest then has its value at the departure, or at the end of the segment
+///                                       // as SegmentLoad, with the net load and the acceleration at that time. A
+///                                       // memory that changes at rest then has its value at the departure, or at the
+///                                       // end of the segment
 ///     remember(flow, time, state), slid(state, distance)
 ///                                       // update the memory of the law after a part of a flow
 ///     friction_work(slide, leg, state)  // work against friction during a leg [m^2/s^2]
 ///     in_closed_form                    // whether its flows are, so that they cost little
-///     stops_twice_at_most               // whether slips stop at most twice under a linear load
 ///     most_steps                        // in a hundredth of a segment (Standstill)
 template <class Maker>
 concept FlowMaker = requires(const Maker& maker, const typename Maker::Place& state, typename Maker::Place& there,
@@ -46,7 +55,6 @@ concept FlowMaker = requires(const Maker& maker, const typename Maker::Place& st
   maker.pass(there, direction);
   maker.slid(there, value);
   { Maker::in_closed_form } -> std::convertible_to<bool>;
-  { Maker::stops_twice_at_most } -> std::convertible_to<bool>;
   { Maker::most_steps } -> std::convertible_to<int>;
 };
 
@@ -56,7 +64,7 @@ class LawFlows {
  public:
   using Law = AnyLaw;
   using Place = StateOf<Law>;
-  static constexpr bool in_closed_form = false, stops_twice_at_most = false;
+  static constexpr bool in_closed_form = false;
   static constexpr int most_steps = 3'000'000;
 
   explicit LawFlows(const Law& law) noexcept : law_(law) {}
@@ -69,12 +77,20 @@ class LawFlows {
   }
 
   template <class Load, class Bounds, class AnyState>
-  [[gnu::always_inline]] Departure departure(const Load& load, const Bounds&, const AnyState&, double net, double pull,
-                                             double forward, double backward, double left) const {
+  [[gnu::always_inline]] Departure departure(const Load& load, const Bounds&, const AnyState& state, double net,
+                                             double pull, double forward, double backward, double left) const {
     Departure departure = load.departure(net, pull, forward, backward, left);
     if (!departure.departs()) return departure;
     const double then = load.weight(left - departure.delay);
-    departure.net = departure.mode == Mode::forward ? Load::weigh(then, forward) : -Load::weigh(then, backward);
+    const double holds = departure.mode == Mode::forward ? forward : backward, level = Load::weigh(then, holds);
+    departure.net = departure.mode == Mode::forward ? level : -level;
+    if constexpr (LawWithHold<std::remove_cvref_t<decltype(law_now(state, then))>>) {
+      const double resists = resist(law_now(state, then), state.displacement, 0.0, direction_of(departure.mode));
+      if (holds > resists) {
+        departure.acceleration = std::max(level - Load::weigh(then, resists), 0.0);
+        departure.rise = 0;
+      }
+    }
     return departure;
   }
 

@@ -79,7 +79,7 @@ class Heating {
       for (int sweep = 0; sweep < 30 && !settled; ++sweep) {
         slip.emplace(make(HeatedStep<Law>(law_, level.powers(), step), step));
         const auto& flow = slip->flow;
-        if (!flow.is_series()) {  // so close to a stop that no heat matters
+        if (!flow.is_series() || !(flow.horizon() > 0)) {  // so close to a stop that no heat matters
           heats_ = false;
           return *slip;
         }

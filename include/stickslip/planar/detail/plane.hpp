@@ -280,7 +280,7 @@ class Plane {
     state_.displacement += leg.end.way;
     state_.velocity = leg.end.velocity;
     state_.sliding_distance += leg.end.distance;
-    left_ = leg.end.time < left_ ? left_ - leg.end.time : 0;
+    left_ = leg.end.time < left_ ? pass_time(left_, leg.end.time) : 0;
     if constexpr (heated) heating_.heat(leg.end.time, state_.heat);
   }
   void rest() noexcept {

@@ -54,8 +54,7 @@ struct AxisPassage {
 template <class Flows, SegmentLoad Forces, class Place, class Limits>
 class Axis {
  public:
-  /// Many slips can only come from a spring, a law or stops.
-  static constexpr int most_steps = Flows::stops_twice_at_most && !Limits::bounded ? 0 : Flows::most_steps;
+  static constexpr int most_steps = Flows::most_steps;
 
   [[gnu::always_inline]] Axis(const Flows& flows, const Forces& forces, Place& state, const Limits& limits)
       : flows_(flows), forces_(forces), state_(state), limits_(limits), left_(forces.duration) {
@@ -90,8 +89,8 @@ class Axis {
       else if (stopped_ == Mode::backward && -net_ - backward <= tolerance)
         net_ = std::max(net_, -backward);
     }
-    if (net_ > forward) return {Mode::forward, 0, net_};
-    if (net_ < -backward) return {Mode::backward, 0, net_};
+    if (net_ > forward) return {Mode::forward, 0, net_, beyond(Direction::forward, net_ - forward)};
+    if (net_ < -backward) return {Mode::backward, 0, net_, beyond(Direction::backward, -net_ - backward)};
     if (!(left_ > 0)) return {};
     const double pull_at_end = flows_.pull(state_.displacement, forces_.weight(0));
     return flows_.departure(forces_, limits_, state_, net_, pull_at_end, holds_forward, holds_backward, left_);
@@ -101,6 +100,9 @@ class Axis {
     state_.mode = departure.mode;
     left_ -= departure.delay;
     net_ = departure.net;
+    departs_ = true;
+    acceleration_ = departure.acceleration;
+    rise_ = departure.rise;
     const Mode stopped = std::exchange(stopped_, Mode::stuck);
     if (stopped == Mode::stuck) return Resumption::from_rest;
     return stopped == departure.mode || limits_.at_struck_wall() ? Resumption::onward : Resumption::reversed;
@@ -109,7 +111,8 @@ class Axis {
   [[gnu::always_inline]] auto slide() {
     const Direction direction = direction_of(state_.mode);
     const double load = net_ + pull(), speed = std::abs(state_.velocity);
-    const auto start = forces_.slip(sign(direction), speed, acceleration(direction), load, left_,
+    const double begins = std::exchange(departs_, false) ? acceleration_ : acceleration(direction);
+    const auto start = forces_.slip(sign(direction), speed, begins, std::exchange(rise_, 0.0), load, left_,
                                     [&] { return resist(law_now(), state_.displacement, speed, direction); });
     using Slide =
         AxisSlide<std::remove_const_t<decltype(start)>, decltype(flows_.flow(direction, state_, start, left_))>;
@@ -176,7 +179,7 @@ class Axis {
     flows_.slid(state_, leg.end.distance);
     state_.velocity = s * std::max(leg.end.speed, 0.0);
     if (equal(leg.time, left_)) return false;
-    left_ -= leg.time;
+    left_ = pass_time(left_, leg.time);
     net_ = slide.load + s * leg.gain - pull();
     // If the loads balance to the last digit, a slip too slow to change x would never end.
     if (std::abs(state_.velocity) < std::numeric_limits<double>::min() && acceleration(slide.direction) <= 0) {
@@ -195,7 +198,7 @@ class Axis {
     state_.velocity = 0;
     stopped_ = std::exchange(state_.mode, Mode::stuck);
     instant_ = !(left_ - leg.time < left_);
-    left_ -= leg.time;
+    left_ = pass_time(left_, leg.time);
     net_ = slide.load + s * leg.gain - pull();
   }
 
@@ -206,8 +209,15 @@ class Axis {
   double weigh(double level) const { return Forces::weigh(forces_.weight(left_), level); }
   double pull() const { return flows_.pull(state_.displacement, forces_.weight(left_)); }
 
-  // Net acceleration in the direction of sliding. From rest it is the excess of the load over the resistance: exactly
-  // zero if the slider was held until the load reached the level.
+  // Net acceleration of a slip that begins under more load than is held, by an excess: at least that excess.
+  double beyond(Direction direction, double excess) const {
+    if constexpr (LawWithHold<std::remove_cvref_t<decltype(law_now())>>)
+      return std::max(sign(direction) * net_ - weigh(resist(law_now(), state_.displacement, 0.0, direction)), excess);
+    else
+      return excess;
+  }
+
+  // Net acceleration in the direction of sliding.
   double acceleration(Direction direction) const {
     const double speed = std::abs(state_.velocity);
     return sign(direction) * net_ - weigh(resist(law_now(), state_.displacement, speed, direction)) -
@@ -270,6 +280,9 @@ class Axis {
   double net_;                  // all forces but friction [m/s^2]
   Mode stopped_ = Mode::stuck;  // the mode of a slip that has just stopped,
   bool instant_ = false;        // and whether it took no time
+  bool departs_ = false;        // whether the next slip begins from rest,
+  double acceleration_ = 0;     // with this acceleration [m/s^2]
+  double rise_ = 0;             // Departure::rise [m/s^2]
 };
 
 /// Integrate a slider over a segment of any load.

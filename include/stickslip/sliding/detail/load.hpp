@@ -25,11 +25,12 @@ constexpr double weigh(double weight, double level) noexcept { return level < ne
 ///     weight(left)            // N+/g at that time
 ///     weigh(weight, level)    // a level under a weight [m/s^2]
 ///     departure(net, pull, forward, backward, left)
-///                             // when the load exceeds a level. Now, `left` before the end, the net load is within
-///                             // both; `pull` is the force of the spring at the end, levels are for the weight g
-///     slip(s, speed, acceleration, now, left, level)
-///                             // the start of a slip in the direction of sign s, at the load `now`; `level()` is the
-///                             // resistance there, for the weight g
+///                             // when the load exceeds a level, and the rise from there on. Now, `left` before the
+///                             // end, the net load is within both; `pull` is the force of the spring at the end, levels
+///                             // are for the weight g
+///     slip(s, speed, acceleration, rise, now, left, level)
+///                             // the start of a slip in the direction of sign s, at the load `now`; `rise` is that of its
+///                             // departure, or 0; `level()` is the resistance there, for the weight g
 template <class L>
 concept SegmentLoad = requires(const L& load, double value, double (*level)()) {
   load.duration;
@@ -38,7 +39,7 @@ concept SegmentLoad = requires(const L& load, double value, double (*level)()) {
   load.weight(value);
   L::weigh(value, value);
   load.departure(value, value, value, value, value).mode;
-  load.slip(value, value, value, value, value, level).speed;
+  load.slip(value, value, value, value, value, value, level).speed;
 };
 
 /// A load that is linear in time, on level ground without vertical motion.
@@ -53,16 +54,18 @@ struct LinearLoad {
   static constexpr double weigh(double, double level) noexcept { return level; }
 
   Departure departure(double net, double pull, double forward, double backward, double left) const noexcept {
-    // How far the load ends beyond each level. Computed as in the flow, to have the same sign under round-off.
+    // How far the load ends beyond each level.
     const double above = -end - (forward + pull), below = end - (backward - pull);
-    if (above > 0) return {Mode::forward, left * ((forward - net) / ((forward - net) + above))};
-    if (below > 0) return {Mode::backward, left * ((backward + net) / ((backward + net) + below))};
+    const auto delay = [&](double room, double beyond) { return left * (room / (room + beyond)); };
+    if (above > 0) return {.mode = Mode::forward, .delay = delay(forward - net, above), .rise = above};
+    if (below > 0) return {.mode = Mode::backward, .delay = delay(backward + net, below), .rise = below};
     return {};
   }
 
   template <class Level>
-  Start slip(double s, double speed, double acceleration, double now, double /*left*/, const Level&) const noexcept {
-    return {speed, acceleration, s * (-end - now)};
+  Start slip(double s, double speed, double acceleration, double rise, double now, double /*left*/,
+             const Level&) const noexcept {
+    return {speed, acceleration, rise > 0 ? rise : s * (-end - now)};
   }
 };
 
@@ -87,18 +90,27 @@ struct WeighedLoad {
     const double below = -load_end - (weigh(weight_end, backward) - pull);
     if (!(above > 0) && !(below > 0)) return {};
     const double now = weight(left);
-    const auto delay = [&](double room, double beyond) { return left * (room / (room + beyond)); };
+    // The room is not negative; contracted, its product may round otherwise than where that was decided.
+    const auto delay = [&](double room, double beyond) {
+      return left * (std::max(room, 0.0) / (std::max(room, 0.0) + beyond));
+    };
     const double first = above > 0 ? delay(weigh(now, forward) - net, above) : never;
     const double second = below > 0 ? delay(weigh(now, backward) + net, below) : never;
-    if (first < second) return {Mode::forward, first};
-    return {Mode::backward, second};
+    if (first < second) return {.mode = Mode::forward, .delay = first, .rise = above};
+    return {.mode = Mode::backward, .delay = second, .rise = below};
   }
 
   template <class Level>
-  LoadStart slip(double s, double speed, double acceleration, double now, double left, const Level& level) const {
+  LoadStart slip(double s, double speed, double acceleration, double rise, double now, double left,
+                 const Level& level) const {
     const double resists = level(), weight_now = weight(left);
     const double gained = s * (load_end - now), weight_gained = weight_end - weight_now;
-    return {{speed, acceleration, gained - resists * weight_gained}, gained, weight_now, weight_gained, resists};
+    return {{speed, acceleration, rise > 0 ? rise : gained - resists * weight_gained},
+            gained,
+            weight_now,
+            weight_gained,
+            resists,
+            rise > 0};
   }
 };
 
@@ -118,16 +130,23 @@ struct CosineLoad {
     const double one = time_to_exceed(forward + pull, now);
     const double other = time_to_exceed(backward - pull, now + std::numbers::pi);
     if (std::min(one, other) > left) return {};
-    return one < other ? Departure{Mode::forward, one} : Departure{Mode::backward, other};
+    const bool forth = one < other;
+    return {.mode = forth ? Mode::forward : Mode::backward, .delay = forth ? one : other, .rise = amplitude};
   }
 
   template <class Level>
-  SinusoidalStart slip(double s, double speed, double acceleration, double /*now*/, double left,
+  SinusoidalStart slip(double s, double speed, double acceleration, double rise, double /*now*/, double left,
                        const Level&) const noexcept {
-    return {speed, acceleration, s * amplitude, omega, phase + omega * (duration - left)};
+    const double now = phase + omega * (duration - left);
+    // A slip that begins at its level does so before the load is largest; the round-off of a phase of many cycles may put
+    // it after that.
+    if (rise > 0 && !(s * std::sin(now) < 0)) return {speed, acceleration, amplitude, omega, -at_top};
+    return {speed, acceleration, s * amplitude, omega, now};
   }
 
  private:
+  static constexpr double at_top = 0x1p-40;  // from this phase before it the load rises by less than round-off
+
   // Time until B cos(phase) rises above a level [s]. If round-off has already put it above the level, the time is zero
   // while it rises, and about a period while it falls.
   double time_to_exceed(double level, double from) const noexcept {
@@ -136,7 +155,6 @@ struct CosineLoad {
     const double above = 2 * std::asin(std::sqrt(std::min(room, 1.0)));  // above the level while |phase| is less
     const double now = std::remainder(from, 2 * std::numbers::pi);
     if (now < -above) return (-above - now) / omega;
-    constexpr double at_top = 0x1p-40;  // from here the load rises by less than round-off
     return now < -at_top ? 0 : (2 * std::numbers::pi - above - now) / omega;
   }
 };

@@ -1,6 +1,7 @@
 // The event loop: the order in which a sliding system is asked.
 #pragma once
 
+#include <cmath>
 #include <utility>
 
 #include "stickslip/base/equal.hpp"
@@ -11,7 +12,7 @@
 namespace stickslip::detail {
 
 /// Notices an event loop that takes too many steps, or meets numbers that overflow, within a hundredth of its segment.
-/// @tparam most_steps  in a hundredth of the segment; 0: it cannot take many
+/// @tparam most_steps  in a hundredth of the segment
 template <int most_steps>
 class Standstill {
  public:
@@ -31,12 +32,13 @@ class Standstill {
   double mark_;  // time left at the last check [s]
   int steps_ = 0;
 };
-template <>
-class Standstill<0> {
- public:
-  explicit Standstill(double) {}
-  static constexpr bool stalls(double) noexcept { return false; }
-};
+
+/// The time left in a segment after a part of a slip [s]. A time below its resolution passes as the smallest one: slips
+/// could otherwise follow each other without end.
+inline double pass_time(double left, double time) noexcept {
+  const double after = left - time;
+  return after < left || !(time > 0) ? after : std::nextafter(left, 0.0);
+}
 
 /// Move a system through a segment, from event to event.
 template <SlidingSystem System, class Observer>

@@ -21,12 +21,13 @@ enum class Resumption { from_rest, onward, reversed };
 ///     departure()              // when the next slip begins: `departs()` in this segment, after `delay`. If it does
 ///                              // not depart, the system is at the end of the segment
 ///     depart(departure)        // goes there, and says how it resumes
-///     slide()                  // the slip from here on: `stop`, its first stop or `never`, and its flow
+///     slide()                  // the slip from here on: `stop`, its first stop or `never`, and its flow. What decided a
+///                              // departure is where the slip starts
 ///     passage(slide)           // where it passes a bound or a change of its law before that stop: `passes`, `leg`
 ///     show(slide, leg, observer)
 ///     pass(slide, passage, observer), proceed(slide, leg), stop(slide, leg)
 ///                              // go to the end of a leg; the first two return whether the segment goes on
-///     most_steps               // that a hundredth of a segment can take; 0 if it cannot take many
+///     most_steps               // that a hundredth of a segment can take
 ///     stall()                  // throws, because it takes more
 template <class System>
 concept SlidingSystem = requires(System& system, const System& now) {
