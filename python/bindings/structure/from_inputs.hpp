@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "stickslip/structure/matrix.hpp"
 
 namespace stickslip::python {
 

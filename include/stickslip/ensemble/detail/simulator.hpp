@@ -197,7 +197,7 @@ class PeakObserver final : public Sink {
   Impacts impacts_;
 };
 
-/// Continue a member without ground acceleration until it rests.
+/// Continue a member without ground acceleration until it comes to rest.
 void settle_member(const Engine& engine, bool loaded, Contact contact, State& state, PeakObserver& observer,
                    const Block& block);
 

@@ -86,7 +86,7 @@ class LoadPieces {
   Slope slope_;
 };
 
-/// The segments of a ground motion, of which a sink is told the times and histories are kept.
+/// The segments of a ground motion, whose times a sink receives and at whose samples histories are kept.
 /// @tparam Pieces  of the motion: GroundMotion::Pieces or LoadPieces
 template <class Pieces, class AnySink, class AnySegment = decltype(std::declval<const Pieces&>().segment(0))>
 class SampledSegments final : public Segments<AnySegment> {
