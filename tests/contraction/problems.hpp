@@ -82,7 +82,8 @@ inline Mounting mounting_of(Random& random, bool in_plane) {
   if (random.chance(0.6)) on.natural_frequency = random.one_of({2, random.uniform(0.3, 12)});
   if (random.chance(0.3)) on.damping = random.uniform(0, 2);
   const double gap = random.one_of({0.03, random.uniform(0.005, 0.2)});
-  const double restitution = random.one_of({0, 0.5, 0.9, in_plane ? 0.7 : 1});  // without loss it bounces along a circle
+  const double restitution =
+      random.one_of({0, 0.5, 0.9, in_plane ? 0.7 : 1});  // without loss it bounces along a circle
   if (random.chance(0.3)) on.stops = Stops(gap, in_plane ? gap : random.one_of({gap, 2 * gap}), restitution);
   on.one_way = !in_plane && random.chance(0.1);
   on.pendulum = on.natural_frequency > 0 && random.chance(0.4);
@@ -104,7 +105,8 @@ template <class Use>
 bool with_common_law(std::size_t which, Random& random, double level, Use&& use) {
   if (which == 0) return use(Coulomb(level), 1e-12), true;
   if (which == 1) return use(StaticKinetic(Coulomb(level), random.one_of({1, 1.5}) * level), 1e-12), true;
-  if (which == 2) return use(Stribeck(level, 0.6 * level, random.uniform(0.02, 0.3), random.chance(0.5) ? 1 : 2), 1e-11), true;
+  if (which == 2)
+    return use(Stribeck(level, 0.6 * level, random.uniform(0.02, 0.3), random.chance(0.5) ? 1 : 2), 1e-11), true;
   if (which == 3) return use(VelocityDependent(0.6 * level, level, random.uniform(2, 50)), 1e-11), true;
   if (which == 4)
     return use(Degrading({0, 0.01, 0.1}, {level, random.one_of({0.7, 1.2}) * level, 0.5 * level}), 1e-11), true;

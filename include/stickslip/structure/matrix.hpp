@@ -1,6 +1,8 @@
 // Vectors and matrices of structures.
 #pragma once
 
+#include "stickslip/base/requirements.hpp"  // before Eigen, whose absence would be told first
+
 #include <Eigen/Core>
 
 namespace stickslip {
