@@ -61,6 +61,11 @@ class ToSink {
   SlipFlow flow_;
 };
 
+/// Constant friction on a plane or a spring: a slip costs so little that calls between the parts of the event loop would
+/// show.
+template <class Flows>
+inline constexpr bool is_cheap = Flows::in_closed_form && (form_of<typename Flows::Law> == Form::constant);
+
 /// Move a state through all segments.
 /// @param go  `go(segment, state, observer)` moves it through one
 template <class AnySegment, class Place, class Go>
@@ -68,17 +73,23 @@ template <class AnySegment, class Place, class Go>
   ToSink<Sink> observer(sink);
   for (AnySegment segment; segments.next(StateView(state), segment);) go(segment, state, observer);
 }
-/// The same where a slip costs so little that calls between the parts of the event loop would show.
 template <class AnySegment, class Place, class Go>
 [[gnu::flatten, gnu::noinline]] void move_inlined(Segments<AnySegment>& segments, Place& state, Sink& sink, Go go) {
   Place moving = state;  // a state whose address is taken is kept in memory
   move_through(segments, moving, sink, go);
   state = moving;
 }
-
-/// Constant friction on a plane or a spring.
-template <class Flows>
-inline constexpr bool is_cheap = Flows::in_closed_form&& form_of<typename Flows::Law> == Form::constant;
+/// The same of a public state, by the way that suits the flows.
+/// @tparam Place  in which the event loop carries it
+template <class Flows, class Place, class AnySegment, class Go>
+[[gnu::always_inline]] inline void move_as(Segments<AnySegment>& segments, State& state, Sink& sink, const Go& go) {
+  Place moving(state);
+  if constexpr (is_cheap<Flows>)
+    move_inlined(segments, moving, sink, go);
+  else
+    move_through(segments, moving, sink, go);
+  store(moving, state);
+}
 
 /// A slider of any law as an Engine. The library contains those of its laws; a user's own law compiles here.
 template <FrictionLaw Law>
@@ -108,22 +119,20 @@ class EngineOf final : public Engine {
 
  private:
   static constexpr LawTraits traits() noexcept {
-    return {.constant = form_of<Law> == Form::constant,
-            .coulomb = std::same_as<Law, Coulomb>,
-            .position = PositionLaw<Law>,
-            .closed_work = LawWithWork<Law>,
-            .memory = MemoryLaw<Law>,
-            .heated = HeatedLaw<Law>,
-            .springs = requires(const Law& law, const State& state){law.elastic(state);
+    LawTraits of{.constant = form_of<Law> == Form::constant,
+                 .coulomb = std::same_as<Law, Coulomb>,
+                 .position = PositionLaw<Law>,
+                 .closed_work = LawWithWork<Law>,
+                 .memory = MemoryLaw<Law>,
+                 .heated = HeatedLaw<Law>};
+    if constexpr (requires(const Law& law, const State& state) { law.elastic(state); }) of.springs = true;
+    return of;
   }
-};
-}  // namespace stickslip::detail
-template <class AnySink>
-void record_any(const GroundMotion& motion, State& state, AnySink& sink, const HistorySpans& histories) const;
+  template <class AnySink>
+  void record_any(const GroundMotion& motion, State& state, AnySink& sink, const HistorySpans& histories) const;
 
-const Slider<Law>& slider_;
-}
-;
+  const Slider<Law>& slider_;
+};
 
 // The functions are defined outside of the class, so that they are not inline: compilers do not instantiate them where
 // the library contains them.
@@ -131,15 +140,9 @@ const Slider<Law>& slider_;
 template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<Segment>& segments, double usual_duration, State& state, Sink& sink) const {
   with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
-    typename Flows::Place moving(state);
-    const auto go = [&flows](const Segment& segment, auto& place, auto& observer) {
-      advance(flows, segment, place, observer);
-    };
-    if constexpr (is_cheap<Flows>)
-      move_inlined(segments, moving, sink, go);
-    else
-      move_through(segments, moving, sink, go);
-    store(moving, state);
+    move_as<Flows, typename Flows::Place>(
+        segments, state, sink,
+        [&flows](const Segment& segment, auto& place, auto& observer) { advance(flows, segment, place, observer); });
   });
 }
 
@@ -148,27 +151,21 @@ void EngineOf<Law>::move(Segments<LoadSegment>& segments, double usual_duration,
                          Sink& sink) const {
   const Bounds bounds{mounting().stops, mounting().one_way};
   with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
-    StateOf<Law> moving(state);
-    const auto go = [&flows, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
-      advance(flows, segment, bounds, contact, place, observer);
-    };
-    if constexpr (is_cheap<Flows>)
-      move_inlined(segments, moving, sink, go);
-    else
-      move_through(segments, moving, sink, go);
-    store(moving, state);
+    move_as<Flows, StateOf<Law>>(segments, state, sink,
+                                 [&flows, bounds, contact](const LoadSegment& segment, auto& place, auto& observer) {
+                                   advance(flows, segment, bounds, contact, place, observer);
+                                 });
   });
 }
 
 template <FrictionLaw Law>
 void EngineOf<Law>::move(Segments<HarmonicSegment>& segments, double omega, double usual_duration, State& state,
                          Sink& sink) const {
-  with_harmonic_flows(slider_, omega, usual_duration, [&](const auto& flows) {
-    typename std::remove_cvref_t<decltype(flows)>::Place moving(state);
-    move_through(segments, moving, sink, [&](const HarmonicSegment& segment, auto& place, auto& observer) {
-      advance(flows, segment, place, observer);
-    });
-    store(moving, state);
+  with_harmonic_flows(slider_, omega, usual_duration, [&]<class Flows>(const Flows& flows) {
+    move_as<Flows, typename Flows::Place>(segments, state, sink,
+                                          [&flows](const HarmonicSegment& segment, auto& place, auto& observer) {
+                                            advance(flows, segment, place, observer);
+                                          });
   });
 }
 

@@ -60,7 +60,7 @@ enum class Account {
 };
 
 /// Receives each slip, or part of one, and each event of a motion. Times are measured from the beginning of the segment
-/// [s]. An engine is compiled for this type alone, and for no law that is plain enough for an inlined sink.
+/// [s]. Engines are compiled for this type; Coulomb friction on level ground has its sinks inlined instead.
 class Sink {
  public:
   virtual void slide(const Slip& slip, const SlipFlow& flow) = 0;
