@@ -195,11 +195,11 @@ class Tracer final : public Sink {
   void begin_segment(double begin, double end, const LoadSegment& line) noexcept {
     begin_ = begin, end_ = end, now_ = 0;
     line_ = line;
-    wave_ = nullptr;
+    wave_.reset();
   }
   void begin_segment(double begin, double end, const HarmonicSegment& wave) noexcept {
     begin_segment(begin, end, LoadSegment{wave.duration, 0, 0, standard_gravity, standard_gravity});
-    wave_ = &wave;
+    wave_ = wave;
   }
   void end_segment(const State& state) {
     rest(line_.duration);
@@ -239,7 +239,7 @@ class Tracer final : public Sink {
   double absolute(double time) const noexcept { return at_end(time) ? end_ : begin_ + time; }
 
   Load load(double time) const noexcept {
-    if (wave_ != nullptr) return {wave_->amplitude * std::cos(wave_->phase + wave_->omega * time), line_.normal_start};
+    if (wave_) return {wave_->amplitude * std::cos(wave_->phase + wave_->omega * time), line_.normal_start};
     if (!(time > 0)) return {line_.load_start, line_.normal_start};
     if (at_end(time)) return {line_.load_end, line_.normal_end};
     return {line_.load(time), line_.normal(time)};
@@ -260,7 +260,7 @@ class Tracer final : public Sink {
     const Load first = load(now_), last = load(now_ + duration);
     Arc arc(absolute(now_), absolute(now_ + duration), duration, state_,
             {duration, first.load, last.load, first.normal, last.normal}, engine_);
-    arc.wave_ = wave_;
+    arc.wave_ = wave_ ? &*wave_ : nullptr;
     arc.offset_ = now_;
     return arc;
   }
@@ -276,7 +276,7 @@ class Tracer final : public Sink {
   double begin_ = 0, end_ = 0;  // of the segment [s]
   double now_ = 0;              // since its beginning [s]
   LoadSegment line_{};
-  const HarmonicSegment* wave_ = nullptr;
+  std::optional<HarmonicSegment> wave_{};
 };
 
 /// The segments of a trajectory to a time, shown to a tracer: those of a ground motion, if there is one, and one more
@@ -327,10 +327,9 @@ class TracedWaves final : public Segments<HarmonicSegment> {
     const double last = motion_.time(motion_.segments());
     if (!(begin_ < std::min(last, until_))) return false;
     const double end = std::min(++crests_ * (motion_.period() / 2), last);
-    wave_ = {end - begin_, motion_.amplitude(), motion_.omega(), motion_.phase(begin_)};
-    tracer_.begin_segment(begin_, end, wave_);
+    segment = {end - begin_, motion_.amplitude(), motion_.omega(), motion_.phase(begin_)};
+    tracer_.begin_segment(begin_, end, segment);
     begin_ = end;
-    segment = wave_;
     return true;
   }
 
@@ -339,7 +338,6 @@ class TracedWaves final : public Segments<HarmonicSegment> {
   double begin_, until_;
   Tracer& tracer_;
   double crests_ = 0;
-  HarmonicSegment wave_{};
 };
 
 template <Motion M>
