@@ -24,7 +24,7 @@ class StructurePeakObserver final : public StructureSink {
   const Impacts& impacts() const noexcept { return impacts_; }
   std::vector<double> floor_peaks() const {
     std::vector<double> numbers{floors_.base_acceleration(), floors_.base_shear()};
-    const auto add = [&](const RealVector& values) { numbers.insert(numbers.end(), values.begin(), values.end()); };
+    const auto add = [&](const auto& values) { numbers.insert(numbers.end(), values.begin(), values.end()); };
     add(floors_.accelerations());
     add(floors_.drifts());
     numbers.resize(floor_numbers(static_cast<std::size_t>(floors_.accelerations().size())), no_drift);

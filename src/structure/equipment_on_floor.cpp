@@ -11,8 +11,10 @@
 namespace stickslip {
 namespace {
 
-detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, double mass) {
-  const Eigen::Index floors = structure.floors();
+using detail::view;
+
+detail::ModalInterface on_floor(const Structure& structure, std::ptrdiff_t floor, double mass) {
+  const std::ptrdiff_t floors = structure.floors();
   if (floors == 0)
     throw std::invalid_argument("EquipmentOnFloor: needs a structure with floors; give from_modes the shapes");
   if (floor < 1 || floor > floors)
@@ -20,11 +22,13 @@ detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, 
                                 std::to_string(floor));
   detail::require(std::isfinite(mass) && mass >= 0, "EquipmentOnFloor: mass must be finite and at least 0", mass, "kg");
   const Modes& modes = structure.modes();
-  const RealVector shape = modes.shapes.row(floor - 1), &participation = modes.participation;
-  const double influence = structure.influence()[floor - 1];
+  const auto shapes = view(modes.shapes);
+  const Eigen::VectorXd shape = shapes.row(floor - 1);
+  const auto participation = view(modes.participation), influences = view(structure.influence());
+  const double influence = influences[floor - 1];
   detail::ModalInterface of;
-  of.stiffness = modes.frequencies.cwiseAbs2();
-  of.damping = structure.modal_damping();
+  of.stiffness = view(modes.frequencies).cwiseAbs2();
+  of.damping = view(structure.modal_damping());
   of.classical = structure.classical();
   of.mass = 1 / (1 + mass * shape.squaredNorm());
   of.demand = of.mass * shape;
@@ -41,15 +45,15 @@ detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, 
   of.modal_mass = mass > 0 ? 1 / mass : 0;
   of.input_base = influence;
   of.input = influence * shape + of.modal_mass * participation;
-  of.shapes = modes.shapes;
-  of.influence = structure.influence();
+  of.shapes = shapes;
+  of.influence = influences;
   of.rides = false;
   of.slider_floor = floor - 1;
   of.slider_mass = mass;
   of.base_shear = participation + mass * shape;
   of.base_shear_of_base = participation.squaredNorm() + mass * influence;
   if (structure.has_matrices() && structure.uniform_influence()) {
-    of.floor_mass = structure.mass();
+    of.floor_mass = view(structure.mass());
     of.floor_mass(floor - 1, floor - 1) += mass;
   }
   return of;
@@ -57,7 +61,7 @@ detail::ModalInterface on_floor(const Structure& structure, Eigen::Index floor, 
 
 }  // namespace
 
-EquipmentOnFloor::EquipmentOnFloor(AnySlider slider, Structure structure, Eigen::Index floor, double mass)
+EquipmentOnFloor::EquipmentOnFloor(AnySlider slider, Structure structure, std::ptrdiff_t floor, double mass)
     : SlidingStructure("EquipmentOnFloor", std::move(slider), structure, on_floor(structure, floor, mass)),
       floor_(floor),
       mass_(mass) {}

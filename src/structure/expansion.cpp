@@ -111,8 +111,8 @@ double Expansion::take_demand(int k, double demand) {
     }
   } else {
     const auto n = static_cast<Eigen::Index>(modes_);
-    Eigen::Map<RealVector> force(force_.data(), n);
-    force.noalias() = of_.damping * Eigen::Map<const RealVector>(rate, n);
+    Eigen::Map<Eigen::VectorXd> force(force_.data(), n);
+    force.noalias() = of_.damping * Eigen::Map<const Eigen::VectorXd>(rate, n);
     for (std::size_t j = 0; j < modes_; ++j) {
       force_[j] += stiffness[j] * y[j];
       sum += d[j] * force_[j];
@@ -146,11 +146,22 @@ void Expansion::next(int k, double acceleration) {
   }
 }
 
-RealMatrix flow_matrix(const ModalInterface& of, bool sliding) {
+double ModalInterface::force_of_modes(const StructureState& state) const {
+  const auto y = view(state.modal_displacement), rate = view(state.modal_velocity);
+  const double of_y = demand.dot(stiffness.cwiseProduct(y));
+  return of_y + (classical ? demand.dot(damping.diagonal().cwiseProduct(rate)) : demand.dot(damping * rate));
+}
+
+double ModalInterface::size_of_force(const StructureState& state) const {
+  const auto y = view(state.modal_displacement), rate = view(state.modal_velocity);
+  return demand.cwiseAbs().dot(stiffness.cwiseProduct(y).cwiseAbs() + damping.cwiseAbs() * rate.cwiseAbs());
+}
+
+Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding) {
   const Eigen::Index n = of.modes(), first = sliding ? 2 : 0;
-  RealMatrix flow = RealMatrix::Zero(2 * n + first, 2 * n + first);
+  Eigen::MatrixXd flow = Eigen::MatrixXd::Zero(2 * n + first, 2 * n + first);
   // y'' = (-1 + reaction demand' - jump demand' / mass) r + ..., r = w^2 y + D y'
-  RealMatrix of_force = of.reaction * of.demand.transpose();
+  Eigen::MatrixXd of_force = of.reaction * of.demand.transpose();
   of_force.diagonal().array() -= 1;
   if (sliding) of_force -= of.jump * of.demand.transpose() / of.mass;
   flow.block(first, first + n, n, n).setIdentity();
@@ -171,7 +182,7 @@ RealMatrix flow_matrix(const ModalInterface& of, bool sliding) {
 void set_fastest(ModalInterface& of) {
   of.fastest = 0;
   for (const bool sliding : {false, true}) {
-    const RealMatrix flow = flow_matrix(of, sliding);
+    const Eigen::MatrixXd flow = flow_matrix(of, sliding);
     if (flow.rows() == 0) continue;
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(flow, false);
     if (solver.info() != Eigen::Success)
@@ -182,13 +193,13 @@ void set_fastest(ModalInterface& of) {
 
 StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
   using Eigen::Index;
-  const RealMatrix flow = flow_matrix(of, false);
+  const Eigen::MatrixXd flow = flow_matrix(of, false);
   for (Index i = 0; i < 2 * modes_; ++i)  // a rigid-body mode acts by its velocity only
     if (i >= modes_ || of.stiffness[i] > 0) kept_.push_back(i);
   if (kept_.empty()) return;
   const auto size = static_cast<Index>(kept_.size());
-  RealMatrix reduced(size, size);
-  RealVector row(size);
+  Eigen::MatrixXd reduced(size, size);
+  Eigen::VectorXd row(size);
   for (Index i = 0; i < size; ++i) {
     const Index from = kept_[static_cast<std::size_t>(i)];
     for (Index j = 0; j < size; ++j) reduced(i, j) = flow(from, kept_[static_cast<std::size_t>(j)]);
@@ -199,11 +210,12 @@ StuckBound::StuckBound(const ModalInterface& of) : modes_(of.modes()) {
   weights_ = (row.cast<std::complex<double>>().transpose() * solver.eigenvectors()).cwiseAbs().transpose();
 }
 
-double StuckBound::operator()(const RealVector& y, const RealVector& rate) const {
+double StuckBound::operator()(const StructureState& now) const {
   if (kept_.empty()) return 0;
   Eigen::VectorXcd state(static_cast<Eigen::Index>(kept_.size()));
   for (std::size_t i = 0; i < kept_.size(); ++i)
-    state[static_cast<Eigen::Index>(i)] = kept_[i] < modes_ ? y[kept_[i]] : rate[kept_[i] - modes_];
+    state[static_cast<Eigen::Index>(i)] =
+        kept_[i] < modes_ ? view(now.modal_displacement)[kept_[i]] : view(now.modal_velocity)[kept_[i] - modes_];
   return (left_ * state).cwiseAbs().dot(weights_);
 }
 

@@ -7,8 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stickslip/base/equal.hpp"
 #include "stickslip/error.hpp"
 #include "stickslip/flow/power_series.hpp"

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
@@ -21,17 +22,17 @@ namespace {
 using std::numbers::pi;
 
 Structure column(const FlexibleSlope& slope, const SlopeProperties& properties) {
-  RealVector fractions(slope.modes), frequencies(slope.modes);
-  for (int j = 0; j < slope.modes; ++j) {
-    const double odd = 2 * j + 1;
+  const auto modes = static_cast<std::size_t>(slope.modes);
+  std::vector<double> fractions(modes), frequencies(modes);
+  for (std::size_t j = 0; j < modes; ++j) {
+    const double odd = 2 * static_cast<double>(j) + 1;
     fractions[j] = 8 / (odd * odd * pi * pi);
     frequencies[j] = odd * pi * properties.shear_velocity / (2 * slope.height);
   }
   // The top of the column moves by (4/pi) (-1)^j / (2 j + 1) times the mode.
   RealMatrix top(1, slope.modes);
   for (int j = 0; j < slope.modes; ++j) top(0, j) = (j % 2 == 0 ? 4 : -4) / (pi * (2 * j + 1));
-  return Structure::from_modes(fractions, frequencies, RealVector::Constant(slope.modes, properties.damping_ratio),
-                               top);
+  return Structure::from_modes(fractions, frequencies, std::vector(modes, properties.damping_ratio), top);
 }
 
 // Downhill only.
@@ -47,12 +48,12 @@ double largest_top_of(const FlexibleSlope& slope, const SlopeProperties& propert
   const Structure structure = column(slope, properties);
   const Modes& modes = structure.modes();
   detail::ModalInterface of;
-  of.stiffness = modes.frequencies.cwiseAbs2();
-  of.damping = structure.modal_damping();
-  of.load = modes.participation;
-  of.demand = of.reaction = of.jump = RealVector::Zero(slope.modes);
-  of.shapes = modes.shapes;
-  of.fastest = std::max(modes.frequencies.maxCoeff(), of.damping.diagonal().maxCoeff());
+  of.stiffness = detail::view(modes.frequencies).cwiseAbs2();
+  of.damping = detail::view(structure.modal_damping());
+  of.load = detail::view(modes.participation);
+  of.demand = of.reaction = of.jump = Eigen::VectorXd::Zero(slope.modes);
+  of.shapes = detail::view(modes.shapes);
+  of.fastest = std::max(std::ranges::max(modes.frequencies), of.damping.diagonal().maxCoeff());
   if (const auto largest = detail::largest_top(of, motion)) return *largest;
   const double never_reached = 1e100;
   return integrate(on_surface(slope, properties, at_level(never_reached)), motion).floors.peak_drift[0];

@@ -9,8 +9,6 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Core>
-
 #include "stickslip/error.hpp"
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/structure/equipment_on_floor.hpp"
@@ -46,19 +44,20 @@ class Driven {
     if (!(segment.duration > 0)) return;
     const detail::GroundLoad load{segment.duration, segment.start, segment.end};
     const double steps = std::max(std::ceil(segment.duration / expansion_.longest()), 1.0);
-    StructureState state{.modal_displacement = displacement(), .modal_velocity = velocity()};
+    StructureState state{.modal_displacement = detail::values(displacement()),
+                         .modal_velocity = detail::values(velocity())};
     for (double left = steps; left > 0; --left) {
       expansion_.expand(state, load, segment.duration * (left / steps), segment.duration / steps, 0, Coulomb(1));
       expansion_.end(state);
     }
-    state_ << state.modal_displacement, state.modal_velocity;
+    state_ << detail::view(state.modal_displacement), detail::view(state.modal_velocity);
   }
 
  private:
   detail::ModalInterface of_;
   detail::Expansion expansion_;
   std::optional<detail::StuckFlow> flow_{};
-  RealVector state_{};
+  Eigen::VectorXd state_{};
 };
 
 // The motion with each segment in equal parts.
@@ -99,11 +98,11 @@ std::vector<GroundMotion> floor_motions(const Structure& structure, const Ground
   const detail::ModalInterface& of = driven.modal();
   const Index floors = structure.floors();
   // The part of the ground acceleration that the modes do not bring to a floor; with all modes, none.
-  RealVector direct = structure.influence() - of.shapes * of.load;
+  Eigen::VectorXd direct = detail::view(structure.influence()) - of.shapes * of.load;
   if (structure.has_matrices()) direct.setZero();
   const auto samples = static_cast<Index>(fine.samples());
-  RealMatrix accelerations(samples, floors);
-  RealVector force(of.modes());
+  Eigen::MatrixXd accelerations(samples, floors);
+  Eigen::VectorXd force(of.modes());
   const auto keep = [&](Index sample, double n) {
     force = of.stiffness.cwiseProduct(driven.displacement());
     if (of.classical)

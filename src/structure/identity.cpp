@@ -1,8 +1,7 @@
 #include "stickslip/structure/identity.hpp"
 
-#include <span>
-
-#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 #include "base/json.hpp"
 #include "stickslip/identity.hpp"
@@ -13,14 +12,15 @@
 namespace stickslip {
 namespace {
 
-std::string json_of(const RealVector& values) {
-  return detail::json(std::span(values.data(), static_cast<std::size_t>(values.size())));
-}
+std::string json_of(const std::vector<double>& values) { return detail::json(values); }
 
 std::string json_of(const RealMatrix& values) {
   std::string text = "[";
-  for (Eigen::Index i = 0; i < values.rows(); ++i)
-    text.append(i > 0 ? ", " : "").append(json_of(RealVector(values.row(i))));
+  for (std::ptrdiff_t i = 0; i < values.rows(); ++i) {
+    std::vector<double> row;
+    for (std::ptrdiff_t j = 0; j < values.cols(); ++j) row.push_back(values(i, j));
+    text.append(i > 0 ? ", " : "").append(json_of(row));
+  }
   return text + "]";
 }
 

@@ -11,29 +11,32 @@
 namespace stickslip {
 namespace {
 
+using detail::view;
+
 // The floors of a structure on a base that moves with the interface.
 detail::ModalInterface on_base(const Structure& structure, double base_mass) {
   const Modes& modes = structure.modes();
-  const RealVector& participation = modes.participation;
+  const auto participation = view(modes.participation);
+  const auto influence = view(structure.influence());
   const bool matrices = structure.has_matrices();
   // With matrices all modes are there; otherwise masses are fractions of the whole.
-  const double total = matrices ? base_mass + structure.influence().dot(structure.mass() * structure.influence()) : 1;
+  const double total = matrices ? base_mass + influence.dot(view(structure.mass()) * influence) : 1;
   detail::ModalInterface of;
-  of.stiffness = modes.frequencies.cwiseAbs2();
-  of.damping = structure.modal_damping();
+  of.stiffness = view(modes.frequencies).cwiseAbs2();
+  of.damping = view(structure.modal_damping());
   of.classical = structure.classical();
   of.demand = participation / total;
   of.load = participation;
   of.jump = participation;
-  of.reaction = RealVector::Zero(structure.size());
+  of.reaction = Eigen::VectorXd::Zero(structure.size());
   of.ground_demand = of.mass = base_mass / total;
   of.coupling = of.input = participation / total;
   of.modal_mass = 1 / total;
-  of.shapes = modes.shapes;
-  of.influence = structure.influence();
+  of.shapes = view(modes.shapes);
+  of.influence = influence;
   of.base_shear = participation;
   of.base_shear_of_base = participation.squaredNorm();
-  if (matrices && structure.uniform_influence()) of.floor_mass = structure.mass();
+  if (matrices && structure.uniform_influence()) of.floor_mass = view(structure.mass());
   return of;
 }
 
@@ -60,7 +63,7 @@ double checked(const char* name, const Structure& structure, double base_mass) {
 double rest_of(const char* name, const Structure& structure) {
   if (structure.has_matrices())
     throw std::invalid_argument(std::string(name) + ": a structure with matrices needs a base_mass [kg], got none");
-  return 1 - structure.modes().effective_masses.sum();
+  return 1 - view(structure.modes().effective_masses).sum();
 }
 
 constexpr const char *isolated = "IsolatedStructure", *unfelt = "DecoupledStructure";

@@ -3,11 +3,10 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stickslip/spring.hpp"
 #include "stickslip/stops.hpp"
-#include "stickslip/structure/matrix.hpp"
+#include "stickslip/structure/response.hpp"
+#include "structure/eigen.hpp"
 
 namespace stickslip::detail {
 
@@ -18,10 +17,10 @@ namespace stickslip::detail {
 /// A change of x' at an impact changes y' by -jump times that change. The same equations hold for a structure on a
 /// sliding base, for a slider on a floor with and without feedback, and for a slider that is driven by a structure.
 struct ModalInterface {
-  RealVector stiffness;   // w^2 [1/s^2]
-  RealMatrix damping;     // D [1/s]
-  bool classical = true;  // whether D is diagonal
-  RealVector demand, load, reaction, jump;
+  Eigen::VectorXd stiffness;  // w^2 [1/s^2]
+  Eigen::MatrixXd damping;    // D [1/s]
+  bool classical = true;      // whether D is diagonal
+  Eigen::VectorXd demand, load, reaction, jump;
   double ground_demand = 1;
   double mass = 1;
   Spring spring{};
@@ -31,30 +30,32 @@ struct ModalInterface {
 
   // Energy per reference mass: v^2 / 2 + v coupling.y' + own (coupling.y')^2 / 2 + modal_mass |y'|^2 / 2, and the same
   // for the springs. The ground does the work -n (input_base v + input.y') in a unit of time.
-  RealVector coupling, input;
+  Eigen::VectorXd coupling, input;
   double modal_mass = 0, own = 0, input_base = 1;
   bool driven = false;  // the structure does not feel the slider; the energy is that of the slider alone
 
   // Floors: displacements shapes y; absolute accelerations shapes y'' + influence (n + rides x'').
-  RealMatrix shapes{};
-  RealVector influence{};
+  Eigen::MatrixXd shapes{};
+  Eigen::VectorXd influence{};
   bool rides = true;
   // Forces of inertia, those of a slider on a floor among them: floor_mass times the absolute accelerations of the
   // floors (empty if unknown) plus slider_mass x''; in total base_shear.y'' + base_shear_of_base (n + rides x'') plus
   // the same.
-  RealMatrix floor_mass{};
+  Eigen::MatrixXd floor_mass{};
   Eigen::Index slider_floor = 0;
   double slider_mass = 0;
-  RealVector base_shear{};
+  Eigen::VectorXd base_shear{};
   double base_shear_of_base = 0;
 
   double fastest = 0;  // largest magnitude of an eigenvalue of the stuck and of the sliding motion [1/s]
 
   Eigen::Index modes() const noexcept { return stiffness.size(); }
+  double force_of_modes(const StructureState& state) const;  // demand.r [m/s^2]
+  double size_of_force(const StructureState& state) const;   // the same with the magnitude of each term
 };
 
 /// Matrix of the motion z' = A z without loads, z = (x, v, y, y') while it slides, (y, y') while it is stuck.
-RealMatrix flow_matrix(const ModalInterface& of, bool sliding);
+Eigen::MatrixXd flow_matrix(const ModalInterface& of, bool sliding);
 
 /// Sets `fastest`.
 void set_fastest(ModalInterface& of);
@@ -64,13 +65,13 @@ void set_fastest(ModalInterface& of);
 class StuckBound {
  public:
   explicit StuckBound(const ModalInterface& of);
-  double operator()(const RealVector& y, const RealVector& rate) const;
+  double operator()(const StructureState& state) const;
 
  private:
   Eigen::Index modes_;
   std::vector<Eigen::Index> kept_;  // components of (y, y') that act
   Eigen::MatrixXcd left_;           // amplitudes of the eigenvectors from (y, y')
-  RealVector weights_;              // |demand| of each
+  Eigen::VectorXd weights_;         // |demand| of each
 };
 
 }  // namespace stickslip::detail

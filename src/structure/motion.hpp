@@ -245,18 +245,9 @@ class StructureMotion {
   double weight_now() const { return left_ > 0 ? ground_.weight(left_) : ground_.weight_end; }
   double ground_now() const { return left_ > 0 ? ground_.ground(left_) : ground_.end; }
   double pull() const { return of_.spring.under(weight_now()) * state_.displacement; }
-  double force_of_modes() const {
-    return of_.demand.dot(of_.stiffness.cwiseProduct(state_.modal_displacement)) + damping_force();
-  }
-  double damping_force() const {
-    if (of_.classical) return of_.demand.dot(of_.damping.diagonal().cwiseProduct(state_.modal_velocity));
-    return of_.demand.dot(of_.damping * state_.modal_velocity);
-  }
-  double demand_now() const { return force_of_modes() - of_.ground_demand * ground_now() - pull(); }
+  double demand_now() const { return of_.force_of_modes(state_) - of_.ground_demand * ground_now() - pull(); }
   double size_of_demand() const {
-    return of_.demand.cwiseAbs().dot(of_.stiffness.cwiseProduct(state_.modal_displacement).cwiseAbs() +
-                                     (of_.damping.cwiseAbs() * state_.modal_velocity.cwiseAbs())) +
-           std::abs(of_.ground_demand * ground_now()) + 2 * std::abs(pull());
+    return of_.size_of_force(state_) + std::abs(of_.ground_demand * ground_now()) + 2 * std::abs(pull());
   }
 
   // When the demand exceeds a level in a direction, as a part of the expansion.
@@ -310,7 +301,7 @@ class StructureMotion {
     observer_.lose((arrives * arrives - speed * speed) * of_.mass / 2);
     const double change = -s * (speed + arrives);
     state_.velocity = speed > 0 ? -s * speed : 0;
-    state_.modal_velocity -= of_.jump * change;
+    view(state_.modal_velocity) -= of_.jump * change;
     demand_ = demand_now();
     state_.mode = speed > 0 ? mode_of(back) : Mode::stuck;
     stopped_ = speed > 0 ? Mode::stuck : mode_of(direction);

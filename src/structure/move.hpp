@@ -121,7 +121,7 @@ bool finite(const StructureState& state);
 template <FrictionLaw Law, class Go>
 void settle_structure(const ModalInterface& of, const Law& law, double step, StructureState& state, Go&& go) {
   const StuckBound bound(of);
-  const auto amplitude = [&] { return bound(state.modal_displacement, state.modal_velocity); };
+  const auto amplitude = [&] { return bound(state); };
   const auto pull = [&] { return of.spring.stiffness * state.displacement; };
   const LoadSegment calm{step, 0, 0, standard_gravity, standard_gravity};
   for (std::size_t steps = 0;

@@ -19,9 +19,9 @@ double product_integral(const double* a, int degree_a, const double* b, int degr
 // Powers of the nodes of a Gauss rule. Squares of velocities are polynomials with the amplitudes of exp(6) at most:
 // twelve points integrate them to round-off.
 constexpr int points = 12;
-const RealMatrix& powers() {
-  static const RealMatrix table = [] {
-    RealMatrix result(points, series::highest_order + 1);
+const Eigen::MatrixXd& powers() {
+  static const Eigen::MatrixXd table = [] {
+    Eigen::MatrixXd result(points, series::highest_order + 1);
     for (int i = 0; i < points; ++i) {
       double power = 1;
       for (int k = 0; k <= series::highest_order; ++k) {
@@ -38,13 +38,13 @@ const RealMatrix& powers() {
 
 FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stories(of.floor_mass.rows()) {
   const Eigen::Index n = of.modes();
-  forces = RealMatrix::Zero(floors + stories + 1, n);
-  with_base = with_slider = RealVector::Zero(floors + stories + 1);
+  forces = Eigen::MatrixXd::Zero(floors + stories + 1, n);
+  with_base = with_slider = Eigen::VectorXd::Zero(floors + stories + 1);
   forces.topRows(floors) = of.shapes;
   with_base.head(floors) = of.influence;
   if (stories > 0) {
-    RealMatrix inertia = of.floor_mass * of.shapes;
-    RealVector with = of.floor_mass * of.influence;
+    Eigen::MatrixXd inertia = of.floor_mass * of.shapes;
+    Eigen::VectorXd with = of.floor_mass * of.influence;
     for (Eigen::Index i = stories - 2; i >= 0; --i) {
       inertia.row(i) += inertia.row(i + 1);
       with[i] += with[i + 1];
@@ -57,7 +57,7 @@ FloorRows::FloorRows(const ModalInterface& of) : floors(of.shapes.rows()), stori
   with_base[floors + stories] = of.base_shear_of_base;
   with_slider[floors + stories] = of.slider_mass;
   // Only where floors move with the base is one above another.
-  drifts = (of.influence.array() == 1).all() ? of.shapes : RealMatrix(0, n);
+  drifts = (of.influence.array() == 1).all() ? of.shapes : Eigen::MatrixXd(0, n);
   for (Eigen::Index i = drifts.rows() - 1; i > 0; --i) drifts.row(i) -= of.shapes.row(i - 1);
 }
 
@@ -140,9 +140,9 @@ void StructureRecorder::add_work(const Expansion& motion, Mode mode) {
   }
   energy.input -= h * work;
   if (of_.modes() == 0) return;
-  const RealMatrix at = powers().leftCols(order + 1) * rates;
-  const RealMatrix damped =
-      of_.classical ? RealMatrix(at * of_.damping.diagonal().asDiagonal()) : RealMatrix(at * of_.damping);
+  const Eigen::MatrixXd at = powers().leftCols(order + 1) * rates;
+  const Eigen::MatrixXd damped =
+      of_.classical ? Eigen::MatrixXd(at * of_.damping.diagonal().asDiagonal()) : Eigen::MatrixXd(at * of_.damping);
   double power = 0;
   for (int i = 0; i < points; ++i)
     power += numerics::gauss_legendre<points>.weights[static_cast<std::size_t>(i)] * at.row(i).dot(damped.row(i));
@@ -164,15 +164,15 @@ void FloorMaxima::include(const Expansion& motion) {
   const double* slider = motion.acceleration();
   double slider_bound = 0;
   for (int k = 0; k <= order; ++k) slider_bound += std::abs(slider[k]);
-  const auto examine = [&](const RealMatrix& rows, const auto& modes, bool forces, RealVector& peaks) {
-    const RealVector most = modes.cwiseAbs().colwise().sum();
-    RealVector bounds = rows.cwiseAbs() * most;
+  const auto examine = [&](const Eigen::MatrixXd& rows, const auto& modes, bool forces, Eigen::VectorXd& peaks) {
+    const Eigen::VectorXd most = modes.cwiseAbs().colwise().sum();
+    Eigen::VectorXd bounds = rows.cwiseAbs() * most;
     if (forces) bounds += rows_.with_base.cwiseAbs() * base_bound + rows_.with_slider * slider_bound;
     if ((bounds.array() <= peaks.array()).all()) return;
-    RealMatrix values = modes * rows.transpose();  // one polynomial per column
+    Eigen::MatrixXd values = modes * rows.transpose();  // one polynomial per column
     if (forces)
-      values += Eigen::Map<const RealVector>(base.data(), order + 1) * rows_.with_base.transpose() +
-                Eigen::Map<const RealVector>(slider, order + 1) * rows_.with_slider.transpose();
+      values += Eigen::Map<const Eigen::VectorXd>(base.data(), order + 1) * rows_.with_base.transpose() +
+                Eigen::Map<const Eigen::VectorXd>(slider, order + 1) * rows_.with_slider.transpose();
     for (Eigen::Index i = 0; i < rows.rows(); ++i) peaks[i] = largest_magnitude(values.col(i).data(), order, peaks[i]);
   };
   examine(rows_.forces, accelerations, true, forces_);
@@ -182,9 +182,9 @@ void FloorMaxima::include(const Expansion& motion) {
 void StructureRecorder::finish() {
   if (!floors_) return;
   response_.peak_base_acceleration = floors_->base_acceleration();
-  response_.floors.peak_acceleration = floors_->accelerations();
-  response_.floors.peak_drift = floors_->drifts();
-  response_.floors.peak_shear = floors_->shears();
+  response_.floors.peak_acceleration = values(floors_->accelerations());
+  response_.floors.peak_drift = values(floors_->drifts());
+  response_.floors.peak_shear = values(floors_->shears());
   response_.peak_base_shear = floors_->base_shear();
 }
 

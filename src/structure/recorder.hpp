@@ -9,8 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "stickslip/base/min_max.hpp"
 #include "stickslip/numerics/gauss_legendre.hpp"
 #include "stickslip/sliding/detail/recorder.hpp"
@@ -26,9 +24,9 @@ struct FloorRows {
 
   // Of the modal accelerations, plus `with_base` times the acceleration of the base and `with_slider` times x'':
   // floors, stories (if the masses are known by floor), and the base shear last.
-  RealMatrix forces;
-  RealVector with_base, with_slider;
-  RealMatrix drifts;  // of the modal displacements
+  Eigen::MatrixXd forces;
+  Eigen::VectorXd with_base, with_slider;
+  Eigen::MatrixXd drifts;  // of the modal displacements
   Eigen::Index floors, stories;
 };
 
@@ -38,8 +36,8 @@ class FloorMaxima {
   FloorMaxima(const ModalInterface& of, const FloorRows& rows)
       : of_(of),
         rows_(rows),
-        forces_(RealVector::Zero(rows.forces.rows())),
-        drifts_(RealVector::Zero(rows.drifts.rows())) {}
+        forces_(Eigen::VectorXd::Zero(rows.forces.rows())),
+        drifts_(Eigen::VectorXd::Zero(rows.drifts.rows())) {}
 
   void include(const Expansion& motion);
 
@@ -47,13 +45,13 @@ class FloorMaxima {
   auto accelerations() const { return forces_.head(rows_.floors); }         ///< absolute [m/s^2]
   auto shears() const { return forces_.segment(rows_.floors, rows_.stories); }
   double base_shear() const { return forces_[rows_.floors + rows_.stories]; }
-  const RealVector& drifts() const noexcept { return drifts_; }  ///< [m]
+  const Eigen::VectorXd& drifts() const noexcept { return drifts_; }  ///< [m]
 
  private:
   const ModalInterface& of_;
   const FloorRows& rows_;
   double base_acceleration_ = 0;
-  RealVector forces_, drifts_;  // in the order of the rows
+  Eigen::VectorXd forces_, drifts_;  // in the order of the rows
 };
 
 class StructureRecorder final : public StructureSink {

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "stickslip/error.hpp"
 #include "stickslip/sliding/detail/run.hpp"
@@ -43,9 +44,10 @@ std::pair<double, double> energy_of(const detail::ModalInterface& of, const Stru
   const double x = state.displacement, v = state.velocity;
   double kinetic = v * v / 2, elastic = of.spring.stiffness * x * x / 2;
   if (!of.driven) {
-    const double moves = of.coupling.dot(state.modal_velocity);
-    kinetic += v * moves + of.own * moves * moves / 2 + of.modal_mass * state.modal_velocity.squaredNorm() / 2;
-    elastic += of.modal_mass * of.stiffness.dot(state.modal_displacement.cwiseAbs2()) / 2;
+    const auto rates = detail::view(state.modal_velocity);
+    const double moves = of.coupling.dot(rates);
+    kinetic += v * moves + of.own * moves * moves / 2 + of.modal_mass * rates.squaredNorm() / 2;
+    elastic += of.modal_mass * of.stiffness.dot(detail::view(state.modal_displacement).cwiseAbs2()) / 2;
   }
   return {kinetic, elastic};
 }
@@ -65,8 +67,8 @@ class Histories {
     const auto i = static_cast<Index>(sample);
     response_.displacement[sample] = state.displacement;
     response_.velocity[sample] = state.velocity;
-    response_.modal_displacement.row(i) = state.modal_displacement.transpose();
-    response_.modal_velocity.row(i) = state.modal_velocity.transpose();
+    modal_displacement_.row(i) = detail::view(state.modal_displacement).transpose();
+    modal_velocity_.row(i) = detail::view(state.modal_velocity).transpose();
     const double demand = system_.demand(state, ground, weight);
     double acceleration = 0, force = demand;  // stuck: friction is what the bond carries
     if (state.mode != Mode::stuck) {
@@ -76,26 +78,28 @@ class Histories {
       force = of_.damper * state.velocity + sign(direction) * detail::weigh(weight, level);
       acceleration = (demand - force) / of_.mass;
     }
-    response_.interface_force[i] = force + of_.spring.under(weight) * state.displacement;
+    response_.interface_force[sample] = force + of_.spring.under(weight) * state.displacement;
     if constexpr (HeatedLaw<Law>) response_.temperature[sample] = law.temperature(detail::interface_of(state));
-    response_.interface_demand[i] = demand;
-    response_.base_acceleration[i] = ground + (of_.rides ? acceleration : 0);
+    response_.interface_demand[sample] = demand;
+    response_.base_acceleration[sample] = ground + (of_.rides ? acceleration : 0);
     ground_[i] = ground;
     acceleration_[i] = acceleration;
   }
 
   void finish(const detail::FloorRows* rows) {
     resize(count_);
+    response_.modal_displacement = modal_displacement_;
+    response_.modal_velocity = modal_velocity_;
     if (rows == nullptr) return;
-    const auto& y = response_.modal_displacement;
-    RealMatrix force = response_.modal_velocity * of_.damping;  // symmetric
+    const auto& y = modal_displacement_;
+    Eigen::MatrixXd force = modal_velocity_ * of_.damping;  // symmetric
     force += y * of_.stiffness.asDiagonal();
-    const RealVector demand = force * of_.demand;
-    const RealMatrix accelerations = demand * of_.reaction.transpose() - force - ground_ * of_.load.transpose() -
-                                     acceleration_ * of_.jump.transpose();
-    const RealMatrix forces = accelerations * rows->forces.transpose() +
-                              response_.base_acceleration * rows->with_base.transpose() +
-                              acceleration_ * rows->with_slider.transpose();
+    const Eigen::VectorXd demand = force * of_.demand;
+    const Eigen::MatrixXd accelerations = demand * of_.reaction.transpose() - force - ground_ * of_.load.transpose() -
+                                          acceleration_ * of_.jump.transpose();
+    const Eigen::MatrixXd forces = accelerations * rows->forces.transpose() +
+                                   detail::view(response_.base_acceleration) * rows->with_base.transpose() +
+                                   acceleration_ * rows->with_slider.transpose();
     Floors& floors = response_.floors;
     floors.displacement = y * of_.shapes.transpose();
     floors.drift = y * rows->drifts.transpose();
@@ -109,17 +113,17 @@ class Histories {
     response_.displacement.resize(samples);
     response_.velocity.resize(samples);
     if (heated_) response_.temperature.resize(samples);
-    response_.modal_displacement.conservativeResize(size, of_.modes());
-    response_.modal_velocity.conservativeResize(size, of_.modes());
-    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &response_.interface_force,
-                         &ground_, &acceleration_})
-      values->conservativeResize(size);
+    for (auto* values : {&response_.base_acceleration, &response_.interface_demand, &response_.interface_force})
+      values->resize(samples);
+    for (auto* values : {&modal_displacement_, &modal_velocity_}) values->conservativeResize(size, of_.modes());
+    for (auto* values : {&ground_, &acceleration_}) values->conservativeResize(size);
   }
 
   const SlidingStructure& system_;
   const detail::ModalInterface& of_;
   StructureResponse& response_;
-  RealVector ground_{}, acceleration_{};
+  Eigen::MatrixXd modal_displacement_{}, modal_velocity_{};
+  Eigen::VectorXd ground_{}, acceleration_{};
   std::size_t count_ = 0;
   bool heated_;
 };
@@ -199,8 +203,8 @@ StructureResponse integrate_with(const SlidingStructure& system, const Law& law,
 namespace detail {
 
 bool finite(const StructureState& state) {
-  return std::isfinite(state.displacement) && std::isfinite(state.velocity) && state.modal_displacement.allFinite() &&
-         state.modal_velocity.allFinite();
+  return std::isfinite(state.displacement) && std::isfinite(state.velocity) &&
+         view(state.modal_displacement).allFinite() && view(state.modal_velocity).allFinite();
 }
 
 void refuse_overflow(double peak) {
@@ -243,13 +247,14 @@ double SlidingStructure::fastest() const noexcept { return data_->modal.fastest;
 const detail::ModalInterface& SlidingStructure::modal() const noexcept { return data_->modal; }
 
 StructureState SlidingStructure::rest() const {
-  const Index n = data_->modal.modes();
-  return {.modal_displacement = RealVector::Zero(n), .modal_velocity = RealVector::Zero(n)};
+  const std::vector<double> zeros(static_cast<std::size_t>(data_->modal.modes()));
+  return {.modal_displacement = zeros, .modal_velocity = zeros};
 }
 
 double SlidingStructure::demand(const StructureState& state, double ground, double weight) const {
   const detail::ModalInterface& of = data_->modal;
-  return of.demand.dot(of.stiffness.cwiseProduct(state.modal_displacement) + of.damping * state.modal_velocity) -
+  return of.demand.dot(of.stiffness.cwiseProduct(detail::view(state.modal_displacement)) +
+                       of.damping * detail::view(state.modal_velocity)) -
          of.ground_demand * ground - of.spring.under(weight) * state.displacement;
 }
 
@@ -268,7 +273,7 @@ StructureResponse integrate(const SlidingStructure& system, const GroundMotion& 
 }
 
 void advance(const SlidingStructure& system, const LoadSegment& segment, StructureState& state) {
-  const Index n = system.modal().modes();
+  const auto n = static_cast<std::size_t>(system.modal().modes());
   if (state.modal_displacement.size() != n || state.modal_velocity.size() != n)
     throw std::invalid_argument("advance: the state must have " + std::to_string(n) + " modes, got " +
                                 std::to_string(state.modal_displacement.size()) + " displacements and " +

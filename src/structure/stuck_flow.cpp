@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "stickslip/friction/coulomb.hpp"
 #include "stickslip/state.hpp"
@@ -60,20 +61,21 @@ StuckFlow::StuckFlow(const ModalInterface& of, double step)
   ModalInterface stuck = of;
   stuck.fastest = fastest_of(of);
   Expansion expansion(stuck, part_);
-  const RealVector ones = RealVector::Ones(n), zeros = RealVector::Zero(n);
+  const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(n);
+  const std::vector<double> one(count, 1), none(count, 0);
   enum Source { from_y, from_rate, from_n, from_change };
   for (const Source source : {from_y, from_rate, from_n, from_change}) {
     const GroundLoad load{part_, source == from_n ? 1.0 : 0.0, source == from_n || source == from_change ? 1.0 : 0.0};
-    StructureState state{.modal_displacement = source == from_y ? ones : zeros,
-                         .modal_velocity = source == from_rate ? ones : zeros};
+    StructureState state{.modal_displacement = source == from_y ? one : none,
+                         .modal_velocity = source == from_rate ? one : none};
     expansion.expand(state, load, part_, part_, 0, Coulomb(1));
-    const RealMatrix y = expansion.modal_displacement(), rate = expansion.modal_velocity();
-    const RealMatrix force = y * of.stiffness.asDiagonal() + rate * of.damping.diagonal().asDiagonal();
+    const Eigen::MatrixXd y = expansion.modal_displacement(), rate = expansion.modal_velocity();
+    const Eigen::MatrixXd force = y * of.stiffness.asDiagonal() + rate * of.damping.diagonal().asDiagonal();
     for (Index k = 2; k < y.rows(); ++k) {
       const double below = below_chord(static_cast<int>(k));
-      const RealVector q = force.row(k).transpose().cwiseProduct(of.demand);
-      const RealVector u = has_top ? y.row(k).cwiseProduct(of.shapes.row(0)).transpose() : zeros;
-      for (const auto& [row, terms] : {std::pair<Row&, const RealVector&>(demand_, q), {top_, u}}) {
+      const Eigen::VectorXd q = force.row(k).transpose().cwiseProduct(of.demand);
+      const Eigen::VectorXd u = has_top ? y.row(k).cwiseProduct(of.shapes.row(0)).transpose() : zeros;
+      for (const auto& [row, terms] : {std::pair<Row&, const Eigen::VectorXd&>(demand_, q), {top_, u}}) {
         if (source == from_n) row.from_n_ += below * std::abs(terms.sum());
         if (source == from_change) row.from_change_ += below * std::abs(terms.sum());
         for (std::size_t j = 0; source <= from_rate && j < count; ++j)
@@ -83,8 +85,8 @@ StuckFlow::StuckFlow(const ModalInterface& of, double step)
     expansion.end(state);
     for (std::size_t j = 0; j < count; ++j) {
       Map& m = modes_[j];
-      const double at_y = state.modal_displacement[static_cast<Index>(j)];
-      const double at_rate = state.modal_velocity[static_cast<Index>(j)];
+      const double at_y = state.modal_displacement[j];
+      const double at_rate = state.modal_velocity[j];
       if (source == from_y) m.yy = at_y, m.ry = at_rate;
       if (source == from_rate) m.yr = at_y, m.rr = at_rate;
       if (source == from_n) m.yn = at_y, m.rn = at_rate;

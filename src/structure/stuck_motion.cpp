@@ -60,7 +60,7 @@ std::optional<double> largest_top(const ModalInterface& of, const GroundMotion& 
   const StuckFlow flow(of, motion.dt());
   const GroundMotion::Pieces pieces(motion);
   const auto size = static_cast<Eigen::Index>(flow.modes());
-  RealVector now(2 * size);
+  Eigen::VectorXd now(2 * size);
   const auto top = [&](double n) { return std::abs(flow.top().at(now.data(), n)); };
   const auto pass = [&](auto&& part) {
     now.setZero();
@@ -79,12 +79,12 @@ std::optional<double> largest_top(const ModalInterface& of, const GroundMotion& 
   StructureState start;
   pass([&](double n, double change) {
     const double begin = top(n), between = flow.top().departure(now.data(), n, change);
-    start.modal_displacement = now.head(size);
-    start.modal_velocity = now.tail(size);
+    start.modal_displacement = values(now.head(size));
+    start.modal_velocity = values(now.tail(size));
     flow.advance(now.data(), n, change);
     if (std::max(begin, top(n + change)) + between <= largest) return;
     expansion.expand(start, GroundLoad{flow.part(), n, n + change}, flow.part(), flow.part(), 0, Coulomb(1));
-    const RealVector values = expansion.modal_displacement() * of.shapes.row(0).transpose();
+    const Eigen::VectorXd values = expansion.modal_displacement() * of.shapes.row(0).transpose();
     largest = largest_magnitude(values.data(), expansion.order(), largest);
   });
   return largest;

@@ -69,8 +69,9 @@ class SweptInterface {
         sign_(reversed ? -1 : 1),
         tally_(max_events(motion.segments()), check),
         expansion_(of, law, mean_step(motion)),
-        deviation_(RealVector::Zero(2 * of.modes())) {
-    state_.modal_displacement = state_.modal_velocity = RealVector::Zero(of.modes());
+        deviation_(Eigen::VectorXd::Zero(2 * of.modes())) {
+    state_.modal_displacement.resize(static_cast<std::size_t>(of.modes()));
+    state_.modal_velocity = state_.modal_displacement;
     hold_from_here();
   }
 
@@ -96,15 +97,15 @@ class SweptInterface {
   // The state of the structure from the deviation, and the deviation from the state.
   void rejoin() {
     const Eigen::Index n = of_.modes();
-    const Eigen::Map<const RealVector> whole(stuck_.state(at_), 2 * n);
-    state_.modal_displacement = sign_ * whole.head(n) + deviation_.head(n);
-    state_.modal_velocity = sign_ * whole.tail(n) + deviation_.tail(n);
+    const Eigen::Map<const Eigen::VectorXd> whole(stuck_.state(at_), 2 * n);
+    view(state_.modal_displacement) = sign_ * whole.head(n) + deviation_.head(n);
+    view(state_.modal_velocity) = sign_ * whole.tail(n) + deviation_.tail(n);
   }
   void part() {
     const Eigen::Index n = of_.modes();
-    const Eigen::Map<const RealVector> whole(stuck_.state(at_), 2 * n);
-    deviation_.head(n) = state_.modal_displacement - sign_ * whole.head(n);
-    deviation_.tail(n) = state_.modal_velocity - sign_ * whole.tail(n);
+    const Eigen::Map<const Eigen::VectorXd> whole(stuck_.state(at_), 2 * n);
+    deviation_.head(n) = view(state_.modal_displacement) - sign_ * whole.head(n);
+    deviation_.tail(n) = view(state_.modal_velocity) - sign_ * whole.tail(n);
     bound_ = stuck_.flow().later_demand(deviation_.data());
     forget_round_off();
     hold_from_here();
@@ -173,7 +174,7 @@ class SweptInterface {
       double amplitude = never;
       if (state_.mode == Mode::stuck) {
         hold_from_here(1);
-        amplitude = bound ? (*bound)(state_.modal_displacement, state_.modal_velocity) : pass_calm(steps);
+        amplitude = bound ? (*bound)(state_) : pass_calm(steps);
         if (holds_forever(pull_, amplitude, levels_)) return;
       }
       if (steps == most_calm_steps) refuse_restless(step, state_, amplitude + std::abs(pull_));
@@ -187,8 +188,8 @@ class SweptInterface {
     const StuckFlow& flow = stuck_.flow();
     const Eigen::Index n = of_.modes();
     const std::size_t from = steps;
-    RealVector now(2 * n), next(2 * n);
-    now << state_.modal_displacement, state_.modal_velocity;
+    Eigen::VectorXd now(2 * n), next(2 * n);
+    now << view(state_.modal_displacement), view(state_.modal_velocity);
     double amplitude = never;
     for (;; ++steps) {
       amplitude = flow.later_demand(now.data());
@@ -198,8 +199,8 @@ class SweptInterface {
       if (!holds(span.lowest, span.highest, 1)) break;
       now.swap(next);
     }
-    state_.modal_displacement = now.head(n);
-    state_.modal_velocity = now.tail(n);
+    view(state_.modal_displacement) = now.head(n);
+    view(state_.modal_velocity) = now.tail(n);
     state_.heat.rest(static_cast<double>(steps - from) * motion_.last_step());
     return amplitude;
   }
@@ -215,7 +216,7 @@ class SweptInterface {
   StructureState state_{};
   std::size_t at_ = 0;  // the segment that comes next
   // While it is stuck: the modes and their rates beside the StuckMotion, a bound of their demand, and what holds.
-  RealVector deviation_;
+  Eigen::VectorXd deviation_;
   double bound_ = 0, pull_ = 0, pull_low_ = 0, pull_high_ = 0;
   StuckLevels levels_{};
 };

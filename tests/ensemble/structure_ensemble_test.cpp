@@ -27,13 +27,7 @@ using System = std::variant<IsolatedStructure, EquipmentOnFloor, FlexibleSlope>;
 
 const GaussianExcitation noise(Spectrum::kanai_tajimi(0.01, 12, 0.6), 0.02, 257);
 
-Eigen::VectorXd list(std::initializer_list<double> values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
-
-Structure building() {
-  return Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), Rayleigh{0.1, 0.002});
-}
+Structure building() { return Structure::shear_building({1, 1, 0.8}, {600, 500, 400}, Rayleigh{0.1, 0.002}); }
 
 Slider<Coulomb> bearing(Mounting mounting = {.natural_frequency = 1.5}) {
   return Slider<Coulomb>(Coulomb(0.5), mounting);
@@ -86,12 +80,11 @@ TEST_CASE("members with structures are what integrate says of them", "[ensemble]
         CHECK(residual[i] == Approx(r.residual).epsilon(1e-8).margin(1e-12));
         CHECK(base[i] == Approx(r.peak_base_acceleration).epsilon(1e-9));
         CHECK(shear[i] == Approx(r.peak_base_shear).epsilon(1e-9));
-        REQUIRE(accelerations.floors == static_cast<std::size_t>(r.floors.peak_drift.size()));
+        REQUIRE(accelerations.floors == r.floors.peak_drift.size());
         for (std::size_t k = 0; k < accelerations.floors; ++k) {
-          const auto floor = static_cast<Eigen::Index>(k);
           CHECK(accelerations.values[i * accelerations.floors + k] ==
-                Approx(r.floors.peak_acceleration[floor]).epsilon(1e-9));
-          CHECK(drifts.on_floor(k + 1)[i] == Approx(r.floors.peak_drift[floor]).epsilon(1e-9));
+                Approx(r.floors.peak_acceleration[k]).epsilon(1e-9));
+          CHECK(drifts.on_floor(k + 1)[i] == Approx(r.floors.peak_drift[k]).epsilon(1e-9));
         }
         last.push_back(r.displacement[256]);
       }
@@ -114,7 +107,7 @@ TEST_CASE("impacts of a base on its stops are counted", "[ensemble][structure]")
 
 TEST_CASE("a structure of hardly any mass is the slider alone, member by member", "[ensemble][structure]") {
   // Differences are of the first order in the mass fraction.
-  const Structure light = Structure::from_modes(list({1e-10}), list({8}), list({0.05}));
+  const Structure light = Structure::from_modes({1e-10}, {8}, {0.05});
   const auto compared = [&](const auto& motions) {
     const EnsembleOptions o = options(20);
     const Ensemble structure = run_ensemble(IsolatedStructure(bearing(), light), motions, o),
@@ -159,12 +152,12 @@ TEST_CASE("peaks of floors have means, deviations and quantiles", "[ensemble][st
 }
 
 TEST_CASE("ensembles of structures refuse what does not go together", "[ensemble][structure]") {
-  const Structure two = Structure::shear_building(list({1, 1}), list({600, 500}), 0.05);
+  const Structure two = Structure::shear_building({1, 1}, {600, 500}, 0.05);
   const std::vector<IsolatedStructure> both{isolated(), {bearing(), two, 1}};
   CHECK_THROWS_WITH(run_ensemble(OneOf(both), noise, options(4)),
                     ContainsSubstring("member 1") && ContainsSubstring("the same number of floors, got 3 and 2"));
   // Degrees of freedom that are not floors above each other have accelerations, but no drifts.
-  const Structure turned(two.mass(), two.damping(), two.stiffness(), list({1, 0.5}));
+  const Structure turned(two.mass(), two.damping(), two.stiffness(), {1, 0.5});
   const Ensemble apart = run_ensemble(IsolatedStructure(bearing(), turned, 1), noise, options(4));
   CHECK(apart.peak_floor_acceleration().values.size() == 8);
   CHECK_THROWS_WITH(apart.peak_floor_drift(), ContainsSubstring("drifts need an influence of ones"));
@@ -177,7 +170,7 @@ TEST_CASE("ensembles of structures refuse what does not go together", "[ensemble
 }
 
 TEST_CASE("structures are known by what they are made from", "[ensemble][structure]") {
-  CHECK(identity(IsolatedStructure(bearing(), Structure::from_modes(list({0.7}), list({8}), list({0.05})))) ==
+  CHECK(identity(IsolatedStructure(bearing(), Structure::from_modes({0.7}, {8}, {0.05}))) ==
         "{\"isolated_structure\": {\"mass_fractions\": [0.7], \"frequencies\": [8], \"damping_ratios\": [0.05]}, "
         "\"base_mass\": " +
             detail::shortest(1 - 0.7) + ", \"slider\": " + identity(bearing()) + "}");

@@ -13,6 +13,7 @@
 
 #include "stickslip/core.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
+#include "structure/eigen.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;
@@ -23,15 +24,20 @@ namespace {
 class BuildingByCvode {
  public:
   BuildingByCvode(const Structure& building, double base_mass, double level)
-      : of_(building), base_(base_mass), total_(base_mass + building.mass().sum()), level_(level), n_(building.size()) {
+      : of_(building),
+        base_(base_mass),
+        total_(base_mass + detail::view(building.mass()).sum()),
+        level_(level),
+        n_(building.size()) {
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(n_);
-    solver_.compute(of_.mass());
+    const auto mass = detail::view(of_.mass());
+    solver_.compute(mass);
     // M (u'' + 1 x'') = -C u' - K u - M 1 n, and the sum of all inertia forces is that of friction.
     Eigen::MatrixXd whole(n_ + 1, n_ + 1);
     whole(0, 0) = total_;
-    whole.block(0, 1, 1, n_) = (of_.mass() * ones).transpose();
-    whole.block(1, 0, n_, 1) = of_.mass() * ones;
-    whole.block(1, 1, n_, n_) = of_.mass();
+    whole.block(0, 1, 1, n_) = (mass * ones).transpose();
+    whole.block(1, 0, n_, 1) = mass * ones;
+    whole.block(1, 1, n_, n_) = mass;
     whole_.compute(whole);
     SUNContext_Create(0, &context_);
     y_ = N_VNew_Serial(2 * n_ + 2, context_);
@@ -85,19 +91,19 @@ class BuildingByCvode {
   using Vector = Eigen::Map<const Eigen::VectorXd>;
   double ground(double t) const { return n_begin_ + (n_end_ - n_begin_) * (t - begin_) / (end_ - begin_); }
   Eigen::VectorXd forces(const double* y) const {
-    return -of_.damping() * Vector(y + 2 + n_, n_) - of_.stiffness() * Vector(y + 2, n_);
+    return -detail::view(of_.damping()) * Vector(y + 2 + n_, n_) - detail::view(of_.stiffness()) * Vector(y + 2, n_);
   }
   // Force of inertia of all masses, which friction carries while it sticks, per total mass.
   double demand(double t, const double* y) const {
     const Eigen::VectorXd absolute = solver_.solve(forces(y));
-    return -(base_ * ground(t) + (of_.mass() * absolute).sum()) / total_;
+    return -(base_ * ground(t) + (detail::view(of_.mass()) * absolute).sum()) / total_;
   }
   static int right_side(double t, N_Vector y_vector, N_Vector slope_vector, void* user) {
     const auto& self = *static_cast<BuildingByCvode*>(user);
     const double* y = N_VGetArrayPointer(y_vector);
     double* slope = N_VGetArrayPointer(slope_vector);
     const Eigen::Index n = self.n_;
-    const Eigen::VectorXd force = self.forces(y), mass_ones = self.of_.mass() * Eigen::VectorXd::Ones(n);
+    const Eigen::VectorXd force = self.forces(y), mass_ones = detail::view(self.of_.mass()) * Eigen::VectorXd::Ones(n);
     Eigen::VectorXd u;
     double x = 0;
     if (self.mode_ == 0) {
@@ -145,7 +151,7 @@ TEST_CASE("CVODE with events finds the same motion of a building on a sliding ba
   const GroundMotion motion(n, 0.1);
   const Eigen::Vector3d masses(1, 1, 0.8), stiffnesses(600, 500, 400);
   const Structure plain = Structure::shear_building(masses, stiffnesses, Rayleigh{0.1, 0.002});
-  Eigen::MatrixXd dashpots = plain.damping();
+  RealMatrix dashpots = plain.damping();
   dashpots(0, 0) += 6;  // below the first floor: the modes are complex
   const Structure complex(plain.mass(), dashpots, plain.stiffness());
   for (const Structure& building : {plain, complex}) {

@@ -15,16 +15,14 @@
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
 #include "stickslip/structure/sweep.hpp"
+#include "structure/eigen.hpp"
 #include "support/catch.hpp"
 
 using namespace stickslip;
 using Catch::Matchers::ContainsSubstring;
+using detail::view;
 
 namespace {
-
-Eigen::VectorXd list(std::initializer_list<double> values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
 
 /// The ground motion of the reference values, with `parts` straight lines in place of one.
 GroundMotion motion(int parts = 1) {
@@ -38,9 +36,7 @@ GroundMotion motion(int parts = 1) {
   return GroundMotion(n, 0.1 / parts);
 }
 
-Structure building() {
-  return Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), Rayleigh{0.1, 0.002});
-}
+Structure building() { return Structure::shear_building({1, 1, 0.8}, {600, 500, 400}, Rayleigh{0.1, 0.002}); }
 
 Slider<Coulomb> slider(double level = 1, Mounting mounting = {}) { return Slider<Coulomb>(Coulomb(level), mounting); }
 
@@ -53,22 +49,24 @@ double furthest(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 TEST_CASE("a building of two equal floors has the golden section in its modes", "[structure]") {
-  const Structure two = Structure::shear_building(list({2, 2}), list({18, 18}), 0.05);
+  const Structure two = Structure::shear_building({2, 2}, {18, 18}, 0.05);
   // w^2 = (k/m) (3 -+ sqrt 5) / 2
   const Modes& modes = two.modes();
-  for (const int j : {0, 1}) {
+  for (const std::size_t j : {0, 1}) {
     const double s = j == 0 ? -1 : 1;
     CHECK(modes.frequencies[j] == Approx(3 * std::sqrt((3 + s * std::sqrt(5)) / 2)).epsilon(1e-14));
     CHECK(modes.damping_ratios[j] == Approx(0.05).epsilon(1e-13));
-    const double ratio = modes.shapes(1, j) / modes.shapes(0, j);
+    const auto shape = view(modes.shapes).col(static_cast<Eigen::Index>(j));
+    const double ratio = shape[1] / shape[0];
     CHECK(ratio == Approx((1 - s * std::sqrt(5)) / 2).epsilon(1e-13));
   }
-  CHECK(modes.effective_masses.sum() == Approx(4).epsilon(1e-14));
+  CHECK(view(modes.effective_masses).sum() == Approx(4).epsilon(1e-14));
   CHECK(two.classical());
-  CHECK((modes.shapes.transpose() * two.mass() * modes.shapes - Eigen::MatrixXd::Identity(2, 2)).norm() < 1e-14);
+  CHECK((view(modes.shapes).transpose() * view(two.mass()) * view(modes.shapes) - Eigen::MatrixXd::Identity(2, 2))
+            .norm() < 1e-14);
   // alpha / (2 w) + beta w / 2
-  const Structure rayleigh = Structure::shear_building(list({2, 2}), list({18, 18}), Rayleigh{0.3, 0.01});
-  for (const int j : {0, 1}) {
+  const Structure rayleigh = Structure::shear_building({2, 2}, {18, 18}, Rayleigh{0.3, 0.01});
+  for (const std::size_t j : {0, 1}) {
     const double w = modes.frequencies[j];
     CHECK(rayleigh.modes().damping_ratios[j] == Approx(0.15 / w + 0.005 * w).epsilon(1e-13));
   }
@@ -77,25 +75,25 @@ TEST_CASE("a building of two equal floors has the golden section in its modes", 
 TEST_CASE("a structure is the same in modes and in matrices", "[structure]") {
   const double base = 1;
   const Structure matrices = building();
-  const double total = base + matrices.mass().sum();
+  const double total = base + view(matrices.mass()).sum();
   const Modes& modes = matrices.modes();
-  const Structure from = Structure::from_modes(modes.effective_masses / total, modes.frequencies, modes.damping_ratios,
-                                               modes.shapes * modes.participation.asDiagonal());
+  const Structure from =
+      Structure::from_modes(view(modes.effective_masses) / total, modes.frequencies, modes.damping_ratios,
+                            view(modes.shapes) * view(modes.participation).asDiagonal());
   const Mounting spring{.natural_frequency = 2, .damping = 0.4};
   const auto a = integrate(IsolatedStructure(slider(1, spring), matrices, base), motion());
   const auto b = integrate(IsolatedStructure(slider(1, spring), from), motion());
   CHECK(furthest(a.displacement, b.displacement) < 1e-13);
-  CHECK((a.floors.displacement - b.floors.displacement).cwiseAbs().maxCoeff() < 1e-13);
-  CHECK((a.floors.acceleration - b.floors.acceleration).cwiseAbs().maxCoeff() < 1e-11);
-  CHECK((a.floors.peak_acceleration - b.floors.peak_acceleration).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK((view(a.floors.displacement) - view(b.floors.displacement)).cwiseAbs().maxCoeff() < 1e-13);
+  CHECK((view(a.floors.acceleration) - view(b.floors.acceleration)).cwiseAbs().maxCoeff() < 1e-11);
+  CHECK(furthest(a.floors.peak_acceleration, b.floors.peak_acceleration) < 1e-11);
   CHECK(a.peak_base_shear == Approx(total * b.peak_base_shear).epsilon(1e-12));
 }
 
 TEST_CASE("limits of a structure on a sliding base", "[structure][long]") {
   const auto one = [](double fraction, double frequency, double damping_ratio = 0.05) {
-    return integrate(
-        IsolatedStructure(slider(), Structure::from_modes(list({fraction}), list({frequency}), list({damping_ratio}))),
-        motion());
+    return integrate(IsolatedStructure(slider(), Structure::from_modes({fraction}, {frequency}, {damping_ratio})),
+                     motion());
   };
   const Response plain = integrate(slider(), motion());
   SECTION("a structure without mass") {
@@ -112,9 +110,7 @@ TEST_CASE("limits of a structure on a sliding base", "[structure][long]") {
   }
   SECTION("a mass that is split over equal modes") {
     const auto split = integrate(
-        IsolatedStructure(slider(),
-                          Structure::from_modes(list({0.3, 0.1, 0.3}), list({8, 8, 8}), list({0.05, 0.05, 0.05}))),
-        motion());
+        IsolatedStructure(slider(), Structure::from_modes({0.3, 0.1, 0.3}, {8, 8, 8}, {0.05, 0.05, 0.05})), motion());
     CHECK(furthest(split.displacement, one(0.7, 8).displacement) < 1e-13);
   }
   SECTION("a heavy base") {
@@ -122,7 +118,7 @@ TEST_CASE("limits of a structure on a sliding base", "[structure][long]") {
     CHECK(furthest(heavy.displacement, plain.displacement) < 1e-11);
   }
   SECTION("a slider on a stiff floor, with and without mass") {
-    const Structure stiff = Structure::shear_building(list({1}), list({4e6}), 0.05);
+    const Structure stiff = Structure::shear_building({1}, {4e6}, 0.05);
     for (const double mass : {0.0, 0.5})
       CHECK(furthest(integrate(EquipmentOnFloor(slider(), stiff, 1, mass), motion()).displacement, plain.displacement) <
             1e-3);
@@ -137,8 +133,7 @@ TEST_CASE("limits of a structure on a sliding base", "[structure][long]") {
 TEST_CASE("while it is stuck, a structure is an oscillator on the ground, also from a first sample that is not zero",
           "[structure]") {
   const double w = 8, z = 0.1, n = 0.5, damped = w * std::sqrt(1 - z * z);
-  const auto r = integrate(IsolatedStructure(slider(100), Structure::from_modes(list({0.5}), list({w}), list({z}),
-                                                                                Eigen::MatrixXd::Ones(1, 1))),
+  const auto r = integrate(IsolatedStructure(slider(100), Structure::from_modes({0.5}, {w}, {z}, {{1}})),
                            GroundMotion(std::vector<double>(41, n), 0.05));
   CHECK(r.peak == 0);
   for (Eigen::Index i = 0; i <= 40; ++i) {
@@ -160,9 +155,10 @@ TEST_CASE("straight lines that are divided change nothing, and peaks lie between
     CHECK(std::abs(coarse.residual - fine.residual) < 1e-12);
     CHECK(coarse.peak == Approx(fine.peak).epsilon(1e-12));
     CHECK(coarse.peak_base_shear == Approx(fine.peak_base_shear).epsilon(1e-11));
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const double drift = fine.floors.drift.col(i).cwiseAbs().maxCoeff();
-      const double acceleration = fine.floors.acceleration.col(i).cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double drift = view(fine.floors.drift).col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
+      const double acceleration =
+          view(fine.floors.acceleration).col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
       CHECK(coarse.floors.peak_drift[i] == Approx(fine.floors.peak_drift[i]).epsilon(1e-12));
       CHECK(coarse.floors.peak_acceleration[i] == Approx(fine.floors.peak_acceleration[i]).epsilon(1e-11));
       CHECK(coarse.floors.peak_shear[i] == Approx(fine.floors.peak_shear[i]).epsilon(1e-11));
@@ -185,7 +181,7 @@ TEST_CASE("the energy of a structure is balanced on every mounting", "[structure
   std::vector<double> up;
   for (int m = 0; m <= 400; ++m) up.push_back(12 * std::cos(0.5 * m + 0.2));  // lifts the weight, too
   const GroundMotion lifted = motion().with_components({}, up);
-  Eigen::MatrixXd dashpots = building().damping();
+  RealMatrix dashpots = building().damping();
   dashpots(0, 0) += 6;
   const Structure complex(building().mass(), dashpots, building().stiffness());
   CHECK_FALSE(complex.classical());
@@ -211,14 +207,12 @@ TEST_CASE("the energy of a structure is balanced on every mounting", "[structure
 
 TEST_CASE("friction that depends on speed, on a structure without mass, is that of the slider", "[structure]") {
   const Slider<VelocityDependent> one(VelocityDependent(0.5, 1.2, 20), Mounting{.natural_frequency = 2});
-  const auto r =
-      integrate(IsolatedStructure(one, Structure::from_modes(list({1e-14}), list({5}), list({0.05}))), motion());
+  const auto r = integrate(IsolatedStructure(one, Structure::from_modes({1e-14}, {5}, {0.05})), motion());
   const Response plain = integrate(one, motion());
   CHECK(furthest(r.displacement, plain.displacement) < 1e-11);
   CHECK(r.energy.dissipated == Approx(plain.energy.dissipated).epsilon(1e-11));
   const Slider<Degrading> weaker(Degrading({0, 0.3, 2}, {1.5, 0.9, 0.8}));
-  const auto s =
-      integrate(IsolatedStructure(weaker, Structure::from_modes(list({1e-14}), list({5}), list({0.05}))), motion());
+  const auto s = integrate(IsolatedStructure(weaker, Structure::from_modes({1e-14}, {5}, {0.05})), motion());
   CHECK(furthest(s.displacement, integrate(weaker, motion()).displacement) < 1e-11);
 }
 
@@ -271,7 +265,7 @@ TEST_CASE("a structure settles when its modes can no longer move the interface",
   std::vector<double> n;
   for (int m = 0; m <= 400; ++m) n.push_back(2 * std::sin(0.7 * m) + 1.3 * std::cos(1.9 * m + 0.4));
   n.push_back(0);
-  const IsolatedStructure system(slider(0.3), Structure::from_modes(list({0.7}), list({8}), list({0.02})));
+  const IsolatedStructure system(slider(0.3), Structure::from_modes({0.7}, {8}, {0.02}));
   const auto r = integrate(system, GroundMotion(n, 0.1), {.settle = true});
   // Computed at 40 digits.
   CHECK(r.settled);
@@ -284,7 +278,7 @@ TEST_CASE("a structure settles when its modes can no longer move the interface",
   CHECK(integrate(system, GroundMotion(n, 0.1)).residual == r.residual);
   // One that may not slide back holds the pull of its spring, however far it went.
   const IsolatedStructure ratchet(slider(0.3, Mounting{.natural_frequency = 3, .one_way = true}),
-                                  Structure::from_modes(list({0.7}), list({8}), list({0.02})));
+                                  Structure::from_modes({0.7}, {8}, {0.02}));
   const GroundMotion shaking(std::vector<double>(n.begin(), n.begin() + 402), 0.1);
   const auto held = integrate(ratchet, shaking, {.settle = true});
   CHECK(held.settled);
@@ -293,7 +287,7 @@ TEST_CASE("a structure settles when its modes can no longer move the interface",
   const SweepTable table = sweep(std::vector{ratchet}, {shaking}, {.settle = true});
   CHECK(table.residual[0] == Approx(held.residual).epsilon(1e-12));
   // An undamped structure may move it again at any time.
-  const IsolatedStructure undamped(slider(0.01), Structure::from_modes(list({0.7}), list({8}), list({0.0})));
+  const IsolatedStructure undamped(slider(0.01), Structure::from_modes({0.7}, {8}, {0.0}));
   const auto never_at_rest = [&] { return integrate(undamped, GroundMotion({2, -2, 0}, 0.1), {.settle = false}); };
   CHECK_FALSE(never_at_rest().settled);
 }
@@ -304,7 +298,7 @@ TEST_CASE("a flexible slope", "[structure]") {
   SECTION("is a column on a base") {
     const double w = std::numbers::pi * 600 / 100, fraction = 8 / (std::numbers::pi * std::numbers::pi);
     const Slider<Coulomb> one_way(Coulomb(0.05 * standard_gravity, std::numeric_limits<double>::infinity()));
-    const Structure column = Structure::from_modes(list({fraction}), list({w}), list({0.05}));
+    const Structure column = Structure::from_modes({fraction}, {w}, {0.05});
     CHECK(integrate(slope, ground, {}).displacement ==
           integrate(IsolatedStructure(one_way, column), ground).displacement);
     slope.method = SlopeMethod::decoupled;
@@ -353,23 +347,17 @@ TEST_CASE("a flexible slope", "[structure]") {
 }
 
 TEST_CASE("structures refuse bad input by name", "[structure]") {
-  const auto square = [](double a, double b, double c, double d) {
-    Eigen::MatrixXd matrix(2, 2);
-    matrix << a, b, c, d;
-    return matrix;
-  };
-  const Eigen::MatrixXd one = square(1, 0, 0, 1), skew = square(1, 0, 0.5, 1), negative = square(1, 0, 0, -2),
-                        singular = square(1, 0, 0, 0);
-  const auto made = [](const Eigen::MatrixXd& m, const Eigen::MatrixXd& c, const Eigen::MatrixXd& k) {
-    return Structure(m, c, k);
-  };
+  const auto square = [](double a, double b, double c, double d) { return RealMatrix{{a, b}, {c, d}}; };
+  const RealMatrix one = square(1, 0, 0, 1), skew = square(1, 0, 0.5, 1), negative = square(1, 0, 0, -2),
+                   singular = square(1, 0, 0, 0);
+  const auto made = [](const RealMatrix& m, const RealMatrix& c, const RealMatrix& k) { return Structure(m, c, k); };
   CHECK_THROWS_WITH(made(skew, one, one), ContainsSubstring("mass must be symmetric, got mass[1, 0] = 0.5"));
   CHECK_THROWS_WITH(made(singular, one, one),
                     ContainsSubstring("mass must be positive definite, got a smallest eigenvalue of 0"));
   CHECK_THROWS_WITH(made(one, negative, one),
                     ContainsSubstring("damping must be positive semidefinite, got a smallest eigenvalue of -2"));
   CHECK_THROWS_WITH(made(one, one, negative), ContainsSubstring("stiffness must be positive semidefinite"));
-  CHECK_THROWS_WITH(made(one, one, Eigen::MatrixXd::Zero(2, 2)), ContainsSubstring("must have a stiffness"));
+  CHECK_THROWS_WITH(made(one, one, RealMatrix(2, 2)), ContainsSubstring("must have a stiffness"));
   CHECK_THROWS_WITH(made(square(1, 0, 0, 1e-20), one, one),
                     ContainsSubstring("the frequency of mode 1 is lost in the round-off of the fastest one, 1e+10"));
   CHECK_THROWS_AS(made(square(1, 0, 0, 1e-320), one, one), std::overflow_error);
@@ -377,11 +365,11 @@ TEST_CASE("structures refuse bad input by name", "[structure]") {
                     ContainsSubstring("modes must be from 1 to 1000, got 1001"));
   CHECK_THROWS_WITH(made(one, Eigen::MatrixXd::Identity(3, 3), one),
                     ContainsSubstring("damping must be 2 by 2, as the mass matrix, got 3 by 3"));
-  CHECK_THROWS_WITH(Structure::shear_building(list({1, -1}), list({1, 1}), 0.05),
+  CHECK_THROWS_WITH(Structure::shear_building({1, -1}, {1, 1}, 0.05),
                     ContainsSubstring("masses[1] must be finite and more than 0, got -1 kg"));
-  CHECK_THROWS_WITH(Structure::shear_building(list({1, 1}), list({1}), 0.05),
+  CHECK_THROWS_WITH(Structure::shear_building({1, 1}, {1}, 0.05),
                     ContainsSubstring("stiffnesses must have 2 entries, got 1"));
-  CHECK_THROWS_WITH(Structure::from_modes(list({0.6, 0.4}), list({1, 2}), list({0, 0})),
+  CHECK_THROWS_WITH(Structure::from_modes({0.6, 0.4}, {1, 2}, {0, 0}),
                     ContainsSubstring("must be less than 1, because the rest is the base, got 1"));
   CHECK_THROWS_WITH(EquipmentOnFloor(slider(), building(), 4), ContainsSubstring("floor must be from 1 to 3, got 4"));
   CHECK_THROWS_WITH(EquipmentOnFloor(slider(), building(), 1, -1),
@@ -463,7 +451,7 @@ TEST_CASE("a structure that is too fast for the time step is refused before it i
 
 TEST_CASE("degrees of freedom that are not floors have no drifts", "[structure]") {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
-  const Structure turned(one, 0.5 * one, 100 * one, list({1, 0.5}));
+  const Structure turned(one, 0.5 * one, 100 * one, {1, 0.5});
   for (const SlidingStructure& system : {SlidingStructure(IsolatedStructure(slider(), turned, 1)),
                                          SlidingStructure(EquipmentOnFloor(slider(), turned, 2))}) {
     const Floors floors = integrate(system, motion()).floors;

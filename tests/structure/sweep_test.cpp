@@ -12,6 +12,7 @@
 #include "stickslip/structure/equipment_on_floor.hpp"
 #include "stickslip/structure/floor_motions.hpp"
 #include "stickslip/structure/isolated_structure.hpp"
+#include "structure/eigen.hpp"
 #include "support/catch.hpp"
 #include "support/size.hpp"
 
@@ -23,10 +24,6 @@ namespace {
 using Bits = std::mt19937_64;
 
 double uniform(Bits& bits, double low, double high) { return std::uniform_real_distribution(low, high)(bits); }
-
-Eigen::VectorXd list(std::initializer_list<double> values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
 
 enum Kind { even, held, uneven, with_vertical };
 
@@ -118,14 +115,14 @@ TEST_CASE("a sweep of equivalent-linear slopes equals single integrations", "[st
   }
 }
 
-TEST_CASE("a sweep of structures equals single integrations", "[structure][sweep]") {
+TEST_CASE("a sweep of structures equals single integrations", "[structure][sweep][long]") {
   Bits bits(3);
   for (int i = 0; i < test::size(25, 1); ++i) {
     const auto kind = static_cast<Kind>(i % 4);
     const std::vector<GroundMotion> motions{random_motion(bits, kind), random_motion(bits, kind)};
     const double stiff = uniform(bits, 100, 2000);
-    const Structure classical = Structure::shear_building(list({1, 1, 0.8}), list({stiff, stiff, stiff}), 0.03);
-    Eigen::MatrixXd dashpot = classical.damping();
+    const Structure classical = Structure::shear_building({1, 1, 0.8}, {stiff, stiff, stiff}, 0.03);
+    RealMatrix dashpot = classical.damping();
     dashpot(0, 0) += 2;
     const Structure other(classical.mass(), dashpot, classical.stiffness());
     std::vector<SlidingStructure> structures;
@@ -194,16 +191,14 @@ TEST_CASE("floor motions are the accelerations of the floors", "[structure]") {
   Bits bits(5);
   for (const Kind kind : {even, held, uneven}) {
     const GroundMotion quake = random_motion(bits, kind);
-    const Structure classical = Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), 0.03);
-    Eigen::MatrixXd dashpot = classical.damping();
+    const Structure classical = Structure::shear_building({1, 1, 0.8}, {600, 500, 400}, 0.03);
+    RealMatrix dashpot = classical.damping();
     dashpot(0, 0) += 2;
     const Structure other(classical.mass(), dashpot, classical.stiffness());
-    Eigen::MatrixXd shapes(1, 1);
-    shapes << 1.2;
-    const Structure modes = Structure::from_modes(list({0.6}), list({9}), list({0.1}), shapes);
+    const Structure modes = Structure::from_modes({0.6}, {9}, {0.1}, {{1.2}});
     for (const Structure& structure : {classical, other, modes}) {
       const EquipmentOnFloor bolted(Slider(Coulomb(1e6)), structure, 1);
-      const Eigen::MatrixXd expected = integrate(bolted, quake).floors.acceleration;
+      const RealMatrix expected = integrate(bolted, quake).floors.acceleration;
       const auto floors = floor_motions(structure, quake);
       REQUIRE(floors.size() == static_cast<std::size_t>(structure.floors()));
       for (const int parts : {1, 3}) {
@@ -215,24 +210,24 @@ TEST_CASE("floor motions are the accelerations of the floors", "[structure]") {
           const bool jumps = kind == held && !structure.has_matrices();
           for (std::size_t i = 0; !jumps && i < quake.samples(); ++i)
             most = std::max(most, std::abs(these[k].acceleration()[i * static_cast<std::size_t>(parts)] -
-                                           expected(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k))));
-          CHECK(most <= 1e-12 * expected.cwiseAbs().maxCoeff());
+                                           expected(static_cast<std::ptrdiff_t>(i), static_cast<std::ptrdiff_t>(k))));
+          CHECK(most <= 1e-12 * detail::view(expected).cwiseAbs().maxCoeff());
         }
       }
       CHECK(floors[0].name() == "floor 1");
     }
   }
   const GroundMotion quake = random_motion(bits);
-  const Structure bare = Structure::from_modes(list({0.6}), list({9}), list({0.1}));
+  const Structure bare = Structure::from_modes({0.6}, {9}, {0.1});
   CHECK_THROWS_WITH(floor_motions(bare, quake), ContainsSubstring("give from_modes the shapes"));
-  const Structure one = Structure::shear_building(list({1}), list({100}), 0.05);
+  const Structure one = Structure::shear_building({1}, {100}, 0.05);
   CHECK_THROWS_WITH(floor_motions(one, quake, 0), ContainsSubstring("parts must be at least 1, got 0"));
 }
 
 TEST_CASE("sliders on floor motions approach equipment without mass", "[structure]") {
   Bits bits(6);
   const GroundMotion quake = random_motion(bits);
-  const Structure building = Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), 0.03);
+  const Structure building = Structure::shear_building({1, 1, 0.8}, {600, 500, 400}, 0.03);
   const double exact = integrate(EquipmentOnFloor(Slider(Coulomb(1)), building, 3), quake).peak;
   double last = never;
   for (const int parts : {1, 4, 16}) {
@@ -247,7 +242,7 @@ TEST_CASE("sliders on floor motions approach equipment without mass", "[structur
 TEST_CASE("a structure that is too fast for the time step fails alone in a sweep", "[structure][sweep]") {
   Bits bits(7);
   const std::vector<GroundMotion> motions{random_motion(bits)};
-  const Structure building = Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), 0.03);
+  const Structure building = Structure::shear_building({1, 1, 0.8}, {600, 500, 400}, 0.03);
   Mounting extreme;
   extreme.natural_frequency = 1e9;
   // They share the stuck motion, whichever comes first.

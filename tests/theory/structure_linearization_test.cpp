@@ -17,13 +17,7 @@ using Force = EquivalentLinearization::Force;
 
 namespace {
 
-Eigen::VectorXd list(std::initializer_list<double> values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
-
-Structure one_mode(double fraction, double frequency) {
-  return Structure::from_modes(list({fraction}), list({frequency}), list({0.05}));
-}
+Structure one_mode(double fraction, double frequency) { return Structure::from_modes({fraction}, {frequency}, {0.05}); }
 
 const Spectrum soil = Spectrum::kanai_tajimi(0.02, 12, 0.6);
 const std::vector<double> times{1, 4, 16};
@@ -79,13 +73,13 @@ TEST_CASE("a stiff structure is linearized as the rigid block", "[theory][struct
   }
   CHECK(former < 1e-4);
   // Equal modes are one mode.
-  const Structure halves = Structure::from_modes(list({0.3, 0.4}), list({8, 8}), list({0.05, 0.05}));
+  const Structure halves = Structure::from_modes({0.3, 0.4}, {8, 8}, {0.05, 0.05});
   CHECK(apart(method.predict(IsolatedStructure(slider, halves), soil, times),
               method.predict(IsolatedStructure(slider, one_mode(0.7, 8)), soil, times)) < 1e-8);
 }
 
 TEST_CASE("the covariance of a structure tends to the stationary one", "[theory][structure]") {
-  const Structure building = Structure::shear_building(list({1, 1, 0.8}), list({600, 500, 400}), Rayleigh{0.6, 0.004});
+  const Structure building = Structure::shear_building({1, 1, 0.8}, {600, 500, 400}, Rayleigh{0.6, 0.004});
   const std::vector<double> late{40};
   // Of the slowest transient, 1e-5 is left.
   for (const Force force : {Force::gaussian, Force::laplace}) {
@@ -141,9 +135,9 @@ TEST_CASE("equivalent linearization says which structures it does not cover", "[
   CHECK_THAT(
       reason(IsolatedStructure(Slider<Coulomb>(Coulomb(1)), building), EquivalentLinearization({.dimensions = 2})),
       ContainsSubstring("dimensions must be 1, got 2"));
-  const Eigen::VectorXd masses = Eigen::VectorXd::Ones(13);
+  const std::vector<double> masses(13, 1.0), stiffnesses(13, 900.0);
   CHECK_THAT(
-      reason(IsolatedStructure(Slider<Coulomb>(Coulomb(1)), Structure::shear_building(masses, 900 * masses, 0.05), 1),
+      reason(IsolatedStructure(Slider<Coulomb>(Coulomb(1)), Structure::shear_building(masses, stiffnesses, 0.05), 1),
              method),
       ContainsSubstring("at most 12 modes, got 13"));
 }

@@ -1,6 +1,8 @@
 // A slider on a floor of a structure.
 #pragma once
 
+#include <cstddef>
+
 #include "stickslip/structure/sliding_structure.hpp"
 
 namespace stickslip {
@@ -17,13 +19,13 @@ class EquipmentOnFloor : public SlidingStructure {
   /// @param mass       m_e [kg], finite and at least 0; with `from_modes`, as a fraction of the total mass of the
   /// structure
   /// @throws std::invalid_argument  naming the value; a slope; a law of numbers, or a MultiPendulum
-  EquipmentOnFloor(AnySlider slider, Structure structure, Eigen::Index floor, double mass = 0);
+  EquipmentOnFloor(AnySlider slider, Structure structure, std::ptrdiff_t floor, double mass = 0);
 
-  Eigen::Index floor() const noexcept { return floor_; }
+  std::ptrdiff_t floor() const noexcept { return floor_; }
   double mass() const noexcept { return mass_; }
 
  private:
-  Eigen::Index floor_;
+  std::ptrdiff_t floor_;
   double mass_;
 };
 

@@ -1,9 +1,9 @@
 // A linear structure, and its modes on a fixed base.
 #pragma once
 
-#include "stickslip/base/requirements.hpp"  // before Eigen, whose absence would be told first
-
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "stickslip/structure/matrix.hpp"
 
@@ -17,10 +17,10 @@ struct Rayleigh {
 
 /// The modes of a structure on a fixed base, in order of frequency.
 struct Modes {
-  RealVector frequencies;       ///< w_j [rad/s]; 0 for a rigid-body mode
-  RealVector damping_ratios;    ///< diagonal of the modal damping, divided by 2 w_j; infinite where w_j = 0
-  RealVector participation;     ///< shape' M influence; with `from_modes`, the square root of the mass fraction
-  RealVector effective_masses;  ///< participation squared [kg]; with `from_modes`, the mass fractions
+  std::vector<double> frequencies;     ///< w_j [rad/s]; 0 for a rigid-body mode
+  std::vector<double> damping_ratios;  ///< diagonal of the modal damping, divided by 2 w_j; infinite where w_j = 0
+  std::vector<double> participation;   ///< shape' M influence; with `from_modes`, the square root of the mass fraction
+  std::vector<double> effective_masses;  ///< participation squared [kg]; with `from_modes`, the mass fractions
   /// One column per mode and one row per degree of freedom, shape' M shape = 1; empty if `from_modes` was given none.
   RealMatrix shapes;
 };
@@ -35,11 +35,12 @@ class Structure {
   /// @param damping    C [N s/m], symmetric and positive semidefinite; it need not be diagonal in the modes
   /// @param stiffness  K [N/m], symmetric and positive semidefinite, not zero
   /// @throws std::invalid_argument  naming the matrix and the entry or the eigenvalue
-  Structure(RealMatrix mass, RealMatrix damping, RealMatrix stiffness);
+  Structure(const RealMatrix& mass, const RealMatrix& damping, const RealMatrix& stiffness);
 
   /// The same with another influence than ones.
   /// @param influence  displacements under a unit displacement of the base
-  Structure(RealMatrix mass, RealMatrix damping, RealMatrix stiffness, RealVector influence);
+  Structure(const RealMatrix& mass, const RealMatrix& damping, const RealMatrix& stiffness,
+            const RealVector& influence);
 
   /// A building of rigid floors, counted from the bottom; stiffness i is that of the story below floor i.
   /// @param masses       of the floors [kg], positive and finite
@@ -67,15 +68,15 @@ class Structure {
   static Structure from_modes(const RealVector& mass_fractions, const RealVector& frequencies,
                               const RealVector& damping_ratios, const RealMatrix& shapes);
 
-  Eigen::Index size() const noexcept;    ///< number of modes
-  Eigen::Index floors() const noexcept;  ///< number of degrees of freedom; 0 if `from_modes` was given no shapes
-  bool has_matrices() const noexcept;    ///< whether it is not made by `from_modes`
+  std::ptrdiff_t size() const noexcept;    ///< number of modes
+  std::ptrdiff_t floors() const noexcept;  ///< number of degrees of freedom; 0 if `from_modes` was given no shapes
+  bool has_matrices() const noexcept;      ///< whether it is not made by `from_modes`
 
-  const RealMatrix& mass() const noexcept;       ///< M [kg]; empty without matrices
-  const RealMatrix& damping() const noexcept;    ///< C [N s/m]
-  const RealMatrix& stiffness() const noexcept;  ///< K [N/m]
-  const RealVector& influence() const noexcept;  ///< ones with `from_modes`
-  bool uniform_influence() const noexcept;       ///< whether `influence` is ones
+  const RealMatrix& mass() const noexcept;                ///< M [kg]; empty without matrices
+  const RealMatrix& damping() const noexcept;             ///< C [N s/m]
+  const RealMatrix& stiffness() const noexcept;           ///< K [N/m]
+  const std::vector<double>& influence() const noexcept;  ///< ones with `from_modes`
+  bool uniform_influence() const noexcept;                ///< whether `influence` is ones
 
   const Modes& modes() const noexcept;
   /// shapes' C shapes, per unit modal mass [1/s].
@@ -90,8 +91,9 @@ class Structure {
  private:
   struct Data;
   explicit Structure(std::shared_ptr<const Data> data);
-  static std::shared_ptr<Data> data_of_modes(const RealVector& mass_fractions, const RealVector& frequencies,
-                                             const RealVector& damping_ratios);
+  static std::shared_ptr<Data> data_of_modes(const std::vector<double>& mass_fractions,
+                                             const std::vector<double>& frequencies,
+                                             const std::vector<double>& damping_ratios);
   std::shared_ptr<const Data> data_;
 };
 

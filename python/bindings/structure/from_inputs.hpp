@@ -1,7 +1,7 @@
-// Arrays of Eigen, and classes of immutable objects that are made from their inputs.
+// Arrays of vectors and matrices, and classes of immutable objects that are made from their inputs.
 #pragma once
 
-#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -13,9 +13,8 @@
 
 namespace stickslip::python {
 
-inline RealVector vector_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
-  const std::vector<double> numbers = to_vector(values, name, unit);
-  return Eigen::Map<const RealVector>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+inline std::vector<double> vector_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
+  return to_vector(values, name, unit);
 }
 
 inline RealMatrix matrix_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
@@ -24,15 +23,22 @@ inline RealMatrix matrix_from(const py::object& values, const std::string& name,
     throw std::invalid_argument(name + " must be two-dimensional, got " + std::to_string(numbers.ndim()) +
                                 (numbers.ndim() == 1 ? " dimension" : " dimensions"));
   RealMatrix matrix(numbers.shape(0), numbers.shape(1));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix(i, j) = *numbers.data(i, j);
+  for (py::ssize_t i = 0; i < matrix.rows(); ++i)
+    for (py::ssize_t j = 0; j < matrix.cols(); ++j) matrix(i, j) = *numbers.data(i, j);
   return matrix;
 }
 
-/// A read-only copy.
-template <class Values>
-py::array array_from(const Values& values) {
-  py::array array = py::cast(values);
+/// A read-only view of numbers that `owner` keeps, or a read-only copy.
+inline py::array array_from(const std::vector<double>& values, py::handle owner = {}) {
+  py::array array(py::dtype::of<double>(), std::vector{static_cast<py::ssize_t>(values.size())}, {}, values.data(),
+                  owner);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+inline py::array array_from(const RealMatrix& values, py::handle owner = {}) {
+  constexpr auto item = static_cast<py::ssize_t>(sizeof(double));
+  py::array array(py::dtype::of<double>(), std::vector<py::ssize_t>{values.rows(), values.cols()},
+                  std::vector<py::ssize_t>{item, item * values.rows()}, values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
 }
@@ -41,7 +47,7 @@ py::array array_from(const Values& values) {
 template <class Values>
 py::object plain(const Values& values) {
   if (values.size() == 0) return py::none();
-  const py::list rows = py::cast(values).attr("tolist")();
+  const py::list rows = array_from(values).attr("tolist")();
   py::list plain;
   for (const py::handle row : rows)
     plain.append(py::isinstance<py::list>(row) ? py::object(py::tuple(py::reinterpret_borrow<py::object>(row)))

@@ -36,9 +36,9 @@ py::tuple inputs_of_structure(const Structure& s) {
 
 Structure structure_of_modes(const py::object& fractions, const py::object& frequencies, const py::object& ratios,
                              const py::object& shapes) {
-  const RealVector f = vector_from(fractions, "Structure.from_modes: mass_fractions"),
-                   w = vector_from(frequencies, "Structure.from_modes: frequencies", "rad/s"),
-                   z = vector_from(ratios, "Structure.from_modes: damping_ratios");
+  const auto f = vector_from(fractions, "Structure.from_modes: mass_fractions"),
+             w = vector_from(frequencies, "Structure.from_modes: frequencies", "rad/s"),
+             z = vector_from(ratios, "Structure.from_modes: damping_ratios");
   if (shapes.is_none()) return Structure::from_modes(f, w, z);
   return Structure::from_modes(f, w, z, matrix_from(shapes, "Structure.from_modes: shapes"));
 }
@@ -46,18 +46,18 @@ Structure structure_of_modes(const py::object& fractions, const py::object& freq
 Structure plausible_structure_of_modes(const py::object& fractions, const py::object& frequencies,
                                        const py::object& ratios, const py::object& shapes) {
   Structure structure = structure_of_modes(fractions, frequencies, ratios, shapes);
-  const RealVector& all = structure.modes().damping_ratios;
-  for (Eigen::Index i = 0; i < all.size(); ++i)
+  const auto& all = structure.modes().damping_ratios;
+  for (std::size_t i = 0; i < all.size(); ++i)
     check_damping_ratio("Structure.from_modes", "damping_ratios[" + std::to_string(i) + "]", all[i]);
   return structure;
 }
 
 Structure structure_of_matrices(const py::object& mass, const py::object& damping, const py::object& stiffness,
                                 const py::object& influence) {
-  RealMatrix m = matrix_from(mass, "Structure: mass", "kg"), c = matrix_from(damping, "Structure: damping", "N*s/m"),
+  const auto m = matrix_from(mass, "Structure: mass", "kg"), c = matrix_from(damping, "Structure: damping", "N*s/m"),
              k = matrix_from(stiffness, "Structure: stiffness", "N/m");
-  if (influence.is_none()) return Structure(std::move(m), std::move(c), std::move(k));
-  return Structure(std::move(m), std::move(c), std::move(k), vector_from(influence, "Structure: influence"));
+  if (influence.is_none()) return Structure(m, c, k);
+  return Structure(m, c, k, vector_from(influence, "Structure: influence"));
 }
 
 Structure structure_from_inputs(const py::tuple& inputs) {
@@ -68,10 +68,10 @@ Structure structure_from_inputs(const py::tuple& inputs) {
 }
 
 std::string description(const Structure& s) {
-  const RealVector& w = s.modes().frequencies;
-  const Eigen::Index rigid = (w.array() <= 0).count();
-  const double first = (w.array() > 0).select(w, std::numeric_limits<double>::infinity()).minCoeff();
-  const auto count = [](Eigen::Index n, const char* what) {
+  const auto& w = s.modes().frequencies;  // in order
+  const auto rigid = std::ranges::count(w, 0.0);
+  const double first = rigid < s.size() ? w[static_cast<std::size_t>(rigid)] : std::numeric_limits<double>::infinity();
+  const auto count = [](std::ptrdiff_t n, const char* what) {
     return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
   };
   return "<Structure: " + (s.floors() > 0 ? count(s.floors(), "floor") + ", " : std::string()) +
@@ -161,22 +161,9 @@ struct FloorsOfResponse {
   const Floors& floors() const { return response.cast<const Self&>().response.floors; }
 };
 
-template <class Values>
-py::array view_of(const Values& values, const py::object& owner) {
-  constexpr auto item = static_cast<py::ssize_t>(sizeof(double));
-  py::array array =
-      Values::ColsAtCompileTime == 1
-          ? py::array(py::dtype::of<double>(), {static_cast<py::ssize_t>(values.size())}, {item}, values.data(), owner)
-          : py::array(py::dtype::of<double>(),
-                      {static_cast<py::ssize_t>(values.rows()), static_cast<py::ssize_t>(values.cols())},
-                      {item, item * static_cast<py::ssize_t>(values.rows())}, values.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
 template <auto member>
 auto of_floors() {
-  return [](const py::object& self) { return view_of(self.cast<const FloorsOfResponse&>().floors().*member, self); };
+  return [](const py::object& self) { return array_from(self.cast<const FloorsOfResponse&>().floors().*member, self); };
 }
 // Of the stories: only if one floor is above another.
 template <auto member>
@@ -186,7 +173,7 @@ auto drifts() {
     if (floors.drift.cols() == 0)
       throw std::invalid_argument(
           "Floors: drifts need an influence of ones, by which one floor is above another; `displacement` does not");
-    return view_of(floors.*member, self);
+    return array_from(floors.*member, self);
   };
 }
 // Shears also need the masses of the floors.
@@ -198,7 +185,7 @@ auto shears() {
       throw std::invalid_argument(
           "Floors: the shear of each story needs the masses of the floors and an influence of ones; `peak_base_shear` "
           "of the response needs neither");
-    return view_of(floors.*member, self);
+    return array_from(floors.*member, self);
   };
 }
 
@@ -264,8 +251,8 @@ ValueError
           "shear_building",
           [](const py::object& masses, const py::object& stiffnesses, const std::optional<Rayleigh>& damping,
              std::optional<double> damping_ratio) {
-            const RealVector mass = vector_from(masses, "Structure.shear_building: masses", "kg"),
-                             stiffness = vector_from(stiffnesses, "Structure.shear_building: stiffnesses", "N/m");
+            const auto mass = vector_from(masses, "Structure.shear_building: masses", "kg"),
+                       stiffness = vector_from(stiffnesses, "Structure.shear_building: stiffnesses", "N/m");
             if (damping.has_value() == damping_ratio.has_value())
               throw std::invalid_argument("Structure.shear_building: give either damping or damping_ratio, got " +
                                           std::string(damping ? "both" : "neither"));
@@ -495,9 +482,9 @@ ValueError
                                      [](const py::tuple& inputs) {
                                        return EquipmentOnFloor(
                                            inputs[0].cast<const AnySlider&>(), inputs[1].cast<const Structure&>(),
-                                           inputs[2].cast<Eigen::Index>(), inputs[3].cast<double>());
+                                           inputs[2].cast<std::ptrdiff_t>(), inputs[3].cast<double>());
                                      })
-      .def(py::init<AnySlider, Structure, Eigen::Index, double>(), py::arg("slider"), py::arg("structure"),
+      .def(py::init<AnySlider, Structure, std::ptrdiff_t, double>(), py::arg("slider"), py::arg("structure"),
            py::kw_only(), py::arg("floor"), py::arg("mass") = 0.0)
       .def("rest", &EquipmentOnFloor::rest, "The `StructureState` at rest at x = 0, for `advance`.")
       .def_property_readonly("slider", &EquipmentOnFloor::slider, "The `Slider` on the floor.")
@@ -732,7 +719,7 @@ without the masses of the floors, or if `influence` is not ones.)")
                              "Largest shear of the stories [N], shape (floors,); see `shear`.")
       .def("__repr__", [](const FloorsOfResponse& f) {
         return "<Floors: " + std::to_string(f.floors().displacement.cols()) + " floors, largest acceleration " +
-               digits(f.floors().peak_acceleration.maxCoeff()) + " m/s^2>";
+               digits(std::ranges::max(f.floors().peak_acceleration)) + " m/s^2>";
       });
 
   made_from_inputs<Self>(
@@ -768,15 +755,15 @@ for good, but see `truncated`.)")
       .def_property_readonly("velocity", history<&StructureResponse::velocity>(), "x' at `time` [m/s], shape (N,).")
       .def_property_readonly(
           "base_acceleration",
-          [](const py::object& self) { return view_of(self.cast<const Self&>().response.base_acceleration, self); },
+          [](const py::object& self) { return array_from(self.cast<const Self&>().response.base_acceleration, self); },
           "Absolute acceleration of what the structure stands on, at `time` [m/s^2], shape (N,). It jumps at arrests.")
       .def_property_readonly(
           "demand",
-          [](const py::object& self) { return view_of(self.cast<const Self&>().response.interface_demand, self); },
+          [](const py::object& self) { return array_from(self.cast<const Self&>().response.interface_demand, self); },
           "Force q that the bond would have to carry, per unit of the reference mass, at `time` [m/s^2], shape (N,).")
       .def_property_readonly(
           "force",
-          [](const py::object& self) { return view_of(self.cast<const Self&>().response.interface_force, self); },
+          [](const py::object& self) { return array_from(self.cast<const Self&>().response.interface_force, self); },
           R"(Force of friction, spring and damper between both sides of the interface, at `time` [m/s^2], shape (N,).
 
 Per unit of the reference mass; positive where it pulls toward negative x. While the interface sticks, friction is what
