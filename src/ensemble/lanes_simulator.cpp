@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "lanes/caster_lanes.hpp"
@@ -106,7 +107,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
                                            std::uint64_t seed, bool settle) {
   const std::size_t edges = excitation.options().shape.times().size();
   // Blocks too long to be interrupted promptly are simulated member by member.
-  if (!has_friction_alone(slider) || edges > max_edges ||
+  if (!slider.plain() || !has_friction_alone(slider) || edges > max_edges ||
       excitation.rate() * excitation.duration() * static_cast<double>(edges) > 1e5)
     return nullptr;
   return std::make_unique<PulseSimulator>(slider, excitation, seed, settle);
@@ -114,6 +115,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
 
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
+  if (!slider.plain()) return nullptr;
   const double dt = excitation.dt();
   const auto simulator = [&](const auto& lanes) -> std::unique_ptr<Simulator> {
     return std::make_unique<LanesSimulator<Coulomb, std::remove_cvref_t<decltype(lanes)>>>(slider, lanes, excitation,
@@ -128,6 +130,7 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const 
 
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
+  if (!slider.plain()) return nullptr;
   // The unit of length in the lanes is the reach.
   const double reach = slider.law().reach();
   if (!has_friction_alone(slider) || slider.law().rolling() > 0)
@@ -140,6 +143,23 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<Caster>& slider, const G
 std::unique_ptr<Simulator> lanes_simulator(const Slider<VelocityDependent>& slider,
                                            const GaussianExcitation& excitation, std::uint64_t seed, bool settle) {
   return series_simulator(slider, excitation, seed, settle);
+}
+
+std::unique_ptr<Simulator> lanes_simulator(const AnySlider& slider, const GaussianExcitation& excitation,
+                                           std::uint64_t seed, bool settle) {
+  if (const auto* coulomb = std::get_if<Slider<Coulomb>>(&slider))
+    return lanes_simulator(*coulomb, excitation, seed, settle);
+  if (const auto* caster = std::get_if<Slider<Caster>>(&slider))
+    return lanes_simulator(*caster, excitation, seed, settle);
+  if (const auto* other = std::get_if<Slider<VelocityDependent>>(&slider))
+    return lanes_simulator(*other, excitation, seed, settle);
+  return nullptr;
+}
+
+std::unique_ptr<Simulator> lanes_simulator(const AnySlider& slider, const PoissonPulses& excitation, std::uint64_t seed,
+                                           bool settle) {
+  const auto* coulomb = std::get_if<Slider<Coulomb>>(&slider);
+  return coulomb ? lanes_simulator(*coulomb, excitation, seed, settle) : nullptr;
 }
 
 }  // namespace stickslip::detail

@@ -97,7 +97,7 @@ TEST_CASE("a floor under a load along one line is that of one axis", "[planar][f
   for (std::size_t i = 0; i < periods.size(); ++i) CHECK(std::abs(a.values[i] - b.values[i]) <= 2 * 12.7e-6 * peak);
 }
 
-TEST_CASE("the chords of a floor in the plane are as close as asked", "[planar][floor]") {
+TEST_CASE("the chords of a floor in the plane are as close as asked", "[planar][floor][long]") {
   const PlanarSlider slider(Coulomb(0.7), {.natural_frequency = 3});
   const GroundMotion ground = pair();
   const PlanarResponse r = integrate(slider, ground);

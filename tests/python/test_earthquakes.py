@@ -87,6 +87,7 @@ def test_as_many_records_end_within_a_factor_of_two_as_the_models_own_earthquake
     assert abs(count - expected) < 12
 
 
+@pytest.mark.slow
 def test_the_final_displacements_have_the_rms_that_is_predicted(trials):
     ratio = np.sqrt(np.mean([(t.final / t.rms) ** 2 for t in trials]))
     assert round(ratio, 2) == said("ratio found / predicted is # ")

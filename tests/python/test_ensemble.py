@@ -953,6 +953,7 @@ KEPT = """ss.run_ensemble(BLOCK, Delayed({delay}), members={members}, seed=1, th
             progress=progress, checkpoint={file!r}, checkpoint_every={every})"""
 
 
+@pytest.mark.slow
 @needs_signals
 def test_a_run_that_was_broken_off_ends_with_the_same_bits(tmp_path):
     whole = ss.run_ensemble(BLOCK, Delayed(), members=MANY, seed=1)

@@ -28,6 +28,7 @@ def test_a_floor_that_does_not_slide_is_the_ground():
         assert np.array_equal(same.values, rotated.values)
 
 
+@pytest.mark.slow
 def test_rotd_of_a_floor():
     r = ss.integrate(ss.PlanarSlider(ss.Coulomb(mu=0.1)), station(samples=200), settle=True)
     table = ss.rotd(r, PERIODS, damping=0.02)

@@ -116,7 +116,7 @@ TEST_CASE("a sweep agrees with integrate for each combination, including the num
 }
 
 TEST_CASE("on slopes, under vertical motion and with static friction a sweep is what integrate says, events counted",
-          "[sweep]") {
+          "[sweep][long]") {
   using Any = std::variant<Slider<Coulomb>, Slider<StaticKinetic<Coulomb>>>;
   std::mt19937_64 bits(4);
   const auto draw = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(bits); };

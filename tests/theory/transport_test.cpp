@@ -126,7 +126,7 @@ TEST_CASE("loads of pulses have the moments of a compound Poisson process") {
   }
 }
 
-TEST_CASE("a prediction under pulses scales with the units, and a soft spring leaves the block alone") {
+TEST_CASE("a prediction under pulses scales with the units, and a soft spring leaves the block alone", "[long]") {
   const std::vector<double> times{4, 9.5}, scaled{1, 9.5 / 4};
   const Transport theory(0.1);
   const auto one = theory.predict(Slider(Coulomb(1.0)), PoissonPulses(0.6, 1, 1.1, 10), times);
@@ -265,7 +265,7 @@ TEST_CASE("times far below a step have moments of their own") {
   CHECK(found.growth_rate.value > 0);
 }
 
-TEST_CASE("laws that are Coulomb's in a limit have its moments") {
+TEST_CASE("laws that are Coulomb's in a limit have its moments", "[long]") {
   const std::vector<double> times{5, 20};
   const ShapingFilter filter = kanai_tajimi(0.6, 1.2);
   const auto near = [&](const Moments& found, const Moments& expected, double tolerance, double errors) {
@@ -319,7 +319,7 @@ TEST_CASE("a caster breaks loose at the time of prototypes and ensembles", "[lon
   CHECK(z == Approx(1).epsilon(0.002));
 }
 
-TEST_CASE("static friction makes slips rarer") {
+TEST_CASE("static friction makes slips rarer", "[long]") {
   const std::vector<double> times{20};
   double before = 1e300;
   for (const double level : {1.0, 1.3, 1.7}) {

@@ -76,6 +76,18 @@ constexpr bool members_feel_transverse() {
     return feels_transverse<S>;
 }
 
+/// The common times of the motions of a source; nothing if their durations differ.
+template <class M>
+std::optional<TimeBase> time_base_of(const M& motions) {
+  if constexpr (requires { motions.time_base(); }) {
+    return motions.time_base();
+  } else {
+    TimeBase base{motions.duration()};
+    if constexpr (requires { motions.dt(); }) base.dt = motions.dt();
+    return base;
+  }
+}
+
 /// The motion of a member, without a component that its slider does not feel.
 template <bool with_transverse, class M>
 decltype(auto) motion_of(const M& motions, std::uint64_t seed, std::uint64_t index) {
@@ -108,15 +120,7 @@ class PairedMembers {
       return Member<const S&, Motion>{sliders_, detail::motion_of<pairs>(motions_, seed, index)};
   }
 
-  std::optional<TimeBase> time_base() const {
-    if constexpr (requires { motions_.time_base(); }) {
-      return motions_.time_base();
-    } else {
-      TimeBase base{motions_.duration()};
-      if constexpr (requires { motions_.dt(); }) base.dt = motions_.dt();
-      return base;
-    }
-  }
+  std::optional<TimeBase> time_base() const { return detail::time_base_of(motions_); }
 
   EnsembleConfiguration configuration() const {
     const auto slider = [this] {

@@ -54,8 +54,7 @@ std::unique_ptr<Simulator> simulator(const PairedMembers<S, M>& source, const En
   } else {
     const auto& motions = along_axis(source.motions());  // all sliders in lanes are on one axis
     if constexpr (requires { lanes_simulator(source.sliders(), motions, options.seed, options.settle); })
-      if (source.sliders().plain())
-        if (auto lanes = lanes_simulator(source.sliders(), motions, options.seed, options.settle)) return lanes;
+      if (auto lanes = lanes_simulator(source.sliders(), motions, options.seed, options.settle)) return lanes;
     return std::make_unique<MemberSimulator<Source>>(source, options.seed, options.settle, options.contact);
   }
 }

@@ -41,15 +41,14 @@ Ensemble run(const py::object& sliders, const py::object& motions, std::uint64_t
       throw;
     }
   };
-  return with_motions(motions, ended, [&](const auto& these) {
-    const auto run_those = [&](const auto& those) {
-      const py::gil_scoped_release released;
-      return run_ensemble(those, these, options, start);
-    };
-    if (MemberKind<AnyPlanarSlider>::read(kind)) return with_members<AnyPlanarSlider>(sliders, ended, run_those, first);
-    if (structures) return with_members<AnyStructure>(sliders, ended, run_those, first);
-    return with_sliders(sliders, ended, run_those, first);
-  });
+  const Motions these(motions, ended);
+  const auto run_those = [&](const auto& those) {
+    const py::gil_scoped_release released;
+    return run_ensemble(those, these, options, start);
+  };
+  if (MemberKind<AnyPlanarSlider>::read(kind)) return with_members<AnyPlanarSlider>(sliders, ended, run_those, first);
+  if (structures) return with_members<AnyStructure>(sliders, ended, run_those, first);
+  return with_sliders(sliders, ended, run_those, first);
 }
 
 /// An ensemble without members, into which to merge the parts of a run.

@@ -40,11 +40,10 @@ EnsembleSensitivity run_sensitivity(const py::object& sliders, const py::object&
       throw;
     }
   };
-  EnsembleSensitivity result = with_motions(motions, ended, [&, by = parameter](const auto& these) {
-    return with_sliders(sliders, ended, [&](const auto& those) {
-      const py::gil_scoped_release released;
-      return ensemble_sensitivity(those, these, by, options);
-    });
+  const Motions these(motions, ended);
+  EnsembleSensitivity result = with_sliders(sliders, ended, [&, by = parameter](const auto& those) {
+    const py::gil_scoped_release released;
+    return ensemble_sensitivity(those, these, by, options);
   });
   for (auto* values : {&result.peak, &result.residual})
     for (double& value : *values) value *= factor;

@@ -4,8 +4,11 @@
 #include <atomic>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,6 +18,7 @@
 #include "drawn.hpp"
 #include "excitation/components.hpp"
 #include "stickslip/ensemble/detail/block.hpp"
+#include "stickslip/ensemble/detail/lanes_simulator.hpp"
 #include "stickslip/ensemble/member.hpp"
 #include "stickslip/ensemble/one_of.hpp"
 #include "stickslip/planar/any_planar_slider.hpp"
@@ -204,19 +208,10 @@ auto with_members(const py::object& sliders, const std::atomic<bool>& ended, F&&
   return f(PythonMembers<Member>(sliders, ended, std::move(first)));
 }
 
-/// Calls `f` with the sliders in their static type.
+/// Calls `f` with the sliders: one for all, those of a list, or those of a source.
 template <class F>
 auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&& f, FirstSample first = {}) {
-  if (const auto one = slider_of(sliders))  // the laws with vector lanes, in their static types
-    return std::visit(
-        [&]<class Law>(const Slider<Law>& slider) {
-          if constexpr (LawWithHold<Law> || std::same_as<Law, Stribeck> || MemoryLaw<Law> ||
-                        form_of<Law> == Form::numeric)
-            return f(*one);
-          else
-            return f(slider);
-        },
-        *one);
+  if (const auto one = slider_of(sliders)) return f(*one);
   if (const auto list = list_of(sliders, "sliders")) {
     std::vector<AnySlider> items;
     for (const py::handle item : list->first) {
@@ -229,22 +224,91 @@ auto with_sliders(const py::object& sliders, const std::atomic<bool>& ended, F&&
   return f(PythonSliders(sliders, ended, std::move(first)));
 }
 
-/// Calls `f` with the ground motions in their static type.
-template <class F>
-auto with_motions(const py::object& motions, const std::atomic<bool>& ended, F&& f) {
-  if (py::isinstance<GaussianExcitation>(motions)) return f(motions.cast<const GaussianExcitation&>());
-  if (py::isinstance<PoissonPulses>(motions)) return f(motions.cast<const PoissonPulses&>());
-  if (const auto components = components_of(motions)) return components->visit(f);
-  if (py::isinstance<GroundMotion>(motions)) return f(OneOf(std::vector{motions.cast<GroundMotion>()}));
-  if (const auto list = list_of(motions, "motions")) {
-    std::vector<GroundMotion> items;
-    for (const py::handle item : list->first) {
-      if (!py::isinstance<GroundMotion>(item)) refuse_item("motions", items.size(), "GroundMotion", item);
-      items.push_back(item.cast<GroundMotion>());
+/// A ground motion that was made for a member, or one of a list.
+class MadeOrListed {
+ public:
+  MadeOrListed(GroundMotion made) : made_(std::move(made)) {}
+  MadeOrListed(const GroundMotion* listed) : listed_(listed) {}
+  operator const GroundMotion&() const { return listed_ ? *listed_ : *made_; }
+
+ private:
+  std::optional<GroundMotion> made_{};
+  const GroundMotion* listed_ = nullptr;
+};
+
+/// The ground motions of an ensemble, given in Python, in one type: a type for each of them would compile every run six
+/// times.
+class Motions {
+ public:
+  /// Refers to the object, which must outlive it.
+  Motions(const py::object& object, const std::atomic<bool>& ended) {
+    if (const auto excitation = excitation_of(object)) {
+      motions_.emplace<ExcitationReference>(*excitation);
+    } else if (const auto components = components_of(object)) {
+      components->visit([&]<class Together>(Together together) { motions_.emplace<Together>(std::move(together)); });
+    } else if (py::isinstance<GroundMotion>(object)) {
+      motions_.emplace<OneOf<GroundMotion>>(std::vector{object.cast<GroundMotion>()});
+    } else if (const auto list = list_of(object, "motions")) {
+      std::vector<GroundMotion> items;
+      for (const py::handle item : list->first) {
+        if (!py::isinstance<GroundMotion>(item)) refuse_item("motions", items.size(), "GroundMotion", item);
+        items.push_back(item.cast<GroundMotion>());
+      }
+      motions_.emplace<OneOf<GroundMotion>>(std::move(items), list->second);
+    } else {
+      motions_.emplace<PythonMotions>(object, ended);
     }
-    return f(OneOf(std::move(items), list->second));
   }
-  return f(PythonMotions(motions, ended));
+
+  MadeOrListed sample(std::uint64_t seed, std::uint64_t member) const {
+    return with<MadeOrListed>([&](const auto& of) { return made_or_listed(of.sample(seed, member)); });
+  }
+  MadeOrListed sample_along_axis(std::uint64_t seed, std::uint64_t member) const {
+    return with<MadeOrListed>(
+        [&](const auto& of) { return made_or_listed(detail::motion_of<false>(of, seed, member)); });
+  }
+  std::optional<TimeBase> time_base() const {
+    return with<std::optional<TimeBase>>([](const auto& of) { return detail::time_base_of(of); });
+  }
+  std::string configuration() const {
+    return with<std::string>([](const auto& of) { return std::string(of.configuration()); });
+  }
+
+  /// The excitation along the axis if nothing else acts on a slider on the axis; else null.
+  const ExcitationReference* alone_on_axis() const {
+    if (const auto* one = std::get_if<ExcitationReference>(&motions_)) return one;
+    if (const auto* pairs = std::get_if<Pairs>(&motions_)) return &pairs->along_axis();
+    return nullptr;
+  }
+
+ private:
+  static MadeOrListed made_or_listed(GroundMotion&& made) { return std::move(made); }
+  static MadeOrListed made_or_listed(const GroundMotion& listed) { return &listed; }
+  template <class Result, class F>
+  Result with(F&& f) const {
+    return std::visit(
+        [&]<class M>(const M& of) -> Result {
+          if constexpr (std::same_as<M, std::monostate>)
+            throw std::logic_error("Motions: none");
+          else
+            return f(of);
+        },
+        motions_);
+  }
+
+  // The first one only until the constructor has chosen.
+  std::variant<std::monostate, ExcitationReference, WithVertical<ExcitationReference, ExcitationReference>, Pairs,
+               WithVertical<Pairs, ExcitationReference>, OneOf<GroundMotion>, PythonMotions>
+      motions_{};
+};
+
+/// The vector lanes of a slider under an excitation alone; null where there are none.
+inline std::unique_ptr<detail::Simulator> lanes_simulator(const AnySlider& slider, const Motions& motions,
+                                                          std::uint64_t seed, bool settle) {
+  const ExcitationReference* const alone = motions.alone_on_axis();
+  if (!alone) return nullptr;
+  return std::visit([&](const auto* one) { return detail::lanes_simulator(slider, *one, seed, settle); },
+                    alone->excitation);
 }
 
 }  // namespace stickslip::python

@@ -17,13 +17,13 @@ inline constexpr auto parts<HeldWithTransverse> = std::tuple(&HeldWithTransverse
                                                              &HeldWithTransverse::ratio, &HeldWithTransverse::coherence,
                                                              &HeldWithTransverse::arrivals);
 
-namespace {
-
-std::optional<ExcitationReference> reference_to(const py::object& object) {
+std::optional<ExcitationReference> excitation_of(const py::handle& object) {
   if (py::isinstance<GaussianExcitation>(object)) return {{&object.cast<const GaussianExcitation&>()}};
   if (py::isinstance<PoissonPulses>(object)) return {{&object.cast<const PoissonPulses&>()}};
   return std::nullopt;
 }
+
+namespace {
 
 /// @param other  another class that `name` may be, such as "WithTransverse"
 [[noreturn]] void refuse_type(const std::string& who, const std::string& name, const std::string& other,
@@ -37,7 +37,7 @@ std::optional<ExcitationReference> reference_to(const py::object& object) {
 }
 
 ExcitationReference required_reference(const std::string& who, const std::string& name, const py::object& object) {
-  if (const auto reference = reference_to(object)) return *reference;
+  if (const auto reference = excitation_of(object)) return *reference;
   refuse_type(who, name, "", object);
 }
 
@@ -93,7 +93,7 @@ std::optional<Components> components_of(const py::object& object) {
   if (py::isinstance<HeldWithVertical>(object)) {
     const auto& held = object.cast<const HeldWithVertical&>();
     const Components::Vertical vertical{required_reference("WithVertical", "vertical", held.vertical), held.ratio};
-    if (const auto reference = reference_to(held.horizontal)) return Components{*reference, {}, vertical};
+    if (const auto reference = excitation_of(held.horizontal)) return Components{*reference, {}, vertical};
     auto components = components_of(held.horizontal);
     if (!components || components->vertical)
       refuse_type("WithVertical", "horizontal", "WithTransverse", held.horizontal);
@@ -105,7 +105,7 @@ std::optional<Components> components_of(const py::object& object) {
     const Components::Transverse transverse{
         required_reference("WithTransverse", "transverse", held.transverse), held.ratio, held.coherence,
         held.arrivals.empty() ? std::nullopt : std::optional(arrivals_of(held.arrivals))};
-    if (const auto reference = reference_to(held.horizontal)) return Components{*reference, transverse, {}};
+    if (const auto reference = excitation_of(held.horizontal)) return Components{*reference, transverse, {}};
     auto components = components_of(held.horizontal);
     if (!components || components->transverse)
       refuse_type("WithTransverse", "horizontal", "WithVertical", held.horizontal);
@@ -152,7 +152,7 @@ of its motion counts with its state there (`Ensemble.airborne`); with `settle` i
 Theories and `compare` do not cover vertical motion.)");
   type.def(py::init([](const py::object& horizontal, const py::object& vertical, double ratio) {
              HeldWithVertical held{horizontal, vertical.is_none() ? axis_of(horizontal) : vertical, ratio};
-             if (!reference_to(horizontal) && !py::isinstance<HeldWithTransverse>(horizontal))
+             if (!excitation_of(horizontal) && !py::isinstance<HeldWithTransverse>(horizontal))
                refuse_type("WithVertical", "horizontal", "WithTransverse", horizontal);
              const Components components = *components_of(py::cast(held));
              components.visit([](const auto&) {});  // checks the ratio and the durations
@@ -248,7 +248,7 @@ Examples
 True)");
   type.def(py::init([](const py::object& horizontal, const py::object& transverse, double ratio, double coherence,
                        const std::optional<std::string>& arrivals) {
-             if (!reference_to(horizontal) && !py::isinstance<HeldWithVertical>(horizontal))
+             if (!excitation_of(horizontal) && !py::isinstance<HeldWithVertical>(horizontal))
                refuse_type("WithTransverse", "horizontal", "WithVertical", horizontal);
              HeldWithTransverse held{horizontal, transverse.is_none() ? axis_of(horizontal) : transverse, ratio,
                                      coherence, arrivals.value_or("")};

@@ -10,7 +10,6 @@
 #include <variant>
 
 #include "bindings.hpp"
-#include "stickslip/ensemble/detail/lanes_simulator.hpp"
 
 namespace stickslip::python {
 
@@ -43,24 +42,6 @@ struct ExcitationReference {
     return std::visit([](const auto* one) { return one->configuration(); }, excitation);
   }
 };
-
-/// The vector lanes of the excitation that is referred to; null where it has none.
-template <class S>
-std::unique_ptr<detail::Simulator> lanes_simulator(const S& slider, const ExcitationReference& reference,
-                                                   std::uint64_t seed, bool settle) requires
-    requires(const GaussianExcitation& gaussian) {
-  detail::lanes_simulator(slider, gaussian, seed, settle);
-}
-{
-  return std::visit(
-      [&](const auto* one) -> std::unique_ptr<detail::Simulator> {
-        if constexpr (requires { detail::lanes_simulator(slider, *one, seed, settle); })
-          return detail::lanes_simulator(slider, *one, seed, settle);
-        else
-          return nullptr;
-      },
-      reference.excitation);
-}
 
 using Pairs = WithTransverse<ExcitationReference>;
 
@@ -114,6 +95,9 @@ struct HeldWithTransverse {
   double ratio, coherence;
   std::string arrivals;
 };
+
+/// One of the excitations of one component; nullopt for other objects.
+std::optional<ExcitationReference> excitation_of(const py::handle& object);
 
 /// The components of a WithVertical or WithTransverse; nullopt for other objects. Refers to the excitations, which the
 /// object keeps alive.

@@ -18,6 +18,7 @@
 #include "stickslip/lanes/series_lanes.hpp"
 #include "stickslip/lanes/transpose.hpp"
 #include "stickslip/slider.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 
 namespace stickslip::detail {
 
@@ -99,11 +100,13 @@ class LanesSimulator final : public Simulator {
 };
 
 #ifdef STICKSLIP_VECTORS
-/// Members with any law; null if springs or dampers are so stiff that very many time steps would be needed.
+/// Members with any law; null if it acts on more than level ground, or springs or dampers are so stiff that very many time
+/// steps would be needed.
 template <LawWithLanes Law>
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Law>& slider, const GaussianExcitation& excitation,
                                            std::uint64_t seed, bool settle) {
   const double dt = excitation.dt();
+  if (!slider.plain()) return nullptr;
   if (!(slider.natural_frequency() * dt <= SeriesLanes<Law>::longest && slider.damping() * dt <= 2)) return nullptr;
   return std::make_unique<LanesSimulator<Law, SeriesLanes<Law>>>(slider, SeriesLanes<Law>(slider, dt), excitation, seed,
                                                                  settle);
@@ -121,5 +124,10 @@ std::unique_ptr<Simulator> lanes_simulator(const Slider<VelocityDependent>& slid
 /// Coulomb friction alone under pulses; else null.
 std::unique_ptr<Simulator> lanes_simulator(const Slider<Coulomb>& slider, const PoissonPulses& excitation,
                                            std::uint64_t seed, bool settle);
+/// The same for a slider of any law; null where there are no lanes.
+std::unique_ptr<Simulator> lanes_simulator(const AnySlider& slider, const GaussianExcitation& excitation,
+                                           std::uint64_t seed, bool settle);
+std::unique_ptr<Simulator> lanes_simulator(const AnySlider& slider, const PoissonPulses& excitation, std::uint64_t seed,
+                                           bool settle);
 
 }  // namespace stickslip::detail
