@@ -1,5 +1,6 @@
 // Sliders in the plane: reference values, closed forms, and what happens near rest.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -499,4 +500,111 @@ TEST_CASE("a slider without weight leaves a circular stop where the load turns a
   advance(PlanarSlider(block), detail::load_segment(back, 0, -11.837916073174412, -8.984359677001986), slides,
           NoPlanarObserver{}, Contact::clipped);
   CHECK(slides.displacement.axis > 0);
+}
+
+namespace {
+
+// x and x' from rest at 0, by the classical rule of order 4.
+template <class Acceleration>
+std::array<double, 2> from_rest(double duration, Acceleration&& acceleration) {
+  const int steps = 4000;
+  const double h = duration / steps;
+  double x = 0, v = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = i * h, a = acceleration(t, x), b = acceleration(t + h / 2, x + h / 2 * v),
+                 c = acceleration(t + h / 2, x + h / 2 * v + h * h / 4 * a),
+                 d = acceleration(t + h, x + h * v + h * h / 2 * b);
+    x += h * v + h * h / 6 * (a + b + c);
+    v += h / 6 * (a + 2 * b + 2 * c + d);
+  }
+  return {x, v};
+}
+
+}  // namespace
+
+TEST_CASE("slider in the plane: from rest along a circular stop", "[planar]") {
+  // Without curvature of its path it would leave the circle along the tangent.
+  const double gap = 0.05, level = 0.5, duration = 0.2;
+  for (const double angle : {0.0, 0.5, 2.0, 4.5})
+    for (const double side : {1.0, -1.0}) {
+      INFO("at an angle of " << angle << ", to the side " << side);
+      const Vector2 outward{std::cos(angle), std::sin(angle)}, sideways = side * turned(outward);
+      const auto check = [&](const Outcome& to, std::array<double, 2> along) {
+        const auto [psi, rate] = along;
+        const Vector2 place = std::cos(psi) * outward + std::sin(psi) * sideways;
+        CHECK(distance(to.state.displacement, gap * place) <= 1e-13);
+        CHECK(distance(to.state.velocity, gap * rate * side * turned(place)) <= 1e-12);
+        CHECK(to.state.mode == PlanarMode::along_stop);
+        CHECK(to.events.kinds() == std::vector{EventKind::breakaway});
+      };
+      // A load along the stop, which soon presses the slider against it. The work of the load is that of friction and
+      // the kinetic energy.
+      const PlanarSlider slider(Coulomb(level), {.stops = Stops(gap, 0.3)});
+      const Outcome pushed = after(slider, under(duration, sideways), gap * outward);
+      check(pushed, from_rest(duration, [&](double, double psi) { return (std::cos(psi) - level) / gap; }));
+      const double speed = norm(pushed.state.velocity);
+      CHECK(std::abs(dot(pushed.state.displacement, sideways) - level * pushed.state.sliding_distance -
+                     speed * speed / 2) <= 1e-14);
+      // The weight and the load, partly outward, begin at zero.
+      for (const double presses : {0.0, 0.2}) {
+        const PlanarLoadSegment grows{duration, {}, presses * outward + sideways, 0, g};
+        check(after(slider, grows, gap * outward), from_rest(duration, [&](double t, double psi) {
+                return t / duration * (std::cos(psi) - presses * std::sin(psi) - level) / gap;
+              }));
+      }
+      // A load along the stop that is held, also for some time after the radial part has turned inward.
+      const PlanarLoadSegment turns{duration, 0.8 * level * sideways + outward, 0.8 * level * sideways - outward, g, g};
+      const Outcome leaves = after(slider, turns, gap * outward);
+      CHECK(norm(leaves.state.displacement) < gap);
+      CHECK(leaves.state.mode == PlanarMode::sliding);
+      REQUIRE(leaves.events.kinds() == std::vector{EventKind::breakaway});
+      CHECK(std::abs(leaves.events.all[0].time - duration * (1 + 0.6 * level) / 2) <= 1e-15);
+    }
+}
+
+TEST_CASE("slider in the plane: a load equal to the level along a circular stop", "[planar]") {
+  // Held with one bit less or more, and left inward as soon as the load turns. Turned or cut in two, it is the same.
+  const double gap = 0.05;
+  const Stribeck law(0.5, 0.3, 0.05, 1);
+  const PlanarSlider slider(law, {.natural_frequency = 2, .stops = Stops(gap, 0.5), .pendulum = true});
+  const double pull = 4 * gap;
+  for (const double angle : {0.0, 0.7, 1.1, 2.0, 3.3, 5.0}) {
+    INFO("at an angle of " << angle);
+    const Vector2 outward{std::cos(angle), std::sin(angle)}, sideways = turned(outward);
+    const Outcome rests = after(slider, under(0.5, pull * outward + 0.5 * sideways), gap * outward);
+    CHECK(rests.state.mode == PlanarMode::stuck);
+    CHECK(rests.events.all.empty());
+    // From the level on the load grows inward: u' = rate t + 0.2 (1 - exp(-u / 0.05)) + 4 x, x the way.
+    const double rate = 3, duration = 0.1;
+    const PlanarLoadSegment grows{duration, (pull - 0.5) * outward, (pull - 0.5 - rate * duration) * outward, g, g};
+    const Outcome slides = after(slider, grows, gap * outward);
+    const int steps = 4000;
+    const double h = duration / steps;
+    double u = 0, x = 0;
+    const auto slope = [&](double t, double way, double speed) {
+      return rate * t - 0.2 * std::expm1(-speed / 0.05) - 4 * way;
+    };
+    for (int i = 0; i < steps; ++i) {
+      const double t = i * h, a = slope(t, x, u), b = slope(t + h / 2, x + h / 2 * u, u + h / 2 * a),
+                   c = slope(t + h / 2, x + h / 2 * u + h * h / 4 * a, u + h / 2 * b),
+                   d = slope(t + h, x + h * u + h * h / 2 * b, u + h * c);
+      x += h * u + h * h / 6 * (a + b + c);
+      u += h / 6 * (a + 2 * b + 2 * c + d);
+    }
+    CHECK(distance(slides.state.displacement, (gap - x) * outward) <= 1e-12);
+    CHECK(distance(slides.state.velocity, -u * outward) <= 1e-11);
+    CHECK(slides.events.all.size() <= 3);
+  }
+}
+
+TEST_CASE("slider in the plane: a pendulum whose weight and load begin at zero", "[planar]") {
+  // Straight toward the center: x'' = t/T (wn^2 (r - x) - level). The pull of the way x acts only from t^5 on.
+  const double wn = 6, duration = 0.1, place = 0.05, level = 1;
+  const PlanarSlider slider(Coulomb(level), {.natural_frequency = wn, .pendulum = true});
+  const auto [x, speed] =
+      from_rest(duration, [&](double t, double way) { return t / duration * (wn * wn * (place - way) - level); });
+  const Vector2 outward{0.6, -0.8};
+  const Outcome to = after(slider, {duration, {}, {}, 0, g}, place * outward);
+  CHECK(distance(to.state.displacement, (place - x) * outward) <= 1e-13);
+  CHECK(distance(to.state.velocity, -speed * outward) <= 1e-12);
 }

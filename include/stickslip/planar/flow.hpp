@@ -27,9 +27,8 @@ struct PlanarLoad {
   double weight_rate = 0;  ///< its rate [1/s]
 };
 
-/// How a planar flow starts: moving; from rest, under a load that exceeds the level or is equal to it; or pressed
-/// against a circular stop, moving or at rest.
-enum class PlanarStart : unsigned char { moving, above_level, at_level, along_stop };
+/// How a planar flow starts: moving, or from rest, under a load that exceeds the level or is equal to it.
+enum class PlanarStart : unsigned char { moving, above_level, at_level };
 
 /// Flows after which it is worth trying whether the direction of a slip follows the load, and whether its speed does.
 struct PlanarPatience {
@@ -75,22 +74,27 @@ class PlanarFlow {
   /// @param place     r at the start [m]
   /// @param velocity  r' at the start [m/s]; 0 only from rest
   /// @param start     the kind of start
+  /// @param side      at a circular stop: 1 if it moves along the stop in the direction of the place turned clockwise,
+  ///                  -1 if in the opposite one; it slides along the stop unless it leaves at once. Otherwise 0
   /// @param duration  for which the load is given [s], positive
   /// @param patience  updated
   [[gnu::noinline]] PlanarFlow(const Mounting& mounting, const Law& law, Vector2 place, Vector2 velocity,
-                               PlanarStart start, const PlanarLoad& load, double duration, PlanarPatience& patience)
+                               PlanarStart start, int side, const PlanarLoad& load, double duration,
+                               PlanarPatience& patience)
       : damping_(mounting.damping),
         stop_(mounting.stops.forward()),
         spring_(mounting.spring()),
-        along_stop_(start == PlanarStart::along_stop),
         place_(place),
         velocity_(velocity),
         load_(load),
         duration_(duration) {
+    if (side != 0 && move_along(law, side, start == PlanarStart::at_level)) {
+      along_stop_ = true;
+      return;
+    }
+    leaves_at_once_ = side != 0;
     if (start == PlanarStart::moving) {
       if (!close(law) && !hold(law) && !creep(law, patience.speed) && !follow(law, patience.direction)) move(law);
-    } else if (start == PlanarStart::along_stop) {
-      move_along(law);
     } else {
       along_load(law, 0, start == PlanarStart::at_level);
     }
@@ -100,6 +104,10 @@ class PlanarFlow {
   double stop() const noexcept { return stops_ ? end_.time : never; }
   /// Whether it does not stop but turns, in less time than can be resolved.
   bool turns() const noexcept { return turns_; }
+  /// Whether it slides along a circular stop.
+  bool along_stop() const noexcept { return along_stop_; }
+  /// Whether it leaves a circular stop at the start.
+  bool leaves_at_once() const noexcept { return leaves_at_once_; }
   /// Whether it leaves the stop along which it slides, at the horizon.
   bool leaves() const noexcept { return leaves_; }
   /// The time up to which the motion is known [s].
@@ -199,9 +207,12 @@ class PlanarFlow {
       // Along the circle, and where a slider leaves it, what is left of the first terms is round-off: also of the load,
       // which is the small difference of larger ones where its radial part changes sign.
       if (k == 2) terms += from * largest_load() * t_[1] * t_[1];
-      room[k] = at_circle && k < 4 && std::abs(square) <= graze * terms ? 0 : sign * power * square;
+      room[k] =
+          at_circle && (k < 4 || leaves_at_once_) && std::abs(square) <= graze * terms ? 0 : sign * power * square;
     }
     room[0] = at_circle ? 0 : sign * (from - radius) * (from + radius);
+    if (at_circle && leaves_at_once_)  // what says otherwise is round-off
+      for (int k = 0; k < degree && !(room[k] > 0); ++k) room[k] = 0;
     const double part = first_zero(room, degree);
     return part < never ? part * last_ : never;
   }
@@ -621,7 +632,7 @@ class PlanarFlow {
     const Vector2 q = load_.start - pull();
     const double load = norm(q), speed = norm(velocity_);
     if (!(load * duration_ > follows * speed) || !(dot(velocity_, q) > 0)) return false;
-    if (const double gap = stop_; norm(place_) > gap * (1 - 0x1p-30)) return false;  // its velocity would be turned
+    if (nears_stop()) return false;
     // The direction lags behind that of the load by u/Q times its rate, to first order.
     const Vector2 rate =
         load_.rate - spring_.rate(load_.weight_rate) * place_ - spring_.under(load_.weight) * velocity_;
@@ -638,6 +649,11 @@ class PlanarFlow {
     patience = flows_to_decay(misaligned_ / allowed);
     return false;
   }
+  // Whether a stop will soon turn its velocity.
+  bool nears_stop() const noexcept {
+    return norm(place_) > stop_ * (1 - 0x1p-30) && !leaves_at_once_ && !(dot(place_, velocity_) < 0);
+  }
+
   // Creep: a slow slip under a level that rises so steeply with the speed that the speed follows the load, too. Its
   // equation u' = q.e - w a(u) - c u is solved for the u in a(u), and iterated with that of the direction. Without the
   // fast decay that any other speed would have, the series holds for as long as the load hardly changes.
@@ -647,7 +663,7 @@ class PlanarFlow {
       if (--patience > 0) return false;
       const Vector2 q = load_.start - pull();
       const double load = norm(q), speed = norm(velocity_);
-      if (!(dot(velocity_, q) > 0) || norm(place_) > stop_ * (1 - 0x1p-30)) return false;
+      if (!(dot(velocity_, q) > 0) || nears_stop()) return false;
       series::Coefficients path, swift, when;
       path[0] = path[1] = when[0] = when[1] = 0, swift[0] = speed, swift[1] = 1;
       auto resistance = series::series_of<double>(
@@ -930,8 +946,9 @@ class PlanarFlow {
       return of > 0 ? std::exp2(std::log2(round_off * scale / of) / (k - leading)) : never;
     };
     double before = leading + 1 <= orders ? part(leading + 1) : 0;
-    // Terms that vanish do not end it if a law may act on later ones.
-    const int lowest = constant ? leading + 2 : std::max(leading + 2, orders - 8);
+    // Terms that vanish do not end it if a law, or a pendulum without weight at the start, may act on later ones.
+    const bool delayed = !constant || (spring_.pendulum && !detail::equal(load_.weight_rate, 0));
+    const int lowest = delayed ? std::max(leading + 2, orders - 8) : leading + 2;
     for (int k = leading + 2; k <= orders && longest < 1; ++k) {
       const double now = part(k), both = std::min(before, now);
       before = now;
@@ -970,13 +987,18 @@ class PlanarFlow {
 
   // Along a circular stop through the present place, as a power series in time: its angle psi, and
   //     u' = p.e - w a - c u,   psi' = +-u/d,   reaction = p.r/d - wn^2 d + u^2/d.
-  void move_along(const Law& law) {
-    const double gap = norm(place_), speed = norm(velocity_);
+  // Up to a stop of the motion, the first term of the reaction that is not round-off decides whether it leaves at once;
+  // without one it does not.
+  // @return false if it is
+  bool move_along(const Law& law, int side, bool at_level) {
+    const double gap = norm(place_), speed = norm(velocity_), s = side;
     const Vector2 outward = (1 / gap) * place_, sideways = turned(outward);
-    double turn = dot(velocity_, sideways);
-    if (!(speed > 0)) turn = dot(load_.start, sideways);
-    if (detail::equal(turn, 0)) turn = dot(load_.rate, sideways);
-    const double s = turn < 0 ? -1 : 1;
+    const double spring = spring_.under(load_.weight), spring_rate = spring_.rate(load_.weight_rate);
+    const double centrifugal = speed * speed / gap, unknown = graze * (largest_load() + spring * gap + centrifugal);
+    const double pa = dot(load_.start, outward), pb = dot(load_.start, sideways);
+    Array c, d, reaction;
+    reaction[0] = pa - spring * gap + centrifugal;
+    if (reaction[0] < -unknown) return false;
     series::Coefficients path, swift, when;
     path[0] = when[0] = 0, swift[0] = speed;
     auto resistance = series::series_of<double>(
@@ -984,22 +1006,17 @@ class PlanarFlow {
     resistance.update(0);
     constant_level_ = std::same_as<decltype(resistance), series::Constant> && detail::equal(load_.weight_rate, 0);
     level_ = l_[0] = load_.weight * resistance[0];
-    const double spring = spring_.under(load_.weight), spring_rate = spring_.rate(load_.weight_rate);
     double h = duration_;
     const double rate = speed / gap + std::sqrt((norm(load_.start) + level_) / gap) +
                         std::cbrt((norm(load_.rate) + resistance[0] * std::abs(load_.weight_rate)) / gap) + damping_;
     if (rate > 0) h = std::min(h, 1 / rate);
     // The direction of the place, cosine and sine in the frame of the start; the load in this frame.
-    Array c, d, reaction;
-    const double pa = dot(load_.start, outward), pb = dot(load_.start, sideways);
     const double ga = h * dot(load_.rate, outward), gb = h * dot(load_.rate, sideways);
     c[0] = 1, d[0] = 0;
     u_[0] = speed;
     t_[0] = x_[0] = y_[0] = s_[0] = 0;
     vx_[0] = velocity_.axis, vy_[0] = velocity_.transverse;
-    reaction[0] = pa - spring * gap + speed * speed / gap;
-    // It is pressed against the stop, or would not start so.
-    if (reaction[0] <= graze * (largest_load() + spring * gap + speed * speed / gap)) reaction[0] = 0;
+    bool rests = !(speed > 0);
     for (int k = 0; k < highest_order; ++k) {
       const double by = h * series::reciprocal[k + 1];
       if (k > 0) {
@@ -1008,9 +1025,12 @@ class PlanarFlow {
       }
       double along = -pa * d[k] + pb * c[k];
       if (k > 0) along += -ga * d[k - 1] + gb * c[k - 1];
-      // From rest under a load that equals the level, the speed grows with the square of the time.
       u_[k + 1] = by * (s * along - l_[k] - damping_ * u_[k]);
-      if (k == 0 && !(speed > 0) && u_[1] <= by * graze * level_) u_[1] = 0;
+      // It departs. Under a load that equals the level, the speed grows with the square of the time.
+      if (rests) {
+        if ((k == 0 && at_level) || !(u_[k + 1] > 0)) u_[k + 1] = 0;
+        rests = !(u_[k + 1] > 0);
+      }
       const double angle = s / gap * h;  // per unit of u
       c[k + 1] = -angle * series::reciprocal[k + 1] * series::convolve(u_, d, 0, k);
       d[k + 1] = angle * series::reciprocal[k + 1] * series::convolve(u_, c, 0, k);
@@ -1029,20 +1049,29 @@ class PlanarFlow {
       vy_[j] = va * outward.transverse + vb * sideways.transverse;
     }
     end_series(highest_order);
-    const double fastest = speed + h * (norm(load_.start) + level_);
+    const double fastest = speed + h * (norm(load_.start) + level_ + h * norm(load_.rate));
     last_ = 1;
     for (const int k : {order_ - 1, order_}) {
       const double term = std::max(std::abs(u_[k]), fastest / gap * gap * std::max(std::abs(c[k]), std::abs(d[k])));
       if (term > round_off * fastest) last_ = std::min(last_, std::exp2(std::log2(round_off * fastest / term) / k));
     }
-    double power = 1;
     Array slower, presses;
-    for (int k = 0; k <= order_; ++k, power *= last_) slower[k] = power * u_[k], presses[k] = power * reaction[k];
-    const double stops = first_zero(slower), leaves = first_zero(presses);
-    if (const double first = std::min(stops, leaves); first < never) {
-      last_ *= first;
-      stops_ = stops <= leaves;
-      leaves_ = !stops_;
+    double power = 1;
+    for (int k = 0; k <= order_; ++k, power *= last_) slower[k] = power * u_[k];
+    if (const double stops = first_zero(slower); stops < never) last_ *= stops, stops_ = true;
+    power = 1;
+    bool grazes = true;
+    for (int k = 0; k <= order_; ++k, power *= last_) {
+      presses[k] = power * reaction[k];
+      if (!grazes) continue;
+      if (presses[k] < -unknown) return stops_ = constant_level_ = false;
+      grazes = presses[k] <= unknown;
+      if (grazes) presses[k] = 0;
+    }
+    if (const double leaves = first_zero(presses); leaves < 1 || (leaves < never && !stops_)) {
+      last_ *= leaves;
+      stops_ = false;
+      leaves_ = true;
     }
     if constexpr (!std::same_as<decltype(resistance), series::Constant>) {
       const double reached = last_;
@@ -1051,6 +1080,7 @@ class PlanarFlow {
     }
     finish();
     if (end_.time >= duration_ && last_ * h > duration_ * (1 + 0x1p-50)) stops_ = leaves_ = false;
+    return true;
   }
 
   // The first zero on (0, 1] of a polynomial that is positive just after 0, or 0 if it is negative there.
@@ -1105,7 +1135,7 @@ class PlanarFlow {
 
   double damping_, stop_;
   Spring spring_;
-  bool along_stop_, constant_level_ = false;
+  bool along_stop_ = false, leaves_at_once_ = false, constant_level_ = false;
   bool stops_ = false, leaves_ = false, turns_ = false;
   Kind kind_ = Kind::series;
   Closing closing_{};

@@ -70,6 +70,9 @@ class Heating {
     // A slow slip follows the load for a long time, which a short step would hide.
     const double resists = weight(0) * law_.level_at_high_speed(weight(0), state.heat.half_integral());
     if (256 * norm(state.velocity) < resists * left) step = left;
+    // A speed that displaces nothing: where the weight begins at zero, no step would be short enough for its level.
+    const double slowest =
+        0x1p-40 * left * weight(left) * law_.level_at_high_speed(weight(left), state.heat.half_integral());
     for (int shortened = 0;; ++shortened) {
       HeatedLevel<Law> level(law_, heating, cooling_.half_integrals(state.heat, step),
                              nodes.at_nodes([&](double part) { return weight(part * step); }), step,
@@ -88,7 +91,8 @@ class Heating {
         fastest = *std::max_element(speeds.begin(), speeds.end());
         settled = level.follow(speeds);
       }
-      const bool resolved = settled && step * level.error() <= 1e-8 * fastest;
+      const double heaviest = std::max(weight(0), weight(step));
+      const bool resolved = settled && step * heaviest * level.error() <= 1e-8 * std::max(fastest, slowest);
       const double reached = slip->flow.horizon();
       const bool whole = covers_whole(slip->flow, step);
       if ((resolved && whole) || shortened > 60) {

@@ -56,6 +56,7 @@ struct PlanarDeparture {
   PlanarMode mode = PlanarMode::stuck;
   double delay = 0;       ///< from now [s]
   bool at_level = false;  ///< whether the load then equals the level
+  int side = 0;           ///< at a stop: the direction along it (PlanarFlow)
 
   bool departs() const noexcept { return mode != PlanarMode::stuck; }
 };
@@ -102,31 +103,35 @@ class Plane {
                   rate = load.rate - spring().rate(load.weight_rate) * state_.displacement;
     if (!at_stop()) return slips(exceeds(q, rate, level, level_rate, left_), q, rate, level, PlanarMode::sliding);
     // Pressed against the stop, only the load along it has to be held.
-    const Vector2 outward = (1 / norm(state_.displacement)) * state_.displacement, sideways = turned(outward);
-    const double presses = dot(q, outward), presses_at_end = presses + left_ * dot(rate, outward);
-    const Vector2 aside{dot(q, sideways), 0}, aside_rate{dot(rate, sideways), 0};
-    const double turns = (presses > 0) != (presses_at_end > 0) ? left_ * (presses / (presses - presses_at_end)) : left_;
-    const auto within = [&](bool pressed, double from, double until) {
-      const Vector2 load_then = (pressed ? aside : q) + from * (pressed ? aside_rate : rate);
-      return from +
-             exceeds(load_then, pressed ? aside_rate : rate, level + from * level_rate, level_rate, until - from);
+    const LoadAtStop net = load_at_stop(load);
+    bool pressed = net.first.axis > 0 || (equal(net.first.axis, 0) && net.last.axis > 0);
+    const double turns =
+        pressed != (net.last.axis > 0) ? left_ * (net.first.axis / (net.first.axis - net.last.axis)) : left_;
+    const auto held_by = [&](double level_then, Vector2 load_then) {
+      return pressed ? net.along(load_then, level_then) : load_then;
     };
-    bool pressed = presses > 0 || (equal(presses, 0) && presses_at_end > 0);
-    double delay = within(pressed, 0, turns);
+    const Vector2 net_rate = net.rate();
+    const auto within = [&](double from, double until) {
+      const double level_then = level + from * level_rate;
+      return from + exceeds(held_by(level_then, net.at(from)), pressed ? Vector2{0, net_rate.transverse} : net_rate,
+                            level_then, level_rate, until - from);
+    };
+    double delay = within(0, turns);
     if (!(delay < never) && turns < left_) {
       pressed = !pressed;
-      delay = within(pressed, turns, left_);
+      delay = within(turns, left_);
     }
-    return pressed ? slips(delay, aside, aside_rate, level, PlanarMode::along_stop)
-                   : slips(delay, q, rate, level, PlanarMode::sliding);
+    PlanarDeparture departure = slips(delay, held_by(level, net.first), net_rate, level,
+                                      pressed ? PlanarMode::along_stop : PlanarMode::sliding);
+    departure.side = net.side(delay);
+    return departure;
   }
 
   Resumption depart(const PlanarDeparture& departure) noexcept {
     state_.mode = departure.mode;
     left_ -= departure.delay;
-    start_ = departure.mode == PlanarMode::along_stop ? PlanarStart::along_stop
-             : departure.at_level                     ? PlanarStart::at_level
-                                                      : PlanarStart::above_level;
+    start_ = departure.at_level ? PlanarStart::at_level : PlanarStart::above_level;
+    side_ = departure.side;
     if (!std::exchange(stopped_, false)) return Resumption::from_rest;
     if (turned_) return Resumption::onward;
     const PlanarLoad load = load_now();
@@ -134,23 +139,25 @@ class Plane {
   }
 
   auto slide() {
-    if (state_.mode == PlanarMode::along_stop && !presses()) {
-      state_.mode = PlanarMode::sliding;
-      if (start_ == PlanarStart::along_stop) start_ = PlanarStart::above_level;
+    if (norm(state_.velocity) > 0) {
+      start_ = PlanarStart::moving;
+      side_ = state_.mode != PlanarMode::along_stop ? 0 : cross(state_.displacement, state_.velocity) < 0 ? -1 : 1;
     }
-    if (norm(state_.velocity) > 0)
-      start_ = state_.mode == PlanarMode::along_stop ? PlanarStart::along_stop : PlanarStart::moving;
     const PlanarLoad load = load_now();
     const auto over = [&]<class Now>(const Now& law, double duration) {
-      return PlanarSlide<Now>(law, slider_.mounting(), state_.displacement, state_.velocity, start_, load, duration,
-                              patience_);
+      return PlanarSlide<Now>(law, slider_.mounting(), state_.displacement, state_.velocity, start_, side_, load,
+                              duration, patience_);
     };
-    if constexpr (heated) {
-      const auto weight = [&](double time) { return std::max(load.weight + load.weight_rate * time, 0.0); };
-      return heating_.template slide<PlanarSlide<HeatedStep<Law>>>(state_, left_, covers(), over, weight);
-    } else {
-      return over(std::remove_cvref_t<decltype(law_now())>(law_now()), left_);
-    }
+    auto slide = [&] {
+      if constexpr (heated) {
+        const auto weight = [&](double time) { return std::max(load.weight + load.weight_rate * time, 0.0); };
+        return heating_.template slide<PlanarSlide<HeatedStep<Law>>>(state_, left_, covers(), over, weight);
+      } else {
+        return over(std::remove_cvref_t<decltype(law_now())>(law_now()), left_);
+      }
+    }();
+    state_.mode = slide.flow.along_stop() ? PlanarMode::along_stop : PlanarMode::sliding;
+    return slide;
   }
 
   template <class Slide>
@@ -168,7 +175,7 @@ class Plane {
       const double ahead = slider_.law().ahead(along_path(), Direction::forward);
       if (ahead < flow.at_horizon().distance) shorten(flow.parameter_at_distance(ahead, flow.last()), true);
     }
-    if (gap_ < never && state_.mode != PlanarMode::along_stop) shorten(flow.parameter_at_radius(gap_, true), false);
+    if (gap_ < never && !flow.along_stop()) shorten(flow.parameter_at_radius(gap_, true), false);
     return passage;
   }
 
@@ -202,13 +209,11 @@ class Plane {
 
   /// To the end of a flow that does not stop. @return whether the segment goes on
   template <class Slide>
-  bool proceed(const Slide& slide, const PlanarLeg& leg) {
+  bool proceed(const Slide&, const PlanarLeg& leg) {
     const bool ends = !(leg.end.time < left_);
     go(leg);
-    if (state_.mode == PlanarMode::along_stop) {
+    if (state_.mode == PlanarMode::along_stop)
       state_.displacement = (gap_ / norm(state_.displacement)) * state_.displacement;
-      if (slide.flow.leaves()) state_.mode = PlanarMode::sliding;
-    }
     // A slip too slow for doubles would never end.
     if (!(norm(state_.velocity) > std::numeric_limits<double>::min())) {
       arrived_ = leg.end.way;
@@ -267,13 +272,40 @@ class Plane {
 
   bool at_stop() const noexcept { return gap_ < never && norm(state_.displacement) >= gap_ * (1 - 0x1p-48); }
 
-  // Whether the load and the curvature of the path press the slider against the stop.
-  bool presses() const noexcept {
-    const PlanarLoad load = load_now();
-    const Vector2 outward = (1 / norm(state_.displacement)) * state_.displacement;
-    const double speed = norm(state_.velocity);
-    const double force = dot(load.start - pull(load.weight), outward), curve = speed * speed / gap_;
-    return force + curve >= -0x1p-42 * (norm(load.start) + norm(pull(load.weight)) + curve);
+  // The load at rest at the stop, without that of the spring, now and at the end of the segment: its components outward
+  // and along the stop. They are small differences of larger numbers, of which round-off is no load.
+  struct LoadAtStop {
+    Vector2 first, last;
+    double left, round_off;
+
+    // A load along the stop that differs from a level by round-off is equal to it.
+    Vector2 along(Vector2 load, double level) const noexcept {
+      const double size = std::abs(load.transverse);
+      return {0, std::abs(size - level) <= round_off ? std::copysign(level, load.transverse) : load.transverse};
+    }
+    Vector2 at(double time) const noexcept {
+      const double part = time / left;
+      return (1 - part) * first + part * last;
+    }
+    Vector2 rate() const noexcept { return (1 / left) * (last - first); }
+    // The direction along the stop in which a slip begins.
+    int side(double time) const noexcept {
+      const double from = first.transverse, to = last.transverse, load = time < left ? at(time).transverse : to;
+      const bool vanishes = std::abs(load) <= 0x1p-48 * std::max(std::abs(from), std::abs(to));
+      return (vanishes ? to - from : load) < 0 ? -1 : 1;
+    }
+  };
+  LoadAtStop load_at_stop(const PlanarLoad& load) const noexcept {
+    const double far = norm(state_.displacement);
+    const Vector2 outward = (1 / far) * state_.displacement, sideways = turned(outward);
+    const double largest = std::max(norm(segment_.load_start), norm(segment_.load_end));
+    const double pull_now = spring().under(load.weight) * far, pull_at_end = spring().under(weight_end_) * far;
+    const double round_off = 0x1p-48 * (largest + std::max(pull_now, pull_at_end));
+    const auto components = [&](Vector2 of, double pulls) {
+      const double out = dot(of, outward) - pulls, aside = dot(of, sideways);
+      return Vector2{std::abs(out) <= round_off ? 0 : out, std::abs(aside) <= round_off ? 0 : aside};
+    };
+    return {components(load.start, pull_now), components(segment_.load_end, pull_at_end), left_, round_off};
   }
 
   void go(const PlanarLeg& leg) noexcept {
@@ -299,8 +331,9 @@ class Plane {
     state_.displacement = gap_ * outward;
     const double radial = std::max(dot(state_.velocity, outward), 0.0), aside = dot(state_.velocity, turned(outward));
     if (!(radial > 0x1p-40 * std::abs(aside))) {  // it comes in along the stop
-      state_.velocity = aside * turned(outward);
-      state_.mode = presses() ? PlanarMode::along_stop : PlanarMode::sliding;
+      arrived_ = state_.velocity = aside * turned(outward);
+      state_.mode = PlanarMode::along_stop;
+      if (!(norm(state_.velocity) > 0)) rest();
       return left_ > 0;
     }
     observer.event(EventKind::impact, elapsed(), state_);
@@ -337,17 +370,21 @@ class Plane {
   // The level rises as the surface cools.
   PlanarDeparture heated_departure(const PlanarLoad& load) requires heated {
     const auto weight = [&](double time) { return std::max(load.weight + load.weight_rate * time, 0.0); };
-    const Vector2 outward = at_stop() ? (1 / norm(state_.displacement)) * state_.displacement : Vector2{};
-    const auto net = [&](double time) { return load.start + time * load.rate - pull(weight(time)); };
+    const bool stop = at_stop();
+    const LoadAtStop net = stop ? load_at_stop(load) : LoadAtStop{};
+    const auto presses = [&](double time) { return stop && net.at(time).axis > 0; };
     const auto excess = [&](double time, double level) {
-      const Vector2 q = net(time);
-      const double pressed = std::max(dot(q, outward), 0.0);
-      return dot(q, q) - pressed * pressed - level * level;
+      const Vector2 q = presses(time) ? net.along(net.at(time), level)
+                        : stop        ? net.at(time)
+                                      : load.start + time * load.rate - pull(weight(time));
+      return dot(q, q) - level * level;
     };
+    const double now = load.weight * slider_.law().level(0, load.weight, state_.heat.half_integral());
+    const bool exceeds_now = excess(0, now) > 0;
     const double delay = heating_.departure(state_.heat, left_, weight, excess);
     if (!(delay < never)) return {};
-    const bool pressed = dot(net(delay), outward) > 0;
-    return {pressed ? PlanarMode::along_stop : PlanarMode::sliding, delay, delay > 0};
+    return {presses(delay) ? PlanarMode::along_stop : PlanarMode::sliding, delay, delay > 0 || !exceeds_now,
+            stop ? net.side(delay) : 0};
   }
 
   const PlanarSlider<Law>& slider_;
@@ -355,7 +392,8 @@ class Plane {
   double weight_start_, weight_end_, gap_;
   PlanarState& state_;
   double left_;                              // time to the end of the segment [s]
-  PlanarStart start_ = PlanarStart::moving;  // of the next flow
+  PlanarStart start_ = PlanarStart::moving;  // of the next flow,
+  int side_ = 0;                             // and its direction along the stop, 0 away from it
   bool turned_ = false;                      // whether the last stop was a turn that takes no time
   bool stopped_ = false;                     // whether a slip has just stopped,
   [[no_unique_address]] HeatingOf<Law> heating_{slider_.law()};
