@@ -608,3 +608,24 @@ TEST_CASE("slider in the plane: a pendulum whose weight and load begin at zero",
   CHECK(distance(to.state.displacement, (place - x) * outward) <= 1e-13);
   CHECK(distance(to.state.velocity, -speed * outward) <= 1e-12);
 }
+
+TEST_CASE("slider in the plane: a slip that begins at the level, whether at rest or too slow to matter", "[planar]") {
+  // The load equals the level and turns away from it: the speed grows with the third power of the time.
+  const PlanarLoadSegment turns{0.02, {2, 0}, {2, -2}, g, g};
+  const PlanarSlider slider(Coulomb(2), {.damping = 2});
+  const Outcome rests = after(slider, turns);
+  CHECK(norm(rests.state.velocity) > 5e-3);
+  for (const double speed : {1e-14, 1e-20, 1e-30, 1e-60})
+    CHECK(distance(after(slider, turns, {}, {speed, 0}).state.velocity, rests.state.velocity) <= 1e-12);
+}
+
+TEST_CASE("slider in the plane: load and weight that vanish together hold the slider", "[planar]") {
+  // The pull of a pendulum is proportional to its weight. By round-off alone it would exceed the level at the end.
+  for (const double place : {2.7e-6, 6.8e-4, 0.03})
+    for (const Vector2 toward : {Vector2{1, 0}, Vector2{0.52052605, -0.85384977}, Vector2{0.6, 0.8}}) {
+      const PlanarSlider slider(StaticKinetic(Coulomb(0.5), 0.75), {.natural_frequency = 2, .pendulum = true});
+      const Outcome to = after(slider, {0.02, {}, {}, 0.5 * g, 0}, place * toward);
+      CHECK(to.state.mode == PlanarMode::stuck);
+      CHECK(to.events.all.empty());
+    }
+}

@@ -948,7 +948,8 @@ class PlanarFlow {
     double before = leading + 1 <= orders ? part(leading + 1) : 0;
     // Terms that vanish do not end it if a law, or a pendulum without weight at the start, may act on later ones.
     const bool delayed = !constant || (spring_.pendulum && !detail::equal(load_.weight_rate, 0));
-    const int lowest = delayed ? std::max(leading + 2, orders - 8) : leading + 2;
+    // Nor do those of a speed that is nearly zero: under a load that turns away from the level it grows as t^3.
+    const int lowest = std::max(leading + 2, delayed ? orders - 8 : slow ? 5 : 0);
     for (int k = leading + 2; k <= orders && longest < 1; ++k) {
       const double now = part(k), both = std::min(before, now);
       before = now;

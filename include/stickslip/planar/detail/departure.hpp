@@ -31,8 +31,9 @@ inline double exceeds(Vector2 q, Vector2 rate, double level, double level_rate, 
     const double root = a > 0 ? -2 * b / a : never;
     return root < 1 ? root * duration : never;
   }
+  // Where load and level vanish together, they only touch.
   const double square = b * b - a * c;
-  if (!(square > 0)) return never;
+  if (!(square > 0x1p-48 * (b * b))) return never;
   const double root = std::sqrt(square);
   double part = never;
   if (b + root > 0) part = b > 0 || !(a > 0) ? -c / (b + root) : (root - b) / a;
