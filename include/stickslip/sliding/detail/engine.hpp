@@ -54,6 +54,11 @@ class Engine {
                       const HistorySpans& histories) const = 0;
   virtual void record(const GroundMotion& motion, State& state, NoRecorder& none,
                       const HistorySpans& histories) const = 0;
+  /// Move a slider through a ground motion under load and normal force.
+  virtual void record(const GroundMotion& motion, Contact contact, State& state, Recorder& recorder,
+                      const HistorySpans& histories) const = 0;
+  virtual void record(const GroundMotion& motion, Contact contact, State& state, NoRecorder& none,
+                      const HistorySpans& histories) const = 0;
 
   /// A state as the event loop carries it: with the memory of the law, and with no other.
   virtual State started(const State& state) const = 0;

@@ -68,15 +68,21 @@ inline constexpr bool is_cheap = Flows::in_closed_form && (form_of<typename Flow
 
 /// Move a state through all segments.
 /// @param go  `go(segment, state, observer)` moves it through one
-template <class AnySegment, class Place, class Go>
-[[gnu::always_inline]] inline void move_through(Segments<AnySegment>& segments, Place& state, Sink& sink, Go&& go) {
-  ToSink<Sink> observer(sink);
-  for (AnySegment segment; segments.next(StateView(state), segment);) go(segment, state, observer);
+/// @tparam AnySegments, AnySink  Segments and Sink, or final classes of them, whose functions are then inlined
+template <class AnySegments, class Place, class AnySink, class Go>
+[[gnu::always_inline]] inline void move_through(AnySegments& segments, Place& state, AnySink& sink, Go&& go) {
+  ToSink<AnySink> observer(sink);
+  for (typename AnySegments::Given segment; segments.next(StateView(state), segment);) go(segment, state, observer);
 }
-template <class AnySegment, class Place, class Go>
-[[gnu::flatten, gnu::noinline]] void move_inlined(Segments<AnySegment>& segments, Place& state, Sink& sink, Go go) {
+template <class AnySegments, class Place, class AnySink, class Go>
+[[gnu::flatten, gnu::noinline]] void move_inlined(AnySegments& segments, Place& state, AnySink& sink, Go go) {
   Place moving = state;  // a state whose address is taken is kept in memory
-  move_through(segments, moving, sink, go);
+  if constexpr (std::copy_constructible<AnySegments>) {
+    AnySegments given = segments;
+    move_through(given, moving, sink, go);
+  } else {
+    move_through(segments, moving, sink, go);
+  }
   state = moving;
 }
 /// The same of a public state, by the way that suits the flows.
@@ -128,8 +134,18 @@ class EngineOf final : public Engine {
     if constexpr (requires(const Law& law, const State& state) { law.elastic(state); }) of.springs = true;
     return of;
   }
+  void record(const GroundMotion& motion, Contact contact, State& state, Recorder& recorder,
+              const HistorySpans& histories) const override;
+  void record(const GroundMotion& motion, Contact contact, State& state, NoRecorder& none,
+              const HistorySpans& histories) const override;
   template <class AnySink>
   void record_any(const GroundMotion& motion, State& state, AnySink& sink, const HistorySpans& histories) const;
+  template <class AnySink>
+  void record_any(const GroundMotion& motion, Contact contact, State& state, AnySink& sink,
+                  const HistorySpans& histories) const;
+  template <class Place, class AnySegments, class AnySink, class Go, class Else>
+  void move_any(AnySegments& segments, double usual_duration, State& state, AnySink& sink, Go&& go,
+                Else&& otherwise) const;
 
   const Slider<Law>& slider_;
 };
@@ -195,7 +211,46 @@ void EngineOf<Law>::record_any(const GroundMotion& motion, State& state, AnySink
                      [&](const auto& flows) { record_block(flows, motion, state, sink, histories); });
   } else {
     SampledSegments segments(GroundMotion::Pieces(motion), motion.segments(), *this, sink, histories);
-    move(segments, motion.dt(), state, sink);
+    move_any<BareState>(
+        segments, motion.dt(), state, sink,
+        [](const auto& flows, const Segment& segment, auto& place, auto& observer)
+            __attribute__((always_inline)) { advance(flows, segment, place, observer); },
+        [&] { move(segments, motion.dt(), state, sink); });
+  }
+}
+template <FrictionLaw Law>
+template <class AnySink>
+void EngineOf<Law>::record_any(const GroundMotion& motion, Contact contact, State& state, AnySink& sink,
+                               const HistorySpans& histories) const {
+  const Bounds bounds{mounting().stops, mounting().one_way};
+  SampledSegments segments(LoadPieces(motion, mounting().slope()), motion.segments(), *this, sink, histories);
+  move_any<StateOf<Law>>(
+      segments, motion.dt(), state, sink,
+      [ bounds, contact ](const auto& flows, const LoadSegment& segment, auto& place, auto& observer)
+          __attribute__((always_inline)) { advance(flows, segment, bounds, contact, place, observer); },
+      [&] { move(segments, motion.dt(), contact, state, sink); });
+}
+/// Where the flows are cheap, with segments and sink inlined into the event loop; otherwise as for any.
+template <FrictionLaw Law>
+template <class Place, class AnySegments, class AnySink, class Go, class Else>
+void EngineOf<Law>::move_any(AnySegments& segments, [[maybe_unused]] double usual_duration, State& state, AnySink& sink,
+                             [[maybe_unused]] Go&& go, Else&& otherwise) const {
+  if constexpr (form_of<Law> != Form::constant) {
+    otherwise();
+  } else {
+    with_flows(slider_, usual_duration, [&]<class Flows>(const Flows& flows) {
+      if constexpr (is_cheap<Flows>) {
+        Place moving(state);
+        move_inlined(
+            segments, moving,
+            sink, [&](const auto& segment, auto& place, auto& observer) __attribute__((always_inline)) {
+              go(flows, segment, place, observer);
+            });
+        store(moving, state);
+      } else {
+        otherwise();
+      }
+    });
   }
 }
 template <FrictionLaw Law>
@@ -207,6 +262,17 @@ template <FrictionLaw Law>
 void EngineOf<Law>::record(const GroundMotion& motion, State& state, NoRecorder& none,
                            const HistorySpans& histories) const {
   record_any(motion, state, none, histories);
+}
+
+template <FrictionLaw Law>
+void EngineOf<Law>::record(const GroundMotion& motion, Contact contact, State& state, Recorder& recorder,
+                           const HistorySpans& histories) const {
+  record_any(motion, contact, state, recorder, histories);
+}
+template <FrictionLaw Law>
+void EngineOf<Law>::record(const GroundMotion& motion, Contact contact, State& state, NoRecorder& none,
+                           const HistorySpans& histories) const {
+  record_any(motion, contact, state, none, histories);
 }
 
 template <FrictionLaw Law>

@@ -37,7 +37,7 @@ struct HistorySpans {
   }
 
  private:
-  [[gnu::noinline]] void keep_rarer(std::size_t sample, const StateView& state, const Engine& engine) const {
+  [[gnu::noinline]] void keep_rarer(std::size_t sample, StateView state, const Engine& engine) const {
     if (!gap.empty()) gap[sample] = state.gap;
     if (!temperature.empty()) temperature[sample] = engine.temperature(state.state());
   }
@@ -199,8 +199,12 @@ void run(const Engine& engine, const GroundMotion& motion, [[maybe_unused]] bool
 template <class AnySink>
 void run_loaded(const Engine& engine, const GroundMotion& motion, Contact contact, State& state, AnySink& sink,
                 const HistorySpans& histories) {
-  SampledSegments segments(LoadPieces(motion, engine.mounting().slope()), motion.segments(), engine, sink, histories);
-  engine.move(segments, motion.dt(), contact, state, sink);
+  if constexpr (requires { engine.record(motion, contact, state, sink, histories); }) {
+    engine.record(motion, contact, state, sink, histories);
+  } else {
+    SampledSegments segments(LoadPieces(motion, engine.mounting().slope()), motion.segments(), engine, sink, histories);
+    engine.move(segments, motion.dt(), contact, state, sink);
+  }
 }
 
 }  // namespace stickslip::detail

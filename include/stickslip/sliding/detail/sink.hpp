@@ -132,6 +132,8 @@ class StateView : public BareState {
 template <class AnySegment>
 class Segments {
  public:
+  using Given = AnySegment;
+
   /// @param now      the state at the end of the last segment, at first that at the start
   /// @param segment  where to put the next one
   /// @return whether there is a next one
