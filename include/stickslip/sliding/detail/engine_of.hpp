@@ -72,7 +72,11 @@ inline constexpr bool is_cheap = Flows::in_closed_form && (form_of<typename Flow
 template <class AnySegments, class Place, class AnySink, class Go>
 [[gnu::always_inline]] inline void move_through(AnySegments& segments, Place& state, AnySink& sink, Go&& go) {
   ToSink<AnySink> observer(sink);
-  for (typename AnySegments::Given segment; segments.next(StateView(state), segment);) go(segment, state, observer);
+  typename AnySegments::Given segment;
+  if constexpr (requires { segments.give(state, segment); })
+    while (segments.give(state, segment)) go(segment, state, observer);
+  else
+    while (segments.next(StateView(state), segment)) go(segment, state, observer);
 }
 template <class AnySegments, class Place, class AnySink, class Go>
 [[gnu::flatten, gnu::noinline]] void move_inlined(AnySegments& segments, Place& state, AnySink& sink, Go go) {

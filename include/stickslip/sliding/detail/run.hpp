@@ -30,10 +30,11 @@ struct HistorySpans {
     displacement[sample] = state.displacement;
     velocity[sample] = state.velocity;
   }
-  [[gnu::always_inline]] void keep(std::size_t sample, const StateView& state, const Engine& engine) const {
+  template <class Place>
+  [[gnu::always_inline]] void keep(std::size_t sample, const Place& state, const Engine& engine) const {
     keep(sample, state);
     if (!gap.empty() || !temperature.empty()) [[unlikely]]
-      keep_rarer(sample, state, engine);
+      keep_rarer(sample, StateView(state), engine);
   }
 
  private:
@@ -95,7 +96,10 @@ class SampledSegments final : public Segments<AnySegment> {
                   const HistorySpans& histories)
       : pieces_(pieces), count_(count), engine_(engine), sink_(sink), histories_(histories), end_(pieces.time(0)) {}
 
-  bool next(const StateView& now, AnySegment& segment) override {
+  bool next(const StateView& now, AnySegment& segment) override { return give(now, segment); }
+  /// The same for a state of any kind, without a view of it.
+  template <class Place>
+  [[gnu::always_inline]] bool give(const Place& now, AnySegment& segment) {
     if (i_ > 0) histories_.keep(i_, now, engine_);
     if (i_ == count_) return false;
     if (i_ > 0 && i_ % AnySink::work_per_report == 0) sink_.report_progress();
