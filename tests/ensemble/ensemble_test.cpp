@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "stickslip/friction/velocity_dependent.hpp"
+#include "stickslip/sliding/any_slider.hpp"
 #include "support/catch.hpp"
 #include "support/motions.hpp"
 
@@ -113,6 +115,20 @@ TEST_CASE("an ensemble has the same bits on 1, 2 and 8 threads", "[ensemble]") {
   check(Slider(Coulomb(1)), shaking());
   check(Slider(Coulomb(1), 1.3), shaking(40));
   check(Slider(Caster(1, 0.5)), shaking(100));  // in lanes, the last ones of which have no member
+  check(Slider(Caster(1, 0.5)), PoissonPulses(1, 0.5, 2, 5));
+}
+
+TEST_CASE("a slider of any law gives the bits of the slider that it holds", "[ensemble]") {
+  const auto check = [](const auto& slider, const auto& excitation) {
+    CHECK(same_bits(run_ensemble(AnySlider(slider), excitation, options(72, 64)),
+                    run_ensemble(slider, excitation, options(72, 64))));
+  };
+  // In lanes, and where there are none: on a slope, and under pulses.
+  check(Slider(Coulomb(1)), shaking(40));
+  check(Slider(Coulomb(1), Mounting{.slope_degrees = 2}), shaking(40));
+  check(Slider(Caster(1, 0.5)), shaking(40));
+  check(Slider(VelocityDependent(0.5, 1, 3), 1.3), shaking(40));
+  check(Slider(Coulomb(1)), PoissonPulses(1, 0.5, 2, 5));
   check(Slider(Caster(1, 0.5)), PoissonPulses(1, 0.5, 2, 5));
 }
 

@@ -2,6 +2,7 @@
 #include "stickslip/structure/structure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -70,6 +71,23 @@ TEST_CASE("a building of two equal floors has the golden section in its modes", 
     const double w = modes.frequencies[j];
     CHECK(rayleigh.modes().damping_ratios[j] == Approx(0.15 / w + 0.005 * w).epsilon(1e-13));
   }
+}
+
+TEST_CASE("structures take vectors and matrices of any kind", "[structure]") {
+  const RealMatrix braces{{2, 0}, {0, 1}};
+  Eigen::Matrix<double, 2, 2, Eigen::RowMajor> rows;
+  rows << 2, 0, 0, 1;
+  CHECK(braces.rows() == 2);
+  CHECK(braces.data()[3] == 1);
+  CHECK(RealMatrix(rows) == braces);
+  CHECK(RealMatrix(rows * rows.inverse() * 2 - rows)(1, 1) == 1);  // an expression
+  CHECK(RealMatrix() == RealMatrix(0, 0));
+  CHECK_THROWS_AS((RealMatrix{{1, 2}, {3}}), std::invalid_argument);
+  const Structure one = Structure::shear_building({2, 1}, {18, 9}, 0.05);
+  const Eigen::Vector2d masses(2, 1), stiffnesses(18, 9);
+  CHECK(one == Structure::shear_building(masses, 2 * stiffnesses - stiffnesses, 0.05));
+  const std::array<double, 2> array{2, 1};
+  CHECK(one == Structure::shear_building(array, std::vector<double>{18, 9}, 0.05));
 }
 
 TEST_CASE("a structure is the same in modes and in matrices", "[structure]") {
