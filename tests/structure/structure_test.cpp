@@ -80,7 +80,7 @@ TEST_CASE("structures take vectors and matrices of any kind", "[structure]") {
   CHECK(braces.rows() == 2);
   CHECK(braces.data()[3] == 1);
   CHECK(RealMatrix(rows) == braces);
-  CHECK(RealMatrix(rows * rows.inverse() * 2 - rows)(1, 1) == 1);  // an expression
+  CHECK(RealMatrix(rows * rows - rows)(0, 0) == 2);  // an expression
   CHECK(RealMatrix() == RealMatrix(0, 0));
   CHECK_THROWS_AS((RealMatrix{{1, 2}, {3}}), std::invalid_argument);
   const Structure one = Structure::shear_building({2, 1}, {18, 9}, 0.05);
