@@ -1,6 +1,8 @@
 // Vectors and matrices of structures, whose layout does not depend on how a file is compiled.
 #pragma once
 
+#include "stickslip/base/requirements.hpp"  // before Eigen, whose errors would be told first
+
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
