@@ -22,8 +22,8 @@ StructureState state_from(const py::object& modal_displacement, const py::object
                        .velocity = velocity,
                        .mode = State::at(0, velocity).mode,
                        .sliding_distance = sliding_distance,
-                       .modal_displacement = vector_from(modal_displacement, "StructureState: modal_displacement"),
-                       .modal_velocity = vector_from(modal_velocity, "StructureState: modal_velocity"),
+                       .modal_displacement = to_vector(modal_displacement, "StructureState: modal_displacement"),
+                       .modal_velocity = to_vector(modal_velocity, "StructureState: modal_velocity"),
                        .heat = heat.value_or(SurfaceHeat())};
   if (state.modal_displacement.size() != state.modal_velocity.size())
     throw std::invalid_argument(

@@ -1,4 +1,4 @@
-// Arrays of vectors and matrices, and classes of immutable objects that are made from their inputs.
+// Matrices from and to NumPy, and classes of immutable objects that are made from their inputs.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -13,10 +13,6 @@
 
 namespace stickslip::python {
 
-inline std::vector<double> vector_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
-  return to_vector(values, name, unit);
-}
-
 inline RealMatrix matrix_from(const py::object& values, const std::string& name, const char* unit = nullptr) {
   const Numbers numbers = to_numbers(values, name, unit);
   if (numbers.ndim() != 2)
@@ -28,19 +24,19 @@ inline RealMatrix matrix_from(const py::object& values, const std::string& name,
   return matrix;
 }
 
-/// A read-only view of numbers that `owner` keeps, or a read-only copy.
-inline py::array array_from(const std::vector<double>& values, py::handle owner = {}) {
-  py::array array(py::dtype::of<double>(), std::vector{static_cast<py::ssize_t>(values.size())}, {}, values.data(),
-                  owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-inline py::array array_from(const RealMatrix& values, py::handle owner = {}) {
+/// A read-only array over a matrix, which `owner` keeps alive.
+inline py::array view(const RealMatrix& values, py::handle owner) {
   constexpr auto item = static_cast<py::ssize_t>(sizeof(double));
   py::array array(py::dtype::of<double>(), std::vector<py::ssize_t>{values.rows(), values.cols()},
                   std::vector<py::ssize_t>{item, item * values.rows()}, values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
+}
+
+/// A read-only copy: NumPy makes one where nobody keeps the values.
+template <class Values>
+py::array array_from(const Values& values) {
+  return view(values, py::handle());
 }
 
 /// Numbers that compare and can be hashed.

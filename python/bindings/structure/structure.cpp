@@ -36,9 +36,9 @@ py::tuple inputs_of_structure(const Structure& s) {
 
 Structure structure_of_modes(const py::object& fractions, const py::object& frequencies, const py::object& ratios,
                              const py::object& shapes) {
-  const auto f = vector_from(fractions, "Structure.from_modes: mass_fractions"),
-             w = vector_from(frequencies, "Structure.from_modes: frequencies", "rad/s"),
-             z = vector_from(ratios, "Structure.from_modes: damping_ratios");
+  const auto f = to_vector(fractions, "Structure.from_modes: mass_fractions"),
+             w = to_vector(frequencies, "Structure.from_modes: frequencies", "rad/s"),
+             z = to_vector(ratios, "Structure.from_modes: damping_ratios");
   if (shapes.is_none()) return Structure::from_modes(f, w, z);
   return Structure::from_modes(f, w, z, matrix_from(shapes, "Structure.from_modes: shapes"));
 }
@@ -57,7 +57,7 @@ Structure structure_of_matrices(const py::object& mass, const py::object& dampin
   const auto m = matrix_from(mass, "Structure: mass", "kg"), c = matrix_from(damping, "Structure: damping", "N*s/m"),
              k = matrix_from(stiffness, "Structure: stiffness", "N/m");
   if (influence.is_none()) return Structure(m, c, k);
-  return Structure(m, c, k, vector_from(influence, "Structure: influence"));
+  return Structure(m, c, k, to_vector(influence, "Structure: influence"));
 }
 
 Structure structure_from_inputs(const py::tuple& inputs) {
@@ -163,7 +163,7 @@ struct FloorsOfResponse {
 
 template <auto member>
 auto of_floors() {
-  return [](const py::object& self) { return array_from(self.cast<const FloorsOfResponse&>().floors().*member, self); };
+  return [](const py::object& self) { return view(self.cast<const FloorsOfResponse&>().floors().*member, self); };
 }
 // Of the stories: only if one floor is above another.
 template <auto member>
@@ -173,7 +173,7 @@ auto drifts() {
     if (floors.drift.cols() == 0)
       throw std::invalid_argument(
           "Floors: drifts need an influence of ones, by which one floor is above another; `displacement` does not");
-    return array_from(floors.*member, self);
+    return view(floors.*member, self);
   };
 }
 // Shears also need the masses of the floors.
@@ -185,7 +185,7 @@ auto shears() {
       throw std::invalid_argument(
           "Floors: the shear of each story needs the masses of the floors and an influence of ones; `peak_base_shear` "
           "of the response needs neither");
-    return array_from(floors.*member, self);
+    return view(floors.*member, self);
   };
 }
 
@@ -251,8 +251,8 @@ ValueError
           "shear_building",
           [](const py::object& masses, const py::object& stiffnesses, const std::optional<Rayleigh>& damping,
              std::optional<double> damping_ratio) {
-            const auto mass = vector_from(masses, "Structure.shear_building: masses", "kg"),
-                       stiffness = vector_from(stiffnesses, "Structure.shear_building: stiffnesses", "N/m");
+            const auto mass = to_vector(masses, "Structure.shear_building: masses", "kg"),
+                       stiffness = to_vector(stiffnesses, "Structure.shear_building: stiffnesses", "N/m");
             if (damping.has_value() == damping_ratio.has_value())
               throw std::invalid_argument("Structure.shear_building: give either damping or damping_ratio, got " +
                                           std::string(damping ? "both" : "neither"));
@@ -754,16 +754,13 @@ for good, but see `truncated`.)")
                              "x at `time` [m], shape (N,).")
       .def_property_readonly("velocity", history<&StructureResponse::velocity>(), "x' at `time` [m/s], shape (N,).")
       .def_property_readonly(
-          "base_acceleration",
-          [](const py::object& self) { return array_from(self.cast<const Self&>().response.base_acceleration, self); },
+          "base_acceleration", history<&StructureResponse::base_acceleration>(),
           "Absolute acceleration of what the structure stands on, at `time` [m/s^2], shape (N,). It jumps at arrests.")
       .def_property_readonly(
-          "demand",
-          [](const py::object& self) { return array_from(self.cast<const Self&>().response.interface_demand, self); },
+          "demand", history<&StructureResponse::interface_demand>(),
           "Force q that the bond would have to carry, per unit of the reference mass, at `time` [m/s^2], shape (N,).")
       .def_property_readonly(
-          "force",
-          [](const py::object& self) { return array_from(self.cast<const Self&>().response.interface_force, self); },
+          "force", history<&StructureResponse::interface_force>(),
           R"(Force of friction, spring and damper between both sides of the interface, at `time` [m/s^2], shape (N,).
 
 Per unit of the reference mass; positive where it pulls toward negative x. While the interface sticks, friction is what
