@@ -146,7 +146,8 @@ TEST_CASE("collinear pairs move along their line", "[ensemble][planar]") {
 
 TEST_CASE("impacts on a circular stop count as impacts forward", "[ensemble][planar]") {
   const auto motions = pairs();
-  const double gap = run_ensemble(Block(Coulomb(0.4)), motions, options(64)).quantile(0.5).value;
+  // The median is the peak of a member, which the stop would touch or not by a rounding.
+  const double gap = 1.0001 * run_ensemble(Block(Coulomb(0.4)), motions, options(64)).quantile(0.5).value;
   const Ensemble e = run_ensemble(Block(Coulomb(0.4), Mounting{.stops = Stops(gap, 0.5)}), motions, options(64));
   CHECK(e.impact_probability().value == 0.5);
   CHECK(e.exceedance(gap).value == 0.5);

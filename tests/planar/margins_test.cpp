@@ -150,7 +150,7 @@ TEST_CASE("distances to a circular stop", "[planar][margins]") {
   };
   CHECK(with_gap(0.8, thrown({0.6, 0.8})) == Approx(0.375).epsilon(1e-12));
   // From the other side it goes through the middle.
-  CHECK(with_gap(0.8, thrown({1, 0}, {-0.5, 0})) == Approx(1).epsilon(1e-12));
+  CHECK(with_gap(0.8, thrown({1, 0}, {-0.4, 0})) == Approx(1 - 0.1 / 0.8).epsilon(1e-12));
   // It would have stopped 0.1 m beyond a stop at 0.4 m; then it rebounds.
   CHECK(with_gap(0.4, thrown({1, 0})) == Approx(0.1 / 0.4).epsilon(1e-12));
   CHECK(with_gap(0.4, thrown({0, std::sqrt(0.802)})) == Approx(0.001 / 0.4).epsilon(1e-8));

@@ -572,8 +572,9 @@ TEST_CASE("slider in the plane: a load equal to the level along a circular stop"
     INFO("at an angle of " << angle);
     const Vector2 outward{std::cos(angle), std::sin(angle)}, sideways = turned(outward);
     const Outcome rests = after(slider, under(0.5, pull * outward + 0.5 * sideways), gap * outward);
-    CHECK(rests.state.mode == PlanarMode::stuck);
-    CHECK(rests.events.all.empty());
+    // A load that is rounded to more than the level pushes with that excess.
+    CHECK(distance(rests.state.displacement, gap * outward) <= 1e-15);
+    CHECK(distance(rests.state.velocity, Vector2{}) <= 1e-15);
     // From the level on the load grows inward: u' = rate t + 0.2 (1 - exp(-u / 0.05)) + 4 x, x the way.
     const double rate = 3, duration = 0.1;
     const PlanarLoadSegment grows{duration, (pull - 0.5) * outward, (pull - 0.5 - rate * duration) * outward, g, g};
